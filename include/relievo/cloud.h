@@ -1,0 +1,25 @@
+// A scattered point cloud and what can be said of it before a view is chosen.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/error.h"
+#include "relievo/types.h"
+
+namespace relievo {
+
+// Points in the units of their source, in double precision, so that geo-referenced coordinates (1e6 and more)
+// keep all their digits. `normals` is empty or has one unit vector per point.
+struct Cloud {
+  std::vector<Vec3> points;
+  std::vector<Vec3f> normals;
+
+  std::size_t size() const { return points.size(); }
+  bool has_normals() const { return !normals.empty(); }
+};
+
+// Box of all points; empty for an empty cloud.
+Box bounds(const Cloud& cloud);
+
+}  // namespace relievo

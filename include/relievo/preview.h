@@ -1,0 +1,49 @@
+// Pictures of a relief: height map and shaded preview, drawn on the CPU, and their PNG files.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <span>
+#include <vector>
+
+#include "relievo/solid.h"
+#include "relievo/types.h"
+
+namespace relievo {
+
+// Row-major, first row at the top. `channels` is 1 (grey) or 3 (red, green, blue).
+template <typename T>
+struct Image {
+  int width = 0, height = 0, channels = 1;
+  std::vector<T> pixels;
+};
+using Image8 = Image<std::uint8_t>;
+using Image16 = Image<std::uint16_t>;
+
+struct HeightMap {
+  Image16 image;            // 0 is the lowest point of the front, 65535 the highest
+  double mm_per_pixel = 0;  // in x and y
+  double mm_per_grey = 0;   // height of one grey step
+};
+
+// Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel holds the
+// height under its centre. A flat front gives zeros.
+HeightMap make_height_map(const Solid& solid, int longer_side_px);
+
+struct PreviewOptions {
+  int longer_side_px = 1200;           // of each of the two pictures, front and oblique
+  Vec3 light = Vec3(-1, 1, 1.2);       // towards the light; upper left
+  Vec3f colour = Vec3f(.93F, .91F, .87F);  // of the material, plaster
+};
+
+// Returns the solid as seen from the front and, beside it, obliquely: orthographic, Lambert shading with smooth
+// normals on the front, anti-aliased, on a neutral ground.
+Image8 render_preview(const Solid& solid, const PreviewOptions& options);
+
+// The image as PNG. `text` becomes the key and value pairs of tEXt chunks. An image without pixels gives no bytes.
+std::vector<std::byte> write_png(const Image8& image);
+std::vector<std::byte> write_png(const Image16& image, std::span<const std::pair<std::string, std::string>> text = {});
+
+}  // namespace relievo
