@@ -1,0 +1,73 @@
+#include "front_most.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo {
+namespace {
+
+class Grid {
+ public:
+  Grid(const Cloud& cloud, int cells) : cloud_(cloud), box_(bounds(cloud)) {
+    cell_ = std::max(box_.diagonal() / cells, 1e-300);
+    columns_ = 1 + static_cast<std::size_t>(box_.size().x() / cell_);
+    rows_ = 1 + static_cast<std::size_t>(box_.size().y() / cell_);
+    front_.assign(columns_ * rows_, no_index);
+    for (Index i = 0; i < cloud.size(); ++i) {
+      Index& front = front_[cell_of(cloud.points[i])];
+      if (front == no_index || cloud.points[i].z() > cloud.points[front].z()) front = i;
+    }
+  }
+
+  double facing_share() const {
+    std::size_t occupied = 0, facing = 0;
+    for (const Index i : front_) {
+      if (i == no_index) continue;
+      ++occupied;
+      facing += cloud_.normals[i].z() > 0;
+    }
+    return occupied ? static_cast<double>(facing) / static_cast<double>(occupied) : 0;
+  }
+
+  double normal_variation() const {
+    double sum = 0;
+    for (std::size_t row = 0; row < rows_; ++row)
+      for (std::size_t column = 0; column < columns_; ++column) {
+        const std::size_t cell = row * columns_ + column;
+        if (column + 1 < columns_) sum += difference(front_[cell], front_[cell + 1]);
+        if (row + 1 < rows_) sum += difference(front_[cell], front_[cell + columns_]);
+      }
+    return sum;
+  }
+
+ private:
+  std::size_t cell_of(const Vec3& p) const {
+    const auto column = static_cast<std::size_t>((p.x() - box_.min.x()) / cell_);
+    const auto row = static_cast<std::size_t>((p.y() - box_.min.y()) / cell_);
+    return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
+  }
+
+  double difference(Index a, Index b) const {
+    if (a == no_index || b == no_index) return 0;
+    const bool is_jump = std::abs(cloud_.points[a].z() - cloud_.points[b].z()) > 4 * cell_;
+    const bool faces_viewer = cloud_.normals[a].z() > 0 && cloud_.normals[b].z() > 0;
+    if (is_jump || !faces_viewer) return 0;
+    return std::min(.5, static_cast<double>((cloud_.normals[a] - cloud_.normals[b]).norm()));
+  }
+
+  const Cloud& cloud_;
+  Box box_;
+  double cell_ = 1;
+  std::size_t columns_ = 1, rows_ = 1;
+  std::vector<Index> front_;
+};
+
+}  // namespace
+
+FrontMost front_most(const Cloud& viewed, int cells) {
+  if (viewed.size() == 0 || !viewed.has_normals()) return {};
+  const Grid grid(viewed, cells);
+  return {grid.facing_share(), grid.normal_variation()};
+}
+
+}  // namespace relievo

@@ -1,0 +1,17 @@
+// A coarse look at a cloud from +Z: which points are in front, cell by cell. For guesses, not for the relief.
+#pragma once
+
+#include "relievo/cloud.h"
+
+namespace relievo {
+
+struct FrontMost {
+  double facing_share = 0;      // share of the front-most points whose normal faces the viewer
+  double normal_variation = 0;  // sum of normal differences between neighbouring cells, depth jumps left out
+};
+
+// Looks at a cloud with normals, in view coordinates, through a grid of `cells` cells along the diagonal of
+// its box.
+FrontMost front_most(const Cloud& viewed, int cells = 160);
+
+}  // namespace relievo
