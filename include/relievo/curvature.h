@@ -1,0 +1,44 @@
+// Mean curvature of the surface through a scattered cloud (stage 4), paper's equations (2) and (3).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/cloud.h"
+#include "relievo/spacing.h"
+
+namespace relievo {
+
+enum class CurvatureMethod {
+  // Half the divergence of the normals, fitted linearly in the tangent plane: exact for spheres and
+  // cylinders, and
+  // several times less noisy on scattered points than (3), whose second derivatives see how unevenly they
+  // lie.
+  normal_fit,
+  // Equations (2) and (3) in closed form, at the point's projection onto the moving-least-squares surface g =
+  // 0.
+  // Source: Yang and Qian, Direct computing of surface curvatures for point-set surfaces, 2007.
+  mls_surface,
+};
+
+struct CurvatureOptions {
+  CurvatureMethod method = CurvatureMethod::normal_fit;
+  double scale = 2;  // width h of the Gaussian weight exp(-d^2 / h^2), in local spacings; more is smoother
+};
+
+// Returns the mean curvature, 1/length, convex positive, at the points numbered by `queries`, clamped to 1 /
+// rho. Neighbours whose normals face away (the other side of a thin wall) do not count. 0 where there are too
+// few neighbours. Needs unit normals. See docs/decisions/curvature.md for the two methods measured.
+std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
+                                   const CurvatureOptions& options = {});
+
+struct NormalisedCurvature {
+  std::vector<float> k;  // in [-1, 1]
+  double delta = 0;      // standard deviation of |k|; 0 for a surface without curvature
+  double unit = 0;       // k times this is the mean curvature, where it was not clipped
+};
+
+// Divides by the 99th percentile of the absolute values and clips, so that k and delta are dimensionless.
+NormalisedCurvature normalise(std::span<const double> mean_curvature);
+
+}  // namespace relievo
