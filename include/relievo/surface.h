@@ -1,0 +1,43 @@
+// What a view shows of a cloud, ready to be made a relief: stages 1 to 6 in a row.
+#pragma once
+
+#include "relievo/boundary.h"
+#include "relievo/curvature.h"
+#include "relievo/progress.h"
+#include "relievo/triangulation.h"
+#include "relievo/view.h"
+#include "relievo/visible.h"
+
+namespace relievo {
+
+struct SurfaceOptions {
+  VisibleOptions visible;
+  CurvatureOptions curvature;
+  BoundaryOptions boundary;
+};
+
+// The visible points, in view coordinates, along a space-filling curve: neighbours in space are neighbours in
+// memory, and the order of the cloud does not matter.
+struct Surface {
+  std::vector<Vec3> points;    // relative to `centre`, rotated
+  std::vector<Vec3f> normals;  // unit length, z > 0
+  NormalisedCurvature curvature;
+  Triangulation triangulation;
+  Boundary boundary;
+
+  View view;
+  Vec3 centre = Vec3::Zero();  // of the cloud's box, in the model's frame
+  double rho = 0;              // sampling distance of the cloud
+  double diagonal = 0;         // L_d, of the whole cloud's box
+  std::size_t input_points = 0;
+  bool has_estimated_normals = false;
+  bool has_flipped_normals = false;  // the file's normals pointed inwards
+};
+
+// Returns the surface. Normals are estimated if the cloud has none, and turned if they point inwards.
+// Errors: kind geometry if fewer than 4 points, all points equal or on one line, no point faces the viewer,
+// or the visible points enclose no area; kind cancelled.
+Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options = {},
+                             Progress* progress = nullptr);
+
+}  // namespace relievo

@@ -1,0 +1,102 @@
+#include "relievo/surface.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "relievo/normals.h"
+#include "relievo/parallel.h"
+#include "relievo/text.h"
+#include "space_curve.h"
+
+namespace relievo {
+namespace {
+
+std::unexpected<Error> geometry_error(std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
+}
+
+template <typename T>
+std::vector<T> pick(const std::vector<T>& from, std::span<const Index> order) {
+  if (from.empty()) return {};
+  std::vector<T> out(order.size());
+  parallel_for(order.size(), [&](std::size_t i) { out[i] = from[order[i]]; });
+  return out;
+}
+
+// Fails for clouds that are a point or a line, up to rounding.
+Result<void> check_extent(const Cloud& cloud) {
+  if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
+  const Vec3 centre = bounds(cloud).centre();
+  const double scale = bounds(cloud).diagonal();
+  if (!(scale > 0)) return geometry_error("expected points that span a surface, found all of them equal");
+  Mat3 covariance = Mat3::Zero();
+  for (const Vec3& p : cloud.points) covariance += (p - centre) * (p - centre).transpose() / (scale * scale);
+  const Vec3 spread = Eigen::SelfAdjointEigenSolver<Mat3>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  if (spread[1] <= 1e-14 * spread[2])
+    return geometry_error("expected points that span a surface, found all of them on one line");
+  return {};
+}
+
+void settle_normals(Cloud& viewed, const Cloud& cloud, Surface& surface) {
+  surface.has_estimated_normals = !viewed.has_normals();
+  if (surface.has_estimated_normals) {
+    estimate_normals(viewed);
+    turn_to_viewer(viewed);
+  } else if (normals_point_inward(cloud)) {
+    surface.has_flipped_normals = true;
+    flip_normals(viewed);
+  }
+}
+
+std::vector<Vec2> in_plane(std::span<const Vec3> points) {
+  std::vector<Vec2> xy(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) xy[i] = points[i].head<2>();
+  return xy;
+}
+
+}  // namespace
+
+Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
+                             Progress* progress) {
+  if (auto ok = check_extent(cloud); !ok) return std::unexpected(ok.error());
+  Surface surface;
+  surface.view = view;
+  surface.centre = bounds(cloud).centre();
+  surface.diagonal = bounds(cloud).diagonal();
+  surface.input_points = cloud.size();
+
+  if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
+  Cloud viewed = in_view(cloud, view);
+  const std::vector<Index> order = space_curve_order(viewed.points);
+  viewed = {pick(viewed.points, order), pick(viewed.normals, order)};
+
+  if (auto go = begin_stage(progress, "spacing", .05); !go) return std::unexpected(go.error());
+  const Spacing spacing = measure_spacing(viewed);
+  surface.rho = spacing.rho;
+  if (!(spacing.rho > 0))
+    return geometry_error("expected points at a distance from each other, found most of them equal");
+
+  if (auto go = begin_stage(progress, "normals", .2); !go) return std::unexpected(go.error());
+  settle_normals(viewed, cloud, surface);
+
+  if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
+  const std::vector<Index> visible = visible_points(viewed, spacing, options.visible);
+  if (visible.size() < 4)
+    return geometry_error("expected points that face the viewer, found none; try another view");
+  surface.points = pick(viewed.points, visible);
+  surface.normals = pick(viewed.normals, visible);
+
+  if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
+  surface.curvature = normalise(mean_curvature(viewed, spacing, visible, options.curvature));
+
+  if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
+  const std::vector<Vec2> xy = in_plane(surface.points);
+  surface.triangulation = delaunay(xy);
+  if (surface.triangulation.triangles.empty())
+    return geometry_error("expected visible points that enclose an area, found all of them on one line");
+
+  if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
+  surface.boundary = find_boundary(xy, surface.triangulation, viewed, spacing, options.boundary);
+  return surface;
+}
+
+}  // namespace relievo
