@@ -1,0 +1,35 @@
+// Normal space compression (stages 8 and 9): how much of each normal the relief keeps. Paper, equations (5)
+// to (7).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/types.h"
+
+namespace relievo {
+
+// Height and saturation of a relief. The paper's height coefficient is alpha; u = alpha^-beta says the same
+// for every beta > 0 and gives every height at beta = 0 as well, where alpha has no effect.
+struct Compression {
+  double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal
+  double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points alike
+
+  // From the paper's pair; alpha in [0, infinity).
+  static Compression from_alpha(double alpha, double beta);
+  // The paper's height coefficient u^(-1/beta): infinite or NaN where beta = 0 leaves it open.
+  double alpha() const;
+};
+
+// Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never
+// overflows. Where delta is 0 (no curvature anywhere) all points are alike, as for beta = 0.
+double curvature_weight(double k, double delta, const Compression& compression);
+
+// Equation (7), w_b = 1 - exp(-(distance / (2 rho))^2), in [0, 1].
+double boundary_weight(double distance, double rho);
+
+// The slope (dz/dx, dz/dy) of the compressed normal w n + (1 - w) (0, 0, 1), equation (5), shortened to at
+// most `max_slope`. The normal is a unit vector with z >= 0.
+Vec2 compressed_slope(const Vec3& normal, double w, double max_slope);
+
+}  // namespace relievo

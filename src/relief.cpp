@@ -1,0 +1,70 @@
+#include "relievo/relief.h"
+
+#include <cmath>
+#include <limits>
+
+#include "relievo/detail.h"
+#include "relievo/parallel.h"
+#include "relievo/text.h"
+#include "root.h"
+
+namespace relievo {
+
+ReliefModel::ReliefModel(Surface surface, HeightSystem system)
+    : surface_(std::move(surface)), system_(std::move(system)), boundary_weight_(surface_.points.size()) {
+  parallel_for(boundary_weight_.size(), [&](std::size_t i) {
+    const auto distance = static_cast<double>(surface_.boundary.distance[i]);
+    boundary_weight_[i] = static_cast<float>(boundary_weight(distance, surface_.rho));
+  });
+}
+
+Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress) {
+  if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
+  std::vector<Vec2> xy(surface.points.size());
+  for (std::size_t i = 0; i < xy.size(); ++i) xy[i] = surface.points[i].head<2>();
+  Result<HeightSystem> system = HeightSystem::build(xy, surface.triangulation, surface.boundary);
+  if (!system) return std::unexpected(system.error());
+  return ReliefModel(std::move(surface), std::move(*system));
+}
+
+Relief ReliefModel::make(const Shape& shape) const {
+  const std::size_t n = surface_.points.size();
+  std::vector<Vec2> slopes(n);
+  parallel_for(n, [&](std::size_t i) {
+    const auto k = static_cast<double>(surface_.curvature.k[i]);
+    const double w_k = curvature_weight(k, surface_.curvature.delta, shape.compression);
+    const double w = w_k * static_cast<double>(boundary_weight_[i]);
+    slopes[i] = compressed_slope(surface_.normals[i].cast<double>(), w, shape.max_slope);
+  });
+  Relief relief{std::vector<double>(n), 0, shape};
+  system_.solve(slopes, relief.heights);
+  add_detail(relief.heights, {surface_.curvature.k, boundary_weight_, shape.gamma});
+  relief.height = height_span(relief.heights);
+  return relief;
+}
+
+Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double unit_mm,
+                                           Progress* progress) const {
+  shape.compression.u = std::numeric_limits<double>::infinity();
+  Relief relief = make(shape);
+  constexpr double tolerance = 1e-5;
+  if (relief.height < height * (1 - tolerance))
+    return std::unexpected(
+        Error{ErrorKind::geometry,
+              {},
+              {},
+              cat("expected a height that can be reached, at most ", relief.height * unit_mm,
+                  " mm for this view and width, found ", height * unit_mm, " mm")});
+  bool is_cancelled = false;
+  const auto excess = [&](double log_u) {
+    shape.compression.u = std::exp(log_u);
+    relief = make(shape);
+    is_cancelled = progress && progress->is_cancelled();
+    return is_cancelled ? 0 : std::log(std::max(relief.height, 1e-300) / height);
+  };
+  if (relief.height > height * (1 + tolerance)) find_root(excess, tolerance);
+  if (is_cancelled) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  return relief;
+}
+
+}  // namespace relievo

@@ -1,0 +1,94 @@
+#include "relievo/weights.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace relievo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Equation (6) as printed.
+double printed(double k, double delta, double alpha, double beta) {
+  return 1 - std::exp(-std::pow(std::abs(k) / (alpha * delta), beta));
+}
+
+TEST(CurvatureWeight, IsEquationSix) {
+  for (const double alpha : {.01, 1.0, 4.0, 300.0})
+    for (const double beta : {.01, .5, 2.5, 10.0})
+      for (const double k : {-1.0, -.3, .01, .25, 1.0})
+        EXPECT_NEAR(curvature_weight(k, .25, Compression::from_alpha(alpha, beta)),
+                    printed(k, .25, alpha, beta), 1e-12);
+}
+
+TEST(CurvatureWeight, IsOneMinusOneOverEAtThePaperCentre) {
+  EXPECT_NEAR(curvature_weight(4 * .25, .25, Compression::from_alpha(4, 2)), 1 - std::exp(-1), 1e-12);
+}
+
+TEST(CurvatureWeight, KeepsEveryNormalAtAlphaZero) {
+  EXPECT_EQ(curvature_weight(.2, .25, Compression::from_alpha(0, .01)), 1);
+  EXPECT_EQ(curvature_weight(.2, .25, {infinity, 0}), 1);
+}
+
+TEST(CurvatureWeight, DoesNotDependOnCurvatureAtBetaZero) {
+  for (const double u : {0.0, .3, 1.0, 7.0})
+    for (const double k : {0.0, .001, -1.0})
+      EXPECT_DOUBLE_EQ(curvature_weight(k, .25, {u, 0}), 1 - std::exp(-u));
+}
+
+TEST(CurvatureWeight, SurvivesExtremes) {
+  for (const double alpha : {1e-300, 1e300})
+    for (const double beta : {1e-5, 100.0})
+      for (const double k : {0.0, 1e-300, 1.0})
+        for (const double delta : {0.0, 1e-300, .25}) {
+          const double w = curvature_weight(k, delta, Compression::from_alpha(alpha, beta));
+          EXPECT_GE(w, 0);
+          EXPECT_LE(w, 1);
+        }
+}
+
+TEST(Compression, AlphaAndUSayTheSame) {
+  for (const double alpha : {.1, 4.0, 1e4})
+    for (const double beta : {.01, 1.0, 10.0}) {
+      EXPECT_NEAR(Compression::from_alpha(alpha, beta).alpha() / alpha, 1, 1e-9);
+      EXPECT_NEAR(Compression::from_alpha(alpha, beta).u / std::pow(alpha, -beta), 1, 1e-9);
+    }
+}
+
+TEST(BoundaryWeight, IsEquationSeven) {
+  const double rho = .5;
+  EXPECT_EQ(boundary_weight(0, rho), 0);
+  EXPECT_DOUBLE_EQ(boundary_weight(2 * rho, rho), 1 - std::exp(-1));
+  EXPECT_DOUBLE_EQ(boundary_weight(4 * rho, rho), 1 - std::exp(-4));
+  EXPECT_EQ(boundary_weight(infinity, rho), 1);
+}
+
+TEST(CompressedSlope, KeepsTheSurfaceAtWeightOne) {
+  const Vec2 slope(.7, -1.3);
+  const Vec3 normal = Vec3(-slope.x(), -slope.y(), 1).normalized();
+  EXPECT_LT((compressed_slope(normal, 1, 4) - slope).norm(), 1e-12);
+  EXPECT_EQ(compressed_slope(normal, 0, 4), Vec2(0, 0));
+}
+
+// n~ of equation (5) is normal to the compressed surface.
+TEST(CompressedSlope, IsEquationFive) {
+  const Vec3 normal = Vec3(.6, -.5, .4).normalized();
+  for (const double w : {.1, .5, .9}) {
+    const Vec3 n = w * normal + (1 - w) * Vec3::UnitZ();
+    const Vec2 s = compressed_slope(normal, w, 100);
+    EXPECT_NEAR(n.dot(Vec3(1, 0, s.x())), 0, 1e-12);
+    EXPECT_NEAR(n.dot(Vec3(0, 1, s.y())), 0, 1e-12);
+  }
+}
+
+TEST(CompressedSlope, IsNeverSteeperThanAllowed) {
+  const Vec2 edge_on = compressed_slope(Vec3(-1, 0, 0), 1, 4);
+  EXPECT_NEAR(edge_on.x(), 4, 1e-12);
+  EXPECT_EQ(edge_on.y(), 0);
+  EXPECT_NEAR(compressed_slope(Vec3(.8, .59, .1).normalized(), 1, 2.5).norm(), 2.5, 1e-12);
+}
+
+}  // namespace
+}  // namespace relievo
