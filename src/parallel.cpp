@@ -104,9 +104,13 @@ class Pool {
 
 }  // namespace
 
-int thread_count() { return Pool::instance().size(); }
+int thread_count() {
+  return Pool::instance().size();
+}
 
-void set_thread_count(int threads) { Pool::instance().resize(threads); }
+void set_thread_count(int threads) {
+  Pool::instance().resize(threads);
+}
 
 void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
   if (blocks <= 1 || is_inside_parallel_call || thread_count() == 1) {

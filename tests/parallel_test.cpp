@@ -14,7 +14,9 @@ class Parallel : public testing::TestWithParam<int> {
   void TearDown() override { set_thread_count(0); }
 };
 
-TEST_P(Parallel, HonoursTheNumberOfThreads) { EXPECT_EQ(thread_count(), GetParam()); }
+TEST_P(Parallel, HonoursTheNumberOfThreads) {
+  EXPECT_EQ(thread_count(), GetParam());
+}
 
 TEST_P(Parallel, VisitsEveryElementOnce) {
   for (const std::size_t n : {0, 1, 4095, 4096, 4097, 100000}) {
@@ -43,7 +45,12 @@ TEST_P(Parallel, SumsHaveTheSameBitsForAnyNumberOfThreads) {
 TEST_P(Parallel, NestedCallsComplete) {
   std::vector<int> visits(64 * 64, 0);
   parallel_for(
-      64, [&](std::size_t i) { parallel_for(64, [&](std::size_t j) { ++visits[i * 64 + j]; }, 1); }, 1);
+      64,
+      [&](std::size_t i) {
+        parallel_for(
+            64, [&](std::size_t j) { ++visits[i * 64 + j]; }, 1);
+      },
+      1);
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), 0), 64 * 64);
 }
 

@@ -1,1 +1,30 @@
-int main() { return 0; }
+#include <cstdio>
+
+#include "commands.h"
+#include "relievo/version.h"
+
+int main(int argc, char** argv) {
+  CLI::App program{"Relievo turns a 3D scan into a bas-relief.", "relievo"};
+  program.set_version_flag("--version", std::string("relievo ") + relievo::version);
+  program.require_subcommand(1);
+  program.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("relievo: ") + error.what() + "; see relievo --help\n";
+  });
+  relievo::Result<void> result;
+  relievo::cli::add_make(program, result);
+  relievo::cli::add_info(program, result);
+  relievo::cli::add_sample(program, result);
+  program.footer(
+      "Examples:\n"
+      "  relievo sample shell -o shell.ply\n"
+      "  relievo make shell.ply -o shell.stl --width 80 --height 4 --preview shell.png\n"
+      "  relievo info scan.ply");
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? 0 : 2;
+  }
+  if (result) return 0;
+  std::fprintf(stderr, "relievo: %s\n", result.error().message().c_str());
+  return result.error().kind == relievo::ErrorKind::option ? 2 : 1;
+}

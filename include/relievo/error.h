@@ -17,8 +17,8 @@ enum class ErrorKind {
 // What went wrong: which input, where in it, and what was expected there.
 struct Error {
   ErrorKind kind = ErrorKind::input;
-  std::string input;     // the name the caller gave to the input or option, "scan.ply", "--height"; may be empty
-  std::string place;     // "line 12", "byte 340", "vertex 7"; empty when the whole input is meant
+  std::string input;  // the name the caller gave to the input or option, "scan.ply", "--height"; may be empty
+  std::string place;  // "line 12", "byte 340", "vertex 7"; empty when the whole input is meant
   std::string expected;  // one clause: what was expected and what was found instead
 
   // One line for a person: "scan.ply, line 12: expected 3 numbers, found 'abc'". Empty parts are left out.

@@ -32,13 +32,12 @@ void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
     F& f;
     std::size_t n, grain;
   } context{f, n, grain};
-  detail::run_blocks(
-      (n + grain - 1) / grain,
-      [](void* c, std::size_t b) {
-        const Context& it = *static_cast<Context*>(c);
-        it.f(b * it.grain, std::min(it.n, (b + 1) * it.grain));
-      },
-      &context);
+  detail::run_blocks((n + grain - 1) / grain,
+                     [](void* c, std::size_t b) {
+                       const Context& it = *static_cast<Context*>(c);
+                       it.f(b * it.grain, std::min(it.n, (b + 1) * it.grain));
+                     },
+                     &context);
 }
 
 // Calls f(i) for each i in [0, n), concurrently.
@@ -54,7 +53,8 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = default_grain) {
 template <typename T, typename Map, typename Merge>
 T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t grain = default_grain) {
   std::vector<T> parts((n + grain - 1) / grain, start);
-  parallel_ranges(n, grain, [&](std::size_t begin, std::size_t end) { parts[begin / grain] = map(begin, end); });
+  parallel_ranges(n, grain,
+                  [&](std::size_t begin, std::size_t end) { parts[begin / grain] = map(begin, end); });
   for (const T& part : parts) start = merge(start, part);
   return start;
 }

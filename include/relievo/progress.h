@@ -22,7 +22,8 @@ struct StageTime {
 // called from any thread at any time.
 class Progress {
  public:
-  // Called at the start of each stage with its name and the fraction done so far, in [0, 1], never decreasing.
+  // Called at the start of each stage with its name and the fraction done so far, in [0, 1], never
+  // decreasing.
   using Watcher = std::function<void(std::string_view stage, double fraction)>;
 
   Progress() = default;

@@ -12,7 +12,7 @@ namespace relievo {
 
 struct SampleOptions {
   std::size_t points = 300000;  // in the cloud, [1000, 100000000]
-  double noise = 0.15;          // standard deviation along the normal, in units of the sampling distance, [0, 5]
+  double noise = 0.15;  // standard deviation along the normal, in units of the sampling distance, [0, 5]
 };
 
 struct SampleInfo {
@@ -23,9 +23,9 @@ struct SampleInfo {
 // The names that make_sample() knows.
 std::span<const SampleInfo> samples();
 
-// Returns the sample `name` as a scanner would deliver it: scattered points with noise and outward normals, +Y up,
-// the front towards +Z. Same name and options, same bits. Errors: kind option for an unknown name (lists the known
-// ones) or an option out of range.
+// Returns the sample `name` as a scanner would deliver it: scattered points with noise and outward normals,
+// +Y up, the front towards +Z. Same name and options, same bits. Errors: kind option for an unknown name
+// (lists the known ones) or an option out of range.
 Result<Cloud> make_sample(std::string_view name, const SampleOptions& options = {});
 
 }  // namespace relievo

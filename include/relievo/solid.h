@@ -27,28 +27,30 @@ struct PlateOptions {
   double thickness_mm = 3;  // smallest thickness of the plate anywhere, > 0
 };
 
-// A closed triangle mesh, oriented outwards. `front_triangles` first triangles are the front (relief and ground).
+// A closed triangle mesh, oriented outwards. `front_triangles` first triangles are the front (relief and
+// ground).
 struct Solid {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::size_t front_triangles = 0;
 };
 
-// Returns the plate: front, flat ground out to a rectangle, walls, bottom. Moved so that its box starts at the
-// origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z = thickness_mm. Its z extent is
-// thickness + (highest - lowest point of the front, ground included).
-// Errors: kind option for a margin or thickness that is not positive and finite; kind geometry for an empty front.
+// Returns the plate: front, flat ground out to a rectangle, walls, bottom. Moved so that its box starts at
+// the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z = thickness_mm. Its z
+// extent is thickness + (highest - lowest point of the front, ground included). Errors: kind option for a
+// margin or thickness that is not positive and finite; kind geometry for an empty front.
 Result<Solid> make_plate(const Front& front, const PlateOptions& options);
 
-// Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with opposite
-// directions, no triangle with two equal corners, no two used points with the same single-precision coordinates,
-// volume positive. A public checker, for tests and bug reports.
+// Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with
+// opposite directions, no triangle with two equal corners, no two used points with the same single-precision
+// coordinates, volume positive. A public checker, for tests and bug reports.
 std::string check_solid(const Solid& solid);
 
 // Enclosed volume in cubic millimetres; negative if the solid is inside out.
 double volume_mm3(const Solid& solid);
 
-// The solid as a file: binary STL; binary little-endian PLY; OBJ. Coordinates are in millimetres, single precision.
+// The solid as a file: binary STL; binary little-endian PLY; OBJ. Coordinates are in millimetres, single
+// precision.
 std::vector<std::byte> write_stl(const Solid& solid);
 std::vector<std::byte> write_ply(const Solid& solid);
 std::vector<std::byte> write_obj(const Solid& solid);

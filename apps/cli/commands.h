@@ -1,0 +1,14 @@
+// The subcommands. Each adds itself to the program and leaves its outcome in `result` when it was chosen.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include "relievo/error.h"
+
+namespace relievo::cli {
+
+void add_make(CLI::App& program, Result<void>& result);
+void add_info(CLI::App& program, Result<void>& result);
+void add_sample(CLI::App& program, Result<void>& result);
+
+}  // namespace relievo::cli

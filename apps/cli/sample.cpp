@@ -1,0 +1,54 @@
+#include <cstdio>
+#include <memory>
+
+#include "commands.h"
+#include "files.h"
+#include "relievo/io.h"
+#include "relievo/sample.h"
+#include "relievo/text.h"
+
+namespace relievo::cli {
+namespace {
+
+struct SampleArguments {
+  std::string name, output;
+  SampleOptions options;
+};
+
+Result<void> sample(const SampleArguments& arguments) {
+  if (ending_of(arguments.output) != "ply")
+    return std::unexpected(Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .ply"});
+  if (auto ok = check_writable(arguments.output); !ok) return ok;
+  const Result<Cloud> cloud = make_sample(arguments.name, arguments.options);
+  if (!cloud) return std::unexpected(cloud.error());
+  return write_file(arguments.output, write_ply(*cloud, cat("relievo sample ", arguments.name)));
+}
+
+std::string names_text() {
+  std::string text;
+  for (const SampleInfo& info : samples())
+    text += cat(text.empty() ? "" : "; ", info.name, ": ", info.description);
+  return text;
+}
+
+}  // namespace
+
+void add_sample(CLI::App& program, Result<void>& result) {
+  const auto arguments = std::make_shared<SampleArguments>();
+  CLI::App& command = *program.add_subcommand("sample", "Generate a scan to try things with");
+  command.add_option("name", arguments->name, names_text())->required()->type_name("NAME");
+  command.add_option("-o,--output", arguments->output, "point cloud with normals")
+      ->required()
+      ->type_name("F.ply");
+  command.add_option("--points", arguments->options.points, "number of points [1000 to 100000000]")
+      ->type_name("N")
+      ->capture_default_str();
+  command
+      .add_option("--noise", arguments->options.noise,
+                  "standard deviation along the normal, in spacings [0 to 5]")
+      ->type_name("S")
+      ->capture_default_str();
+  command.callback([arguments, &result] { result = sample(*arguments); });
+}
+
+}  // namespace relievo::cli

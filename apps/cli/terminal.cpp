@@ -1,0 +1,26 @@
+#include "terminal.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+namespace relievo::cli {
+
+Progress::Watcher progress_bar(bool is_quiet) {
+  if (is_quiet || !::isatty(STDERR_FILENO)) return {};
+  return [](std::string_view stage, double fraction) {
+    constexpr int width = 30;
+    if (fraction >= 1) {
+      std::fputs("\r\x1b[K", stderr);
+      return;
+    }
+    const int filled = static_cast<int>(fraction * width);
+    std::string bar(static_cast<std::size_t>(width), '-');
+    bar.replace(0, static_cast<std::size_t>(filled), static_cast<std::size_t>(filled), '#');
+    std::fprintf(stderr, "\r\x1b[K[%s] %3.0f %%  %.*s", bar.c_str(), fraction * 100,
+                 static_cast<int>(stage.size()), stage.data());
+    std::fflush(stderr);
+  };
+}
+
+}  // namespace relievo::cli

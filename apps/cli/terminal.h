@@ -1,0 +1,13 @@
+// What the command line prints while it works.
+#pragma once
+
+#include <string>
+
+#include "relievo/progress.h"
+
+namespace relievo::cli {
+
+// A progress bar with stage names on standard error if that is a terminal, else nothing. Erased at the end.
+Progress::Watcher progress_bar(bool is_quiet);
+
+}  // namespace relievo::cli

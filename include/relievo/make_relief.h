@@ -1,0 +1,45 @@
+// One call from a cloud to a body that can be cut: the whole pipeline.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "relievo/cloud.h"
+#include "relievo/options.h"
+#include "relievo/progress.h"
+#include "relievo/solid.h"
+
+namespace relievo {
+
+// What was made, and how.
+struct ReliefReport {
+  std::size_t input_points = 0, visible_points = 0;
+  double rho = 0;       // sampling distance, in the cloud's units
+  double diagonal = 0;  // L_d: diagonal of the cloud's box, in its units
+  double alpha = 0;     // not finite where beta is 0: alpha has no effect there, and u rules
+  double beta = 0, gamma = 0;
+  double u = 0;  // alpha^-beta, see Compression
+  std::optional<double> height_requested_mm;
+  double height_mm = 0;  // reached, lowest to highest point of the front
+
+  // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
+  // in z the model keeps its depth and its lowest visible point lies on the ground.
+  Mat3 rotation = Mat3::Identity();
+  double scale = 1;
+  Vec3 offset = Vec3::Zero();
+
+  std::vector<std::string> remarks;  // what the user should know: normals estimated, or turned
+};
+
+struct MadeRelief {
+  Solid solid;
+  ReliefReport report;
+};
+
+// Returns the plate with the relief of the cloud. Stages and their times are in `progress`.
+// Errors: those of check(), parse_view(), find_surface() and ReliefModel::make_at_height(); kind cancelled.
+Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
+                               Progress* progress = nullptr);
+
+}  // namespace relievo

@@ -1,0 +1,66 @@
+// The options of a relief, named once: struct, command line, help and documents all come from visit().
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "relievo/error.h"
+
+namespace relievo {
+
+struct ReliefOptions {
+  double width_mm = 100;             // longer side of the relief, without margin
+  std::optional<double> height_mm;   // lowest to highest point of the front; without it alpha rules
+  std::optional<double> alpha;       // the paper's height coefficient, 4 if neither it nor a height is given
+  std::optional<double> saturation;  // the paper's beta: 0.01, or 0 with a height
+  std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
+  std::string view = "front";
+  std::string up;
+  double margin_mm = 5;
+  double thickness_mm = 3;
+
+  // The values that rule where none was given: the paper's, or for a height those that keep most of the
+  // model.
+  double effective_alpha() const { return alpha.value_or(4); }
+  double effective_saturation() const { return saturation.value_or(height_mm ? 0 : .01); }
+  double effective_detail() const { return detail.value_or(height_mm ? .04 : .02); }
+};
+
+struct OptionField {
+  std::string_view name;  // as a command-line flag without its dashes
+  std::string_view unit;  // of the value, for help
+  std::string_view help;  // one line; for optional values it tells the default
+  double min = -std::numeric_limits<double>::infinity();  // smallest and largest allowed value, of numbers
+  double max = std::numeric_limits<double>::infinity();
+};
+
+// Calls f(field, value) for each option in the order of the help; value is double, optional<double> or
+// string.
+template <typename Options, typename F>
+void visit(Options& o, F&& f) {
+  f(OptionField{"width", "MM", "longer side of the relief, without margin", .1, 1e5}, o.width_mm);
+  f(OptionField{"height", "MM", "lowest to highest point of the front, met exactly; default: alpha rules",
+                1e-4, 1e5},
+    o.height_mm);
+  f(OptionField{"alpha", "A", "height coefficient, more is flatter; default 4; not together with height", 0,
+                1e9},
+    o.alpha);
+  f(OptionField{"saturation", "B", "saturation coefficient, 0 is even; default 0.01, with height 0", 0, 100},
+    o.saturation);
+  f(OptionField{"detail", "G", "detail coefficient; default 0.02, with height 0.04", 0, 1}, o.detail);
+  f(
+      OptionField{
+          "view", "SIDE",
+          "side shown: front (+Z), back, left, right, top, bottom or the direction X,Y,Z towards the viewer"},
+      o.view);
+  f(OptionField{"up", "X,Y,Z", "direction shown upright; default +Y, for top -Z, for bottom +Z"}, o.up);
+  f(OptionField{"margin", "MM", "flat ground around the relief", .01, 1e5}, o.margin_mm);
+  f(OptionField{"thickness", "MM", "smallest thickness of the plate", .01, 1e5}, o.thickness_mm);
+}
+
+// Checks every range, and that not both height and alpha are given. Errors: kind option, naming the option.
+Result<void> check(const ReliefOptions& options);
+
+}  // namespace relievo

@@ -1,0 +1,8 @@
+// The library's version; CMakeLists.txt reads it from here.
+#pragma once
+
+namespace relievo {
+
+inline constexpr char version[] = "0.1.0";
+
+}  // namespace relievo

@@ -1,0 +1,99 @@
+#include "relievo/make_relief.h"
+
+#include <algorithm>
+
+#include "relievo/relief.h"
+#include "relievo/view.h"
+
+namespace relievo {
+namespace {
+
+Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, double mm_per_unit,
+                            Progress* progress) {
+  const double beta = options.effective_saturation();
+  const Shape shape{Compression::from_alpha(options.effective_alpha(), beta), options.effective_detail()};
+  if (!options.height_mm) return model.make(shape);
+  return model.make_at_height(*options.height_mm / mm_per_unit, shape, mm_per_unit, progress);
+}
+
+Box visible_box(const Surface& surface) {
+  Box box;
+  for (const Vec3& p : surface.points) box.extend(p);
+  return box;
+}
+
+Front front_in_mm(const Surface& surface, const Relief& relief, double mm_per_unit) {
+  Front front{std::vector<Vec3>(surface.points.size()), surface.triangulation.triangles,
+              surface.triangulation.hull};
+  for (std::size_t i = 0; i < front.points.size(); ++i) {
+    const Vec3& p = surface.points[i];
+    front.points[i] = mm_per_unit * Vec3(p.x(), p.y(), relief.heights[i]);
+  }
+  return front;
+}
+
+ReliefReport report_on(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
+  ReliefReport report;
+  report.input_points = surface.input_points;
+  report.visible_points = surface.points.size();
+  report.rho = surface.rho;
+  report.diagonal = surface.diagonal;
+  const auto& [compression, gamma, max_slope] = relief.shape;
+  report.alpha = options.height_mm ? compression.alpha() : options.effective_alpha();
+  report.beta = compression.beta;
+  report.u = compression.u;
+  report.gamma = gamma;
+  report.height_requested_mm = options.height_mm;
+  if (surface.has_estimated_normals)
+    report.remarks.push_back("the input has no normals: they were estimated");
+  if (surface.has_flipped_normals)
+    report.remarks.push_back("the input's normals point inwards: they were turned");
+  return report;
+}
+
+// Height of the lowest point of the front over the ground: 0 or less.
+double lowest(const Relief& relief) {
+  return std::min(0.0, *std::min_element(relief.heights.begin(), relief.heights.end()));
+}
+
+// Puts the near, lower left corner of the visible points' box at `corner` of the plate, whose box starts at
+// the origin.
+void place(ReliefReport& report, const Surface& surface, const Vec3& corner, double mm_per_unit) {
+  report.scale = mm_per_unit;
+  report.rotation = surface.view.rotation;
+  report.offset = corner - mm_per_unit * (visible_box(surface).min + report.rotation * surface.centre);
+}
+
+}  // namespace
+
+Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options, Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<View> view = parse_view(options.view, options.up);
+  if (!view) return std::unexpected(view.error());
+
+  Result<Surface> surface = find_surface(cloud, *view, {}, progress);
+  if (!surface) return std::unexpected(surface.error());
+  const Vec3 size = visible_box(*surface).size();
+  const double mm_per_unit = options.width_mm / std::max(size.x(), size.y());
+
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress);
+  if (!model) return std::unexpected(model.error());
+  if (auto go = begin_stage(progress, "relief", .85); !go) return std::unexpected(go.error());
+  const Result<Relief> relief = shape_relief(*model, options, mm_per_unit, progress);
+  if (!relief) return std::unexpected(relief.error());
+
+  if (auto go = begin_stage(progress, "solid", .95); !go) return std::unexpected(go.error());
+  MadeRelief made;
+  made.report = report_on(model->surface(), *relief, options);
+  const Front front = front_in_mm(model->surface(), *relief, mm_per_unit);
+  Result<Solid> solid = make_plate(front, {options.margin_mm, options.thickness_mm});
+  if (!solid) return std::unexpected(solid.error());
+  made.solid = std::move(*solid);
+  made.report.height_mm = relief->height * mm_per_unit;
+  const double ground_mm = options.thickness_mm - mm_per_unit * lowest(*relief);
+  place(made.report, model->surface(), {options.margin_mm, options.margin_mm, ground_mm}, mm_per_unit);
+  if (progress) progress->finish();
+  return made;
+}
+
+}  // namespace relievo
