@@ -1,0 +1,180 @@
+#include "relievo/relief.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+
+#include "relievo/parallel.h"
+#include "shapes.h"
+
+namespace relievo {
+namespace {
+
+const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
+
+ReliefModel model_of(const Cloud& cloud, const View& view = {}) {
+  return std::move(*ReliefModel::prepare(std::move(*find_surface(cloud, view))));
+}
+
+// A bumpy figure with an occluding ring: curvature of both signs, a depth jump, an inner hole.
+Cloud figure(std::size_t n = 30000) {
+  Cloud bumps = test::height_field(
+      n, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },
+      [](double x, double y) {
+        return Vec2(std::cos(5 * x) * std::cos(4 * y), -.8 * std::sin(5 * x) * std::sin(4 * y));
+      });
+  Cloud ring = test::torus(n, 1.5, .4);
+  return test::joined(bumps, ring);
+}
+
+// Heights by place, for clouds whose points are numbered differently: largest difference at the same x, y.
+double largest_difference(const ReliefModel& a, const Relief& ra, const ReliefModel& b, const Relief& rb, double scale) {
+  const auto sorted = [](const ReliefModel& model, const Relief& relief, double factor) {
+    std::vector<Vec3> out;
+    for (std::size_t i = 0; i < relief.heights.size(); ++i) {
+      const Vec3& p = model.surface().points[i];
+      out.push_back(factor * Vec3(p.x(), p.y(), relief.heights[i]));
+    }
+    std::sort(out.begin(), out.end(), [](const Vec3& p, const Vec3& q) { return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y()); });
+    return out;
+  };
+  const std::vector<Vec3> pa = sorted(a, ra, scale), pb = sorted(b, rb, 1);
+  if (pa.size() != pb.size()) return std::numeric_limits<double>::infinity();
+  double worst = 0;
+  for (std::size_t i = 0; i < pa.size(); ++i) worst = std::max(worst, (pa[i] - pb[i]).norm());
+  return worst;
+}
+
+TEST(Relief, OfAPlaneIsFlat) {
+  for (const double w : {0.0, std::numeric_limits<double>::infinity()})
+    EXPECT_NEAR(model_of(test::sheet(3000, 1, 2)).make({{w, 0}, .04}).height, 0, 1e-12);
+}
+
+TEST(Relief, OfATiltedPlaneIsFlatWhereNothingIsKept) {
+  const Cloud tilted = test::height_field(
+      3000, 1, [](double x, double) { return .5 * x; }, [](double, double) { return Vec2(.5, 0); });
+  const ReliefModel model = model_of(tilted);
+  EXPECT_NEAR(model.make({{0, 0}, 0}).height, 0, 1e-12);
+  // Kept in full, the least squares share out a slope that cannot hold with both ends on the base.
+  EXPECT_LT(model.make({keep_all, 0}).height, .2);
+}
+
+TEST(Relief, OfAHemisphereKeptInFullIsTheHemisphere) {
+  const Cloud sphere = test::sphere(120000, 1);
+  const ReliefModel model = model_of(sphere);
+  const Relief relief = model.make({keep_all, 0, 100});
+  double worst = 0;
+  for (std::size_t i = 0; i < relief.heights.size(); ++i)
+    if (model.surface().points[i].head<2>().norm() < .9)
+      worst = std::max(worst, std::abs(relief.heights[i] - model.surface().points[i].z()));
+  EXPECT_LT(worst, .08);  // the rim's steep band is a few points wide
+}
+
+TEST(Relief, StandsOnTheBaseAtItsBoundary) {
+  const ReliefModel model = model_of(figure());
+  const Relief relief = model.make({{1, 0}, .04});
+  for (std::size_t i = 0; i < relief.heights.size(); ++i)
+    if (model.surface().boundary.is_boundary[i]) ASSERT_EQ(relief.heights[i], 0);
+}
+
+TEST(Relief, RisesWithU) {
+  const ReliefModel model = model_of(figure());
+  double last = 0;
+  for (const double u : {.05, .2, 1.0, 3.0}) {
+    const double height = model.make({{u, 0}, .02}).height;
+    EXPECT_GT(height, last);
+    last = height;
+  }
+}
+
+class ReliefAtHeight : public testing::TestWithParam<std::tuple<double, double>> {};
+
+TEST_P(ReliefAtHeight, IsTheHeightAsked) {
+  static const ReliefModel model = model_of(figure());
+  const auto [share, beta] = GetParam();
+  const double height = share * model.surface().diagonal;
+  const auto relief = model.make_at_height(height, {{1, beta}, .04}, 1);
+  ASSERT_TRUE(relief) << relief.error().message();
+  EXPECT_NEAR(relief->height / height, 1, 1e-3);
+  const auto [lowest, highest] = std::minmax_element(relief->heights.begin(), relief->heights.end());
+  EXPECT_DOUBLE_EQ(relief->height, std::max(*highest, 0.0) - std::min(*lowest, 0.0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Grid, ReliefAtHeight,
+                         testing::Combine(testing::Values(.1, .05, .025, .0125, 1e-6), testing::Values(0, .01, 1, 5, 50)));
+
+TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
+  const ReliefModel model = model_of(figure());
+  const double most = model.make({keep_all, .04}).height;
+  EXPECT_TRUE(model.make_at_height(most, {{}, .04}, 1));
+  const auto relief = model.make_at_height(1.01 * most, {{}, .04}, 10);
+  ASSERT_FALSE(relief);
+  EXPECT_EQ(relief.error().kind, ErrorKind::geometry);
+  EXPECT_NE(relief.error().message().find("at most"), std::string::npos);
+}
+
+TEST(Relief, OfTwoSheetsLosesTheJumpBetweenThem) {
+  for (const double distance : {.2, 1.0, 30.0}) {
+    const Cloud both = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, distance, 9));
+    const Relief relief = model_of(both).make({keep_all, 0});
+    EXPECT_LT(relief.height, 1e-9) << distance;
+  }
+}
+
+TEST(Relief, ScalesWithTheCloud) {
+  Cloud cloud = figure();
+  const ReliefModel model = model_of(cloud);
+  for (Vec3& p : cloud.points) p *= 4;
+  const ReliefModel scaled = model_of(cloud);
+  const Shape shape{{1, .01}, .02};
+  EXPECT_LT(largest_difference(model, model.make(shape), scaled, scaled.make(shape), 4), 1e-9);
+}
+
+TEST(Relief, DoesNotChangeWithTheOrderOfThePoints) {
+  Cloud cloud = figure();
+  const ReliefModel model = model_of(cloud);
+  std::reverse(cloud.points.begin(), cloud.points.end());
+  std::reverse(cloud.normals.begin(), cloud.normals.end());
+  const ReliefModel reversed = model_of(cloud);
+  const Shape shape{{1, .01}, .02};
+  EXPECT_EQ(model.make(shape).heights, reversed.make(shape).heights);
+}
+
+// A step that binary fractions hold exactly, so that rounding cannot change which points are visible.
+TEST(Relief, DoesNotChangeWithTheOrigin) {
+  Cloud cloud = figure();
+  for (Vec3& p : cloud.points) p = (p * 0x1p20).array().round() * 0x1p-20;
+  const ReliefModel model = model_of(cloud);
+  for (Vec3& p : cloud.points) p += Vec3(1 << 20, -(1 << 21), 1 << 20);
+  const ReliefModel moved = model_of(cloud);
+  const Shape shape{{1, .01}, .02};
+  EXPECT_EQ(model.make(shape).heights, moved.make(shape).heights);
+}
+
+TEST(Relief, TurnsWithTheCloud) {
+  const Cloud cloud = figure();
+  View quarter;
+  quarter.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  const ReliefModel model = model_of(cloud), turned = model_of(cloud, quarter);
+  EXPECT_NEAR(static_cast<double>(turned.surface().points.size()), static_cast<double>(model.surface().points.size()),
+              .001 * static_cast<double>(model.surface().points.size()));
+  const Shape shape{{1, 0}, 0};
+  EXPECT_NEAR(model.make(shape).height / turned.make(shape).height, 1, .02);
+}
+
+TEST(Relief, HasTheSameBitsForAnyNumberOfThreads) {
+  const Cloud cloud = figure();
+  const auto heights = [&](int threads) {
+    set_thread_count(threads);
+    return model_of(cloud).make({{1, .01}, .02}).heights;
+  };
+  const std::vector<double> one = heights(1);
+  EXPECT_EQ(one, heights(2));
+  EXPECT_EQ(one, heights(4));
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace relievo
