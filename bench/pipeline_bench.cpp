@@ -36,7 +36,8 @@ const Prepared& prepared(benchmark::State& state) {
 }
 
 void spacing(benchmark::State& state) {
-  for (const Prepared& p = prepared(state); auto _ : state) benchmark::DoNotOptimize(measure_spacing(p.cloud));
+  for (const Prepared& p = prepared(state); auto _ : state)
+    benchmark::DoNotOptimize(measure_spacing(p.cloud));
 }
 
 void visible(benchmark::State& state) {
@@ -55,7 +56,7 @@ void triangulation(benchmark::State& state) {
 
 void boundary(benchmark::State& state) {
   for (const Prepared& p = prepared(state); auto _ : state)
-    benchmark::DoNotOptimize(find_boundary(p.xy, p.surface.triangulation, p.cloud, p.spacing));
+    benchmark::DoNotOptimize(find_boundary(p.xy, p.surface.triangulation, p.spacing.rho));
 }
 
 void factorisation(benchmark::State& state) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "depth_buffer.h"
 #include "disjoint_sets.h"
 #include "neighbours.h"
 #include "relievo/parallel.h"
@@ -29,11 +28,10 @@ class BoundaryFinder {
     });
   }
 
-  std::vector<std::uint8_t> inside(const DepthBuffer& model, double gap, double smallest_hole) const {
+  std::vector<std::uint8_t> inside(double gap, double smallest_hole) const {
     std::vector<std::uint8_t> is_inside(radius_.size());
-    parallel_for(radius_.size(),
-                 [&](std::size_t t) { is_inside[t] = radius_[t] <= gap || is_covered(t, model); });
-    close_small_holes(is_inside, smallest_hole);
+    parallel_for(radius_.size(), [&](std::size_t t) { is_inside[t] = radius_[t] <= gap; });
+    close_narrow_holes(is_inside, smallest_hole);
     return is_inside;
   }
 
@@ -47,49 +45,26 @@ class BoundaryFinder {
   }
 
  private:
-  bool is_covered(std::size_t t, const DepthBuffer& model) const {
-    const auto [a, b, c] = mesh_.triangles[t];
-    const Vec2 middle = (points_[a] + points_[b] + points_[c]) / 3;
-    return std::isfinite(model.depth(middle.x(), middle.y()));
-  }
-
-  // Turns sets of neighbouring outside triangles that do not reach the hull and are narrow to inside.
-  void close_small_holes(std::vector<std::uint8_t>& is_inside, double smallest_hole) const {
-    const std::size_t n = is_inside.size();
-    DisjointSets holes(n + 1);  // number n stands for everything beyond the hull
-    for (Index t = 0; t < n; ++t) {
-      if (is_inside[t]) continue;
+  // Turns sets of neighbouring outside triangles that are narrow and do not reach the hull to inside.
+  void close_narrow_holes(std::vector<std::uint8_t>& is_inside, double smallest_hole) const {
+    DisjointSets sets(is_inside.size());
+    for (Index t = 0; t < is_inside.size(); ++t)
       for (const Index other : mesh_.neighbours[t])
-        if (other == no_index)
-          holes.join(t, static_cast<Index>(n));
-        else if (!is_inside[other])
-          holes.join(t, other);
+        if (other != no_index && !is_inside[t] && !is_inside[other]) sets.join(t, other);
+    std::vector<std::uint8_t> is_hole(is_inside.size(), 0);
+    for (Index t = 0; t < is_inside.size(); ++t) {
+      const auto& around = mesh_.neighbours[t];
+      const bool is_open = std::find(around.begin(), around.end(), no_index) != around.end();
+      if (!is_inside[t] && (is_open || radius_[t] > smallest_hole)) is_hole[sets.find(t)] = 1;
     }
-    std::vector<std::uint8_t> is_wide(n + 1, 0);
-    is_wide[holes.find(static_cast<Index>(n))] = 1;
-    for (Index t = 0; t < n; ++t)
-      if (!is_inside[t] && radius_[t] > smallest_hole) is_wide[holes.find(t)] = 1;
-    for (Index t = 0; t < n; ++t)
-      if (!is_inside[t] && !is_wide[holes.find(t)]) is_inside[t] = 1;
+    for (Index t = 0; t < is_inside.size(); ++t)
+      if (!is_inside[t]) is_inside[t] = !is_hole[sets.find(t)];
   }
 
   std::span<const Vec2> points_;
   const Triangulation& mesh_;
   std::vector<double> radius_;
 };
-
-// Where anything of the model lies, from whichever side it is seen.
-DepthBuffer cover_of(const Cloud& whole, const Spacing& spacing) {
-  std::vector<Disc> discs(whole.size());
-  parallel_for(whole.size(), [&](std::size_t i) {
-    const double radius =
-        std::clamp(static_cast<double>(spacing.local[i]), .25 * spacing.rho, 4 * spacing.rho);
-    discs[i] = {whole.points[i], whole.normals[i], radius};
-  });
-  DepthBuffer buffer(bounds(whole), .5 * spacing.rho);
-  buffer.splat(discs);
-  return buffer;
-}
 
 std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<std::uint8_t>& is_boundary) {
   std::vector<Vec2> targets;
@@ -108,13 +83,11 @@ std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<
 
 }  // namespace
 
-Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, const Cloud& whole,
-                       const Spacing& spacing, const BoundaryOptions& options) {
+Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
+                       const BoundaryOptions& options) {
   const BoundaryFinder finder(points, triangulation);
-  const double rho = spacing.rho;
   Boundary boundary;
-  boundary.is_inside =
-      finder.inside(cover_of(whole, spacing), options.gap * rho, options.smallest_hole * rho);
+  boundary.is_inside = finder.inside(options.gap * rho, options.smallest_hole * rho);
   boundary.is_boundary = finder.boundary_points(boundary.is_inside);
   boundary.distance = distances_to(points, boundary.is_boundary);
   return boundary;

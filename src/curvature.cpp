@@ -91,6 +91,28 @@ std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, s
   return curvature;
 }
 
+std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
+                                     std::span<const Vec3f> normals, const Triangulation& triangulation,
+                                     double rho) {
+  constexpr int passes = 3;  // over direct neighbours: each widens the average by about rho
+  std::vector<double> average(values.begin(), values.end());
+  for (int pass = 0; pass < passes; ++pass) {
+    std::vector<double> weight(values.size()), sum(values.size());
+    const auto add = [&](Index to, Index from) {
+      const double theta = std::exp(-(points[to] - points[from]).squaredNorm() / (rho * rho));
+      const double area = theta * static_cast<double>(normals[from].z());
+      weight[to] += area;
+      sum[to] += area * average[from];
+    };
+    for (Index i = 0; i < values.size(); ++i) add(i, i);
+    for (const Triangle& t : triangulation.triangles)
+      for (int corner = 0; corner < 3; ++corner) add(t[corner], t[(corner + 1) % 3]);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (weight[i] > 0) average[i] = sum[i] / weight[i];
+  }
+  return average;
+}
+
 NormalisedCurvature normalise(std::span<const double> mean_curvature) {
   NormalisedCurvature result{std::vector<float>(mean_curvature.size(), 0.F)};
   if (mean_curvature.empty()) return result;

@@ -35,7 +35,7 @@ Front front_in_mm(const Surface& surface, const Relief& relief, double mm_per_un
 ReliefReport report_on(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
   ReliefReport report;
   report.input_points = surface.input_points;
-  report.visible_points = surface.points.size();
+  report.visible_points = surface.visible_points;
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   const auto& [compression, gamma, max_slope] = relief.shape;

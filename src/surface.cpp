@@ -1,6 +1,8 @@
 #include "relievo/surface.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <iterator>
 
 #include "relievo/normals.h"
 #include "relievo/parallel.h"
@@ -47,6 +49,16 @@ void settle_normals(Cloud& viewed, const Cloud& cloud, Surface& surface) {
   }
 }
 
+void scatter(const std::vector<double>& values, std::span<const Index> places, std::vector<double>& to) {
+  for (std::size_t i = 0; i < places.size(); ++i) to[places[i]] = values[i];
+}
+
+std::vector<Index> merged(const std::vector<Index>& a, const std::vector<Index>& b) {
+  std::vector<Index> both;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
+}
+
 std::vector<Vec2> in_plane(std::span<const Vec3> points) {
   std::vector<Vec2> xy(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) xy[i] = points[i].head<2>();
@@ -82,11 +94,16 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
   const std::vector<Index> visible = visible_points(viewed, spacing, options.visible);
   if (visible.size() < 4)
     return geometry_error("expected points that face the viewer, found none; try another view");
-  surface.points = pick(viewed.points, visible);
-  surface.normals = pick(viewed.normals, visible);
+  surface.visible_points = visible.size();
+  const std::vector<Index> fillers = filler_points(viewed, spacing, visible, options.visible);
+  for (const Index i : fillers) viewed.normals[i] = Vec3f::UnitZ();
 
   if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
-  surface.curvature = normalise(mean_curvature(viewed, spacing, visible, options.curvature));
+  std::vector<double> k(viewed.size(), 0.0);
+  scatter(mean_curvature(viewed, spacing, visible, options.curvature), visible, k);
+  const std::vector<Index> shown = merged(visible, fillers);
+  surface.points = pick(viewed.points, shown);
+  surface.normals = pick(viewed.normals, shown);
 
   if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
   const std::vector<Vec2> xy = in_plane(surface.points);
@@ -94,8 +111,11 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
   if (surface.triangulation.triangles.empty())
     return geometry_error("expected visible points that enclose an area, found all of them on one line");
 
+  surface.curvature =
+      normalise(average_in_plane(pick(k, shown), xy, surface.normals, surface.triangulation, surface.rho));
+
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
-  surface.boundary = find_boundary(xy, surface.triangulation, viewed, spacing, options.boundary);
+  surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
   return surface;
 }
 

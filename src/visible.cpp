@@ -5,6 +5,7 @@
 
 #include "depth_buffer.h"
 #include "disjoint_sets.h"
+#include "neighbours.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
@@ -115,12 +116,49 @@ class Visibility {
   std::vector<std::uint8_t> is_stray_;
 };
 
+// Leaves out points until none is nearer than `distance` to another in the view plane.
+std::vector<Index> thinned(const Cloud& cloud, std::vector<Index> points, double distance) {
+  const auto at = [&](Index i) -> Vec2 { return cloud.points[i].head<2>(); };
+  std::sort(points.begin(), points.end(),
+            [&](Index a, Index b) { return std::pair(at(a).x(), a) < std::pair(at(b).x(), b); });
+  std::vector<Index> kept;
+  for (const Index i : points) {
+    bool is_alone = true;
+    for (auto k = kept.rbegin(); is_alone && k != kept.rend() && at(i).x() - at(*k).x() < distance; ++k)
+      is_alone = (at(i) - at(*k)).norm() >= distance;
+    if (is_alone) kept.push_back(i);
+  }
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+
 }  // namespace
 
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
                                   const VisibleOptions& options) {
   if (!viewed.has_normals() || !(spacing.rho > 0)) return {};
   return Visibility(viewed, spacing, options).find();
+}
+
+std::vector<Index> filler_points(const Cloud& viewed, const Spacing& spacing, std::span<const Index> visible,
+                                 const VisibleOptions& options) {
+  std::vector<Vec2> seen(visible.size());
+  std::transform(visible.begin(), visible.end(), seen.begin(),
+                 [&](Index i) { return viewed.points[i].head<2>(); });
+  const KdTree<Vec2> tree(seen);
+  const double reach = options.filler_distance * spacing.rho;
+  std::vector<std::uint8_t> is_far(viewed.size(), 0);
+  parallel_for(viewed.size(), [&](std::size_t i) {
+    Index nearest;
+    double distance_sq;
+    if (viewed.normals[i].z() > 0 || !tree.nearest(viewed.points[i].head<2>(), 1, &nearest, &distance_sq))
+      return;
+    is_far[i] = distance_sq > reach * reach && static_cast<double>(spacing.local[i]) < 1.5 * spacing.rho;
+  });
+  std::vector<Index> fillers;
+  for (Index i = 0; i < viewed.size(); ++i)
+    if (is_far[i]) fillers.push_back(i);
+  return thinned(viewed, std::move(fillers), .7 * spacing.rho);
 }
 
 }  // namespace relievo

@@ -62,7 +62,8 @@ TEST(Heights, OfAParaboloidAreExact) {
 
 TEST(Heights, OfNoSlopesAreZero) {
   const DiscCase disc(500);
-  for (const double z : heights_of(disc.system(), std::vector<Vec2>(disc.points.size(), Vec2(0, 0)))) EXPECT_EQ(z, 0);
+  for (const double z : heights_of(disc.system(), std::vector<Vec2>(disc.points.size(), Vec2(0, 0))))
+    EXPECT_EQ(z, 0);
 }
 
 TEST(Heights, AreLinearInTheSlopes) {
@@ -87,7 +88,8 @@ TEST(Heights, MinimiseEquationNine) {
     for (int corner = 0; corner < 3; ++corner) {
       const Index apex = t[corner], p = t[(corner + 1) % 3], q = t[(corner + 2) % 3];
       const Vec2 u = disc.points[p] - disc.points[apex], v = disc.points[q] - disc.points[apex];
-      // Half the cotangent from this side: the two sides of an edge add up. Complex where it is negative: use A directly.
+      // Half the cotangent from this side: the two sides of an edge add up. Complex where it is negative: use
+      // A directly.
       const double weight = .5 * u.dot(v) / (u.x() * v.y() - u.y() * v.x());
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n + 1);
       row[p] = 1, row[q] = -1, row[n] = weight;

@@ -30,14 +30,16 @@ Cloud figure(std::size_t n = 30000) {
 }
 
 // Heights by place, for clouds whose points are numbered differently: largest difference at the same x, y.
-double largest_difference(const ReliefModel& a, const Relief& ra, const ReliefModel& b, const Relief& rb, double scale) {
+double largest_difference(const ReliefModel& a, const Relief& ra, const ReliefModel& b, const Relief& rb,
+                          double scale) {
   const auto sorted = [](const ReliefModel& model, const Relief& relief, double factor) {
     std::vector<Vec3> out;
     for (std::size_t i = 0; i < relief.heights.size(); ++i) {
       const Vec3& p = model.surface().points[i];
       out.push_back(factor * Vec3(p.x(), p.y(), relief.heights[i]));
     }
-    std::sort(out.begin(), out.end(), [](const Vec3& p, const Vec3& q) { return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y()); });
+    std::sort(out.begin(), out.end(),
+              [](const Vec3& p, const Vec3& q) { return std::pair(p.x(), p.y()) < std::pair(q.x(), q.y()); });
     return out;
   };
   const std::vector<Vec3> pa = sorted(a, ra, scale), pb = sorted(b, rb, 1);
@@ -103,7 +105,8 @@ TEST_P(ReliefAtHeight, IsTheHeightAsked) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Grid, ReliefAtHeight,
-                         testing::Combine(testing::Values(.1, .05, .025, .0125, 1e-6), testing::Values(0, .01, 1, 5, 50)));
+                         testing::Combine(testing::Values(.1, .05, .025, .0125, 1e-6),
+                                          testing::Values(0, .01, 1, 5, 50)));
 
 TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   const ReliefModel model = model_of(figure());
@@ -158,7 +161,8 @@ TEST(Relief, TurnsWithTheCloud) {
   View quarter;
   quarter.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   const ReliefModel model = model_of(cloud), turned = model_of(cloud, quarter);
-  EXPECT_NEAR(static_cast<double>(turned.surface().points.size()), static_cast<double>(model.surface().points.size()),
+  EXPECT_NEAR(static_cast<double>(turned.surface().points.size()),
+              static_cast<double>(model.surface().points.size()),
               .001 * static_cast<double>(model.surface().points.size()));
   const Shape shape{{1, 0}, 0};
   EXPECT_NEAR(model.make(shape).height / turned.make(shape).height, 1, .02);

@@ -87,6 +87,33 @@ TEST(Visible, IsTheSameForAnyOrder) {
   EXPECT_EQ(found, reversed);
 }
 
+// A box whose front has a hole: through it one sees the inside of its back, which faces away.
+TEST(FillerPoints, StandInWhereOnlyTheOtherSideWasScanned) {
+  Cloud front;
+  for (const Vec3& p : test::sheet(40000, 1, 0).points)
+    if (p.head<2>().norm() > .2) test::add(front, p, Vec3::UnitZ());
+  Cloud back = test::sheet(40000, 1, -.5, 15);
+  for (Vec3f& n : back.normals) n = -n;
+  const Cloud box = test::joined(front, back);
+  const Spacing spacing = measure_spacing(box);
+  const std::vector<Index> seen = visible_points(box, spacing);
+  const std::vector<Index> fillers = filler_points(box, spacing, seen);
+  EXPECT_EQ(share(seen, front.size(), box.size()), 0);
+  const double squares = 3.14 * .2 * .2 / (spacing.rho * spacing.rho);
+  EXPECT_GT(static_cast<double>(fillers.size()), .3 * squares);
+  EXPECT_LT(static_cast<double>(fillers.size()), 1.2 * squares);
+  for (const Index i : fillers) {
+    EXPECT_GE(i, front.size());
+    EXPECT_LT(box.points[i].head<2>().norm(), .2 - spacing.rho);
+  }
+}
+
+TEST(FillerPoints, AreNotNeededOnAClosedModel) {
+  const Cloud torus = test::torus(30000, 1, .4);
+  const Spacing spacing = measure_spacing(torus);
+  EXPECT_TRUE(filler_points(torus, spacing, visible_points(torus, spacing)).empty());
+}
+
 TEST(Visible, OfNothingIsNothing) {
   EXPECT_TRUE(visible({}).empty());
   Cloud away = test::sheet(1000, 1, 0);

@@ -4,8 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "relievo/cloud.h"
-#include "relievo/spacing.h"
 #include "relievo/triangulation.h"
 
 namespace relievo {
@@ -23,14 +21,13 @@ struct Boundary {
   std::vector<float> distance;  // per point: `dist` of (7), distance in the plane to the nearest of P_b
 };
 
-// Returns the boundary of the visible points `points` (x, y of view coordinates), triangulated by
-// `triangulation`.
+// Returns the boundary of points in the view plane, triangulated by `triangulation`, with sampling distance
+// rho.
 //
-// A triangle is outside if its circumcircle, empty by Delaunay, is wider than the gap, unless some point of
-// `whole`, hidden or turned away, covers its middle: there the model is seen but not scanned from this side,
-// and the relief bridges the gap. The boundary is one point thick: the corners of outside triangles, and the
-// hull. A point in no inside triangle is a boundary point.
-Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, const Cloud& whole,
-                       const Spacing& spacing, const BoundaryOptions& options = {});
+// A triangle is outside if its circumcircle, empty by Delaunay, is wider than the gap, and neither it nor the
+// outside triangles connected with it are a narrow hole. The boundary is one point thick: the corners of
+// outside triangles, and the hull. A point in no inside triangle is a boundary point.
+Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
+                       const BoundaryOptions& options = {});
 
 }  // namespace relievo

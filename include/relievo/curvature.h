@@ -6,6 +6,7 @@
 
 #include "relievo/cloud.h"
 #include "relievo/spacing.h"
+#include "relievo/triangulation.h"
 
 namespace relievo {
 
@@ -31,6 +32,14 @@ struct CurvatureOptions {
 // few neighbours. Needs unit normals. See docs/decisions/curvature.md for the two methods measured.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {});
+
+// Returns the values averaged over each point's neighbours in the view plane, up to about 2 rho away, each
+// weighted by the area it stands for there. Where the front stops short of what lies behind it, points of
+// both alternate in the plane: an amount added to heights by the one's and the other's curvature would show
+// as specks along the edge.
+std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
+                                     std::span<const Vec3f> normals, const Triangulation& triangulation,
+                                     double rho);
 
 struct NormalisedCurvature {
   std::vector<float> k;  // in [-1, 1]

@@ -16,11 +16,11 @@ struct SurfaceOptions {
   BoundaryOptions boundary;
 };
 
-// The visible points, in view coordinates, along a space-filling curve: neighbours in space are neighbours in
-// memory, and the order of the cloud does not matter.
+// The visible points and the fillers between them, in view coordinates, along a space-filling curve:
+// neighbours in space are neighbours in memory, and the order of the cloud does not matter.
 struct Surface {
   std::vector<Vec3> points;    // relative to `centre`, rotated
-  std::vector<Vec3f> normals;  // unit length, z > 0
+  std::vector<Vec3f> normals;  // unit length, z > 0; (0, 0, 1) at fillers
   NormalisedCurvature curvature;
   Triangulation triangulation;
   Boundary boundary;
@@ -30,6 +30,7 @@ struct Surface {
   double rho = 0;              // sampling distance of the cloud
   double diagonal = 0;         // L_d, of the whole cloud's box
   std::size_t input_points = 0;
+  std::size_t visible_points = 0;  // of them; the rest of `points` are fillers
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the file's normals pointed inwards
 };

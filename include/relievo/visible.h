@@ -1,6 +1,7 @@
 // Visible points (stage 3): what the viewer sees of the cloud, without leaks.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "relievo/cloud.h"
@@ -14,6 +15,7 @@ struct VisibleOptions {
       2;  // depth behind the front that still counts as the front, in local spacings / n_z
   double twin_distance =
       0.01;  // of two points closer than this in the view plane the nearer one stays, in rho
+  double filler_distance = 3;          // between a filler point and the nearest visible point, in rho
   std::size_t smallest_fragment = 32;  // connected sets of fewer visible points are strays and go
 };
 
@@ -26,5 +28,12 @@ struct VisibleOptions {
 // anything. After the paper's 3.2 (cells of 2 rho), which leaks and thins slopes.
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
                                   const VisibleOptions& options = {});
+
+// Returns the numbers of points, ascending, that stand in for missing data: they face away from the viewer,
+// and no visible point is near them in the view plane. There the model is, as its other side shows, but its
+// front was not scanned; the relief goes on there, with nothing to show. At most about one in each square of
+// side rho.
+std::vector<Index> filler_points(const Cloud& viewed, const Spacing& spacing, std::span<const Index> visible,
+                                 const VisibleOptions& options = {});
 
 }  // namespace relievo

@@ -1,0 +1,195 @@
+// The program as its users run it: exit codes, what it says and where, what it leaves behind.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "relievo/io.h"
+#include "shapes.h"
+
+namespace relievo {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read_all(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+void write_all(const fs::path& path, std::string_view text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+struct Outcome {
+  int exit_code = 0;
+  std::string out, err;
+};
+
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path() / "relievo-cli-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    const std::vector<std::byte> bytes = write_ply(test::torus(20000, 1, .4));
+    write_all(folder_ / "torus.ply", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  void TearDown() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+
+  // Runs `relievo ARGUMENTS` in the test's folder.
+  Outcome run(const std::string& arguments, const std::string& before = "") const {
+    const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
+    const std::string command = "cd '" + folder_.string() + "' && " + before + " '" RELIEVO_CLI "' " +
+                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+
+  // Expects failure with one line on stderr that holds `part`, and nothing new in the folder.
+  void expect_refusal(const std::string& arguments, const std::string& part,
+                      const std::string& before = "") const {
+    const auto files = [&] { return std::distance(fs::directory_iterator(folder_), {}); };
+    const auto before_run = files();
+    const Outcome outcome = run(arguments, before);
+    EXPECT_GT(outcome.exit_code, 0) << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(files(), before_run) << arguments;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(Cli, MakesEverythingAskedFor) {
+  const Outcome outcome =
+      run("make torus.ply -o t.stl --preview t.png --heightmap h.png --heightmap-size 100 --report r.json "
+          "--height 3 --width 50");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* file : {"t.stl", "t.png", "h.png", "r.json"})
+    EXPECT_GT(fs::file_size(folder_ / file), 100U) << file;
+  const std::string report = read_all(folder_ / "r.json");
+  for (const char* key :
+       {"input_points", "visible_points", "rho", "diagonal", "alpha", "beta", "gamma", "height_requested_mm",
+        "height_mm", "seconds", "threads", "version", "model_to_mm", "rotation", "scale", "offset"})
+    EXPECT_NE(report.find('"' + std::string(key) + '"'), std::string::npos) << key;
+}
+
+TEST_F(Cli, WritesPlyAndObjToo) {
+  EXPECT_EQ(run("make torus.ply -o t.ply --quiet").exit_code, 0);
+  EXPECT_EQ(run("make torus.ply -o t.OBJ --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "t.ply").substr(0, 4), "ply\n");
+  EXPECT_NE(read_all(folder_ / "t.OBJ").find("\nv "), std::string::npos);
+}
+
+TEST_F(Cli, IsTheSameForAnyNumberOfThreads) {
+  EXPECT_EQ(run("make torus.ply -o a.stl --threads 1").exit_code, 0);
+  EXPECT_EQ(run("make torus.ply -o b.stl --threads 2").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "a.stl"), read_all(folder_ / "b.stl"));
+}
+
+TEST_F(Cli, IsSilentWhenToldTo) {
+  const Outcome outcome = run("make torus.ply -o t.stl --quiet");
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(Cli, TellsWhatIsInAScan) {
+  const Outcome outcome = run("info torus.ply");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("20000"), std::string::npos);
+  EXPECT_NE(outcome.out.find("outwards"), std::string::npos);
+}
+
+TEST_F(Cli, GeneratesSamplesThatItCanRead) {
+  EXPECT_EQ(run("sample shell -o s.ply --points 5000 --noise 0").exit_code, 0);
+  EXPECT_NE(run("info s.ply").out.find("5000"), std::string::npos);
+}
+
+TEST_F(Cli, HelpTellsRangesAndDefaults) {
+  const std::string help = run("make --help").out;
+  for (const char* part :
+       {"--width", "--height", "--saturation", "--view", "[0.1 to 100000]", "=100", "default 0.02"})
+    EXPECT_NE(help.find(part), std::string::npos) << part;
+  EXPECT_EQ(run("--help").exit_code, 0);
+  EXPECT_NE(run("--version").out.find("relievo "), std::string::npos);
+}
+
+TEST_F(Cli, RefusesMisuse) {
+  expect_refusal("", "subcommand");
+  expect_refusal("carve", "carve");
+  expect_refusal("make", "required");
+  expect_refusal("make torus.ply -o t.stl --width -5", "--width");
+  expect_refusal("make torus.ply -o t.stl --height 0", "--height");
+  expect_refusal("make torus.ply -o t.stl --height 3 --alpha 2", "--alpha");
+  expect_refusal("make torus.ply -o t.stl --thickness abc", "--thickness");
+  expect_refusal("make torus.ply -o t.stl --view sideways", "sideways");
+  expect_refusal("make torus.ply -o t.xyz", "t.xyz");
+  expect_refusal("make torus.ply -o t.stl --preview t.jpg", "t.jpg");
+  expect_refusal("sample nothing -o s.ply", "shell");
+  expect_refusal("sample shell -o s.ply --points 3", "points");
+}
+
+TEST_F(Cli, RefusesBadInput) {
+  write_all(folder_ / "empty.ply", "");
+  write_all(folder_ / "huge.ply",
+            "ply\nformat binary_little_endian 1.0\nelement vertex 1152921504606846976\nproperty float "
+            "x\nproperty float y\n"
+            "property float z\nend_header\n");
+  write_all(folder_ / "three.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  write_all(folder_ / "equal.xyz", "1 2 3\n1 2 3\n1 2 3\n1 2 3\n1 2 3\n");
+  write_all(folder_ / "line.xyz", "0 0 0\n1 1 1\n2 2 2\n3 3 3\n4 4 4\n");
+  const std::string torus = read_all(folder_ / "torus.ply");
+  write_all(folder_ / "cut.ply", torus.substr(0, torus.size() / 2));
+  for (const char* file :
+       {"missing.ply", "empty.ply", "huge.ply", "three.xyz", "equal.xyz", "line.xyz", "cut.ply"})
+    expect_refusal("make " + std::string(file) + " -o t.stl --preview p.png", file);
+  expect_refusal("make torus.ply -o t.stl --height 5000", "at most");
+  expect_refusal("info missing.ply", "missing.ply");
+}
+
+TEST_F(Cli, LeavesOutPointsThatAreNotFiniteAndSaysSo) {
+  std::string text = "nan 0 0\n0 inf 0\n";
+  for (const Vec3& p : test::sphere(3000, 1).points)
+    text += std::to_string(p.x()) + ' ' + std::to_string(p.y()) + ' ' + std::to_string(p.z()) + '\n';
+  write_all(folder_ / "nan.xyz", text);
+  const Outcome outcome = run("make nan.xyz -o t.stl");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("left out 2 points"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("estimated"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Cli, RefusesAPlaceItCannotWriteTo) {
+  expect_refusal("make torus.ply -o nowhere/t.stl", "nowhere");
+  fs::create_directory(folder_ / "folder.stl");
+  expect_refusal("make torus.ply -o folder.stl", "folder");
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write to read-only folders";
+  fs::create_directory(folder_ / "locked");
+  fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  expect_refusal("make torus.ply -o locked/t.stl", "locked");
+}
+
+// A limit on the size of files stands for a full disk.
+TEST_F(Cli, LeavesNothingHalfWrittenOnAFullDisk) {
+  expect_refusal("make torus.ply -o t.stl", "t.stl", "trap '' XFSZ; ulimit -f 100;");
+}
+
+TEST_F(Cli, KeepsTheOldFileOnFailure) {
+  write_all(folder_ / "t.stl", "old");
+  EXPECT_GT(run("make torus.ply -o t.stl", "trap '' XFSZ; ulimit -f 100;").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "t.stl"), "old");
+}
+
+}  // namespace
+}  // namespace relievo

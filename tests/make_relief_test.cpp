@@ -1,0 +1,96 @@
+#include "relievo/make_relief.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/surface.h"
+#include "shapes.h"
+
+namespace relievo {
+namespace {
+
+Cloud figure() {
+  return test::joined(test::torus(30000, 1.5, .4), test::sphere(20000, .8));
+}
+
+Box box_of(const Solid& solid) {
+  Box box;
+  for (const Vec3& p : solid.points) box.extend(p);
+  return box;
+}
+
+TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
+  ReliefOptions options;
+  options.width_mm = 60;
+  options.height_mm = 2.5;
+  options.margin_mm = 4;
+  options.thickness_mm = 1.5;
+  const auto made = make_relief(figure(), options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
+  const Box box = box_of(made->solid);
+  EXPECT_NEAR(std::max(box.size().x(), box.size().y()), 60 + 2 * 4, 1e-9);
+  EXPECT_NEAR(box.size().z(), 1.5 + 2.5, 2.5e-3);
+  EXPECT_NEAR(made->report.height_mm, 2.5, 2.5e-3);
+  EXPECT_NEAR(box.size().z(), 1.5 + made->report.height_mm, 1e-9);
+}
+
+TEST(MakeRelief, ReportsThePapersParametersAndU) {
+  ReliefOptions options;
+  const auto paper = make_relief(figure(), options);
+  ASSERT_TRUE(paper);
+  EXPECT_EQ(paper->report.alpha, 4);
+  EXPECT_EQ(paper->report.beta, .01);
+  EXPECT_EQ(paper->report.gamma, .02);
+  EXPECT_NEAR(paper->report.u, std::pow(4, -.01), 1e-12);
+  options.height_mm = 3;
+  options.saturation = .5;
+  const auto to_order = make_relief(figure(), options);
+  ASSERT_TRUE(to_order);
+  EXPECT_NEAR(to_order->report.u, std::pow(to_order->report.alpha, -.5), 1e-9);
+}
+
+// A cloud far from its origin, turned: the report's transform puts each visible point over its place in the
+// solid.
+TEST(MakeRelief, TellsWhereTheScanLies) {
+  Cloud cloud = figure();
+  for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);
+  ReliefOptions options;
+  options.view = "1,.2,2";
+  const auto made = make_relief(cloud, options);
+  ASSERT_TRUE(made) << made.error().message();
+  const ReliefReport& r = made->report;
+  const auto surface = find_surface(cloud, *parse_view(options.view));
+  double lowest = 1e9;
+  for (std::size_t i = 0; i < surface->points.size(); ++i) {
+    const Vec3 p = surface->view.rotation.transpose() * surface->points[i] + surface->centre;
+    const Vec3 mm = r.scale * r.rotation * p + r.offset;
+    EXPECT_NEAR(mm.x(), made->solid.points[i].x(), 1e-6);
+    EXPECT_NEAR(mm.y(), made->solid.points[i].y(), 1e-6);
+    lowest = std::min(lowest, mm.z());
+  }
+  const double ground = made->solid.points[surface->triangulation.hull[0]].z();
+  EXPECT_NEAR(lowest, ground, 1e-6);
+}
+
+TEST(MakeRelief, RefusesAHeightOutOfReach) {
+  ReliefOptions options;
+  options.height_mm = 5000;
+  const auto made = make_relief(figure(), options);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message().find("at most"), std::string::npos);
+}
+
+TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
+  ReliefOptions options;
+  options.view = "sideways";
+  EXPECT_EQ(make_relief({}, options).error().kind, ErrorKind::option);
+  options = {};
+  options.margin_mm = -1;
+  EXPECT_EQ(make_relief({}, options).error().kind, ErrorKind::option);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,68 @@
+#include "relievo/options.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace relievo {
+namespace {
+
+std::string complaint(const ReliefOptions& options) {
+  const auto ok = check(options);
+  return ok ? "" : ok.error().message();
+}
+
+TEST(Options, DefaultsAreValidAndThePapers) {
+  const ReliefOptions options;
+  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(options.effective_alpha(), 4);
+  EXPECT_EQ(options.effective_saturation(), .01);
+  EXPECT_EQ(options.effective_detail(), .02);
+}
+
+TEST(Options, WithAHeightCompressEvenly) {
+  ReliefOptions options;
+  options.height_mm = 3;
+  EXPECT_EQ(options.effective_saturation(), 0);
+  EXPECT_EQ(options.effective_detail(), .04);
+  options.saturation = 2;
+  options.detail = 0;
+  EXPECT_EQ(options.effective_saturation(), 2);
+  EXPECT_EQ(options.effective_detail(), 0);
+}
+
+TEST(Options, OutOfRangeAreNamed) {
+  ReliefOptions options;
+  options.width_mm = -5;
+  EXPECT_EQ(complaint(options), "--width: expected a number from 0.1 to 100000, found -5");
+  options.width_mm = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(complaint(options).find("--width"), std::string::npos);
+  options = {};
+  options.height_mm = 0;
+  EXPECT_NE(complaint(options).find("--height"), std::string::npos);
+  options = {};
+  options.thickness_mm = std::numeric_limits<double>::infinity();
+  EXPECT_NE(complaint(options).find("--thickness"), std::string::npos);
+}
+
+TEST(Options, HeightAndAlphaContradict) {
+  ReliefOptions options;
+  options.height_mm = 3;
+  options.alpha = 4;
+  EXPECT_NE(complaint(options).find("found both"), std::string::npos);
+}
+
+TEST(Options, EachFieldHasANameAndHelp) {
+  ReliefOptions options;
+  int fields = 0;
+  visit(options, [&](const OptionField& field, auto&) {
+    ++fields;
+    EXPECT_FALSE(field.name.empty());
+    EXPECT_FALSE(field.help.empty());
+    EXPECT_LT(field.min, field.max);
+  });
+  EXPECT_EQ(fields, 9);
+}
+
+}  // namespace
+}  // namespace relievo
