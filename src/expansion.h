@@ -1,0 +1,149 @@
+// Exact arithmetic on doubles: a number is kept as a sum of doubles, an expansion.
+//
+// J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
+// Exact as long as nothing overflows or underflows, doubles round to nearest even, and the compiler neither
+// contracts nor reassociates (-ffp-contract=off, no -ffast-math).
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace relievo {
+
+// A rounded result and what rounding took away: high + low is the exact value.
+struct TwoDoubles {
+  double high, low;
+};
+
+// Returns a + b exactly. (Knuth; Shewchuk's theorem 7)
+inline TwoDoubles two_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  const double a_part = sum - b_part;
+  return {sum, (a - a_part) + (b - b_part)};
+}
+
+// Returns a + b exactly; needs |a| >= |b| or a = 0. (Dekker; theorem 6)
+inline TwoDoubles fast_two_sum(double a, double b) {
+  const double sum = a + b;
+  return {sum, b - (sum - a)};
+}
+
+// Returns a as the sum of two halves of at most 26 bits. (Veltkamp; theorem 17)
+inline TwoDoubles split(double a) {
+  const double c = 0x8000001p0 * a;  // 2^27 + 1
+  const double high = c - (c - a);
+  return {high, a - high};
+}
+
+// Returns a * b exactly. (Dekker and Veltkamp; theorem 18) Not std::fma: without hardware for it, as in
+// WebAssembly, it is slower by an order of magnitude.
+inline TwoDoubles two_product(double a, double b) {
+  const double product = a * b;
+  const TwoDoubles x = split(a), y = split(b);
+  const double error = ((product - x.high * y.high) - x.low * y.high) - x.high * y.low;
+  return {product, x.low * y.low - error};
+}
+
+// An exact sum of at most `capacity` doubles: strongly nonoverlapping, growing in magnitude, no zeros, so that
+// the last one tells the sign. Sums and products are exact, and as short as their values allow.
+template <std::size_t capacity>
+class Expansion {
+ public:
+  Expansion() : size_(0) {}  // zero; the components stay uninitialised, as most are never used
+  explicit Expansion(double a) : Expansion() { append(a); }
+  explicit Expansion(TwoDoubles a) : Expansion() { append(a.low), append(a.high); }
+
+  std::size_t size() const { return size_; }
+  double operator[](std::size_t i) const { return components_[i]; }
+
+  // Appends a component that is not smaller than those before; zeros are left out.
+  void append(double a) {
+    components_[size_] = a;
+    size_ += a != 0;
+  }
+
+  int sign() const { return size_ == 0 ? 0 : components_[size_ - 1] > 0 ? 1 : -1; }
+
+  // Returns the value, rounded, to a relative error of 2^-52.
+  double estimate() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < size_; ++i) sum += components_[i];
+    return sum;
+  }
+
+  Expansion operator-() const {
+    Expansion result;
+    for (std::size_t i = 0; i < size_; ++i) result.append(-components_[i]);
+    return result;
+  }
+
+ private:
+  std::array<double, capacity + 1> components_;  // one more, where append() parks a last zero
+  std::size_t size_;
+};
+
+namespace detail {
+
+// Sets `h` to e + f: a merge by magnitude that carries the rounding errors. (Fast-Expansion-Sum; theorem 13)
+template <typename E, typename F, typename H>
+void add(const E& e, const F& f, H& h) {
+  h = H();
+  std::size_t i = 0, j = 0;
+  const auto next = [&] {
+    if (j == f.size() || (i < e.size() && std::abs(e[i]) < std::abs(f[j]))) return e[i++];
+    return f[j++];
+  };
+  const std::size_t n = e.size() + f.size();
+  if (n == 0) return;
+  double carry = next();
+  for (std::size_t k = 1; k < n; ++k) {
+    const auto [high, low] = k == 1 ? fast_two_sum(next(), carry) : two_sum(carry, next());
+    h.append(low);
+    carry = high;
+  }
+  h.append(carry);
+}
+
+// Returns e * b. (Scale-Expansion; theorem 19)
+template <std::size_t n>
+Expansion<2 * n> scale(const Expansion<n>& e, double b) {
+  Expansion<2 * n> h;
+  if (e.size() == 0) return h;
+  auto [carry, first] = two_product(e[0], b);
+  h.append(first);
+  for (std::size_t i = 1; i < e.size(); ++i) {
+    const TwoDoubles product = two_product(e[i], b);
+    const TwoDoubles sum = two_sum(carry, product.low);
+    h.append(sum.low);
+    const TwoDoubles top = fast_two_sum(product.high, sum.high);
+    h.append(top.low);
+    carry = top.high;
+  }
+  h.append(carry);
+  return h;
+}
+
+}  // namespace detail
+
+template <std::size_t n, std::size_t m>
+Expansion<n + m> operator+(const Expansion<n>& e, const Expansion<m>& f) {
+  Expansion<n + m> h;
+  detail::add(e, f, h);
+  return h;
+}
+
+template <std::size_t n, std::size_t m>
+Expansion<n + m> operator-(const Expansion<n>& e, const Expansion<m>& f) {
+  return e + -f;
+}
+
+template <std::size_t n, std::size_t m>
+Expansion<2 * n * m> operator*(const Expansion<n>& e, const Expansion<m>& f) {
+  Expansion<2 * n * m> sums[2];
+  for (std::size_t i = 0; i < f.size(); ++i) detail::add(sums[i % 2], detail::scale(e, f[i]), sums[(i + 1) % 2]);
+  return sums[f.size() % 2];
+}
+
+}  // namespace relievo
