@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "relievo/cloud.h"
 #include "relievo/error.h"
@@ -12,30 +13,41 @@
 namespace relievo {
 
 struct CloudFile {
-  Cloud cloud;                      // finite points only; normals are unit length, or absent
-  std::string format;               // for people: "PLY binary little endian", "XYZ text, 6 columns"
-  std::size_t dropped_points = 0;   // points left out because a coordinate was NaN or infinite
-  std::size_t dropped_normals = 0;  // normals that were zero or not finite; if any, the point goes too
+  Cloud cloud;         // finite points only, at least one; normals are unit length, or absent
+  std::string format;  // for people: "PLY binary little endian", "XYZ text, 6 columns with normals"
+  std::size_t dropped_points = 0;  // points left out because a coordinate was NaN or infinite
+  // Normals of other points that were zero, not finite or missing. Their points are left out, too, unless
+  // these are most of the points: then all points stay and the cloud has no normals.
+  std::size_t dropped_normals = 0;
 };
 
-// Returns the point cloud in `bytes`, whose format is told by the content first (PLY's magic word), then by
-// the ending of `name` (.obj), else taken as text of numbers. `name` is used in errors, too.
+// Returns the point cloud in `bytes`, whose format is told by the content first (PLY's magic word, then the
+// first keyword of OBJ), then by the ending of `name` (.obj), else taken as text of numbers. `name` is used
+// in errors, too.
 //
 // - PLY: ascii, binary little and big endian; x y z and nx ny nz of any numeric type, in any order, among any
-//   other properties and elements (colours, faces, lists, tristrips), which are skipped.
-// - OBJ: v, vn and f. Normals are taken where the vertices have them: by the corners of f, or one vn per v.
+//   other properties and elements (colours, faces, lists, tristrips), which are skipped. Ascii rows begin in
+//   lines of their own. What follows the vertices is not looked at.
+// - OBJ: v, vn and f. Normals are taken where the vertices have them: by the corners of f (averaged), or one
+// vn
+//   per v.
 // - XYZ, PTS, text: separators (blank, tab, comma, semicolon) and columns are detected: x y z first; normals
-//   where three columns are unit vectors; a first line with the number of points, comments (#, //) and a line
-//   of column names are allowed.
+//   where three columns are unit vectors in nine of ten rows; a first line with the number of points (more
+//   may follow, but not fewer), comments (#, //) and a line of column names, which then decide, are allowed.
+//   Columns that are not needed may hold anything. Numbers have a decimal point, never a comma.
 //
-// Errors (kind input) name the line or the byte and what was expected there. A header that promises more than
+// Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf. A number beyond double
+// is infinite.
+//
+// Errors (kind input) name the line or the byte and what was expected there; a file of another format is told
+// by its name, "a PCD file". No point with finite coordinates is an error. A header that promises more than
 // the bytes hold is an error before anything is allocated for it. Every input ends: no recursion, time linear
 // in the bytes.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name);
 
 // Returns the cloud as binary little-endian PLY with float properties x y z (double when float would lose
-// digits that matter, i.e. when the box lies more than 1,000 times its diagonal from the origin) and nx ny nz
-// if present.
+// digits that matter, i.e. when the box lies more than 1,000 times its diagonal from the origin, or overflow)
+// and float nx ny nz if present. `comment` goes into the header, in one line.
 std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = {});
 
 }  // namespace relievo

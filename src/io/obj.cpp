@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "io/readers.h"
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+// A corner of a face that names a normal.
+struct Corner {
+  Index vertex, normal;
+};
+
+// Faces may come before what they refer to: the highest index is kept, and the line where it stood.
+struct Highest {
+  std::int64_t index = 0;  // counted from 1, 0 for none
+  std::size_t line = 0;
+};
+
+class ObjReader {
+ public:
+  explicit ObjReader(const Source& source)
+      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+
+  Result<Cloud> read() {
+    while (next_line()) {
+      Words words(line_.substr(0, line_.find('#')));
+      const std::string_view keyword = words.next();
+      Result<void> taken;
+      if (keyword == "v") taken = take_vector(words, points_);
+      if (keyword == "vn") taken = take_vector(words, normals_);
+      if (keyword == "f") taken = take_face(words);
+      if (!taken) return std::unexpected(taken.error());
+    }
+    if (points_.empty()) {
+      return source_.error_in_line(lines_.number() + 1,
+                                   "expected lines 'v x y z', found the end of the file");
+    }
+    if (const auto checked = check(highest_vertex_, points_.size(), "vertices"); !checked) {
+      return std::unexpected(checked.error());
+    }
+    if (const auto checked = check(highest_normal_, normals_.size(), "normals"); !checked) {
+      return std::unexpected(checked.error());
+    }
+    std::vector<Vec3f> normals = point_normals();
+    return Cloud{std::move(points_), std::move(normals)};
+  }
+
+ private:
+  // A backslash at its end continues a line in the next one.
+  bool next_line() {
+    const auto line = lines_.next();
+    if (!line) return false;
+    first_line_ = lines_.number();
+    line_ = *line;
+    if (!line_.ends_with('\\')) return true;
+    joined_ = line_;
+    while (joined_.ends_with('\\')) {
+      joined_.back() = ' ';
+      joined_ += lines_.next().value_or("");
+    }
+    line_ = joined_;
+    return true;
+  }
+
+  Result<void> take_vector(Words& words, std::vector<Vec3>& to) {
+    Vec3 vector;
+    for (double& value : vector) {
+      const std::string_view word = words.next();
+      const auto number = parse_number(word);
+      if (!number)
+        return fail("expected 3 numbers, found " + (word.empty() ? "the end of the line" : quoted(word)));
+      value = *number;
+    }
+    to.push_back(vector);
+    return {};
+  }
+
+  Result<void> take_face(Words& words) {
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+      const std::size_t slash = std::min(word.find('/'), word.size());
+      const auto vertex = resolve(word.substr(0, slash), points_.size(), highest_vertex_);
+      if (!vertex) return fail("expected the number of a vertex, found " + quoted(word));
+      const std::size_t second = word.find('/', slash + 1);
+      if (second == std::string_view::npos) continue;
+      const auto normal = resolve(word.substr(second + 1), normals_.size(), highest_normal_);
+      if (!normal) return fail("expected the number of a normal, found " + quoted(word));
+      corners_.push_back({*vertex, *normal});
+    }
+    return {};
+  }
+
+  // Index counted from 0 for one counted from 1, or from -1 backwards.
+  std::optional<Index> resolve(std::string_view word, std::size_t defined, Highest& highest) {
+    std::int64_t index = parse_integer(word).value_or(0);
+    if (index < 0 && -(index + 1) < static_cast<std::int64_t>(defined)) {
+      index += static_cast<std::int64_t>(defined) + 1;
+    }
+    if (index <= 0 || index >= no_index) return std::nullopt;
+    if (index > highest.index) highest = {index, first_line_};
+    return static_cast<Index>(index - 1);
+  }
+
+  Result<void> check(const Highest& highest, std::size_t defined, std::string_view what) const {
+    if (highest.index <= static_cast<std::int64_t>(defined)) return {};
+    return source_.error_in_line(highest.line, "expected an index up to " + std::to_string(defined) +
+                                                   ", the number of " + std::string(what) + ", found " +
+                                                   std::to_string(highest.index));
+  }
+
+  // One normal a point, or none at all. Normals of the corners of a vertex are averaged.
+  std::vector<Vec3f> point_normals() const {
+    std::vector<Vec3> sums(corners_.empty() ? 0 : points_.size(), Vec3::Zero());
+    for (const Corner& c : corners_) sums[c.vertex] += unit_normal(normals_[c.normal]).cast<double>();
+    if (corners_.empty() && normals_.size() == points_.size()) sums = normals_;
+    std::vector<Vec3f> units(sums.size());
+    std::transform(sums.begin(), sums.end(), units.begin(), unit_normal);
+    return units;
+  }
+
+  Result<void> fail(std::string expected) const {
+    return source_.error_in_line(first_line_, std::move(expected));
+  }
+
+  const Source& source_;
+  Lines lines_;
+  std::string_view line_;
+  std::string joined_;
+  std::size_t first_line_ = 0;  // where line_ begins
+  std::vector<Vec3> points_, normals_;
+  std::vector<Corner> corners_;
+  Highest highest_vertex_, highest_normal_;
+};
+
+}  // namespace
+
+bool looks_like_obj(std::string_view text) {
+  const std::array<std::string_view, 8> keywords = {"v", "vn", "vt", "f", "o", "g", "mtllib", "usemtl"};
+  Lines lines(text, byte_order_mark_size(text));
+  while (const auto line = lines.next()) {
+    const std::string_view word = Words(*line).next();
+    if (word.empty() || word.starts_with('#')) continue;
+    return std::find(keywords.begin(), keywords.end(), word) != keywords.end();
+  }
+  return false;
+}
+
+Result<RawCloud> read_obj(const Source& source) {
+  auto cloud = ObjReader(source).read();
+  if (!cloud) return std::unexpected(std::move(cloud.error()));
+  return RawCloud{std::move(*cloud), "OBJ"};
+}
+
+}  // namespace relievo::io

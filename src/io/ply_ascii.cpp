@@ -1,0 +1,121 @@
+#include <algorithm>
+
+#include "io/ply.h"
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+// Rows begin in a line of their own; a row may be wrapped over several lines.
+class AsciiRows {
+ public:
+  AsciiRows(const Source& source, const PlyHeader& header)
+      : source_(source), lines_(source.bytes, header.data_offset, header.lines) {}
+
+  // Calls use(property number, word) for each single value of the next row; use returns false to refuse a
+  // word.
+  template <typename Use>
+  Result<void> read_row(const PlyElement& element, Use&& use) {
+    for (std::size_t i = 0; i < element.properties.size(); ++i) {
+      const PlyProperty& property = element.properties[i];
+      const std::string_view word = next_word();
+      if (word.empty()) return fail_at_end(element);
+      if (property.is_list()) {
+        if (const auto skipped = skip_list(element, property, word); !skipped) return skipped;
+      } else if (!use(i, word)) {
+        return fail("expected a number for " + std::string(property.name) + ", found " + quoted(word));
+      }
+    }
+    if (const auto word = words_.next(); !word.empty()) return fail_in_long_row(element, word);
+    ++rows_;
+    return {};
+  }
+
+  Result<void> skip(const PlyElement& element) {
+    rows_ = 0;
+    if (element.properties.empty()) return {};
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      if (const auto read = read_row(element, [](auto...) { return true; }); !read) return read;
+    }
+    rows_ = 0;
+    return {};
+  }
+
+ private:
+  // Empty at the end of the file.
+  std::string_view next_word() {
+    std::string_view word = words_.next();
+    while (word.empty()) {
+      const auto line = lines_.next();
+      if (!line) return {};
+      words_ = Words(*line);
+      word = words_.next();
+    }
+    return word;
+  }
+
+  Result<void> skip_list(const PlyElement& element, const PlyProperty& list, std::string_view word) {
+    const auto length = parse_integer(word);
+    if (!length || *length < 0) {
+      return fail("expected the length of the list " + std::string(list.name) + ", found " + quoted(word));
+    }
+    for (std::int64_t i = 0; i < *length; ++i) {
+      if (next_word().empty()) return fail_at_end(element);
+    }
+    return {};
+  }
+
+  Result<void> fail_at_end(const PlyElement& element) const {
+    return fail("expected " + std::to_string(element.count) + " rows of element " +
+                std::string(element.name) + ", found the end of the file after " + std::to_string(rows_));
+  }
+
+  Result<void> fail_in_long_row(const PlyElement& element, std::string_view word) const {
+    return fail("expected the line to end after the last property, " +
+                std::string(element.properties.back().name) + ", found " + quoted(word));
+  }
+
+  Result<void> fail(std::string expected) const {
+    return source_.error_in_line(lines_.number(), std::move(expected));
+  }
+
+  const Source& source_;
+  Lines lines_;
+  Words words_;
+  std::uint64_t rows_ = 0;  // complete ones of the element being read
+};
+
+// Each value is at least one digit and a separator, but for the last one of the file.
+bool can_hold(std::size_t bytes, const PlyElement& element) {
+  return element.count <= (bytes + 1) / (2 * element.properties.size());
+}
+
+}  // namespace
+
+Result<Cloud> read_ascii_body(const PlyBody& body) {
+  AsciiRows rows(body.source, body.header);
+  for (const PlyElement& element : body.before) {
+    if (const auto skipped = rows.skip(element); !skipped) return std::unexpected(skipped.error());
+  }
+  const std::size_t left = body.source.bytes.size() - body.header.data_offset;
+  // A promise that cannot be kept leads to an error below; only the memory for it is saved.
+  Cloud cloud = sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns);
+  std::vector<std::size_t> column_of(body.vertex.properties.size(), VertexColumns::most);
+  for (std::size_t c = 0; c < body.columns.count; ++c) column_of[body.columns.property[c]] = c;
+
+  std::array<double, VertexColumns::most + 1> values = {};  // the last one takes what nobody wants
+  const auto take = [&](std::size_t property, std::string_view word) {
+    const auto value = parse_number(word);
+    if (value) values[column_of[property]] = *value;
+    return value.has_value();
+  };
+  for (std::size_t i = 0; i < body.vertex.count; ++i) {
+    if (const auto read = rows.read_row(body.vertex, take); !read) return std::unexpected(read.error());
+    if (i >= cloud.size()) continue;
+    cloud.points[i] = Vec3(values[0], values[1], values[2]);
+    if (cloud.has_normals()) cloud.normals[i] = unit_normal(Vec3(values[3], values[4], values[5]));
+  }
+  return cloud;
+}
+
+}  // namespace relievo::io

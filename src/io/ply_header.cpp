@@ -1,0 +1,157 @@
+#include "io/ply_header.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+using enum PlyType;
+
+constexpr std::array<std::pair<std::string_view, PlyType>, 16> type_names = {{{"char", int8},
+                                                                              {"int8", int8},
+                                                                              {"uchar", uint8},
+                                                                              {"uint8", uint8},
+                                                                              {"short", int16},
+                                                                              {"int16", int16},
+                                                                              {"ushort", uint16},
+                                                                              {"uint16", uint16},
+                                                                              {"int", int32},
+                                                                              {"int32", int32},
+                                                                              {"uint", uint32},
+                                                                              {"uint32", uint32},
+                                                                              {"float", float32},
+                                                                              {"float32", float32},
+                                                                              {"double", float64},
+                                                                              {"float64", float64}}};
+
+constexpr std::array<std::pair<std::string_view, PlyFormat>, 3> format_names = {
+    {{"ascii", PlyFormat::ascii},
+     {"binary_little_endian", PlyFormat::little_endian},
+     {"binary_big_endian", PlyFormat::big_endian}}};
+
+template <typename Table>
+auto find_by_name(const Table& table, std::string_view name) {
+  const auto found =
+      std::find_if(table.begin(), table.end(), [&](const auto& entry) { return entry.first == name; });
+  return found == table.end() ? std::nullopt : std::optional(found->second);
+}
+
+// One pass over the lines; each step gets the words after the line's keyword.
+class HeaderReader {
+ public:
+  explicit HeaderReader(const Source& source)
+      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+
+  Result<PlyHeader> read() {
+    lines_.next();  // "ply", which the caller has seen
+    while (const auto line = lines_.next()) {
+      Words words(*line);
+      const std::string_view keyword = words.next();
+      if (keyword == "end_header") return finish();
+      if (const auto taken = take(keyword, words); !taken) return std::unexpected(taken.error());
+    }
+    return source_.error_in_line(lines_.number() + 1, "expected end_header, found the end of the file");
+  }
+
+ private:
+  Result<void> take(std::string_view keyword, Words& words) {
+    if (keyword == "comment" || keyword == "obj_info" || keyword.empty()) return {};
+    if (keyword == "format") return take_format(words);
+    if (keyword == "element") return take_element(words);
+    if (keyword == "property") return take_property(words);
+    return fail("expected format, element, property, comment, obj_info or end_header, found " +
+                quoted(keyword));
+  }
+
+  Result<void> take_format(Words& words) {
+    const std::string_view name = words.next();
+    const auto format = find_by_name(format_names, name);
+    if (!format)
+      return fail("expected ascii, binary_little_endian or binary_big_endian, found " + quoted(name));
+    const std::string_view version = words.next();
+    if (version != "1.0") return fail("expected version 1.0 of PLY, found " + quoted(version));
+    if (std::exchange(has_format_, true)) return fail("expected one format line, found a second");
+    header_.format = *format;
+    return {};
+  }
+
+  Result<void> take_element(Words& words) {
+    const std::string_view name = words.next();
+    if (name.empty()) return fail("expected 'element <name> <count>', found no name");
+    const std::string_view word = words.next();
+    const auto count = parse_integer(word);
+    if (!count || *count < 0) return fail("expected the number of elements, found " + quoted(word));
+    header_.elements.push_back({name, static_cast<std::uint64_t>(*count), {}, lines_.number()});
+    return {};
+  }
+
+  Result<void> take_property(Words& words) {
+    if (header_.elements.empty()) return fail("expected an element before its first property");
+    std::string_view word = words.next();
+    std::optional<PlyType> count_type;
+    if (word == "list") {
+      word = words.next();
+      count_type = find_by_name(type_names, word);
+      if (!count_type || *count_type >= float32) {
+        return fail("expected an integer type for the length of the list, found " + quoted(word));
+      }
+      word = words.next();
+    }
+    const auto type = find_by_name(type_names, word);
+    if (!type) return fail("expected a type such as float, uchar or int32, found " + quoted(word));
+    const std::string_view name = words.next();
+    if (name.empty()) return fail("expected the name of the property, found the end of the line");
+    header_.elements.back().properties.push_back({name, *type, count_type});
+    return {};
+  }
+
+  Result<PlyHeader> finish() {
+    if (!has_format_) return fail("expected a line 'format ...' before end_header");
+    header_.lines = lines_.number();
+    header_.data_offset = lines_.offset();
+    // Where CR alone ends the lines, an LF after it is the first byte of the data.
+    const std::size_t first_end = source_.bytes.find_first_of("\r\n");
+    const bool ends_with_cr_alone =
+        source_.bytes.substr(first_end, 2) != "\r\n" && source_.bytes[first_end] == '\r';
+    const bool has_skipped_lf = source_.bytes.substr(header_.data_offset - 2, 2) == "\r\n";
+    if (ends_with_cr_alone && has_skipped_lf) --header_.data_offset;
+    return std::move(header_);
+  }
+
+  std::unexpected<Error> fail(std::string expected) const {
+    return source_.error_in_line(lines_.number(), std::move(expected));
+  }
+
+  const Source& source_;
+  Lines lines_;
+  PlyHeader header_;
+  bool has_format_ = false;
+};
+
+}  // namespace
+
+std::size_t size_in_bytes(PlyType type) {
+  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+  return sizes[static_cast<std::size_t>(type)];
+}
+
+std::size_t least_row_size(const PlyElement& element) {
+  std::size_t size = 0;
+  for (const PlyProperty& p : element.properties) size += size_in_bytes(p.count_type.value_or(p.type));
+  return size;
+}
+
+bool has_lists(const PlyElement& element) {
+  return std::any_of(element.properties.begin(), element.properties.end(),
+                     [](const PlyProperty& p) { return p.is_list(); });
+}
+
+Result<PlyHeader> read_ply_header(const Source& source) {
+  return HeaderReader(source).read();
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,52 @@
+// The header of a PLY file: which elements follow, and how each of their rows is built.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "io/readers.h"
+
+namespace relievo::io {
+
+enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+std::size_t size_in_bytes(PlyType type);
+
+struct PlyProperty {
+  std::string_view name;
+  PlyType type;                       // of the value, or of each value of the list
+  std::optional<PlyType> count_type;  // an integer type, for lists only
+
+  bool is_list() const { return count_type.has_value(); }
+};
+
+struct PlyElement {
+  std::string_view name;
+  std::uint64_t count = 0;  // as promised, which may be anything
+  std::vector<PlyProperty> properties;
+  std::size_t line = 0;  // of its declaration
+};
+
+// Returns the least number of bytes a binary row can have: lists empty.
+std::size_t least_row_size(const PlyElement& element);
+
+// Returns true if any property is a list, so that rows differ in size.
+bool has_lists(const PlyElement& element);
+
+enum class PlyFormat { ascii, little_endian, big_endian };
+
+// Views point into the source.
+struct PlyHeader {
+  PlyFormat format = PlyFormat::ascii;
+  std::vector<PlyElement> elements;
+  std::size_t data_offset = 0;  // byte after the header
+  std::size_t lines = 0;        // of the header
+};
+
+// Returns the header. Errors name the line.
+Result<PlyHeader> read_ply_header(const Source& source);
+
+}  // namespace relievo::io

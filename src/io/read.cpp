@@ -1,0 +1,94 @@
+#include <cmath>
+
+#include "io/readers.h"
+#include "io/text.h"
+#include "relievo/parallel.h"
+
+namespace relievo {
+namespace io {
+
+Vec3f unit_normal(const Vec3& n) {
+  if (!n.allFinite() || n.isZero(0)) return Vec3f::Zero();
+  const Vec3f rounded = n.cast<float>();
+  const double rounding = 1e-6;  // of the squared length of three floats, with some room
+  if (std::abs(rounded.cast<double>().squaredNorm() - 1) <= rounding) return rounded;
+  return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();  // scaled first: squares may overflow
+}
+
+}  // namespace io
+
+namespace {
+
+bool is_ply(std::string_view text) {
+  const std::string_view magic = "ply";
+  if (!text.starts_with(magic)) return false;
+  return text.size() == magic.size() ||
+         std::string_view(" \t\r\n").find(text[magic.size()]) != std::string_view::npos;
+}
+
+Result<io::RawCloud> read_by_format(const io::Source& source) {
+  const std::string_view text = source.bytes.substr(io::byte_order_mark_size(source.bytes));
+  const std::string readable = "expected a PLY, OBJ, XYZ or PTS file, found ";
+  if (text.empty()) return source.error({}, readable + "an empty file");
+  if (is_ply(text)) return io::read_ply(source);
+  if (const std::string what = io::foreign_format(source); !what.empty())
+    return source.error({}, readable + what);
+  if (io::has_ending(source.name, ".obj") || io::looks_like_obj(text)) return io::read_obj(source);
+  return io::read_text(source);
+}
+
+template <typename IsBad>
+std::size_t count_points(std::size_t n, const IsBad& is_bad) {
+  const auto count = [&](std::size_t begin, std::size_t end) {
+    std::size_t bad = 0;
+    for (std::size_t i = begin; i < end; ++i) bad += is_bad(i) ? 1 : 0;
+    return bad;
+  };
+  return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
+}
+
+// Keeps the order of the points that stay.
+template <typename IsBad>
+void remove_points(Cloud& cloud, const IsBad& is_bad) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (is_bad(i)) continue;
+    cloud.points[kept] = cloud.points[i];
+    if (cloud.has_normals()) cloud.normals[kept] = cloud.normals[i];
+    ++kept;
+  }
+  cloud.points.resize(kept);
+  if (cloud.has_normals()) cloud.normals.resize(kept);
+}
+
+// A few points without a normal are not worth losing all normals, nor a few normals losing all other points.
+void drop_unusable(CloudFile& file) {
+  Cloud& cloud = file.cloud;
+  const auto is_finite = [&](std::size_t i) { return cloud.points[i].allFinite(); };
+  const auto has_normal = [&](std::size_t i) { return !cloud.has_normals() || !cloud.normals[i].isZero(0); };
+  file.dropped_points = count_points(cloud.size(), [&](std::size_t i) { return !is_finite(i); });
+  file.dropped_normals =
+      count_points(cloud.size(), [&](std::size_t i) { return is_finite(i) && !has_normal(i); });
+  const std::size_t finite_points = cloud.size() - file.dropped_points;
+  if (file.dropped_normals > finite_points / 2) cloud.normals.clear();
+  if (file.dropped_points + file.dropped_normals == 0) return;
+  remove_points(cloud, [&](std::size_t i) { return !is_finite(i) || !has_normal(i); });
+}
+
+}  // namespace
+
+Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name) {
+  const io::Source source{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name};
+  auto raw = read_by_format(source);
+  if (!raw) return std::unexpected(std::move(raw.error()));
+  CloudFile file{std::move(raw->cloud), std::move(raw->format)};
+  const std::size_t points = file.cloud.size();
+  drop_unusable(file);
+  if (file.cloud.points.empty()) {
+    return source.error(
+        {}, "expected points, found none with finite coordinates among " + std::to_string(points));
+  }
+  return file;
+}
+
+}  // namespace relievo

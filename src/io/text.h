@@ -1,0 +1,80 @@
+// Text as the readers see it: lines, words and numbers, with the line's number at hand for messages.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace relievo::io {
+
+// Hands out the lines of a text one by one, without their ends: LF, CRLF or CR, even mixed. Linear in the
+// text.
+class Lines {
+ public:
+  explicit Lines(std::string_view text, std::size_t offset = 0, std::size_t lines_before = 0)
+      : text_(text),
+        at_(offset),
+        number_(lines_before),
+        lf_(text.find('\n', offset)),
+        cr_(text.find('\r', offset)) {}
+
+  // The next line, or nothing at the end. A text that ends with a line end has no empty line after it.
+  std::optional<std::string_view> next();
+
+  // Of the line last returned, counted from 1; 0 before the first.
+  std::size_t number() const { return number_; }
+
+  // Byte after the line last returned and its end.
+  std::size_t offset() const { return at_; }
+
+ private:
+  std::string_view text_;
+  std::size_t at_, number_;
+  std::size_t lf_, cr_;  // the next LF and CR; kept, as looking for one that is not there would be quadratic
+};
+
+// True for what separates words within a line.
+constexpr bool is_blank(char c) {
+  return c == ' ' || c == '\t' || c == '\v' || c == '\f';
+}
+
+// Hands out the words of a line, separated by blanks; an empty view at the end.
+class Words {
+ public:
+  explicit Words(std::string_view line = {}) : at_(line.data()), end_(line.data() + line.size()) {}
+
+  std::string_view next() {
+    while (at_ != end_ && is_blank(*at_)) ++at_;
+    const char* first = at_;
+    while (at_ != end_ && !is_blank(*at_)) ++at_;
+    return {first, static_cast<std::size_t>(at_ - first)};
+  }
+
+ private:
+  const char* at_;
+  const char* end_;
+};
+
+// The text without blanks at its ends.
+std::string_view trim(std::string_view text);
+
+// Returns the number that the whole word spells: decimal, with exponent and either sign, or nan, inf and
+// their kin. Beyond the range of double it is infinite, or zero when too small. Nothing if the word is no
+// number.
+std::optional<double> parse_number(std::string_view word);
+
+// Returns the integer that the whole word spells, nothing if it is none or beyond 64 bits.
+std::optional<std::int64_t> parse_integer(std::string_view word);
+
+// For messages: the text in quotes, cut to a few words' length, with unprintable bytes as '?'.
+std::string quoted(std::string_view text);
+
+// Returns true if both are equal but for the case of ASCII letters.
+bool equals_ignoring_case(std::string_view a, std::string_view b);
+
+// 3 if the text begins with a UTF-8 byte order mark, else 0.
+std::size_t byte_order_mark_size(std::string_view text);
+
+}  // namespace relievo::io

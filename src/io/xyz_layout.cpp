@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "io/xyz.h"
+
+namespace relievo::io {
+namespace {
+
+using Names = std::vector<std::string_view>;
+
+constexpr std::array<std::string_view, XyzLayout::most_wanted> wanted_names = {"x",  "y",  "z",
+                                                                               "nx", "ny", "nz"};
+
+bool is_comment(std::string_view trimmed) {
+  return trimmed.starts_with('#') || trimmed.starts_with("//");
+}
+
+// The words of a line of column names, which may be separated and quoted in any way.
+Names split_names(std::string_view line) {
+  const std::string_view separators = " \t\v\f,;\"'/#";
+  Names names;
+  while (true) {
+    line.remove_prefix(std::min(line.find_first_not_of(separators), line.size()));
+    if (line.empty()) return names;
+    names.push_back(line.substr(0, line.find_first_of(separators)));
+    line.remove_prefix(names.back().size());
+  }
+}
+
+std::size_t find_name(const Names& names, std::string_view wanted) {
+  const auto found =
+      std::find_if(names.begin(), names.end(), [&](auto n) { return equals_ignoring_case(n, wanted); });
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+// Number of the wanted columns, in their order, that have a name.
+std::size_t count_named(const Names& names) {
+  const auto has_name = [&](std::string_view wanted) { return find_name(names, wanted) < names.size(); };
+  return static_cast<std::size_t>(std::find_if_not(wanted_names.begin(), wanted_names.end(), has_name) -
+                                  wanted_names.begin());
+}
+
+std::size_t count_fields(std::string_view line, char separator) {
+  Fields fields(line, separator);
+  std::size_t count = 0;
+  while (fields.next()) ++count;
+  return count;
+}
+
+// "1,5 2,5": commas that cannot all be separators. In "1, 2,5" only whole numbers raise the suspicion.
+bool has_decimal_commas(std::string_view line) {
+  std::size_t commas = 0, spaced_commas = 0;
+  Fields fields(line, ',');
+  while (const auto field = fields.next()) {
+    if (std::any_of(field->begin(), field->end(), is_blank)) return true;
+  }
+  for (std::size_t i = line.find(','); i < line.size(); i = line.find(',', i + 1)) {
+    ++commas;
+    if (i + 1 < line.size() && is_blank(line[i + 1])) ++spaced_commas;
+  }
+  return spaced_commas > 0 && spaced_commas < commas && line.find('.') == std::string_view::npos;
+}
+
+// What stands before the first line of data.
+class Preamble {
+ public:
+  Preamble(const Source& source, XyzLayout& layout)
+      : source_(source), layout_(layout), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+
+  // Returns the first line of data.
+  Result<std::string_view> read() {
+    layout_.data_offset = lines_.offset();
+    while (const auto raw = lines_.next()) {
+      const std::string_view line = trim(*raw);
+      if (is_comment(line)) commented_names_ = split_names(line);
+      const auto is_data = take(without_comment(line));
+      if (!is_data) return std::unexpected(is_data.error());
+      if (*is_data) return without_comment(line);
+      layout_.data_offset = lines_.offset();
+    }
+    return source_.error_in_line(lines_.number() + 1,
+                                 "expected a line of numbers, found the end of the file");
+  }
+
+  std::size_t line() const { return lines_.number(); }
+
+  // Names that stand for themselves must fit; a comment counts only if it happens to.
+  Result<void> name_columns() {
+    if (names_.empty() && commented_names_.size() == layout_.columns && count_named(commented_names_) >= 3) {
+      names_ = commented_names_;
+    }
+    if (!names_.empty() && names_.size() != layout_.columns) {
+      return source_.error_in_line(line(), "expected " + std::to_string(names_.size()) +
+                                               " columns as named in line " + std::to_string(names_line_) +
+                                               ", found " + std::to_string(layout_.columns));
+    }
+    return {};
+  }
+
+  const Names& names() const { return names_; }
+
+ private:
+  Result<bool> take(std::string_view line) {
+    const Names words = split_names(line);
+    if (line.empty()) return false;
+    if (words.size() == 1 && !layout_.promised_points && parse_integer(words[0]).value_or(-1) >= 0) {
+      layout_.promised_points = parse_integer(words[0]);
+      layout_.promising_line = lines_.number();
+      return false;
+    }
+    if (!words.empty() && parse_number(words[0])) return true;
+    if (!names_.empty() || count_named(words) < 3) {
+      return source_.error_in_line(
+          lines_.number(), "expected numbers, or names of columns with x, y and z, found " + quoted(line));
+    }
+    names_ = words;
+    names_line_ = lines_.number();
+    return false;
+  }
+
+  const Source& source_;
+  XyzLayout& layout_;
+  Lines lines_;
+  Names names_, commented_names_;
+  std::size_t names_line_ = 0;
+};
+
+Result<char> find_separator(const Source& source, std::string_view line, std::size_t number) {
+  if (line.find(';') != std::string_view::npos) return ';';
+  if (line.find(',') == std::string_view::npos) return ' ';
+  if (!has_decimal_commas(line)) return ',';
+  return source.error_in_line(
+      number, "expected numbers with a decimal point, separated in one way, found " + quoted(line));
+}
+
+// Rows from all over the file, as numbers; those with words are left out.
+std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout) {
+  const std::size_t most = 256;
+  std::vector<std::vector<double>> rows;
+  for (std::size_t i = 0; i < most; ++i) {
+    Lines lines(data, data.size() * i / most);
+    if (i > 0) lines.next();  // the rest of a line
+    std::vector<double> row;
+    Fields fields(without_comment(lines.next().value_or("")), layout.separator);
+    while (const auto field = fields.next()) row.push_back(parse_number(*field).value_or(0));
+    if (row.size() == layout.columns) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// True if nearly all rows have a unit vector in three columns. Two decimals leave the length uncertain by
+// 0.01.
+bool are_unit_vectors(const std::vector<std::vector<double>>& rows, std::size_t column) {
+  const auto is_unit = [&](const std::vector<double>& row) {
+    return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;
+  };
+  const auto units = std::count_if(rows.begin(), rows.end(), is_unit);
+  return units > 0 && static_cast<double>(units) >= 0.9 * static_cast<double>(rows.size());
+}
+
+void find_normals(const Source& source, XyzLayout& layout) {
+  if (layout.columns < XyzLayout::most_wanted) return;
+  const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
+  for (std::size_t column = 3; column + 3 <= layout.columns && !layout.has_normals; ++column) {
+    layout.has_normals = are_unit_vectors(rows, column);
+    for (std::size_t i = 0; i < 3; ++i) layout.wanted[3 + i] = column + i;
+  }
+}
+
+}  // namespace
+
+std::optional<std::string_view> Fields::next() {
+  if (separator_ == ' ') {
+    const std::string_view word = words_.next();
+    return word.empty() ? std::nullopt : std::optional(word);
+  }
+  if (trim(line_).empty()) return std::nullopt;
+  const std::size_t end = std::min(line_.find(separator_), line_.size());
+  const std::string_view field = trim(line_.substr(0, end));
+  line_.remove_prefix(std::min(end + 1, line_.size()));
+  return field;
+}
+
+std::string_view without_comment(std::string_view line) {
+  for (const char mark : {'#', '/'}) {
+    for (std::size_t i = line.find(mark); i < line.size(); i = line.find(mark, i + 1)) {
+      const bool begins_word = i == 0 || is_blank(line[i - 1]);  // it does not in 1.#QNAN
+      if (begins_word && is_comment(line.substr(i))) line = line.substr(0, i);
+    }
+  }
+  return trim(line);
+}
+
+Result<XyzLayout> find_layout(const Source& source) {
+  XyzLayout layout;
+  Preamble preamble(source, layout);
+  const auto line = preamble.read();
+  if (!line) return std::unexpected(line.error());
+  layout.first_line = preamble.line();
+  const auto separator = find_separator(source, *line, layout.first_line);
+  if (!separator) return std::unexpected(separator.error());
+  layout.separator = *separator;
+  layout.columns = count_fields(*line, layout.separator);
+  if (layout.columns < 3) {
+    return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + quoted(*line));
+  }
+  if (const auto named = preamble.name_columns(); !named) return std::unexpected(named.error());
+  if (preamble.names().empty()) {
+    find_normals(source, layout);
+  } else {
+    layout.has_normals = count_named(preamble.names()) == XyzLayout::most_wanted;
+    std::transform(wanted_names.begin(), wanted_names.end(), layout.wanted.begin(),
+                   [&](std::string_view name) { return find_name(preamble.names(), name); });
+  }
+  return layout;
+}
+
+}  // namespace relievo::io
