@@ -1,6 +1,12 @@
 #include "sample_field.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <vector>
 
 #include "relievo/parallel.h"
 
@@ -34,20 +40,22 @@ class Random {
   std::uint64_t state_;
 };
 
-// Cubes of one size that together hold the surface.
+// Cubes of one size that together hold the surface, and the field at their centres.
 struct Cells {
   std::vector<Vec3> centres;
+  std::vector<double> values;
   double side = 0;
 };
 
-std::vector<Vec3> near_surface(const Solid& solid, const std::vector<Vec3>& centres, double side) {
+Cells near_surface(const Solid& solid, const std::vector<Vec3>& centres, double side) {
   const double reach = side * std::numbers::sqrt3 / 2;
-  std::vector<char> is_near(centres.size());
-  parallel_for(centres.size(),
-               [&](std::size_t i) { is_near[i] = std::abs(solid.value(centres[i])) <= reach; });
-  std::vector<Vec3> kept;
+  std::vector<double> values(centres.size());
+  parallel_for(centres.size(), [&](std::size_t i) { values[i] = solid.value(centres[i]); });
+  Cells kept{{}, {}, side};
   for (std::size_t i = 0; i < centres.size(); ++i) {
-    if (is_near[i]) kept.push_back(centres[i]);
+    if (std::abs(values[i]) > reach) continue;
+    kept.centres.push_back(centres[i]);
+    kept.values.push_back(values[i]);
   }
   return kept;
 }
@@ -66,10 +74,9 @@ std::vector<Vec3> split(const std::vector<Vec3>& centres, double side) {
 
 Cells cover(const Solid& solid) {
   const int levels = 8;  // 256 cells along the box: finer than any two sheets that must not be taken for one
-  Cells cells{{solid.box.centre()}, solid.box.size().maxCoeff()};
+  Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
   for (int level = 0; level < levels; ++level) {
-    cells.centres = near_surface(solid, split(cells.centres, cells.side), cells.side / 2);
-    cells.side /= 2;
+    cells = near_surface(solid, split(cells.centres, cells.side), cells.side / 2);
   }
   return cells;
 }
@@ -89,99 +96,132 @@ struct Bracket {
   bool holds_root() const { return (f0 < 0) != (f1 < 0); }
 };
 
+struct Root {
+  double t, f;  // where, and what is left of the field there
+};
+
 // Regula falsi with the Illinois rule.
-double find_root(const Solid& solid, const Line& line, Bracket b) {
+Root find_root(const Solid& solid, const Line& line, Bracket b) {
   const double tolerance = 1e-5 * (b.t1 - b.t0);
   const int most = 40;
   int last_side = 0;
-  double t = b.t0;
+  Root root{b.t0, b.f0};
   for (int i = 0; i < most; ++i) {
-    t = (b.t0 * b.f1 - b.t1 * b.f0) / (b.f1 - b.f0);
-    const double f = solid.value(line.at(t));
-    if (std::abs(f) < tolerance) break;
-    const bool is_left = (f < 0) == (b.f0 < 0);
-    (is_left ? b.t0 : b.t1) = t;
-    (is_left ? b.f0 : b.f1) = f;
+    root.t = (b.t0 * b.f1 - b.t1 * b.f0) / (b.f1 - b.f0);
+    root.f = solid.value(line.at(root.t));
+    if (std::abs(root.f) < tolerance) break;
+    const bool is_left = (root.f < 0) == (b.f0 < 0);
+    (is_left ? b.t0 : b.t1) = root.t;
+    (is_left ? b.f0 : b.f1) = root.f;
     const int side = is_left ? -1 : 1;
     if (side == last_side) (is_left ? b.f1 : b.f0) /= 2;
     last_side = side;
   }
-  return t;
+  return root;
 }
 
-struct Block {
-  std::vector<Vec3> points, normals;
-  std::uint64_t lines = 0;
-};
-
-// Lines parallel to the three axes, of equal density, pierce the surface |nx| + |ny| + |nz| times as often as
-// its area alone would have it; keeping a hit with the inverse of that makes the density exactly uniform.
-void keep_hit(const Solid& solid, const Vec3& p, Random& random, Block& block) {
-  const Vec3 n = outward_normal(solid, p);
-  if (random.uniform() * n.lpNorm<1>() > 1) return;
-  block.points.push_back(p);
-  block.normals.push_back(n);
-}
-
-void shoot_line(const Solid& solid, const Cells& cells, Random& random, Block& block) {
-  const double half = cells.side / 2;
-  const double pick = random.uniform() * static_cast<double>(cells.centres.size());
-  Line line{cells.centres[static_cast<std::size_t>(pick)], static_cast<int>(random.uniform() * 3)};
-  line.origin[(line.axis + 1) % 3] += cells.side * (random.uniform() - 0.5);
-  line.origin[(line.axis + 2) % 3] += cells.side * (random.uniform() - 0.5);
-  ++block.lines;
-  const double middle = solid.value(line.origin);
-  if (std::abs(middle) > half) return;
-  const Bracket low{-half, solid.value(line.at(-half)), 0, middle};
-  const Bracket high{0, middle, half, solid.value(line.at(half))};
-  for (const Bracket& b : {low, high}) {
-    if (b.holds_root()) keep_hit(solid, line.at(find_root(solid, line, b)), random, block);
-  }
-}
-
-// Moves a point along its normal, and tilts the normal as fitting a plane to such points would.
-void add_noise(const Scatter& how, double spacing, Random& random, Vec3& p, Vec3& n) {
-  const double tilt = 0.2 * how.noise;  // radians per axis: a plane through some 30 neighbours
-  const Vec3 helper = std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 u = n.cross(helper).normalized(), v = n.cross(u);
-  p += how.noise * spacing * random.gaussian() * n;
-  const double a = random.gaussian(), b = random.gaussian();
-  n = (n + tilt * (a * u + b * v)).normalized();
-}
-
-}  // namespace
-
-Vec3 outward_normal(const Solid& solid, const Vec3& p) {
+Vec3 unit_gradient(const Solid& solid, const Vec3& p, double here) {
   const double step = 1e-6;
-  const double here = solid.value(p);
   Vec3 gradient;
   for (int axis = 0; axis < 3; ++axis) gradient[axis] = solid.value(p + step * Vec3::Unit(axis)) - here;
   return gradient.normalized();
 }
 
+// The part of the cloud that one stream of random numbers fills.
+struct Block {
+  std::span<Vec3> points;
+  std::span<Vec3f> normals;
+  std::size_t filled = 0;
+  std::uint64_t lines = 0;  // shot to fill it
+
+  bool is_full() const { return filled == points.size(); }
+  void add(const Vec3& p, const Vec3& n) {
+    if (is_full()) return;
+    points[filled] = p;
+    normals[filled++] = n.cast<float>();
+  }
+};
+
+// Lines parallel to the three axes, of equal density, pierce the surface |nx| + |ny| + |nz| times as often as
+// its area alone would have it; keeping a hit with the inverse of that makes the density exactly uniform.
+void keep_hit(const Solid& solid, const Vec3& p, double value, Random& random, Block& block) {
+  const Vec3 n = unit_gradient(solid, p, value);
+  if (random.uniform() * n.lpNorm<1>() <= 1) block.add(p, n);
+}
+
+// A line through a cell, from its middle, at random among the three axes and over the cell's cross-section.
+struct Shot {
+  Line line;
+  double at_least = 0;  // what the field's magnitude must be in the line's middle
+};
+
+Shot aim(const Cells& cells, Random& random) {
+  const auto cell = static_cast<std::size_t>(random.uniform() * static_cast<double>(cells.centres.size()));
+  Line line{cells.centres[cell], static_cast<int>(random.uniform() * 3)};
+  const double u = cells.side * (random.uniform() - 0.5), v = cells.side * (random.uniform() - 0.5);
+  line.origin[(line.axis + 1) % 3] += u;
+  line.origin[(line.axis + 2) % 3] += v;
+  return {line, std::abs(cells.values[cell]) - std::hypot(u, v)};
+}
+
+void shoot(const Solid& solid, const Cells& cells, Random& random, Block& block) {
+  const double half = cells.side / 2;
+  const auto [line, at_least] = aim(cells, random);
+  ++block.lines;
+  if (at_least > half) return;
+  const double middle = solid.value(line.origin);
+  if (std::abs(middle) > half) return;
+  const Bracket low{-half, solid.value(line.at(-half)), 0, middle};
+  const Bracket high{0, middle, half, solid.value(line.at(half))};
+  for (const Bracket& b : {low, high}) {
+    if (!b.holds_root()) continue;
+    const Root root = find_root(solid, line, b);
+    keep_hit(solid, line.at(root.t), root.f, random, block);
+  }
+}
+
+// Fills the cloud and returns the sampling distance.
+double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& cloud) {
+  const auto shots = [&](std::size_t begin, std::size_t end) {
+    Block block{std::span(cloud.points).subspan(begin, end - begin),
+                std::span(cloud.normals).subspan(begin, end - begin)};
+    Random random(seed, begin / default_grain);
+    while (!block.is_full()) shoot(solid, cells, random, block);
+    return block.lines;
+  };
+  const std::uint64_t lines = parallel_reduce(cloud.size(), std::uint64_t{0}, shots, std::plus<>());
+  // The lines share three times the cross-section of all cells, and leave one point for each share of the
+  // area.
+  const double share =
+      3 * cells.side * cells.side * static_cast<double>(cells.centres.size()) / static_cast<double>(lines);
+  return std::sqrt(share);
+}
+
+// Moves a point along its normal, and tilts the normal as fitting a plane to such points would.
+void disturb(double noise, double spacing, Random& random, Vec3& p, Vec3f& normal) {
+  const double tilt = 0.2 * noise;  // radians per axis: a plane through some 30 neighbours
+  const Vec3 n = normal.cast<double>();
+  const Vec3 helper = std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 u = n.cross(helper).normalized(), v = n.cross(u);
+  const double along = random.gaussian(), a = random.gaussian(), b = random.gaussian();
+  p += noise * spacing * along * n;
+  normal = (n + tilt * (a * u + b * v)).normalized().cast<float>();
+}
+
+}  // namespace
+
+Vec3 outward_normal(const Solid& solid, const Vec3& p) {
+  return unit_gradient(solid, p, solid.value(p));
+}
+
 Cloud scatter(const Solid& solid, const Scatter& how) {
-  const Cells cells = cover(solid);
-  const std::size_t grain = default_grain;
-  std::vector<Block> blocks((how.points + grain - 1) / grain);
-  parallel_ranges(how.points, grain, [&](std::size_t begin, std::size_t end) {
-    Block& block = blocks[begin / grain];
-    Random random(how.seed, begin / grain);
-    while (block.points.size() < end - begin) shoot_line(solid, cells, random, block);
-    block.points.resize(end - begin);
-    block.normals.resize(end - begin);
-  });
-  double lines = 0;
-  for (const Block& block : blocks) lines += static_cast<double>(block.lines);
-  // Per axis a line stands for three times the cells' cross-section shared among all lines; so does a point.
-  const double spacing = cells.side * std::sqrt(3 * static_cast<double>(cells.centres.size()) / lines);
   Cloud cloud{std::vector<Vec3>(how.points), std::vector<Vec3f>(how.points)};
-  parallel_ranges(how.points, grain, [&](std::size_t begin, std::size_t end) {
-    Block& block = blocks[begin / grain];
-    Random random(~how.seed, begin / grain);
+  const double spacing = fill(solid, cover(solid), how.seed, cloud);
+  if (how.noise == 0) return cloud;
+  parallel_ranges(how.points, default_grain, [&](std::size_t begin, std::size_t end) {
+    Random random(~how.seed, begin / default_grain);
     for (std::size_t i = begin; i < end; ++i) {
-      if (how.noise > 0) add_noise(how, spacing, random, block.points[i - begin], block.normals[i - begin]);
-      cloud.points[i] = block.points[i - begin];
-      cloud.normals[i] = block.normals[i - begin].cast<float>();
+      disturb(how.noise, spacing, random, cloud.points[i], cloud.normals[i]);
     }
   });
   return cloud;

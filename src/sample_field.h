@@ -1,10 +1,8 @@
 // Solids as scalar fields, and clouds scattered over their surfaces. Private to the samples.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <numbers>
 
 #include "relievo/cloud.h"
 #include "relievo/types.h"

@@ -55,20 +55,24 @@ double eye(const Vec3& p) {
   return std::min(d, lid);
 }
 
-bool is_near(const Vec3& p, const Vec3& centre, double reach) {
-  return (p - centre).squaredNorm() < square(reach);
-}
+struct Ball {
+  Vec3 centre;
+  double radius;
+  // Whether what the ball holds can matter where the field is `d`.
+  bool matters(const Vec3& p, double d, double fillet) const {
+    return (p - centre).norm() - radius < std::abs(d) + fillet;
+  }
+};
 
 double face(const Vec3& p) {
+  static const Ball nose_ball{{0.03, -0.02, 0.52}, 0.27}, mouth_ball{{0.07, -0.34, 0.46}, 0.16},
+      eye_ball{{0.178, 0.065, 0.325}, 0.12};
   double d = blend_min(skull(p), brow(p), 0.10);
   const double socket = ellipsoid(p - Vec3(0.178, 0.075, 0.47), Vec3(0.125, 0.085, 0.115));
   d = blend_max(d, -socket, 0.07);
-  d = blend_min(d, nose(p), 0.075);
-  if (is_near(p, {0.05, -0.34, 0.46}, 0.3)) {
-    d = blend_min(d, mouth(p), 0.018);
-    d = blend_max(d, -mouth_line(p), 0.012);
-  }
-  if (is_near(p, {0.178, 0.065, 0.325}, 0.2)) d = blend_min(d, eye(p), 0.012);
+  if (nose_ball.matters(p, d, 0.075)) d = blend_min(d, nose(p), 0.075);
+  if (mouth_ball.matters(p, d, 0.018)) d = blend_max(blend_min(d, mouth(p), 0.018), -mouth_line(p), 0.012);
+  if (eye_ball.matters(p, d, 0.012)) d = blend_min(d, eye(p), 0.012);
   return d;
 }
 
@@ -140,7 +144,7 @@ double value(const Vec3& point) {
 }  // namespace
 
 Solid green_man() {
-  return {value, {Vec3(-1.2, -1.2, -0.2), Vec3(1.2, 1.2, 0.8)}};
+  return {value, {Vec3(-1.02, -1.14, -0.17), Vec3(1.02, 1.14, 0.68)}};
 }
 
 }  // namespace relievo::field

@@ -59,7 +59,7 @@ Leaf placed(Leaf shape, const LeafPose& pose) {
 }
 
 double leaf_value(const Leaf& leaf, const Vec3& p, double nearest) {
-  if ((p - leaf.middle).norm() - leaf.reach > nearest) return nearest;
+  if ((p - leaf.middle).squaredNorm() > square(std::max(0.0, leaf.reach + nearest))) return nearest;
   const Vec3 q = leaf.frame * (p - leaf.root);
   const double v = std::abs(q.y());
   const double beyond = std::max({-q.x(), q.x() - leaf.length, v - leaf.half_width});
@@ -69,7 +69,7 @@ double leaf_value(const Leaf& leaf, const Vec3& p, double nearest) {
   if (side > nearest) return nearest;
   const double droop = 0.22 * leaf.half_width * square(at.across);
   const double blade = leaf.length * at.along * (leaf.rise + leaf.curl * at.along) - droop;
-  const double above = 0.6 * (q.z() - blade - carving(leaf, at)),
+  const double above = 0.68 * (q.z() - blade - carving(leaf, at)),
                below = 0.6 * (blade - leaf.thickness - q.z());
   return std::min(nearest, blend_max(blend_max(std::max(above, below), side, 0.015), beyond, 0.01));
 }

@@ -20,16 +20,31 @@ double rib_phase(const Whorl& w) {
   return ribs_per_turn * w.angle + sickle;
 }
 
-double ornament(const Whorl& w, double phase) {
-  const double crest = 0.5 + 0.5 * std::cos(phase);
-  const double fork = 0.5 - 0.5 * std::cos(2 * phase);
-  const double inner = ramp(0.40, 0.60, w.side) * ramp(1.0, 0.80, w.side);
-  const double outer = ramp(0.58, 0.38, w.side) * ramp(0.03, 0.12, w.side);
-  const double knob = bump(w.side - 0.54, 0.055) * square(square(crest));
-  const double keel = bump(w.side, 0.055) * (0.8 + 0.2 * std::cos(4 * phase));
-  const double striae = ramp(0.04, 0.25, w.scale) * std::cos(9 * phase);
-  return 0.036 * inner * crest * std::sqrt(crest) + 0.026 * outer * fork + 0.040 * knob + 0.04 * keel +
-         0.0011 * striae;
+// cos and sin of a phase, from which those of its multiples follow without calling them again.
+struct Wave {
+  double c, s;
+  Wave doubled() const { return {c * c - s * s, 2 * c * s}; }
+  Wave plus(const Wave& o) const { return {c * o.c - s * o.s, s * o.c + c * o.s}; }
+};
+
+struct Ornament {
+  double height;
+  double slope;  // of the height, per radian of phase
+};
+
+// Ribs on the inner flank that fork on the outer one, a knob at each fork, a roped keel, striae between.
+Ornament ornament(const Whorl& w, double phase) {
+  const Wave rib{std::cos(phase), std::sin(phase)};
+  const Wave two = rib.doubled(), four = two.doubled(), nine = four.doubled().plus(rib);
+  const double crest = 0.5 + 0.5 * rib.c, crest_slope = -0.5 * rib.s;
+  const double inner = 0.036 * ramp(0.40, 0.60, w.side) * ramp(1.0, 0.80, w.side) * std::sqrt(crest);
+  const double outer = 0.026 * ramp(0.58, 0.38, w.side) * ramp(0.03, 0.12, w.side);
+  const double knob = 0.040 * bump(w.side - 0.54, 0.055) * crest * crest * crest;
+  const double keel = 0.040 * bump(w.side, 0.055);
+  const double striae = 0.0011 * ramp(0.04, 0.25, w.scale);
+  return {
+      (inner + knob) * crest + outer * (0.5 - 0.5 * two.c) + keel * (0.8 + 0.2 * four.c) + striae * nine.c,
+      (1.5 * inner + 4 * knob) * crest_slope + outer * two.s - 0.8 * keel * four.s - 9 * striae * nine.s};
 }
 
 double section(double u, double v) {
@@ -46,8 +61,10 @@ double whorl(double radius, double z, const Whorl& at, double nearest) {
   const double phase = rib_phase(w);
   const double lip = 0.03 * ramp(-0.16, -0.02, w.angle);
   const double hollow = std::max(smooth + 0.045, (-1.0 - w.angle) * 0.7);
-  const double d = blend_max(smooth - ornament(w, phase) - lip, -hollow, 0.02);
-  return std::max(w.scale * d, phase / ribs_per_turn * radius);
+  const Ornament raised = ornament(w, phase);
+  const double slope = raised.slope * ribs_per_turn * w.scale / radius;
+  const double carved = (smooth - raised.height - lip) / std::sqrt(1.2 + square(slope));
+  return std::max(w.scale * blend_max(carved, -hollow, 0.02), 0.8 * phase / ribs_per_turn * radius);
 }
 
 }  // namespace
@@ -72,8 +89,8 @@ double ammonite(const Vec3& p) {
 }
 
 Solid shell() {
-  const auto value = [](const Vec3& p) { return 0.6 * ammonite(turned(turned(p, 0, -0.30), 2, -0.35)); };
-  return {value, {Vec3(-1.1, -1.1, -0.7), Vec3(1.1, 1.1, 0.7)}};
+  const auto value = [](const Vec3& p) { return 0.75 * ammonite(turned(turned(p, 0, -0.30), 2, -0.35)); };
+  return {value, {Vec3(-0.75, -0.84, -0.42), Vec3(1.04, 0.62, 0.40)}};
 }
 
 }  // namespace relievo::field

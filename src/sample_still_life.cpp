@@ -35,7 +35,7 @@ double belly_ornament(double about, double y) {
   const double lower = ramp(-0.02, -0.07, y) * ramp(-0.36, -0.30, y);
   const double upper = ramp(0.17, 0.19, y) * ramp(0.335, 0.27, y - 0.02 * tongue);
   const double fillets = bump(y - 0.005, 0.011) + bump(y - 0.145, 0.011);
-  return 0.030 * lower * std::sqrt(gadroon + 0.01) + 0.018 * upper * tongue + 0.012 * fillets +
+  return 0.028 * lower * gadroon * (2 - gadroon) + 0.018 * upper * tongue + 0.012 * fillets +
          guilloche(about, y - 0.075);
 }
 
@@ -81,22 +81,39 @@ double rope_ring(const Vec3& p) {
   return std::hypot(cu, cv) - 0.036 - yarn;
 }
 
-// A cone of scales on two families of spirals, 5 one way and 8 the other, along Y.
+struct Height {
+  double value = 0, slope = 0;
+};
+
+// Overlapping scales, one at each whole pair of numbers; each rises towards its free, upper edge.
+Height scales(double a, double b) {
+  Height highest;
+  for (int i = -1; i <= 1; ++i) {
+    for (int j = -1; j <= 1; ++j) {
+      const double da = a - std::round(a) - i, db = b - std::round(b) - j;
+      const double up = (da - db) / 2, across = (da + db) / 2;
+      const double out = std::sqrt(square(up) + 1.1 * square(across));
+      const double to_rim = clamp01((0.64 - out) / 0.14);
+      if (to_rim == 0) continue;
+      const double top = 0.45 + 0.7 * up + 0.12 * bump(across, 0.16) * ramp(-0.4, 0.4, up);
+      const double height = top * to_rim * to_rim * (3 - 2 * to_rim);
+      if (height > highest.value) highest = {height, top * 6 * to_rim * (1 - to_rim) / 0.14};
+    }
+  }
+  return highest;
+}
+
+// A pine cone along Y: scales on two families of spirals, 5 one way and 8 the other.
 double pine_cone(const Vec3& p) {
-  const double half = 0.31;
+  const double half = 0.32, scale_size = 0.09;
   const double about = std::atan2(p.x(), p.z()) / (2 * pi);
   const double h = std::clamp(p.y() / half, -1.0, 1.0);
-  const double taper = 0.165 * (1 - 0.22 * h);
+  const double taper = 0.165 * (1 - 0.25 * h);
   const double body = ellipsoid(p, Vec3(taper, half, taper));
-  const double rise = 3.4 * h + 0.8 * h * h * h;
-  const double a = 8 * about + rise, b = 13 * about - 1.25 * rise;
-  const double fa = a - std::round(a), fb = b - std::round(b);
-  const double groove = 1 - 2 * std::max(std::abs(fa), std::abs(fb));
-  const double upper_edge = fa - fb;
-  const double scale = std::sqrt(groove + 0.02) * (1 + 0.35 * upper_edge);
-  const double umbo = bump(std::hypot(fa - 0.07, fb + 0.07), 0.11);
-  const double fade = ramp(1.0, 0.75, std::abs(h));
-  return body - fade * (0.030 * scale + 0.012 * umbo);
+  const double rise = 3.6 * h + 0.6 * h * h * h;
+  const double depth = 0.052 * ramp(1.0, 0.7, std::abs(h));
+  const Height carved = scales(5 * about + rise, 8 * about - 1.1 * rise);
+  return (body - depth * carved.value) / std::sqrt(1.6 + square(depth / scale_size * carved.slope));
 }
 
 // A dodecahedron, a line engraved along its edges.
@@ -139,14 +156,15 @@ double value(const Vec3& p) {
     const Vec3 q = p - centre;
     if (q.norm() - reach < d) d = std::min(d, solid(q));
   };
-  add({-0.08, -0.09, -0.10}, 0.95, [](const Vec3& q) { return std::min(urn(q), handle(q)) / 1.3; });
+  add({-0.08, -0.09, -0.10}, 0.95, [](const Vec3& q) { return 0.5 * std::min(urn(q), handle(q)); });
   add({-0.60, -0.345, 0.22}, 0.50,
-      [](const Vec3& q) { return 0.42 * 0.7 * ammonite(turned(turned(q, 0, 0.20), 2, 2.1) / 0.42); });
+      [](const Vec3& q) { return 0.42 * 0.75 * ammonite(turned(turned(q, 0, 0.20), 2, 2.1) / 0.42); });
   add({0.50, -0.36, 0.02}, 0.40,
       [](const Vec3& q) { return 0.7 * rope_ring(turned(turned(q, 0, 0.25), 1, 0.3)); });
-  add({0.56, -0.52, 0.30}, 0.40,
-      [](const Vec3& q) { return 0.6 * pine_cone(turned(turned(q, 2, 0.95), 0, -0.2)); });
-  add({0.08, -0.545, 0.32}, 0.20, [](const Vec3& q) { return gem(turned(turned(q, 1, 0.4), 0, 0.5)); });
+  add({0.56, -0.49, 0.27}, 0.40,
+      [](const Vec3& q) { return 0.9 * pine_cone(turned(turned(q, 2, 0.95), 0, -0.2)); });
+  add({0.08, -0.545, 0.32}, 0.20,
+      [](const Vec3& q) { return 0.75 * gem(turned(turned(q, 1, 0.4), 0, 0.5)); });
   for (const Leaf& leaf : leaves) d = leaf_value(leaf, p, d);
   return d;
 }
@@ -154,7 +172,7 @@ double value(const Vec3& p) {
 }  // namespace
 
 Solid still_life() {
-  return {value, {Vec3(-1.15, -1.0, -0.65), Vec3(1.15, 0.8, 0.65)}};
+  return {value, {Vec3(-1.08, -1.00, -0.55), Vec3(1.08, 0.74, 0.55)}};
 }
 
 }  // namespace relievo::field
