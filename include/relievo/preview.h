@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <utility>
-#include <span>
 #include <vector>
 
 #include "relievo/solid.h"
@@ -28,22 +28,26 @@ struct HeightMap {
   double mm_per_grey = 0;   // height of one grey step
 };
 
-// Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel holds the
-// height under its centre. A flat front gives zeros.
+// Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel
+// holds the height under its centre. A flat front gives zeros.
 HeightMap make_height_map(const Solid& solid, int longer_side_px);
 
 struct PreviewOptions {
-  int longer_side_px = 1200;           // of each of the two pictures, front and oblique
-  Vec3 light = Vec3(-1, 1, 1.2);       // towards the light; upper left
+  int longer_side_px = 1200;               // of each of the two pictures, front and oblique
+  Vec3 light = Vec3(-1, 1, 1.2);           // towards the light; upper left
   Vec3f colour = Vec3f(.93F, .91F, .87F);  // of the material, plaster
 };
 
-// Returns the solid as seen from the front and, beside it, obliquely: orthographic, Lambert shading with smooth
-// normals on the front, anti-aliased, on a neutral ground.
+// Returns the solid as seen from the front and, beside it, obliquely: orthographic, Lambert shading with
+// smooth normals on the front, anti-aliased, on a neutral ground.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
-// The image as PNG. `text` becomes the key and value pairs of tEXt chunks. An image without pixels gives no bytes.
+// The image as PNG. `text` becomes the key and value pairs of tEXt chunks: keys of 1 to 79 Latin-1
+// characters. A positive `mm_per_pixel` is stored as the physical size of a pixel (pHYs). An image without
+// pixels, or with a number of pixels that its size does not tell, or a key that PNG forbids, gives no bytes.
 std::vector<std::byte> write_png(const Image8& image);
-std::vector<std::byte> write_png(const Image16& image, std::span<const std::pair<std::string, std::string>> text = {});
+std::vector<std::byte> write_png(const Image16& image,
+                                 std::span<const std::pair<std::string, std::string>> text = {},
+                                 double mm_per_pixel = 0);
 
 }  // namespace relievo
