@@ -42,10 +42,12 @@ struct PreviewOptions {
 // smooth normals on the front, anti-aliased, on a neutral ground.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
-// The image as PNG. `text` becomes the key and value pairs of tEXt chunks. An image without pixels gives no
-// bytes.
+// The image as PNG. `text` becomes the key and value pairs of tEXt chunks: keys of 1 to 79 Latin-1
+// characters. A positive `mm_per_pixel` is stored as the physical size of a pixel (pHYs). An image without
+// pixels, or with a number of pixels that its size does not tell, or a key that PNG forbids, gives no bytes.
 std::vector<std::byte> write_png(const Image8& image);
 std::vector<std::byte> write_png(const Image16& image,
-                                 std::span<const std::pair<std::string, std::string>> text = {});
+                                 std::span<const std::pair<std::string, std::string>> text = {},
+                                 double mm_per_pixel = 0);
 
 }  // namespace relievo

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -23,8 +22,8 @@ struct Front {
 };
 
 struct PlateOptions {
-  double margin_mm = 5;     // flat ground around the front's bounding box, > 0
-  double thickness_mm = 3;  // smallest thickness of the plate anywhere, > 0
+  double margin_mm = 5;     // flat ground around the front's bounding box, >= 0.001
+  double thickness_mm = 3;  // smallest thickness of the plate anywhere, >= 0.001
 };
 
 // A closed triangle mesh, oriented outwards. `front_triangles` first triangles are the front (relief and
@@ -37,20 +36,24 @@ struct Solid {
 
 // Returns the plate: front, flat ground out to a rectangle, walls, bottom. Moved so that its box starts at
 // the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z = thickness_mm. Its z
-// extent is thickness + (highest - lowest point of the front, ground included). Errors: kind option for a
-// margin or thickness that is not positive and finite; kind geometry for an empty front.
+// extent is thickness + (highest - lowest point of the front, ground included). The front's points and
+// triangles come first, in their order; the ground adds no points but the rectangle's corners. Of two points
+// that single precision cannot tell apart the second is lifted or lowered by the smallest step that separates
+// them. Errors: kind option for a margin or thickness that is not finite or below a micrometre; kind geometry
+// for an empty front, or one whose corners are not finite points of it. Time: O(n log n), 0.1 s for 340k
+// points.
 Result<Solid> make_plate(const Front& front, const PlateOptions& options);
 
 // Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with
 // opposite directions, no triangle with two equal corners, no two used points with the same single-precision
-// coordinates, volume positive. A public checker, for tests and bug reports.
+// coordinates, volume positive. A public checker, for tests and bug reports; 0.3 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
 // Enclosed volume in cubic millimetres; negative if the solid is inside out.
 double volume_mm3(const Solid& solid);
 
 // The solid as a file: binary STL; binary little-endian PLY; OBJ. Coordinates are in millimetres, single
-// precision.
+// precision. The solid's corners must exist, as check_solid() tells.
 std::vector<std::byte> write_stl(const Solid& solid);
 std::vector<std::byte> write_ply(const Solid& solid);
 std::vector<std::byte> write_obj(const Solid& solid);

@@ -1,0 +1,24 @@
+// What the writers of meshes share: numbers as little-endian bytes.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <string_view>
+
+namespace relievo::detail {
+
+// Writes the bytes of a number and returns the place behind them.
+template <typename T>
+std::byte* put(std::byte* to, T value) {
+  static_assert(std::endian::native == std::endian::little, "the files are little-endian");
+  std::memcpy(to, &value, sizeof value);
+  return to + sizeof value;
+}
+
+inline std::byte* put_text(std::byte* to, std::string_view text) {
+  std::memcpy(to, text.data(), text.size());
+  return to + text.size();
+}
+
+}  // namespace relievo::detail
