@@ -20,13 +20,14 @@ class Grid {
   }
 
   double facing_share() const {
-    std::size_t occupied = 0, facing = 0;
+    constexpr float edge_on = .1F;  // points seen nearly edge on say nothing
+    std::size_t facing = 0, away = 0;
     for (const Index i : front_) {
       if (i == no_index) continue;
-      ++occupied;
-      facing += cloud_.normals[i].z() > 0;
+      facing += cloud_.normals[i].z() > edge_on;
+      away += cloud_.normals[i].z() < -edge_on;
     }
-    return occupied ? static_cast<double>(facing) / static_cast<double>(occupied) : 0;
+    return facing + away ? static_cast<double>(facing) / static_cast<double>(facing + away) : .5;
   }
 
   double normal_variation() const {

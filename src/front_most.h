@@ -6,7 +6,8 @@
 namespace relievo {
 
 struct FrontMost {
-  double facing_share = 0;      // share of the front-most points whose normal faces the viewer
+  double facing_share =
+      .5;  // of the front-most points not seen edge on, those that face the viewer; .5 of none
   double normal_variation = 0;  // sum of normal differences between neighbouring cells, depth jumps left out
 };
 

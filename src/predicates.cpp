@@ -5,13 +5,15 @@
 namespace relievo::detail {
 namespace {
 
-// Bounds of section 4.4: of the determinant of the rounded differences, of that with a first-order correction,
-// and of the rounding of an estimate.
+// Bounds of section 4.4: of the determinant of the rounded differences, of that with a first-order
+// correction, and of the rounding of an estimate.
 constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
 constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
 constexpr double estimate_bound = (3 + 8 * epsilon) * epsilon;
 
-TwoDoubles difference(double a, double b) { return two_sum(a, -b); }
+TwoDoubles difference(double a, double b) {
+  return two_sum(a, -b);
+}
 
 // A point relative to another: the rounded differences (high) and what rounding took away (low).
 struct Offset {
@@ -55,7 +57,9 @@ double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   return lifted * cofactor_error + lifted_error * cofactor;
 }
 
-int sign_beyond(double value, double bound) { return value > bound ? 1 : -value > bound ? -1 : 0; }
+int sign_beyond(double value, double bound) {
+  return value > bound ? 1 : -value > bound ? -1 : 0;
+}
 
 }  // namespace
 

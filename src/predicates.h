@@ -1,9 +1,9 @@
 // Exact signs of the two determinants a Delaunay triangulation rests on.
 //
-// Each first evaluates in doubles and trusts the sign if the value exceeds a proven bound of its rounding error
-// (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997, section
-// 4); otherwise it decides with expansions. No state, no initialisation: safe from any thread.
-// Exact for coordinates that are 0 or of a magnitude between smallest_coordinate and largest_coordinate, in round
+// Each first evaluates in doubles and trusts the sign if the value exceeds a proven bound of its rounding
+// error (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997,
+// section 4); otherwise it decides with expansions. No state, no initialisation: safe from any thread. Exact
+// for coordinates that are 0 or of a magnitude between smallest_coordinate and largest_coordinate, in round
 // to nearest.
 #pragma once
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -34,7 +36,7 @@ struct DiscCase {
     std::fill_n(boundary.is_boundary.begin(), rim, std::uint8_t{1});
   }
 
-  HeightSystem system() const { return std::move(*HeightSystem::build(points, mesh, boundary)); }
+  HeightSystem system() const { return HeightSystem::build(points, mesh, boundary).value(); }
 };
 
 template <typename F>
@@ -57,7 +59,7 @@ TEST(Heights, OfAParaboloidAreExact) {
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
   const std::vector<double> z = heights_of(system, slopes);
   for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(z[i], 1 - disc.points[i].squaredNorm(), 1e-9);
-  EXPECT_LT(system.residual(slopes, z), 1e-12);
+  EXPECT_LT(system.residual(slopes, z), 1e-11);
 }
 
 TEST(Heights, OfNoSlopesAreZero) {

@@ -1,93 +1,113 @@
-// Fronts of known shape for the tests.
+// Analytic shapes for tests, scattered at random, with a portable generator.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
-#include <functional>
 #include <numbers>
 
-#include "relievo/solid.h"
+#include "relievo/cloud.h"
 
 namespace relievo::test {
 
-// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each cut into two triangles. `z(x, y)` is
-// called for inner points, the rim is at 0.
-struct Grid {
-  double width = 1, height = 1;
-  int cells_x = 1, cells_y = 1;
+// SplitMix64: the same numbers on every platform.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t bits() {
+    std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBU;
+    return z ^ z >> 31;
+  }
+  double uniform(double low = 0, double high = 1) {
+    return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
+  }
+  double gaussian() {
+    return std::sqrt(-2 * std::log(1 - uniform())) * std::cos(2 * std::numbers::pi * uniform());
+  }
+
+ private:
+  std::uint64_t state_;
 };
 
-inline void add_cells(const Grid& grid, Front& front) {
-  const auto at = [&](int i, int j) { return static_cast<Index>(j * (grid.cells_x + 1) + i); };
-  for (int j = 0; j < grid.cells_y; ++j) {
-    for (int i = 0; i < grid.cells_x; ++i) {
-      front.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
-      front.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
-    }
+inline void add(Cloud& cloud, const Vec3& point, const Vec3& normal) {
+  cloud.points.push_back(point);
+  cloud.normals.push_back(normal.normalized().cast<float>());
+}
+
+// Uniform on the sphere of that radius.
+inline Cloud sphere(std::size_t n, double radius, std::uint64_t seed = 1) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi);
+    const double r = std::sqrt(1 - z * z);
+    const Vec3 normal(r * std::cos(angle), r * std::sin(angle), z);
+    add(cloud, radius * normal, normal);
   }
-  for (int i = 0; i < grid.cells_x; ++i) front.hull.push_back(at(i, 0));
-  for (int j = 0; j < grid.cells_y; ++j) front.hull.push_back(at(grid.cells_x, j));
-  for (int i = grid.cells_x; i > 0; --i) front.hull.push_back(at(i, grid.cells_y));
-  for (int j = grid.cells_y; j > 0; --j) front.hull.push_back(at(0, j));
+  return cloud;
 }
 
-inline Front grid_front(const Grid& grid, const std::function<double(double, double)>& z) {
-  Front front;
-  for (int j = 0; j <= grid.cells_y; ++j) {
-    for (int i = 0; i <= grid.cells_x; ++i) {
-      const double x = grid.width * i / grid.cells_x, y = grid.height * j / grid.cells_y;
-      const bool is_rim = i == 0 || j == 0 || i == grid.cells_x || j == grid.cells_y;
-      front.points.emplace_back(x, y, is_rim ? 0 : z(x, y));
-    }
+// Uniform on the lateral surface of a cylinder about the y axis.
+inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t seed = 2) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const Vec3 normal(std::cos(angle), 0, std::sin(angle));
+    add(cloud, radius * normal + random.uniform(-length / 2, length / 2) * Vec3::UnitY(), normal);
   }
-  add_cells(grid, front);
-  return front;
+  return cloud;
 }
 
-inline Front flat_front(const Grid& grid) {
-  return grid_front(grid, [](double, double) { return 0.0; });
-}
-
-// A convex polygon, counter-clockwise, cut into a fan; flat at `ground_mm`, or with an apex over its centre.
-inline Front fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
-  Front front;
-  front.ground_mm = ground_mm;
-  for (Index i = 0; i < polygon.size(); ++i) {
-    front.points.emplace_back(polygon[i].x(), polygon[i].y(), ground_mm);
-    front.hull.push_back(i);
-    if (i >= 2) front.triangles.push_back({0, i - 1, i});
+// Uniform on a torus about the z axis; R to the middle of the tube, r the tube's radius.
+inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double u = random.uniform(0, 2 * std::numbers::pi), v = random.uniform(0, 2 * std::numbers::pi);
+    const double ring = R + r * std::cos(v);
+    if (random.uniform(0, R + r) > ring) continue;
+    const Vec3 normal(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
+    add(cloud, ring * Vec3(std::cos(u), std::sin(u), 0) + r * std::sin(v) * Vec3::UnitZ(), normal);
   }
-  return front;
+  return cloud;
 }
 
-inline Front pyramid_front(const std::vector<Vec2>& polygon, double height) {
-  Front front = fan_front(polygon);
-  front.triangles.clear();
-  Vec2 centre = Vec2::Zero();
-  for (const Vec2& p : polygon) centre += p / static_cast<double>(polygon.size());
-  const auto n = static_cast<Index>(polygon.size());
-  front.points.emplace_back(centre.x(), centre.y(), height);
-  for (Index i = 0; i < n; ++i) front.triangles.push_back({i, (i + 1) % n, n});
-  return front;
-}
-
-// Polygon of an ellipse with `n` corners, all exactly convex for the sizes tests use.
-inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
-  std::vector<Vec2> polygon;
-  for (int i = 0; i < n; ++i) {
-    const double angle = turn + 2 * std::numbers::pi * i / n;
-    polygon.emplace_back(radius_x * std::cos(angle), radius_y * std::sin(angle));
+// z = f(x, y) over the square of that half side; `gradient` is (df/dx, df/dy). Uniform in x and y.
+template <typename F, typename G>
+Cloud height_field(std::size_t n, double half, F f, G gradient, std::uint64_t seed = 4) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double x = random.uniform(-half, half), y = random.uniform(-half, half);
+    const Vec2 g = gradient(x, y);
+    add(cloud, {x, y, f(x, y)}, {-g.x(), -g.y(), 1});
   }
-  return polygon;
+  return cloud;
 }
 
-inline double polygon_area(const std::vector<Vec2>& polygon) {
-  double twice = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
+// A square of that half side parallel to the view plane.
+inline Cloud sheet(std::size_t n, double half, double z, std::uint64_t seed = 5) {
+  return height_field(
+      n, half, [z](double, double) { return z; }, [](double, double) { return Vec2(0, 0); }, seed);
+}
+
+inline Cloud joined(Cloud a, const Cloud& b) {
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
+  return a;
+}
+
+// Moves every point along its normal and turns every normal, by Gaussian noise.
+inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t seed = 6) {
+  Random random(seed);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud.points[i] += sigma * random.gaussian() * cloud.normals[i].cast<double>();
+    const Vec3 tilt(random.gaussian(), random.gaussian(), random.gaussian());
+    cloud.normals[i] = (cloud.normals[i].cast<double>() + normal_sigma * tilt).normalized().cast<float>();
   }
-  return twice / 2;
+  return cloud;
 }
 
 }  // namespace relievo::test

@@ -14,7 +14,7 @@
 #include <span>
 #include <string_view>
 
-#include "shapes.h"
+#include "fronts.h"
 
 namespace relievo {
 namespace {

@@ -2,6 +2,8 @@
 #include "io/mesh_bytes.h"
 #include "relievo/parallel.h"
 #include "relievo/solid.h"
+#include "relievo/text.h"
+#include "relievo/version.h"
 
 namespace relievo {
 namespace {
@@ -9,11 +11,9 @@ namespace {
 constexpr std::size_t vertex_size = 12, face_size = 13;
 
 std::string header(const Solid& solid) {
-  return "ply\nformat binary_little_endian 1.0\ncomment relievo " RELIEVO_VERSION
-         ", unit mm\nelement vertex " +
-         std::to_string(solid.points.size()) +
-         "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-         std::to_string(solid.triangles.size()) + "\nproperty list uchar int vertex_indices\nend_header\n";
+  return cat("ply\nformat binary_little_endian 1.0\ncomment relievo ", version, ", unit mm\nelement vertex ",
+             solid.points.size(), "\nproperty float x\nproperty float y\nproperty float z\nelement face ",
+             solid.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
 }  // namespace

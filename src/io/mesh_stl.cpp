@@ -4,6 +4,8 @@
 #include "io/mesh_bytes.h"
 #include "relievo/parallel.h"
 #include "relievo/solid.h"
+#include "relievo/text.h"
+#include "relievo/version.h"
 
 namespace relievo {
 namespace {
@@ -29,7 +31,7 @@ std::vector<std::byte> write_stl(const Solid& solid) {
   const std::size_t n = solid.triangles.size();
   std::vector<std::byte> bytes(header_size + 4 + n * triangle_size);
   // Must not begin with "solid": readers would take the file for text.
-  detail::put_text(bytes.data(), "relievo " RELIEVO_VERSION " binary STL, unit mm");
+  detail::put_text(bytes.data(), cat("relievo ", version, " binary STL, unit mm"));
   detail::put(bytes.data() + header_size, static_cast<std::uint32_t>(n));
   std::byte* const triangles = bytes.data() + header_size + 4;
   parallel_for(n, [&](std::size_t t) {
