@@ -44,7 +44,7 @@ double mouth_line(const Vec3& p) {
 double eye(const Vec3& p) {
   const Vec3 q = p - Vec3(0.178, 0.065, 0.325);
   const double ball = q.norm() - 0.092;
-  const double iris = std::abs(std::hypot(q.x() + 0.008, q.y() - 0.004) - 0.038) - 0.005;
+  const double iris = std::abs(length(q.x() + 0.008, q.y() - 0.004) - 0.038) - 0.005;
   const double pupil = (q - Vec3(-0.008, 0.006, 0.098)).norm() - 0.019;
   double d = q.z() > 0 ? blend_max(ball, -std::max(iris, -ball - 0.006), 0.006) : ball;
   d = blend_max(d, -pupil, 0.008);

@@ -5,6 +5,10 @@
 namespace relievo::field {
 namespace {
 
+constexpr double drooping = 0.22;         // of the rim below the mid-rib, in half widths
+constexpr double highest_carving = 0.05;  // over the blade
+constexpr double gentle = 0.68;           // the slope of the carving, taken out of the field
+
 // Where a point lies over the blade.
 struct Place {
   double along;   // 0 at the root, 1 at the tip
@@ -17,7 +21,7 @@ struct Place {
 Place locate(const Leaf& leaf, double x, double v) {
   const double s = clamp01(x / leaf.length);
   const double t = clamp01(s - 0.75 * v / leaf.length * (1 - s * s));
-  const double beat = leaf.lobes * t - std::floor(leaf.lobes * t);
+  const double beat = leaf.lobes * t - static_cast<int>(leaf.lobes * t);
   return {s, t, 4 * beat * (1 - beat), beat, v / leaf.half_width};
 }
 
@@ -54,6 +58,11 @@ Leaf placed(Leaf shape, const LeafPose& pose) {
   shape.frame << along.transpose(), across.transpose(), up.transpose();
   shape.middle = pose.root + shape.length * (0.5 * along + (0.5 * shape.rise + 0.35 * shape.curl) * up);
   const double bend = std::abs(shape.rise) + std::abs(shape.curl);
+  const double tip = shape.rise + shape.curl;
+  const double peak =
+      shape.curl < 0 && tip < shape.rise ? -square(shape.rise) / (4 * shape.curl) : std::max(tip, 0.0);
+  shape.highest = shape.length * peak + highest_carving;
+  shape.lowest = shape.length * std::min(tip, 0.0) - drooping * shape.half_width - shape.thickness;
   shape.reach = shape.length * 0.5 * (1 + bend) + shape.half_width + shape.thickness / 2;
   return shape;
 }
@@ -63,13 +72,14 @@ double leaf_value(const Leaf& leaf, const Vec3& p, double nearest) {
   const Vec3 q = leaf.frame * (p - leaf.root);
   const double v = std::abs(q.y());
   const double beyond = std::max({-q.x(), q.x() - leaf.length, v - leaf.half_width});
-  if (beyond > nearest) return nearest;
+  const double off = gentle * std::max(q.z() - leaf.highest, leaf.lowest - q.z());
+  if (std::max(beyond, off) > nearest) return nearest;
   const Place at = locate(leaf, q.x(), v);
   const double side = 0.7 * outline(leaf, at);
   if (side > nearest) return nearest;
-  const double droop = 0.22 * leaf.half_width * square(at.across);
+  const double droop = drooping * leaf.half_width * square(at.across);
   const double blade = leaf.length * at.along * (leaf.rise + leaf.curl * at.along) - droop;
-  const double above = 0.68 * (q.z() - blade - carving(leaf, at)),
+  const double above = gentle * (q.z() - blade - carving(leaf, at)),
                below = 0.6 * (blade - leaf.thickness - q.z());
   return std::min(nearest, blend_max(blend_max(std::max(above, below), side, 0.015), beyond, 0.01));
 }

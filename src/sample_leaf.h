@@ -12,6 +12,8 @@ struct Leaf {
   double thickness = 0.10;
   Vec3 root = Vec3::Zero();
   Mat3 frame = Mat3::Identity();  // rows: along, across, up
+  // Filled by placed(): what holds the leaf, to pass it by at little cost.
+  double lowest = 0, highest = 0;  // along up, from the root
   Vec3 middle = Vec3::Zero();
   double reach = 0;  // of a ball about `middle` that holds the leaf
 };

@@ -23,6 +23,9 @@ double ammonite(const Vec3& p);
 inline double square(double x) {
   return x * x;
 }
+inline double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 inline double clamp01(double x) {
   return std::clamp(x, 0.0, 1.0);
 }

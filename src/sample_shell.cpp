@@ -72,7 +72,7 @@ double whorl(double radius, double z, const Whorl& at, double nearest) {
 double ammonite(const Vec3& p) {
   const double growth = std::log(expansion) / (2 * pi);
   const int innermost = -6;
-  const double radius = std::hypot(p.x(), p.y());
+  const double radius = length(p.x(), p.y());
   const double about = std::atan2(p.y(), p.x());
   const double rim_angle = std::min(0.0, std::log(std::max(radius, 1e-3)) / growth);
   const int turn = static_cast<int>(std::ceil((rim_angle - about) / (2 * pi)));

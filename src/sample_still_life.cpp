@@ -14,10 +14,10 @@ struct Turned {
   }
   double disc(double centre, double radius, double half_height, double round) const {
     const double u = r - radius + round, v = std::abs(y - centre) - half_height + round;
-    return std::hypot(std::max(u, 0.0), std::max(v, 0.0)) + std::min(std::max(u, v), 0.0) - round;
+    return length(std::max(u, 0.0), std::max(v, 0.0)) + std::min(std::max(u, v), 0.0) - round;
   }
   double ring(double centre, double radius, double thickness) const {
-    return std::hypot(r - radius, y - centre) - thickness;
+    return length(r - radius, y - centre) - thickness;
   }
 };
 
@@ -41,7 +41,7 @@ double belly_ornament(double about, double y) {
 
 double urn(const Vec3& p) {
   const double about = std::atan2(p.x(), p.z());
-  const Turned q{std::hypot(p.x(), p.z()), p.y()};
+  const Turned q{length(p.x(), p.z()), p.y()};
   const double body = q.ellipse(0.04, 0.40, 0.385) - belly_ornament(about, q.y);
   const double flare =
       0.135 + 0.55 * square(std::max(0.0, q.y - 0.42)) + 0.25 * square(std::max(0.0, 0.42 - q.y));
@@ -61,24 +61,24 @@ double urn(const Vec3& p) {
 
 double handle(const Vec3& p) {
   const Vec3 q(std::abs(p.x()) - 0.285, p.y() - 0.455, p.z());
-  const double ring = std::hypot(q.x(), q.y());
+  const double ring = length(q.x(), q.y());
   const double about = std::atan2(q.y(), q.x());
   const double cord = 0.006 * std::cos(3 * std::atan2(q.z(), ring - 0.155) + 26 * about);
-  return std::hypot(ring - 0.155, q.z()) - 0.030 - cord;
+  return length(ring - 0.155, q.z()) - 0.030 - cord;
 }
 
 // A ring of three-stranded rope in the XY plane.
 double rope_ring(const Vec3& p) {
-  const double ring = std::hypot(p.x(), p.y());
+  const double ring = length(p.x(), p.y());
   const double about = std::atan2(p.y(), p.x());
   const double u = ring - 0.26, v = p.z();
   const double twist = std::atan2(v, u) + 9 * about;
   const double strand = 2 * pi / 3;
   const double folded = twist - strand * std::round(twist / strand);
-  const double r = std::hypot(u, v);
+  const double r = length(u, v);
   const double cu = r * std::cos(folded) - 0.034, cv = r * std::sin(folded);
-  const double yarn = 0.0022 * std::cos(6 * std::atan2(cv, cu) - 60 * about);
-  return std::hypot(cu, cv) - 0.036 - yarn;
+  const double yarn = 0.0022 * ramp(-0.014, 0.006, cu) * std::cos(6 * std::atan2(cv, cu) - 60 * about);
+  return length(cu, cv) - 0.036 - yarn;
 }
 
 struct Height {

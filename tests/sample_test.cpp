@@ -6,7 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "relievo/parallel.h"
 #include "sample_shapes.h"
@@ -20,8 +23,12 @@ field::Solid solid_of(std::string_view name) {
   return field::green_man();
 }
 
-Cloud exact(std::string_view name, std::size_t points) {
-  return *make_sample(name, {points, 0});
+// The sample without noise; made once.
+const Cloud& exact(std::string_view name) {
+  static std::map<std::string_view, Cloud> made;
+  const auto [it, is_new] = made.try_emplace(name);
+  if (is_new) it->second = *make_sample(name, {100000, 0});
+  return it->second;
 }
 
 // A small random stream, the same everywhere.
@@ -46,7 +53,7 @@ class Sample : public testing::TestWithParam<std::string_view> {
 };
 
 TEST_P(Sample, HasThePointsAskedForAllFiniteWithUnitNormals) {
-  for (const std::size_t n : {1000, 4097, 30000}) {
+  for (const std::size_t n : {1000, 4097}) {
     const Cloud cloud = *make_sample(GetParam(), {n, 0.5});
     ASSERT_EQ(cloud.points.size(), n);
     ASSERT_EQ(cloud.normals.size(), n);
@@ -57,10 +64,10 @@ TEST_P(Sample, HasThePointsAskedForAllFiniteWithUnitNormals) {
 
 TEST_P(Sample, HasTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(1);
-  const Cloud alone = *make_sample(GetParam(), {20000, 0.15});
+  const Cloud alone = *make_sample(GetParam(), {9000, 0.15});
   for (const int threads : {2, 4}) {
     set_thread_count(threads);
-    const Cloud cloud = *make_sample(GetParam(), {20000, 0.15});
+    const Cloud cloud = *make_sample(GetParam(), {9000, 0.15});
     EXPECT_EQ(cloud.points, alone.points);
     EXPECT_EQ(cloud.normals, alone.normals);
   }
@@ -68,7 +75,7 @@ TEST_P(Sample, HasTheSameBitsForAnyNumberOfThreads) {
 
 TEST_P(Sample, LiesOnItsSurfaceWithOutwardNormals) {
   const field::Solid solid = solid_of(GetParam());
-  const Cloud cloud = exact(GetParam(), 20000);
+  const Cloud& cloud = exact(GetParam());
   const double step = 1e-5;
   int off_normals = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -80,69 +87,96 @@ TEST_P(Sample, LiesOnItsSurfaceWithOutwardNormals) {
     }
     if (gradient.normalized().dot(cloud.normals[i].cast<double>()) < 0.9998) ++off_normals;  // 1 degree
   }
-  EXPECT_LT(off_normals, 60) << "only a point on a crease may have another normal";
+  EXPECT_LT(off_normals, 300) << "only a point on a crease may have another normal";
 }
 
 TEST_P(Sample, StaysClearOfItsBox) {
-  const Box box = solid_of(GetParam()).box, used = bounds(exact(GetParam(), 50000));
+  const Box box = solid_of(GetParam()).box, used = bounds(exact(GetParam()));
   EXPECT_GT((used.min - box.min).minCoeff(), 0.005);
   EXPECT_GT((box.max - used.max).minCoeff(), 0.005);
 }
 
 TEST_P(Sample, HasAFieldThatIsAtMostTheDistance) {
   const field::Solid solid = solid_of(GetParam());
-  const Cloud cloud = exact(GetParam(), 20000);
+  const Cloud& cloud = exact(GetParam());
   Dice dice;
   int too_high = 0;
   for (const Vec3& p : cloud.points) {
     const Vec3 q = p + std::pow(10, -3 * dice.uniform()) * (dice.in({-Vec3::Ones(), Vec3::Ones()}));
     if (std::abs(solid.value(q)) > 1.02 * (q - p).norm()) ++too_high;
   }
-  EXPECT_LT(too_high, 100);
+  EXPECT_LT(too_high, 500);
 }
 
-// Parallel rays in steps too small to miss much: the surface they meet, cell by cell of the view plane, must
-// have its share of the points (each point standing for its area, the ray for the projected one).
-TEST_P(Sample, HasThePointsWhereRaysMeetTheSurface) {
-  const field::Solid solid = solid_of(GetParam());
-  const std::size_t side = 5, rays = 10000;
-  const double step = 0.004;
-  const auto cell_of = [&](const Vec3& p) {
-    const Vec3 t = (p - solid.box.min).cwiseQuotient(solid.box.size()) * static_cast<double>(side);
-    return static_cast<std::size_t>(t.y()) * side + static_cast<std::size_t>(t.x());
-  };
-  Dice dice;
-  std::vector<Vec3> starts(rays);
-  for (Vec3& p : starts) p = dice.in(solid.box);
-  std::vector<double> hits(rays, 0);
-  parallel_for(
-      rays,
-      [&](std::size_t i) {
-        Vec3 p = starts[i];
-        bool was_inside = false;
-        for (p.z() = solid.box.min.z(); p.z() < solid.box.max.z(); p.z() += step) {
-          const bool is_inside = solid.value(p) < 0;
-          hits[i] += is_inside != was_inside ? 1 : 0;
-          was_inside = is_inside;
-        }
-      },
-      64);
-  std::vector<double> met(side * side, 0), cast(side * side, 0), stood_for(side * side, 0);
-  for (std::size_t i = 0; i < rays; ++i) met[cell_of(starts[i])] += hits[i];
-  const Cloud cloud = exact(GetParam(), 100000);
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    stood_for[cell_of(cloud.points[i])] += std::abs(static_cast<double>(cloud.normals[i].z()));
+// Cells of the view plane, over the box.
+struct Plane {
+  Box box;
+  int side = 0;
+  std::size_t cells() const { return static_cast<std::size_t>(side * side); }
+  std::size_t cell(const Vec3& p) const {
+    const Vec3 t = (p - box.min).cwiseQuotient(box.size()) * side;
+    return static_cast<std::size_t>(static_cast<int>(t.y()) * side + static_cast<int>(t.x()));
   }
-  double all_met = 0, all_stood = 0;
-  for (std::size_t c = 0; c < met.size(); ++c) all_met += met[c], all_stood += stood_for[c];
-  for (std::size_t c = 0; c < met.size(); ++c) {
-    EXPECT_NEAR(met[c] / all_met, stood_for[c] / all_stood, 0.004) << "cell " << c;
+};
+
+// Times that a ray along Z enters or leaves, by steps too small to miss much.
+int crossings(const field::Solid& solid, Vec3 p) {
+  const double step = 0.002;
+  int count = 0;
+  bool was_inside = false;
+  p.z() = solid.box.min.z();
+  while (p.z() < solid.box.max.z()) {
+    const double value = solid.value(p);
+    count += (value < 0) != was_inside ? 1 : 0;
+    was_inside = value < 0;
+    p.z() += std::max(step, 0.7 * std::abs(value));
+  }
+  return count;
+}
+
+// The share of all crossings that falls into each cell, by brute force.
+std::vector<double> shares_by_rays(const field::Solid& solid, const Plane& plane) {
+  const std::size_t side = 120;
+  std::vector<int> counts(side * side);
+  const auto start = [&](std::size_t i) {
+    const Vec3 t((static_cast<double>(i % side) + 0.5) / side, (static_cast<double>(i / side) + 0.5) / side,
+                 0);
+    return Vec3(solid.box.min + t.cwiseProduct(solid.box.size()));
+  };
+  parallel_for(
+      counts.size(), [&](std::size_t i) { counts[i] = crossings(solid, start(i)); }, side);
+  std::vector<double> shares(plane.cells(), 0);
+  const int all = std::accumulate(counts.begin(), counts.end(), 0);
+  for (std::size_t i = 0; i < counts.size(); ++i) shares[plane.cell(start(i))] += 1.0 * counts[i] / all;
+  return shares;
+}
+
+// The same from a cloud: each point stands for its area, and that for |nz| of it in the view plane.
+std::vector<double> shares_by_points(const Cloud& cloud, const Plane& plane) {
+  std::vector<double> shares(plane.cells(), 0);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    shares[plane.cell(cloud.points[i])] += std::abs(static_cast<double>(cloud.normals[i].z()));
+  }
+  const double all = std::accumulate(shares.begin(), shares.end(), 0.0);
+  for (double& share : shares) share /= all;
+  return shares;
+}
+
+TEST_P(Sample, HasAsManyPointsAsRaysMeetSurface) {
+  const field::Solid solid = solid_of(GetParam());
+  const Plane plane{solid.box, 5};
+  const std::vector<double> rays = shares_by_rays(solid, plane);
+  const Cloud& cloud = exact(GetParam());
+  const std::vector<double> points = shares_by_points(cloud, plane);
+  for (std::size_t c = 0; c < plane.cells(); ++c) {
+    const double chance = 4 * std::sqrt(points[c] / (0.4 * static_cast<double>(cloud.size())));
+    EXPECT_NEAR(rays[c], points[c], 0.03 * points[c] + chance + 0.001) << "cell " << c;
   }
 }
 
 // In a pixel, points that face the viewer at clearly different depths: how many such layers there are.
 std::map<std::pair<int, int>, std::vector<double>> facing_depths(const Cloud& cloud) {
-  const double pixel = 0.03;
+  const double pixel = 0.04;
   std::map<std::pair<int, int>, std::vector<double>> depths;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     if (cloud.normals[i].z() < 0.3) continue;
@@ -156,7 +190,7 @@ std::map<std::pair<int, int>, std::vector<double>> facing_depths(const Cloud& cl
 
 TEST(StillLife, HasObjectsBehindOthers) {
   int hidden = 0, all = 0;
-  for (auto& [at, z] : facing_depths(exact("still_life", 100000))) {
+  for (auto& [at, z] : facing_depths(exact("still_life"))) {
     std::ranges::sort(z);
     int layers = 1;
     for (std::size_t i = 1; i < z.size(); ++i) layers += z[i] - z[i - 1] > 0.15 ? 1 : 0;
@@ -167,7 +201,7 @@ TEST(StillLife, HasObjectsBehindOthers) {
 }
 
 TEST(StillLife, StandsOnItsPlinth) {
-  const Cloud cloud = exact("still_life", 20000);
+  const Cloud& cloud = exact("still_life");
   const Box box = bounds(cloud);
   Box low, high;
   for (const Vec3& p : cloud.points) (p.y() < box.min.y() + 0.2 ? low : high).extend(p);
@@ -176,7 +210,7 @@ TEST(StillLife, StandsOnItsPlinth) {
 }
 
 TEST(GreenMan, LooksAtTheViewer) {
-  const Cloud cloud = exact("green_man", 20000);
+  const Cloud& cloud = exact("green_man");
   const auto by_depth = [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); };
   const Vec3 nose = *std::ranges::max_element(cloud.points, by_depth);
   EXPECT_LT(std::abs(nose.x()), 0.1);
@@ -186,7 +220,7 @@ TEST(GreenMan, LooksAtTheViewer) {
 }
 
 TEST(Shell, ShowsItsCoilToTheViewer) {
-  const Vec3 size = bounds(exact("shell", 20000)).size();
+  const Vec3 size = bounds(exact("shell")).size();
   EXPECT_LT(size.z(), 0.6 * std::min(size.x(), size.y()));
 }
 
