@@ -34,7 +34,7 @@ HeightMap make_height_map(const Solid& solid, int longer_side_px);
 
 struct PreviewOptions {
   int longer_side_px = 1200;               // of each of the two pictures, front and oblique
-  Vec3 light = Vec3(-1, 1, 1.2);           // towards the light; upper left
+  Vec3 light = Vec3(-1, 1, 0.8);           // towards the light; upper left
   Vec3f colour = Vec3f(.93F, .91F, .87F);  // of the material, plaster
 };
 
