@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "front_most.h"
+#include "relievo/normals.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
 
@@ -101,11 +102,14 @@ Cloud in_view(const Cloud& cloud, const View& view) {
 }
 
 std::array<ViewGuess, 6> rank_views(const Cloud& cloud) {
+  Cloud with_normals = cloud;
+  if (!cloud.has_normals()) estimate_normals(with_normals);
   std::array<ViewGuess, 6> guesses;
   for (std::size_t i = 0; i < guesses.size(); ++i) {
     const NamedView& named = named_views()[i];
-    const FrontMost front = front_most(in_view(cloud, *view_towards(named.towards_viewer, named.up)));
-    guesses[i] = {named.name, front.normal_variation};
+    Cloud viewed = in_view(with_normals, *view_towards(named.towards_viewer, named.up));
+    if (!cloud.has_normals()) turn_to_viewer(viewed);  // estimated normals have no sign yet
+    guesses[i] = {named.name, front_most(viewed).normal_variation};
   }
   std::stable_sort(guesses.begin(), guesses.end(),
                    [](const ViewGuess& a, const ViewGuess& b) { return a.score > b.score; });

@@ -127,7 +127,7 @@ TEST_F(Cli, HelpTellsRangesAndDefaults) {
 }
 
 TEST_F(Cli, RefusesMisuse) {
-  expect_refusal("", "subcommand");
+  expect_refusal("", "A subcommand is required");
   expect_refusal("carve", "carve");
   expect_refusal("make", "required");
   expect_refusal("make torus.ply -o t.stl --width -5", "--width");

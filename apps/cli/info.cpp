@@ -21,11 +21,7 @@ std::string normals_text(const Cloud& cloud) {
   return normals_point_inward(cloud) ? "yes, pointing inwards (make turns them)" : "yes, pointing outwards";
 }
 
-std::string views_text(Cloud cloud) {
-  if (!cloud.has_normals()) {
-    // Without signs only the shape can speak: each side is judged as if it faced the viewer.
-    estimate_normals(cloud);
-  }
+std::string views_text(const Cloud& cloud) {
   std::string text;
   for (const ViewGuess& guess : rank_views(cloud)) text += cat(text.empty() ? "" : ", then ", guess.name);
   return text;

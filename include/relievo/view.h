@@ -32,12 +32,14 @@ Result<View> view_from_quaternion(double w, double x, double y, double z);
 // origin.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// Returns the side of the model that shows most relief, out of the six along the axes, and a score for each:
-// the share of the picture's box that is covered times the variation of the normals there. Needs normals.
+// How much relief a side of the model shows: the sum of the differences between the normals of neighbouring
+// places in the picture, depth jumps left out.
 struct ViewGuess {
   std::string_view name;
   double score = 0;
 };
-std::array<ViewGuess, 6> rank_views(const Cloud& cloud);  // best first
+
+// Returns the six sides along the axes, the one that shows most first. Estimates normals if there are none.
+std::array<ViewGuess, 6> rank_views(const Cloud& cloud);
 
 }  // namespace relievo
