@@ -111,6 +111,11 @@ TEST(WritePly, TakesFloatNearTheOriginAndDoubleFarFromIt) {
   EXPECT_STREQ(type_at(1e300), "double");
 }
 
+TEST(WritePly, TakesDoubleForWhatFloatCannotHold) {
+  const std::vector<Vec3> wide = {{-1e300, 0, 0}, {1e300, 0, 0}};
+  EXPECT_EQ(through_ply({wide, {}}).cloud.points, wide);
+}
+
 TEST(WritePly, KeepsGeoReferencedCoordinates) {
   const std::vector<Vec3> far = {{3456789.123456789, 5678901.987654321, 1234.000000001},
                                  {3456790.1, 5678902.2, 1235.3}};

@@ -73,7 +73,7 @@ TEST(Obj, VerticesWithoutNormalsAreDroppedWhileTheyAreFew) {
 }
 
 TEST(Obj, BackslashContinuesALine) {
-  const Cloud cloud = cloud_of("v 1 2 \\\n3\r\nv 4 \\\r\n 5 \\\r\n 6\r\nv 7 8 9\\\n");
+  const Cloud cloud = cloud_of("v 1 2\\\n3\r\nv 4 \\\r\n 5 \\\r\n 6\r\nv 7 8 9\\\n");
   EXPECT_EQ(cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
 }
 

@@ -95,9 +95,7 @@ class ObjReader {
   // Index counted from 0 for one counted from 1, or from -1 backwards.
   std::optional<Index> resolve(std::string_view word, std::size_t defined, Highest& highest) {
     std::int64_t index = parse_integer(word).value_or(0);
-    if (index < 0 && -(index + 1) < static_cast<std::int64_t>(defined)) {
-      index += static_cast<std::int64_t>(defined) + 1;
-    }
+    if (index < 0) index += static_cast<std::int64_t>(defined) + 1;
     if (index <= 0 || index >= no_index) return std::nullopt;
     if (index > highest.index) highest = {index, first_line_};
     return static_cast<Index>(index - 1);
