@@ -28,9 +28,8 @@ struct CloudFile {
 // - PLY: ascii, binary little and big endian; x y z and nx ny nz of any numeric type, in any order, among any
 //   other properties and elements (colours, faces, lists, tristrips), which are skipped. Ascii rows begin in
 //   lines of their own. What follows the vertices is not looked at.
-// - OBJ: v, vn and f. Normals are taken where the vertices have them: by the corners of f (averaged), or one
-// vn
-//   per v.
+// - OBJ: v, vn and f. Normals are those of the corners of f, averaged for each vertex; or one vn for each v,
+//   where no f names any.
 // - XYZ, PTS, text: separators (blank, tab, comma, semicolon) and columns are detected: x y z first; normals
 //   where three columns are unit vectors in nine of ten rows; a first line with the number of points (more
 //   may follow, but not fewer), comments (#, //) and a line of column names, which then decide, are allowed.

@@ -71,7 +71,7 @@ class ObjReader {
       const std::string_view word = words.next();
       const auto number = parse_number(word);
       if (!number)
-        return fail("expected 3 numbers, found " + (word.empty() ? "the end of the line" : quoted(word)));
+        return fail("expected 3 numbers, found " + (word.empty() ? "the end of the line" : in_quotes(word)));
       value = *number;
     }
     to.push_back(vector);
@@ -82,11 +82,11 @@ class ObjReader {
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       const std::size_t slash = std::min(word.find('/'), word.size());
       const auto vertex = resolve(word.substr(0, slash), points_.size(), highest_vertex_);
-      if (!vertex) return fail("expected the number of a vertex, found " + quoted(word));
+      if (!vertex) return fail("expected the number of a vertex, found " + in_quotes(word));
       const std::size_t second = word.find('/', slash + 1);
       if (second == std::string_view::npos) continue;
       const auto normal = resolve(word.substr(second + 1), normals_.size(), highest_normal_);
-      if (!normal) return fail("expected the number of a normal, found " + quoted(word));
+      if (!normal) return fail("expected the number of a normal, found " + in_quotes(word));
       corners_.push_back({*vertex, *normal});
     }
     return {};
@@ -95,9 +95,7 @@ class ObjReader {
   // Index counted from 0 for one counted from 1, or from -1 backwards.
   std::optional<Index> resolve(std::string_view word, std::size_t defined, Highest& highest) {
     std::int64_t index = parse_integer(word).value_or(0);
-    if (index < 0 && -(index + 1) < static_cast<std::int64_t>(defined)) {
-      index += static_cast<std::int64_t>(defined) + 1;
-    }
+    if (index < 0) index += static_cast<std::int64_t>(defined) + 1;
     if (index <= 0 || index >= no_index) return std::nullopt;
     if (index > highest.index) highest = {index, first_line_};
     return static_cast<Index>(index - 1);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/text.h"
+
 namespace relievo::io {
 namespace {
 
@@ -20,7 +22,7 @@ std::string names_of(const PlyElement& element) {
   std::string names;
   for (const PlyProperty& p : element.properties) {
     if (names.size() > 60) return names + ", ...";
-    names += (names.empty() ? "" : ", ") + std::string(p.name.substr(0, 20));
+    names += (names.empty() ? "" : ", ") + printable(p.name);
   }
   return names.empty() ? "none" : names;
 }

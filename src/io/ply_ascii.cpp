@@ -23,7 +23,7 @@ class AsciiRows {
       if (property.is_list()) {
         if (const auto skipped = skip_list(element, property, word); !skipped) return skipped;
       } else if (!use(i, word)) {
-        return fail("expected a number for " + std::string(property.name) + ", found " + quoted(word));
+        return fail("expected a number for " + printable(property.name) + ", found " + in_quotes(word));
       }
     }
     if (const auto word = words_.next(); !word.empty()) return fail_in_long_row(element, word);
@@ -57,7 +57,7 @@ class AsciiRows {
   Result<void> skip_list(const PlyElement& element, const PlyProperty& list, std::string_view word) {
     const auto length = parse_integer(word);
     if (!length || *length < 0) {
-      return fail("expected the length of the list " + std::string(list.name) + ", found " + quoted(word));
+      return fail("expected the length of the list " + printable(list.name) + ", found " + in_quotes(word));
     }
     for (std::int64_t i = 0; i < *length; ++i) {
       if (next_word().empty()) return fail_at_end(element);
@@ -66,13 +66,13 @@ class AsciiRows {
   }
 
   Result<void> fail_at_end(const PlyElement& element) const {
-    return fail("expected " + std::to_string(element.count) + " rows of element " +
-                std::string(element.name) + ", found the end of the file after " + std::to_string(rows_));
+    return fail("expected " + std::to_string(element.count) + " rows of element " + printable(element.name) +
+                ", found the end of the file after " + std::to_string(rows_));
   }
 
   Result<void> fail_in_long_row(const PlyElement& element, std::string_view word) const {
     return fail("expected the line to end after the last property, " +
-                std::string(element.properties.back().name) + ", found " + quoted(word));
+                printable(element.properties.back().name) + ", found " + in_quotes(word));
   }
 
   Result<void> fail(std::string expected) const {

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "io/ply.h"
+#include "io/text.h"
 #include "relievo/parallel.h"
 
 namespace relievo::io {
@@ -66,7 +67,7 @@ class BinaryRows {
     const std::size_t row = least_row_size(element), left = source_.bytes.size() - at_;
     if (row == 0 || element.count <= left / row) return {};
     return source_.error_at_byte(
-        at_, "expected " + std::to_string(element.count) + " rows of element " + std::string(element.name) +
+        at_, "expected " + std::to_string(element.count) + " rows of element " + printable(element.name) +
                  " of " + std::to_string(row) + (has_lists(element) ? " bytes or more" : " bytes") +
                  ", found " + std::to_string(left) + " bytes, enough for " + std::to_string(left / row));
   }
@@ -110,7 +111,7 @@ class BinaryRows {
     const double most = static_cast<double>((source_.bytes.size() - begin) / size_in_bytes(list.type));
     if (length < 0 || length > most) {
       const auto number = std::to_string(static_cast<std::int64_t>(length));
-      return source_.error_at_byte(at_, "expected the length of the list " + std::string(list.name) +
+      return source_.error_at_byte(at_, "expected the length of the list " + printable(list.name) +
                                             ", found " + number + ", and there is room for " +
                                             std::to_string(static_cast<std::int64_t>(most)));
     }
@@ -120,7 +121,7 @@ class BinaryRows {
 
   Result<void> fail_at_end(const PlyProperty& property) const {
     return source_.error_at_byte(
-        at_, "expected property " + std::string(property.name) + ", found the end of the file");
+        at_, "expected property " + printable(property.name) + ", found the end of the file");
   }
 
   const Source& source_;

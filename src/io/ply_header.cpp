@@ -64,16 +64,16 @@ class HeaderReader {
     if (keyword == "element") return take_element(words);
     if (keyword == "property") return take_property(words);
     return fail("expected format, element, property, comment, obj_info or end_header, found " +
-                quoted(keyword));
+                in_quotes(keyword));
   }
 
   Result<void> take_format(Words& words) {
     const std::string_view name = words.next();
     const auto format = find_by_name(format_names, name);
     if (!format)
-      return fail("expected ascii, binary_little_endian or binary_big_endian, found " + quoted(name));
+      return fail("expected ascii, binary_little_endian or binary_big_endian, found " + in_quotes(name));
     const std::string_view version = words.next();
-    if (version != "1.0") return fail("expected version 1.0 of PLY, found " + quoted(version));
+    if (version != "1.0") return fail("expected version 1.0 of PLY, found " + in_quotes(version));
     if (std::exchange(has_format_, true)) return fail("expected one format line, found a second");
     header_.format = *format;
     return {};
@@ -84,7 +84,7 @@ class HeaderReader {
     if (name.empty()) return fail("expected 'element <name> <count>', found no name");
     const std::string_view word = words.next();
     const auto count = parse_integer(word);
-    if (!count || *count < 0) return fail("expected the number of elements, found " + quoted(word));
+    if (!count || *count < 0) return fail("expected the number of elements, found " + in_quotes(word));
     header_.elements.push_back({name, static_cast<std::uint64_t>(*count), {}, lines_.number()});
     return {};
   }
@@ -97,12 +97,12 @@ class HeaderReader {
       word = words.next();
       count_type = find_by_name(type_names, word);
       if (!count_type || *count_type >= float32) {
-        return fail("expected an integer type for the length of the list, found " + quoted(word));
+        return fail("expected an integer type for the length of the list, found " + in_quotes(word));
       }
       word = words.next();
     }
     const auto type = find_by_name(type_names, word);
-    if (!type) return fail("expected a type such as float, uchar or int32, found " + quoted(word));
+    if (!type) return fail("expected a type such as float, uchar or int32, found " + in_quotes(word));
     const std::string_view name = words.next();
     if (name.empty()) return fail("expected the name of the property, found the end of the line");
     header_.elements.back().properties.push_back({name, *type, count_type});

@@ -67,12 +67,20 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
   return value;
 }
 
-std::string quoted(std::string_view text) {
+std::string printable(std::string_view text) {
   const std::size_t most = 32;
   std::string shown(text.substr(0, most));
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return "'" + shown + (text.size() > most ? "...'" : "'");
+  if (text.size() > most) shown += "...";
+  return shown;
+}
+
+std::string in_quotes(std::string_view text) {
+  std::string shown(1, '\'');
+  shown += printable(text);
+  shown += '\'';
+  return shown;
 }
 
 bool equals_ignoring_case(std::string_view a, std::string_view b) {

@@ -68,8 +68,9 @@ std::optional<double> parse_number(std::string_view word);
 // Returns the integer that the whole word spells, nothing if it is none or beyond 64 bits.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-// For messages: the text in quotes, cut to a few words' length, with unprintable bytes as '?'.
-std::string quoted(std::string_view text);
+// For messages: the text cut to a few words' length, with unprintable bytes as '?'; the same in quotes.
+std::string printable(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 // Returns true if both are equal but for the case of ASCII letters.
 bool equals_ignoring_case(std::string_view a, std::string_view b);

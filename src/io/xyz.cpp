@@ -21,6 +21,7 @@ class XyzReader {
     while (const auto raw = lines_.next()) {
       const std::string_view line = without_comment(*raw);
       if (line.empty()) continue;
+      if (cloud_.points.empty()) make_room(source_.bytes.size() / (line.size() + 1));
       if (const auto taken = take(line); !taken) return std::unexpected(taken.error());
     }
     if (layout_.promised_points.value_or(0) > static_cast<std::int64_t>(cloud_.size())) {
@@ -33,6 +34,11 @@ class XyzReader {
   }
 
  private:
+  void make_room(std::size_t points) {
+    cloud_.points.reserve(points);
+    if (layout_.has_normals) cloud_.normals.reserve(points);
+  }
+
   Result<void> take(std::string_view line) {
     Fields fields(line, layout_.separator);
     std::size_t column = 0;
@@ -42,7 +48,7 @@ class XyzReader {
       const auto value = parse_number(*field);
       if (!value)
         return fail("expected a number in column " + std::to_string(column + 1) + ", found " +
-                    quoted(*field));
+                    in_quotes(*field));
       values_[slot] = *value;
     }
     if (column != layout_.columns) {

@@ -112,7 +112,7 @@ class Preamble {
     if (!words.empty() && parse_number(words[0])) return true;
     if (!names_.empty() || count_named(words) < 3) {
       return source_.error_in_line(
-          lines_.number(), "expected numbers, or names of columns with x, y and z, found " + quoted(line));
+          lines_.number(), "expected numbers, or names of columns with x, y and z, found " + in_quotes(line));
     }
     names_ = words;
     names_line_ = lines_.number();
@@ -131,18 +131,26 @@ Result<char> find_separator(const Source& source, std::string_view line, std::si
   if (line.find(',') == std::string_view::npos) return ' ';
   if (!has_decimal_commas(line)) return ',';
   return source.error_in_line(
-      number, "expected numbers with a decimal point, separated in one way, found " + quoted(line));
+      number, "expected numbers with a decimal point, separated in one way, found " + in_quotes(line));
 }
 
-// Rows from all over the file, as numbers; those with words are left out.
+// The line around a byte, or what of it lies within reach: a search for its ends must not run through the
+// file.
+std::string_view line_around(std::string_view data, std::size_t byte) {
+  const std::size_t reach = 1000, first = byte - std::min(byte, reach);
+  const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, reach);
+  const std::size_t begin = left.find_last_of("\r\n") + 1;  // npos + 1 is 0
+  const std::size_t end = std::min(right.find_first_of("\r\n"), right.size());
+  return data.substr(first + begin, byte + end - first - begin);
+}
+
+// Rows from all over the file, as numbers; rows with another number of columns are left out.
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout) {
-  const std::size_t most = 256;
+  const std::size_t samples = 256;
   std::vector<std::vector<double>> rows;
-  for (std::size_t i = 0; i < most; ++i) {
-    Lines lines(data, data.size() * i / most);
-    if (i > 0) lines.next();  // the rest of a line
+  for (std::size_t i = 0; i < samples; ++i) {
     std::vector<double> row;
-    Fields fields(without_comment(lines.next().value_or("")), layout.separator);
+    Fields fields(without_comment(line_around(data, data.size() * i / samples)), layout.separator);
     while (const auto field = fields.next()) row.push_back(parse_number(*field).value_or(0));
     if (row.size() == layout.columns) rows.push_back(std::move(row));
   }
@@ -203,7 +211,7 @@ Result<XyzLayout> find_layout(const Source& source) {
   layout.separator = *separator;
   layout.columns = count_fields(*line, layout.separator);
   if (layout.columns < 3) {
-    return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + quoted(*line));
+    return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(*line));
   }
   if (const auto named = preamble.name_columns(); !named) return std::unexpected(named.error());
   if (preamble.names().empty()) {

@@ -1,0 +1,61 @@
+// What the tests of the readers share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/io.h"
+
+namespace relievo {
+
+// Reads from an allocation of exactly that size, so that the address sanitizer sees a step past the end.
+inline Result<CloudFile> read(std::string_view text, std::string_view name) {
+  std::vector<std::byte> bytes(text.size());
+  if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
+  return read_cloud(bytes, name);
+}
+
+inline std::string message_of(std::string_view text, std::string_view name) {
+  const auto file = read(text, name);
+  return file ? "no error" : file.error().message();
+}
+
+inline std::string as_string(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+inline std::string replaced(std::string text, std::string_view what, std::string_view by) {
+  for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size())) {
+    text.replace(at, what.size(), by);
+  }
+  return text;
+}
+
+// Returns what read_cloud() promises and does not keep, or an empty string.
+inline std::string check_answer(const Result<CloudFile>& answer, std::string_view name) {
+  if (!answer) {
+    const Error& error = answer.error();
+    if (error.kind != ErrorKind::input) return "error of another kind";
+    if (error.input != name) return "error does not name the file";
+    if (error.expected.empty()) return "error without expectation";
+    const bool is_printable = std::all_of(error.expected.begin(), error.expected.end(),
+                                          [](char c) { return c >= ' ' && c <= '~'; });
+    return is_printable ? "" : "error is not one printable line";
+  }
+  const Cloud& cloud = answer->cloud;
+  if (cloud.points.empty()) return "no points";
+  if (cloud.has_normals() && cloud.normals.size() != cloud.size()) return "not one normal per point";
+  for (const Vec3& p : cloud.points) {
+    if (!p.allFinite()) return "point is not finite";
+  }
+  for (const Vec3f& n : cloud.normals) {
+    if (!(std::abs(n.norm() - 1) < 1e-6F)) return "normal is not unit";
+  }
+  return answer->format.empty() ? "no format" : "";
+}
+
+}  // namespace relievo
