@@ -165,11 +165,13 @@ TEST(Preview, AShadowFallsAwayFromTheLight) {
   const auto tower = [](double x, double y) {
     return std::abs(x - 25) < 5 && std::abs(y - 25) < 5 ? 12.0 : 0.0;
   };
-  const Image8 image = render_preview(plate(grid_front({50, 50, 100, 100}, tower)),
-                                      {.longer_side_px = 300, .light = {-1, 0, 0.8}});
-  const FrontView grey{image, 60, 60};
-  EXPECT_LT(grey(30 + 9, 30), 0.75 * grey(30 - 9, 30));
-  EXPECT_NEAR(grey(30, 30 + 9), grey(30, 30 - 9), 3);
+  const Solid solid = plate(grid_front({50, 50, 100, 100}, tower));
+  for (const Vec2& away : {Vec2(9, 0), Vec2(-9, 0), Vec2(0, 9), Vec2(0, -9)}) {
+    const Image8 image = render_preview(solid, {.longer_side_px = 300, .light = {-away.x(), -away.y(), 7.2}});
+    const FrontView grey{image, 60, 60};
+    EXPECT_LT(grey(30 + away.x(), 30 + away.y()), 0.75 * grey(30 - away.x(), 30 - away.y()));
+    EXPECT_NEAR(grey(30 + away.y(), 30 - away.x()), grey(30 - away.y(), 30 + away.x()), 3);
+  }
 }
 
 TEST(Preview, NothingToDrawGivesNoPixels) {
