@@ -21,9 +21,10 @@ float height_at(const HeightField& field, const Vec2& place) {
 void hide_sky(const HeightField& field, int radius, std::vector<Light>& light) {
   std::vector<float> mean = field.z;
   blur(mean, field.width, radius);
-  const float strength = 2.2F / static_cast<float>(radius * field.mm_per_pixel);
+  const float strength = 2.2F / static_cast<float>(radius * field.mm_per_pixel), darkest = 0.2F;
   parallel_for(mean.size(), [&](std::size_t i) {
-    light[i].sky *= std::exp(-strength * std::max(0.F, mean[i] - field.z[i]));
+    const float open = std::exp(-strength * std::max(0.F, mean[i] - field.z[i]));
+    light[i].sky *= darkest + (1 - darkest) * open;
   });
 }
 

@@ -10,8 +10,8 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <span>
+#include <sstream>
 #include <string_view>
 
 #include "fronts.h"
@@ -349,12 +349,16 @@ std::string output_of(const std::string& command) {
   return output;
 }
 
-// The number that admesh's report gives for `label`, after its repairs; -1 if it has no such line.
+// The number that admesh's report gives for `label`, after its repairs; -1 if it has no such line. Its lines
+// hold either one number, or one before and one after the repairs, then perhaps another label.
 int reported(const std::string& report, const std::string& label) {
-  std::smatch match;
-  const std::regex line("\\n" + label + " *: *(\\d+)(?: +(\\d+))?");
-  if (!std::regex_search(report, match, line)) return -1;
-  return std::stoi(match[2].matched ? match[2] : match[1]);
+  const std::size_t line = report.find("\n" + label);
+  if (line == std::string::npos) return -1;
+  std::istringstream rest(report.substr(report.find(':', line) + 1));
+  int before = -1, after = -1;
+  rest >> before;
+  while (rest.peek() == ' ') rest.ignore();
+  return std::isdigit(rest.peek()) && rest >> after ? after : before;
 }
 
 TEST(WriteStl, AdmeshFindsNothingToRepair) {

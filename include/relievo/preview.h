@@ -29,7 +29,8 @@ struct HeightMap {
 };
 
 // Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel
-// holds the height under its centre. A flat front gives zeros.
+// holds the height under its centre. A flat front gives zeros. No pixels for an empty
+// solid or a side not in [1, 32768].
 HeightMap make_height_map(const Solid& solid, int longer_side_px);
 
 struct PreviewOptions {
@@ -39,7 +40,10 @@ struct PreviewOptions {
 };
 
 // Returns the solid as seen from the front and, beside it, obliquely: orthographic, Lambert shading with
-// smooth normals on the front, anti-aliased, on a neutral ground.
+// smooth normals on the front, anti-aliased, on a neutral ground. The light belongs to the plate: both views
+// show the same shading, soft cast shadows and darkened hollows. Nothing is clipped to black or white. Level
+// triangles are shaded flat. No pixels for an empty solid or a side not in [1, 5461]. About 0.4 s for 700k
+// triangles on two cores.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
 // The image as PNG. `text` becomes the key and value pairs of tEXt chunks: keys of 1 to 79 Latin-1
