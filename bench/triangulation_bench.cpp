@@ -8,7 +8,9 @@
 namespace relievo {
 namespace {
 
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+double uniform(std::mt19937_64& random) {
+  return static_cast<double>(random() >> 11) * 0x1p-53;
+}
 
 std::vector<Vec2> random_points(std::int64_t n) {
   std::mt19937_64 random(1);
@@ -29,8 +31,12 @@ std::vector<Vec2> grid(std::int64_t n, double jitter) {
   return points;
 }
 
-std::vector<Vec2> jittered_grid(std::int64_t n) { return grid(n, 0.5); }
-std::vector<Vec2> regular_grid(std::int64_t n) { return grid(n, 0); }
+std::vector<Vec2> jittered_grid(std::int64_t n) {
+  return grid(n, 0.5);
+}
+std::vector<Vec2> regular_grid(std::int64_t n) {
+  return grid(n, 0);
+}
 
 std::vector<Vec2> circle(std::int64_t n) {
   std::vector<Vec2> points;
@@ -52,14 +58,16 @@ std::vector<Vec2> parabola(std::int64_t n) {
 
 std::vector<Vec2> two_lines(std::int64_t n) {
   std::vector<Vec2> points;
-  for (std::int64_t i = 0; i < n; ++i) points.emplace_back(static_cast<double>(i / 2), 1000.0 * static_cast<double>(i % 2));
+  for (std::int64_t i = 0; i < n; ++i)
+    points.emplace_back(static_cast<double>(i / 2), 1000.0 * static_cast<double>(i % 2));
   return points;
 }
 
 // Half of the points evenly, half in clusters of very different sizes.
 std::vector<Vec2> clusters(std::int64_t n) {
   std::vector<Vec2> points = random_points(n);
-  for (std::size_t i = 0; i < points.size() / 2; ++i) points[i] *= std::pow(10.0, -static_cast<double>(i % 16));
+  for (std::size_t i = 0; i < points.size() / 2; ++i)
+    points[i] *= std::pow(10.0, -static_cast<double>(i % 16));
   return points;
 }
 

@@ -46,8 +46,8 @@ inline TwoDoubles two_product(double a, double b) {
   return {product, x.low * y.low - error};
 }
 
-// An exact sum of at most `capacity` doubles: strongly nonoverlapping, growing in magnitude, no zeros, so that
-// the last one tells the sign. Sums and products are exact, and as short as their values allow.
+// An exact sum of at most `capacity` doubles: strongly nonoverlapping, growing in magnitude, no zeros, so
+// that the last one tells the sign. Sums and products are exact, and as short as their values allow.
 template <std::size_t capacity>
 class Expansion {
  public:
@@ -141,8 +141,9 @@ Expansion<n + m> operator-(const Expansion<n>& e, const Expansion<m>& f) {
 
 template <std::size_t n, std::size_t m>
 Expansion<2 * n * m> operator*(const Expansion<n>& e, const Expansion<m>& f) {
-  Expansion<2 * n * m> sums[2];
-  for (std::size_t i = 0; i < f.size(); ++i) detail::add(sums[i % 2], detail::scale(e, f[i]), sums[(i + 1) % 2]);
+  Expansion<2 * n * m> sums[2];  // the sum so far and the next one, in turns
+  for (std::size_t i = 0; i < f.size(); ++i)
+    detail::add(sums[i % 2], detail::scale(e, f[i]), sums[(i + 1) % 2]);
   return sums[f.size() % 2];
 }
 

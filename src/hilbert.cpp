@@ -13,8 +13,12 @@ constexpr unsigned bits = 12;  // per axis; a cell that holds many points is div
 using Entry = std::uint64_t;
 using Entries = std::span<Entry>;
 
-constexpr Index number(Entry e) { return static_cast<Index>(e); }
-constexpr std::uint32_t place(Entry e) { return static_cast<std::uint32_t>(e >> 32); }
+constexpr Index number(Entry e) {
+  return static_cast<Index>(e);
+}
+constexpr std::uint32_t place(Entry e) {
+  return static_cast<std::uint32_t>(e >> 32);
+}
 
 // Returns how far along a Hilbert curve through 2^bits x 2^bits cells the cell (x, y) lies. At each level the
 // curve visits four quadrants; the first and the last are mirrored at a diagonal.

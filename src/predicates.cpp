@@ -5,13 +5,15 @@
 namespace relievo::detail {
 namespace {
 
-// Bounds of section 4.4: of the determinant of the rounded differences, of that with a first-order correction,
-// and of the rounding of an estimate.
+// Bounds of section 4.4: of the determinant of the rounded differences, of that with a first-order
+// correction, and of the rounding of an estimate.
 constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
 constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
 constexpr double estimate_bound = (3 + 8 * epsilon) * epsilon;
 
-TwoDoubles difference(double a, double b) { return two_sum(a, -b); }
+TwoDoubles difference(double a, double b) {
+  return two_sum(a, -b);
+}
 
 // A point relative to another: the rounded differences (high) and what rounding took away (low).
 struct Offset {
@@ -45,6 +47,15 @@ auto incircle_determinant(const Offset& a, const Offset& b, const Offset& c) {
   return lift<n>(a) * cross<n>(b, c) + lift<n>(b) * cross<n>(c, a) + lift<n>(c) * cross<n>(a, b);
 }
 
+// The determinant's value, rounded, with all terms taken positive: the scale of all error bounds.
+double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
+  const auto term = [](const Offset& p, const Offset& q, const Offset& r) {
+    const double lifted = p.x.high * p.x.high + p.y.high * p.y.high;
+    return lifted * (std::abs(q.x.high * r.y.high) + std::abs(q.y.high * r.x.high));
+  };
+  return term(a, b, c) + term(b, c, a) + term(c, a, b);
+}
+
 // What a's row and its cofactor add to the determinant, to first order in the differences' errors.
 double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   const double cofactor = b.x.high * c.y.high - b.y.high * c.x.high;
@@ -55,7 +66,9 @@ double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   return lifted * cofactor_error + lifted_error * cofactor;
 }
 
-int sign_beyond(double value, double bound) { return value > bound ? 1 : -value > bound ? -1 : 0; }
+int sign_beyond(double value, double bound) {
+  return value > bound ? 1 : -value > bound ? -1 : 0;
+}
 
 }  // namespace
 
@@ -63,12 +76,12 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
   return cross<2>(Offset(a, c), Offset(b, c)).sign();
 }
 
-int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, double permanent) {
+int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();
 
-  const double value = determinant.estimate();
+  const double value = determinant.estimate(), permanent = incircle_permanent(ad, bd, cd);
   if (const int sign = sign_beyond(value, incircle_bound_b * permanent)) return sign;
 
   const double correction =

@@ -1,10 +1,11 @@
 // Incremental construction: points are inserted one by one, coarse samples first, each round along a Hilbert
-// curve, so that the triangle a point falls into is a few steps from the one before. Edges are then flipped until
-// all circles are empty again (C. L. Lawson, "Software for C1 Surface Interpolation", 1977).
+// curve, so that the triangle a point falls into is a few steps from the one before. Edges are then flipped
+// until all circles are empty again (C. L. Lawson, "Software for C1 Surface Interpolation", 1977).
 //
-// The outside is made of ghost triangles, one on each hull edge, which meet in a vertex at infinity. A ghost's
-// circle is the half-plane outside its edge, plus the edge. Triangles and ghosts together form a closed surface, so
-// that the hull needs no cases of its own: a point outside, or on a hull edge, is inserted as any other.
+// The outside is made of ghost triangles, one on each hull edge, which meet in a vertex at infinity. A
+// ghost's circle is the half-plane outside its edge, plus the edge. Triangles and ghosts together form a
+// closed surface, so that the hull needs no cases of its own: a point outside, or on a hull edge, is inserted
+// as any other.
 #include "relievo/triangulation.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ namespace relievo {
 namespace {
 
 constexpr Index infinity = no_index;
-constexpr std::size_t most_points = std::size_t{1} << 29;  // 2 triangles of 4 slots for each, in 32 bits
+constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 2 n triangles of 4 slots each, in 32 bits
 
 // A triangle's side, from `origin` counter-clockwise to the next corner.
 struct HalfEdge {
@@ -24,10 +25,14 @@ struct HalfEdge {
   Index twin;  // the same side seen from the neighbour
 };
 
-// Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2; the fourth slot is unused and buys cheap arithmetic and
-// triangles that never straddle a cache line.
-constexpr Index next(Index e) { return (e & 3) == 2 ? e - 2 : e + 1; }
-constexpr Index previous(Index e) { return (e & 3) == 0 ? e + 2 : e - 1; }
+// Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2; the fourth slot is unused and buys cheap arithmetic
+// and triangles that never straddle a cache line.
+constexpr Index next(Index e) {
+  return (e & 3) == 2 ? e - 2 : e + 1;
+}
+constexpr Index previous(Index e) {
+  return (e & 3) == 0 ? e + 2 : e - 1;
+}
 
 class Builder {
  public:
@@ -91,9 +96,10 @@ bool Builder::start() {
   return true;
 }
 
-// Returns the triangle (as one of its half-edges) that holds p in its inside or on its border, or the ghost of a
-// hull edge that has p strictly outside. In a Delaunay triangulation the walk never comes back to a triangle: p's
-// power to the circles falls with each step, and among triangles on one circle the neighbours form a tree.
+// Returns the triangle (as one of its half-edges) that holds p in its inside or on its border, or the ghost
+// of a hull edge that has p strictly outside. In a Delaunay triangulation the walk never comes back to a
+// triangle: p's power to the circles falls with each step, and among triangles on one circle the neighbours
+// form a tree.
 Index Builder::locate(const Vec2& p) const {
   const auto is_right_of = [&](Index e) {
     return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;
@@ -120,8 +126,8 @@ Index Builder::vertex_at(const Vec2& p, Index e) const {
   return no_index;
 }
 
-// Returns whether p is strictly inside the circle of e's triangle, or in the open half-plane, or on the open edge,
-// if it is a ghost.
+// Returns whether p is strictly inside the circle of e's triangle, or in the open half-plane, or on the open
+// edge, if it is a ghost.
 bool Builder::circle_contains(Index e, const Vec2& p) const {
   const Index a = edges_[e].origin, b = edges_[next(e)].origin, c = edges_[previous(e)].origin;
   if (a != infinity && b != infinity && c != infinity) {
@@ -133,25 +139,25 @@ bool Builder::circle_contains(Index e, const Vec2& p) const {
   return side > 0 || (side == 0 && (p - from).dot(p - to) < 0);
 }
 
-// Cuts e's triangle into three that meet in p; returns slot 0 of one. If p is on a side, one of them is flat until
-// the flips, as p is inside the circle beyond that side.
+// Cuts e's triangle into three that meet in p; returns slot 0 of one. If p is on a side, one of them is flat
+// until the flips, as p is inside the circle beyond that side.
 Index Builder::split(Index e, Index p) {
   const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
   const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;
   const Index bc = edges_[t + 1].twin, ca = edges_[t + 2].twin;
+  edges_[t + 2].origin = p;  // t becomes (a, b, p)
   add_triangle(b, c, p);
   add_triangle(c, a, p);
-  edges_[t + 2].origin = p;
   link(u, bc);
   link(v, ca);
   link(t + 1, u + 2);
   link(u + 1, v + 2);
   link(v + 1, t + 2);
-  (void)a;
   return t;
 }
 
-// Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), d the corner beyond it: (a, d, p) and (d, b, p).
+// Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), where d is the corner beyond it. The new
+// triangles are (a, d, p) and (d, b, p).
 void Builder::flip(Index e) {
   const Index t = e, f = edges_[e].twin, u = f & ~Index{3};
   const Index b = edges_[f].origin, d = edges_[previous(f)].origin, p = edges_[t + 2].origin;
@@ -227,16 +233,10 @@ Triangulation Builder::result() const {
   return triangulation;
 }
 
-bool is_in_range(double x) {
-  const double magnitude = std::abs(x);
-  return x == 0 || (magnitude >= smallest_coordinate && magnitude <= largest_coordinate);
-}
-
 }  // namespace
 
 Triangulation delaunay(std::span<const Vec2> points) {
-  const auto has_exact_predicates = [](const Vec2& p) { return is_in_range(p.x()) && is_in_range(p.y()); };
-  if (points.size() > most_points || !std::all_of(points.begin(), points.end(), has_exact_predicates)) return {};
+  if (points.size() > most_points || !std::all_of(points.begin(), points.end(), is_exact_point)) return {};
 
   const std::vector<Index> order = hilbert_order(points);
   std::vector<Vec2> sorted(points.size());
@@ -244,13 +244,13 @@ Triangulation delaunay(std::span<const Vec2> points) {
   Builder builder(sorted, order);
   if (!builder.start()) return {};
 
-  // Every 8^k-th point of the curve, then every 8^(k - 1)-th, ...: each round refines an even sample, which keeps
-  // walks and fans of flips short where the curve alone would build long slivers (points on a parabola).
-  std::size_t step = 1;
-  while (step * 8 < points.size()) step *= 8;
-  for (std::size_t done = 0; step > 0; done = step, step /= 8) {
+  // Every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even sample.
+  // The curve alone would build long slivers first, and pay for it in flips where points lie on few lines.
+  std::size_t step = 1, coarser = points.size();
+  while (step * 4 < points.size()) step *= 4;
+  for (; step > 0; coarser = step, step /= 4) {
     for (std::size_t i = 0; i < points.size(); i += step) {
-      if (done == 0 || i % done != 0) builder.insert(static_cast<Index>(i));
+      if (coarser == points.size() || i % coarser != 0) builder.insert(static_cast<Index>(i));
     }
   }
   return builder.result();
