@@ -1,8 +1,7 @@
-// Why the checks suffice: links make the triangles a surface whose border is the hull, all of them turn left,
-// and the hull turns left once around. The angles of the triangles then sum up to pi T = 2 pi I + pi (H - 2)
-// for I interior points, each passed round once, exactly if Euler's T = 2 V - 2 - H holds; so nothing
-// overlaps. Empty circles across all edges imply empty circles everywhere (B. Delaunay, "Sur la sphere vide",
-// 1934).
+// Why the checks suffice. Linked triangles form a surface whose border is the hull. As all of them turn left,
+// each place is covered as often as the border goes round it: once, as the hull turns left once around. So
+// the triangles cover the hull without overlap, edge to edge. Circles that are empty across every edge are
+// empty (B. Delaunay, "Sur la sphere vide", 1934).
 #include <algorithm>
 #include <numeric>
 
@@ -85,24 +84,23 @@ std::string check_links_and_circles(Points points, const Triangulation& it) {
   return {};
 }
 
-// The sides without neighbours must be the hull's edges, each once.
+// The sides without neighbours must be the hull's edges. They form closed polygons, and the hull is a single
+// one, so that none of its edges is left over.
 std::string check_border(Points points, const Triangulation& it) {
   std::vector<Index> hull_next(points.size(), no_index);
   for (std::size_t k = 0; k < it.hull.size(); ++k) {
     if (hull_next[it.hull[k]] != no_index) return "hull: " + name("point", it.hull[k]) + " appears twice";
     hull_next[it.hull[k]] = it.hull[(k + 1) % it.hull.size()];
   }
-  std::size_t matched = 0;
   for (std::size_t t = 0; t < it.triangles.size(); ++t) {
     for (std::size_t i = 0; i < 3; ++i) {
       if (it.neighbours[t][i] != no_index) continue;
       const Edge e = edge(it.triangles[t], i);
       if (hull_next[e.from] != e.to) return name("triangle", t) + ": " + name(e) + " is not on the hull";
-      hull_next[e.from] = no_index;
-      ++matched;
+      hull_next[e.from] = no_index;  // each edge once
     }
   }
-  return matched == it.hull.size() ? "" : "hull: an edge belongs to no triangle";
+  return {};
 }
 
 // A closed polygon that only turns left turns once if its direction changes from downwards to upwards once.
@@ -123,7 +121,7 @@ std::string check_convexity(Points points, const Triangulation& it) {
   return turns == 1 ? "" : "hull: does not go round once";
 }
 
-// Of equal points the lowest must be used, and no other; then Euler's relation over those used.
+// Of equal points the one with the lowest number must be used, and no other.
 std::string check_use_of_points(Points points, const Triangulation& it) {
   std::vector<bool> is_used(points.size(), false);
   for (const Triangle& corners : it.triangles) {
@@ -135,17 +133,13 @@ std::string check_use_of_points(Points points, const Triangulation& it) {
     const Vec2 &p = points[a], &q = points[b];
     return p.x() != q.x() ? p.x() < q.x() : p.y() != q.y() ? p.y() < q.y() : a < b;
   });
-  std::size_t distinct = 0;
   for (std::size_t k = 0; k < order.size(); ++k) {
     const bool is_twin = k > 0 && points[order[k]] == points[order[k - 1]];
-    if (is_used[order[k]] == is_twin) {
-      return name("point", order[k]) +
-             (is_twin ? ": used, but not the first at its place" : ": in no triangle");
-    }
-    distinct += !is_twin;
+    if (is_used[order[k]] != is_twin) continue;
+    return name("point", order[k]) +
+           (is_twin ? ": used, but not the first at its place" : ": in no triangle");
   }
-  const bool has_eulers_count = it.triangles.size() + it.hull.size() + 2 == 2 * distinct;
-  return has_eulers_count ? "" : "the number of triangles does not fit the points and the hull";
+  return {};
 }
 
 // No triangles: right if no three points span one.

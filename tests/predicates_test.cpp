@@ -8,6 +8,7 @@
 #include <random>
 
 #include "big_integer.h"
+#include "point_sets.h"
 
 namespace relievo {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Quad = std::array<Vec2, 4>;
-
-double uniform(std::mt19937_64& random) {
-  return static_cast<double>(random() >> 11) * 0x1p-53;
-}
 
 int sign(double x) {
   return (x > 0) - (x < 0);

@@ -43,7 +43,9 @@ Corners qhull_corners(std::vector<Vec2> points) {
     std::sort(t.begin(), t.end());
     result.insert(t);
   }
-  qh_freeqhull(qh, qh_ALL);
+  int blocks = 0, bytes = 0;
+  qh_freeqhull(qh, !qh_ALL);
+  qh_memfreeshort(qh, &blocks, &bytes);
   return result;
 }
 

@@ -32,9 +32,8 @@ struct Triangulation {
 Triangulation delaunay(std::span<const Vec2> points);
 
 // Returns what is wrong with a triangulation of `points`, or an empty string: orientation, neighbour links,
-// the empty circle across every edge, the hull, which points are used, Euler's relation, all exactly.
-// Together they prove what delaunay() promises. For tests and bug reports; `triangulation` may hold any
-// numbers.
+// the empty circle across every edge, the hull, and which points are used, all exactly. Together they prove
+// what delaunay() promises. For tests and bug reports; `triangulation` may hold any numbers.
 std::string check_delaunay(std::span<const Vec2> points, const Triangulation& triangulation);
 
 }  // namespace relievo
