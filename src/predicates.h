@@ -4,7 +4,7 @@
 // error (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997,
 // section 4); otherwise it decides with expansions. No state, no initialisation: safe from any thread. Exact
 // for coordinates that are 0 or of a magnitude between smallest_coordinate and largest_coordinate, in round
-// to nearest.
+// to nearest. The rarest case takes 45 KB of stack.
 #pragma once
 
 #include <cmath>
