@@ -47,6 +47,15 @@ auto incircle_determinant(const Offset& a, const Offset& b, const Offset& c) {
   return lift<n>(a) * cross<n>(b, c) + lift<n>(b) * cross<n>(c, a) + lift<n>(c) * cross<n>(a, b);
 }
 
+// The determinant's value, rounded, with all terms taken positive: the scale of all error bounds.
+double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
+  const auto term = [](const Offset& p, const Offset& q, const Offset& r) {
+    const double lifted = p.x.high * p.x.high + p.y.high * p.y.high;
+    return lifted * (std::abs(q.x.high * r.y.high) + std::abs(q.y.high * r.x.high));
+  };
+  return term(a, b, c) + term(b, c, a) + term(c, a, b);
+}
+
 // What a's row and its cofactor add to the determinant, to first order in the differences' errors.
 double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   const double cofactor = b.x.high * c.y.high - b.y.high * c.x.high;
@@ -67,12 +76,12 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
   return cross<2>(Offset(a, c), Offset(b, c)).sign();
 }
 
-int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d, double permanent) {
+int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();
 
-  const double value = determinant.estimate();
+  const double value = determinant.estimate(), permanent = incircle_permanent(ad, bd, cd);
   if (const int sign = sign_beyond(value, incircle_bound_b * permanent)) return sign;
 
   const double correction =

@@ -17,7 +17,7 @@ namespace relievo {
 namespace {
 
 constexpr Index infinity = no_index;
-constexpr std::size_t most_points = std::size_t{1} << 29;  // 2 triangles of 4 slots for each, in 32 bits
+constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 2 n triangles of 4 slots each, in 32 bits
 
 // A triangle's side, from `origin` counter-clockwise to the next corner.
 struct HalfEdge {
@@ -145,20 +145,19 @@ Index Builder::split(Index e, Index p) {
   const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
   const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;
   const Index bc = edges_[t + 1].twin, ca = edges_[t + 2].twin;
+  edges_[t + 2].origin = p;  // t becomes (a, b, p)
   add_triangle(b, c, p);
   add_triangle(c, a, p);
-  edges_[t + 2].origin = p;
   link(u, bc);
   link(v, ca);
   link(t + 1, u + 2);
   link(u + 1, v + 2);
   link(v + 1, t + 2);
-  (void)a;
   return t;
 }
 
-// Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), d the corner beyond it: (a, d, p) and (d,
-// b, p).
+// Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), where d is the corner beyond it. The new
+// triangles are (a, d, p) and (d, b, p).
 void Builder::flip(Index e) {
   const Index t = e, f = edges_[e].twin, u = f & ~Index{3};
   const Index b = edges_[f].origin, d = edges_[previous(f)].origin, p = edges_[t + 2].origin;
@@ -234,17 +233,10 @@ Triangulation Builder::result() const {
   return triangulation;
 }
 
-bool is_in_range(double x) {
-  const double magnitude = std::abs(x);
-  return x == 0 || (magnitude >= smallest_coordinate && magnitude <= largest_coordinate);
-}
-
 }  // namespace
 
 Triangulation delaunay(std::span<const Vec2> points) {
-  const auto has_exact_predicates = [](const Vec2& p) { return is_in_range(p.x()) && is_in_range(p.y()); };
-  if (points.size() > most_points || !std::all_of(points.begin(), points.end(), has_exact_predicates))
-    return {};
+  if (points.size() > most_points || !std::all_of(points.begin(), points.end(), is_exact_point)) return {};
 
   const std::vector<Index> order = hilbert_order(points);
   std::vector<Vec2> sorted(points.size());
@@ -252,14 +244,13 @@ Triangulation delaunay(std::span<const Vec2> points) {
   Builder builder(sorted, order);
   if (!builder.start()) return {};
 
-  // Every 8^k-th point of the curve, then every 8^(k - 1)-th, ...: each round refines an even sample, which
-  // keeps walks and fans of flips short where the curve alone would build long slivers (points on a
-  // parabola).
-  std::size_t step = 1;
-  while (step * 8 < points.size()) step *= 8;
-  for (std::size_t done = 0; step > 0; done = step, step /= 8) {
+  // Every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even sample.
+  // The curve alone would build long slivers first, and pay for it in flips where points lie on few lines.
+  std::size_t step = 1, coarser = points.size();
+  while (step * 4 < points.size()) step *= 4;
+  for (; step > 0; coarser = step, step /= 4) {
     for (std::size_t i = 0; i < points.size(); i += step) {
-      if (done == 0 || i % done != 0) builder.insert(static_cast<Index>(i));
+      if (coarser == points.size() || i % coarser != 0) builder.insert(static_cast<Index>(i));
     }
   }
   return builder.result();

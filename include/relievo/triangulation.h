@@ -24,15 +24,16 @@ struct Triangulation {
 // - Points with equal coordinates: the one with the lowest index is used, its twins are in no triangle.
 // - Fewer than three distinct points, or all on one line: no triangles, empty hull.
 // - Cocircular points: any valid choice, the same for the same input on every machine.
-// - Coordinates must be finite, and their differences must neither overflow nor underflow when multiplied
-// four
-//   times: |x| < 1e70, differences 0 or > 1e-70.
-// Time: O(n log n) expected for scans; about 0.2 s for 340k points.
+// - Coordinates are 0 or of a magnitude in [1e-60, 1e70], where the predicates are exact, and there are fewer
+//   than 2^29 - 1 points; otherwise, as for NaN, the result is empty.
+//
+// Time: O(n log n) for scans, grids and clusters; 340k random points take 0.13 s, a regular grid 0.4 s.
+// Memory: about 150 bytes per point.
 Triangulation delaunay(std::span<const Vec2> points);
 
-// Returns what is wrong with a triangulation, or an empty string: orientation, neighbour links, the exact
-// empty-circle test across every edge, the hull, and Euler's relation. A public checker, for tests and bug
-// reports.
+// Returns what is wrong with a triangulation of `points`, or an empty string: orientation, neighbour links,
+// the empty circle across every edge, the hull, and which points are used, all exactly. Together they prove
+// what delaunay() promises. For tests and bug reports; `triangulation` may hold any numbers.
 std::string check_delaunay(std::span<const Vec2> points, const Triangulation& triangulation);
 
 }  // namespace relievo
