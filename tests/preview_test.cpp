@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "relievo/parallel.h"
-#include "shapes.h"
+#include "fronts.h"
 
 namespace relievo {
 namespace {
