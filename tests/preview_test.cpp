@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "relievo/parallel.h"
 #include "fronts.h"
+#include "relievo/parallel.h"
 
 namespace relievo {
 namespace {

@@ -19,6 +19,11 @@ int main(int argc, char** argv) {
       "  relievo sample shell -o shell.ply\n"
       "  relievo make shell.ply -o shell.stl --width 80 --height 4 --preview shell.png\n"
       "  relievo info scan.ply");
+  const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
+  if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty()) {
+    std::fprintf(stderr, "relievo: expected make, info or sample, found '%s'; see relievo --help\n", argv[1]);
+    return 2;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

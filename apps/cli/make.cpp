@@ -155,9 +155,8 @@ struct FlagAdder {
     describe(command.add_option(flag(field), value, help(field)), field);
   }
   void operator()(const OptionField& field, std::string& value) {
-    command.add_option(flag(field), value, std::string(field.help))
-        ->option_text(std::string(field.unit))
-        ->capture_default_str();
+    CLI::Option* option = command.add_option(flag(field), value, std::string(field.help));
+    describe(option, field)->capture_default_str();
   }
 
   static std::string flag(const OptionField& field) { return cat("--", field.name); }
@@ -184,13 +183,13 @@ void add_make(CLI::App& program, Result<void>& result) {
   command.add_option("--heightmap", arguments->heightmap, "16-bit height map of the front")
       ->type_name("H.png");
   command.add_option("--heightmap-size", arguments->heightmap_px, "its longer side [16 to 16384]")
-      ->check(CLI::Range(16, 16384))
+      ->check(CLI::Range(16, 16384).description(""))
       ->type_name("PX")
       ->capture_default_str();
   FlagAdder adder{command};
   visit(arguments->relief, adder);
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
-      ->check(CLI::Range(0, 256))
+      ->check(CLI::Range(0, 256).description(""))
       ->type_name("N")
       ->capture_default_str();
   command.add_option("--report", arguments->report, "what was made and how, as JSON")->type_name("R.json");
