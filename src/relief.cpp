@@ -4,19 +4,15 @@
 #include <limits>
 
 #include "relievo/detail.h"
-#include "relievo/parallel.h"
 #include "relievo/text.h"
 #include "root.h"
 
 namespace relievo {
 
 ReliefModel::ReliefModel(Surface surface, HeightSystem system)
-    : surface_(std::move(surface)), system_(std::move(system)), boundary_weight_(surface_.points.size()) {
-  parallel_for(boundary_weight_.size(), [&](std::size_t i) {
-    const auto distance = static_cast<double>(surface_.boundary.distance[i]);
-    boundary_weight_[i] = static_cast<float>(boundary_weight(distance, surface_.rho));
-  });
-}
+    : surface_(std::move(surface)),
+      system_(std::move(system)),
+      boundary_weight_(boundary_weights(surface_.boundary.distance, surface_.rho)) {}
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress) {
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
@@ -28,15 +24,10 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress) {
 }
 
 Relief ReliefModel::make(const Shape& shape) const {
-  const std::size_t n = surface_.points.size();
-  std::vector<Vec2> slopes(n);
-  parallel_for(n, [&](std::size_t i) {
-    const auto k = static_cast<double>(surface_.curvature.k[i]);
-    const double w_k = curvature_weight(k, surface_.curvature.delta, shape.compression);
-    const double w = w_k * static_cast<double>(boundary_weight_[i]);
-    slopes[i] = compressed_slope(surface_.normals[i].cast<double>(), w, shape.max_slope);
-  });
-  Relief relief{std::vector<double>(n), 0, shape};
+  std::vector<Vec2> slopes(surface_.points.size());
+  compressed_slopes({surface_.normals, surface_.curvature.k, boundary_weight_, surface_.curvature.delta},
+                    shape.compression, shape.max_slope, slopes);
+  Relief relief{std::vector<double>(slopes.size()), 0, shape};
   system_.solve(slopes, relief.heights);
   add_detail(relief.heights, {surface_.curvature.k, boundary_weight_, shape.gamma});
   relief.height = height_span(relief.heights);

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "relievo/parallel.h"
+
 namespace relievo {
 
 Compression Compression::from_alpha(double alpha, double beta) {
@@ -36,6 +38,23 @@ Vec2 compressed_slope(const Vec3& normal, double w, double max_slope) {
   const double length = xy.norm();
   if (length <= max_slope * z) return length > 0 ? Vec2(xy / z) : Vec2(Vec2::Zero());
   return xy * (max_slope / length);
+}
+
+void compressed_slopes(const SlopeInput& input, const Compression& compression, double max_slope,
+                       std::span<Vec2> slopes) {
+  parallel_for(slopes.size(), [&](std::size_t i) {
+    const double w_k = curvature_weight(static_cast<double>(input.k[i]), input.delta, compression);
+    const double w = w_k * static_cast<double>(input.boundary_weight[i]);
+    slopes[i] = compressed_slope(input.normals[i].cast<double>(), w, max_slope);
+  });
+}
+
+std::vector<float> boundary_weights(std::span<const float> distance, double rho) {
+  std::vector<float> weights(distance.size());
+  parallel_for(weights.size(), [&](std::size_t i) {
+    weights[i] = static_cast<float>(boundary_weight(static_cast<double>(distance[i]), rho));
+  });
+  return weights;
 }
 
 }  // namespace relievo

@@ -32,4 +32,19 @@ double boundary_weight(double distance, double rho);
 // most `max_slope`. The normal is a unit vector with z >= 0.
 Vec2 compressed_slope(const Vec3& normal, double w, double max_slope);
 
+// What the slopes of points depend on, one entry per point.
+struct SlopeInput {
+  std::span<const Vec3f> normals;
+  std::span<const float> k;
+  std::span<const float> boundary_weight;
+  double delta = 0;  // of k
+};
+
+// Writes the compressed slope of every point, with w = w_k w_b.
+void compressed_slopes(const SlopeInput& input, const Compression& compression, double max_slope,
+                       std::span<Vec2> slopes);
+
+// Returns w_b for distances to the boundary.
+std::vector<float> boundary_weights(std::span<const float> distance, double rho);
+
 }  // namespace relievo

@@ -1,0 +1,162 @@
+// Section numbers are those of Lee, Wolberg and Shin, 1997.
+#include "relievo/spline.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/parallel.h"
+
+namespace relievo {
+namespace {
+
+using Row = Eigen::Array4f;
+using ConstRow = Eigen::Map<const Row>;
+
+// Section 3.1: the four uniform cubic B-splines that count at t in [0, 1] of a cell.
+Row basis(float t) {
+  const Row c0(1 / 6.F, 4 / 6.F, 1 / 6.F, 0), c1(-.5F, 0, .5F, 0), c2(.5F, -1, .5F, 0),
+      c3(-1 / 6.F, .5F, -.5F, 1 / 6.F);
+  return c0 + t * (c1 + t * (c2 + t * c3));
+}
+
+// The 4 x 4 nodes from `node` on, against the two bases.
+float value_at(const float* node, std::size_t columns, float x, float y) {
+  const Row wy = basis(y);
+  Row sum = wy[0] * ConstRow(node);
+  for (int l = 1; l < 4; ++l) sum += wy[l] * ConstRow(node + static_cast<std::size_t>(l) * columns);
+  return (sum * basis(x)).sum();
+}
+
+// Section 4: a node of the lattice of half the cells, from three (at even places) or two of the whole cells.
+float halved(const float* node, bool is_even) {
+  return is_even ? .125F * (node[0] + node[2]) + .75F * node[1] : .5F * (node[0] + node[1]);
+}
+
+}  // namespace
+
+MultilevelSpline::MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights,
+                                   const SplineOptions& options)
+    : min_(options.min), max_(options.max), weights_(weights.begin(), weights.end()) {
+  for (const float weight : weights_) total_weight_ += static_cast<double>(weight);
+  const double damping =
+      sites.empty() ? 0 : options.damping * total_weight_ / static_cast<double>(sites.size());
+  const int coarsest = options.levels - 1;
+  const auto cells = [&](double length) {
+    return static_cast<std::size_t>(std::max(1.0, std::ceil(std::ldexp(length / options.cell, -coarsest))));
+  };
+  const Vec2 size = max_ - min_;
+  levels_.resize(static_cast<std::size_t>(options.levels));
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    Level& level = levels_[i];
+    level.columns = (cells(size.x()) << i) + 3;
+    level.rows = (cells(size.y()) << i) + 3;
+    level.cell = std::ldexp(options.cell, coarsest - static_cast<int>(i));
+    prepare(level, sites, damping);
+  }
+}
+
+MultilevelSpline::Site MultilevelSpline::locate(const Level& level, const Vec2& point) const {
+  const Vec2 at = (point.cwiseMax(min_).cwiseMin(max_) - min_) / level.cell;
+  const auto column = std::min(static_cast<std::size_t>(at.x()), level.columns - 4);
+  const auto row = std::min(static_cast<std::size_t>(at.y()), level.rows - 4);
+  return {static_cast<Index>(row * level.columns + column),
+          static_cast<float>(at.x() - static_cast<double>(column)),
+          static_cast<float>(at.y() - static_cast<double>(row))};
+}
+
+void MultilevelSpline::prepare(Level& level, std::span<const Vec2> sites, double damping) const {
+  std::vector<double> weight(level.columns * level.rows, damping);
+  level.sites.resize(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Site& site = level.sites[i] = locate(level, sites[i]);
+    const Row wx = basis(site.x).square(), wy = basis(site.y).square();
+    for (int l = 0; l < 4; ++l)
+      for (int k = 0; k < 4; ++k)
+        weight[site.node + static_cast<std::size_t>(l) * level.columns + static_cast<std::size_t>(k)] +=
+            static_cast<double>(weights_[i]) * static_cast<double>(wx[k] * wy[l]);
+  }
+  level.inverse.resize(weight.size());
+  for (std::size_t i = 0; i < weight.size(); ++i)
+    level.inverse[i] = weight[i] > 0 ? static_cast<float>(1 / weight[i]) : 0;
+}
+
+SplineFunction MultilevelSpline::make_function() const {
+  return {0, std::vector<float>(levels_.back().inverse.size())};
+}
+
+MultilevelSpline::Workspace MultilevelSpline::make_workspace() const {
+  const std::size_t nodes = levels_.back().inverse.size();
+  return {std::vector<float>(weights_.size()), std::vector<float>(nodes), std::vector<float>(nodes)};
+}
+
+void MultilevelSpline::fit(std::span<const float> values, SplineFunction& function,
+                           Workspace& workspace) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    sum += static_cast<double>(weights_[i]) * static_cast<double>(values[i]);
+  function.mean = total_weight_ > 0 ? static_cast<float>(sum / total_weight_) : 0;
+  for (std::size_t i = 0; i < values.size(); ++i) workspace.rest[i] = values[i] - function.mean;
+  std::fill(function.nodes.begin(), function.nodes.end(), 0.F);
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    if (i > 0) refine(levels_[i - 1], function.nodes, workspace.coarser);
+    correct(levels_[i], function.nodes, workspace);
+  }
+}
+
+void MultilevelSpline::refine(const Level& coarse, std::vector<float>& nodes, std::vector<float>& copy) {
+  std::copy_n(nodes.begin(), coarse.columns * coarse.rows, copy.begin());
+  const std::size_t columns = 2 * coarse.columns - 3, rows = 2 * coarse.rows - 3;
+  // The first node lies one cell outside the domain, an odd place of the finer lattice.
+  for (std::size_t r = 0; r < rows; ++r) {
+    for (std::size_t c = 0; c < columns; ++c) {
+      const float* node = copy.data() + (r / 2) * coarse.columns + c / 2;
+      const auto across = [&](std::size_t k) { return halved(node + k * coarse.columns, c % 2 == 1); };
+      const float low[3] = {across(0), across(1), r % 2 == 1 ? across(2) : 0};
+      nodes[r * columns + c] = halved(low, r % 2 == 1);
+    }
+  }
+}
+
+// Section 3.2, equations (3) to (5), with a weight per site.
+void MultilevelSpline::correct(const Level& level, std::vector<float>& nodes, Workspace& workspace) const {
+  std::vector<float>& correction = workspace.correction;
+  const std::size_t columns = level.columns, size = columns * level.rows;
+  std::fill_n(correction.begin(), size, 0.F);
+  for (std::size_t i = 0; i < level.sites.size(); ++i) {
+    const Site& site = level.sites[i];
+    const Row wx = basis(site.x), wy = basis(site.y);
+    const float scale = weights_[i] * workspace.rest[i] / (wx.square().sum() * wy.square().sum());
+    const Row x_part = wx.cube() * scale, y_part = wy.cube();
+    for (int l = 0; l < 4; ++l)
+      Eigen::Map<Row>(&correction[site.node + static_cast<std::size_t>(l) * columns]) += y_part[l] * x_part;
+  }
+  for (std::size_t i = 0; i < size; ++i) nodes[i] += correction[i] *= level.inverse[i];
+  for (std::size_t i = 0; i < level.sites.size(); ++i) {
+    const Site& site = level.sites[i];
+    workspace.rest[i] -= value_at(&correction[site.node], columns, site.x, site.y);
+  }
+}
+
+std::vector<SplinePlace> MultilevelSpline::pack(std::span<const Vec2> points) const {
+  std::vector<SplinePlace> places(points.size());
+  const auto packed = [](float t) {
+    return static_cast<std::uint16_t>(std::clamp(t * 65536 + .5F, 0.F, 65535.F));
+  };
+  parallel_for(points.size(), [&](std::size_t i) {
+    const Site site = locate(levels_.back(), points[i]);
+    places[i] = {site.node, packed(site.x), packed(site.y)};
+  });
+  return places;
+}
+
+void MultilevelSpline::evaluate(const SplineFunction& function, std::span<const SplinePlace> places,
+                                std::span<float> values) const {
+  const std::size_t columns = levels_.back().columns;
+  parallel_for(places.size(), [&](std::size_t i) {
+    const SplinePlace& p = places[i];
+    const float x = static_cast<float>(p.x) * 0x1p-16F, y = static_cast<float>(p.y) * 0x1p-16F;
+    values[i] = function.mean + value_at(&function.nodes[p.node], columns, x, y);
+  });
+}
+
+}  // namespace relievo
