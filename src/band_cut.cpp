@@ -5,8 +5,8 @@
 namespace relievo {
 namespace {
 
-// Every vertex is split into an entrance (state 2v) and an exit (state 2v + 1), joined by an arc of capacity 1;
-// arcs between vertices are unbounded. A path through v comes from previous_[v] and goes on to next_[v].
+// Every vertex is split into an entrance (state 2v) and an exit (state 2v + 1), joined by an arc of capacity
+// 1; arcs between vertices are unbounded. A path through v comes from previous_[v] and goes on to next_[v].
 class PathFlow {
  public:
   explicit PathFlow(const Band& band)

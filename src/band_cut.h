@@ -11,8 +11,8 @@ namespace relievo {
 enum class Side : std::uint8_t { first, second, separator };
 
 // The part of a graph in which a separator is sought: what lies on the first side of it is joined to the band
-// at the vertices of `touches_first`, what lies on the second at those of `touches_second`. Where the graph is
-// drawn in the plane without crossings and its neighbours stand counter-clockwise, the search takes linear
+// at the vertices of `touches_first`, what lies on the second at those of `touches_second`. Where the graph
+// is drawn in the plane without crossings and its neighbours stand counter-clockwise, the search takes linear
 // time; else it takes longer.
 struct Band {
   Graph graph;

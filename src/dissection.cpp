@@ -55,12 +55,14 @@ class Dissection {
     large.push_back(std::move(whole));
     while (!large.empty()) {
       std::vector<std::array<Part, 2>> halves(large.size());
-      parallel_for(large.size(), [&](std::size_t i) { halves[i] = split(large[i]); }, 1);
+      parallel_for(
+          large.size(), [&](std::size_t i) { halves[i] = split(large[i]); }, 1);
       large.clear();
       for (auto& pair : halves)
         for (Part& part : pair) (part.graph.size() > small ? large : pieces).push_back(std::move(part));
     }
-    parallel_for(pieces.size(), [&](std::size_t i) { dissect(std::move(pieces[i])); }, 1);
+    parallel_for(
+        pieces.size(), [&](std::size_t i) { dissect(std::move(pieces[i])); }, 1);
   }
 
  private:
@@ -111,7 +113,8 @@ std::vector<Eigen::Vector2f> scaled(std::span<const Vec2> positions) {
   const double scale = size > 0 && std::isfinite(size) ? 1 / size : 0;
   std::vector<Eigen::Vector2f> result(positions.size(), Eigen::Vector2f::Zero());
   for (std::size_t i = 0; i < result.size(); ++i)
-    if (positions[i].allFinite() && scale > 0) result[i] = ((positions[i] - box.center()) * scale).cast<float>();
+    if (positions[i].allFinite() && scale > 0)
+      result[i] = ((positions[i] - box.center()) * scale).cast<float>();
   return result;
 }
 

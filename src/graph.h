@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// Vertex v has the neighbours to[begin[v]] up to to[begin[v + 1]]; every edge stands at both of its ends, none
-// joins a vertex to itself. `begin` has one element more than there are vertices.
+// Vertex v has the neighbours to[begin[v]] up to to[begin[v + 1]]; every edge stands at both of its ends,
+// none joins a vertex to itself. `begin` has one element more than there are vertices.
 struct Graph {
   std::vector<Index> begin = {0};
   std::vector<Index> to;

@@ -10,8 +10,8 @@ namespace relievo {
 // Orders pieces of one graph. The object keeps its storage: use one for many pieces.
 class LeafOrder {
  public:
-  // Both must outlive the object. `slots` has one no_index per vertex; pieces that do not touch each other may
-  // be ordered concurrently with the same one.
+  // Both must outlive the object. `slots` has one no_index per vertex; pieces that do not touch each other
+  // may be ordered concurrently with the same one.
   LeafOrder(const Graph& graph, std::span<Index> slots) : graph_(graph), slots_(slots) {}
 
   // Permutes the vertices of `piece` so that eliminating them in that order, before all others, fills little:
@@ -27,9 +27,9 @@ class LeafOrder {
 
   const Graph& graph_;
   std::span<Index> slots_;
-  std::vector<Index> outside_;        // vertices around the piece
-  std::vector<std::uint64_t> sets_;   // per vertex of the piece, its neighbours: piece first, then outside
-  std::vector<Index> degree_;         // no_index once eliminated
+  std::vector<Index> outside_;       // vertices around the piece
+  std::vector<std::uint64_t> sets_;  // per vertex of the piece, its neighbours: piece first, then outside
+  std::vector<Index> degree_;        // no_index once eliminated
   std::size_t words_ = 0;
 };
 

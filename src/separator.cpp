@@ -59,7 +59,8 @@ std::vector<float> along(std::span<const Eigen::Vector2f> positions, Eigen::Vect
   return value;
 }
 
-Band make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep, const std::vector<Index>& vertices) {
+Band make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep,
+               const std::vector<Index>& vertices) {
   std::vector<Index> slot(graph.size(), no_index);
   for (Index i = 0; i < vertices.size(); ++i) slot[vertices[i]] = i;
   Band band;
@@ -123,13 +124,16 @@ Separation cut_along(const Graph& graph, std::span<const Eigen::Vector2f> positi
   for (Index v = 0; v < graph.size(); ++v)
     if (is_in_band(sweep, v)) vertices.push_back(v);
   const BandCuts cuts = smallest_cuts(make_band(graph, positions, sweep, vertices));
-  Separation a = with_band(sweep, vertices, cuts.near_first), b = with_band(sweep, vertices, cuts.near_second);
+  Separation a = with_band(sweep, vertices, cuts.near_first),
+             b = with_band(sweep, vertices, cuts.near_second);
   return cost(a) <= cost(b) ? std::move(a) : std::move(b);
 }
 
-Separation best_of(const Graph& graph, std::span<const Eigen::Vector2f> positions, std::span<const Sweep> sweeps) {
+Separation best_of(const Graph& graph, std::span<const Eigen::Vector2f> positions,
+                   std::span<const Sweep> sweeps) {
   std::vector<Separation> cuts(sweeps.size());
-  parallel_for(sweeps.size(), [&](std::size_t i) { cuts[i] = cut_along(graph, positions, sweeps[i]); }, 1);
+  parallel_for(
+      sweeps.size(), [&](std::size_t i) { cuts[i] = cut_along(graph, positions, sweeps[i]); }, 1);
   const auto best = std::min_element(
       cuts.begin(), cuts.end(), [](const Separation& a, const Separation& b) { return cost(a) < cost(b); });
   close_gaps(graph, *best);
@@ -170,7 +174,9 @@ Separation separate(const Graph& graph, std::span<const Eigen::Vector2f> positio
   const std::array<Eigen::Vector2f, 4> directions{{{1, 0}, {0, 1}, {.7F, .7F}, {.7F, -.7F}}};
   std::vector<Sweep> sweeps(directions.size());
   parallel_for(
-      sweeps.size(), [&](std::size_t i) { sweeps[i] = make_sweep(graph, along(positions, directions[i]), directions[i]); }, 1);
+      sweeps.size(),
+      [&](std::size_t i) { sweeps[i] = make_sweep(graph, along(positions, directions[i]), directions[i]); },
+      1);
   std::stable_sort(sweeps.begin(), sweeps.end(),
                    [](const Sweep& a, const Sweep& b) { return a.width < b.width; });
   Separation cut = best_of(graph, positions, {sweeps.data(), 2});

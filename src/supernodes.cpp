@@ -147,7 +147,8 @@ class Fundamental {
 
   const Graph& graph_;
   std::vector<Index> order_, column_parent_, children_, mark_, owner_;
-  std::vector<Index> first_child_, next_sibling_;  // child supernodes of a column; the next of the same parent
+  std::vector<Index> first_child_,
+      next_sibling_;  // child supernodes of a column; the next of the same parent
   Supernodes result_;
 };
 
@@ -162,7 +163,8 @@ std::vector<Index> amalgamate(const Supernodes& nodes) {
   const Index n = nodes.size();
   std::vector<Index> width(n), group(n);
   for (Index s = 0; s < n; ++s) width[s] = nodes.width(s);
-  // In postorder a child is final before its parent is asked; the last child, nearest in structure, comes first.
+  // In postorder a child is final before its parent is asked; the last child, nearest in structure, comes
+  // first.
   std::vector<Index> first_child(n, no_index), sibling(n, no_index);
   for (Index s = 0; s < n; ++s) {
     group[s] = s;
@@ -181,8 +183,8 @@ std::vector<Index> amalgamate(const Supernodes& nodes) {
 
 // The groups of a postorder of their own, members in ascending order.
 struct Groups {
-  std::vector<Index> top;      // topmost member, in the new order
-  std::vector<Index> number;   // new number of the group a supernode belongs to
+  std::vector<Index> top;     // topmost member, in the new order
+  std::vector<Index> number;  // new number of the group a supernode belongs to
 };
 
 Groups number_groups(const Supernodes& nodes, std::span<const Index> group) {

@@ -8,11 +8,12 @@ namespace relievo {
 // Columns in the order of elimination, in supernodes: consecutive columns stored as one dense trapezoid, its
 // rows being the columns themselves and those of `rows`. Supernodes stand in postorder of the assembly tree.
 struct Supernodes {
-  std::vector<Index> order;           // vertex that is eliminated in this place
-  std::vector<Index> first = {0};     // supernode s has the columns first[s] up to first[s + 1]
-  std::vector<Index> parent;          // supernode of the first row below; no_index for a root
-  std::vector<std::size_t> begin = {0};  // rows of s below its columns: rows[begin[s]] up to rows[begin[s + 1]]
-  std::vector<Index> rows;            // as places in the order, ascending
+  std::vector<Index> order;        // vertex that is eliminated in this place
+  std::vector<Index> first = {0};  // supernode s has the columns first[s] up to first[s + 1]
+  std::vector<Index> parent;       // supernode of the first row below; no_index for a root
+  std::vector<std::size_t> begin = {
+      0};                   // rows of s below its columns: rows[begin[s]] up to rows[begin[s + 1]]
+  std::vector<Index> rows;  // as places in the order, ascending
 
   Index size() const { return static_cast<Index>(parent.size()); }
   Index width(Index s) const { return first[s + 1] - first[s]; }
