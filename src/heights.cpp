@@ -105,13 +105,15 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
 Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Triangulation& triangulation,
                                          const Boundary& boundary) {
   std::vector<Index> unknown(points.size(), no_index), free_points;
+  std::vector<Vec2> positions;
   for (Index i = 0; i < points.size(); ++i) {
     if (boundary.is_boundary[i]) continue;
     unknown[i] = static_cast<Index>(free_points.size());
     free_points.push_back(i);
+    positions.push_back(points[i]);
   }
   Adjacency adjacency = gather(half_edges(points, triangulation, boundary), unknown, free_points.size());
-  Result<Cholesky> factor = Cholesky::factor(laplacian(adjacency, unknown));
+  Result<Cholesky> factor = Cholesky::factor(laplacian(adjacency, unknown), positions);
   if (!factor) return std::unexpected(factor.error());
 
   HeightSystem system(std::move(*factor));

@@ -120,4 +120,10 @@ void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
   }
 }
 
+void BlockFlags::wait(std::size_t block) const {
+  // Waits are short as a rule: look again at once, and let others run only after a while.
+  for (int look = 0; flags_[block].load(std::memory_order_acquire) == 0; ++look)
+    if (look > 2000) std::this_thread::yield();
+}
+
 }  // namespace relievo

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace relievo {
@@ -17,8 +19,8 @@ void set_thread_count(int threads);
 
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
-// Runs f(context, b) once for each b in [0, blocks), on all threads; returns when all are done. A nested call
-// runs on the calling thread alone.
+// Runs f(context, b) once for each b in [0, blocks), on all threads; returns when all are done. Blocks are
+// begun in ascending order. A nested call runs on the calling thread alone.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
@@ -58,5 +60,22 @@ T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t 
   for (const T& part : parts) start = merge(start, part);
   return start;
 }
+
+// One flag per block, for blocks that need the results of earlier ones. A block may wait for a block of a
+// lower number of the same parallel call, and no other: as blocks are begun in order, that one is under way.
+class BlockFlags {
+ public:
+  explicit BlockFlags(std::size_t blocks = 0) : flags_(blocks) {}
+
+  void reset() {
+    for (auto& flag : flags_) flag.store(0, std::memory_order_relaxed);
+  }
+  void set(std::size_t block) { flags_[block].store(1, std::memory_order_release); }
+  // Returns when the flag is set; what was written before is then visible.
+  void wait(std::size_t block) const;
+
+ private:
+  std::vector<std::atomic<std::uint8_t>> flags_;
+};
 
 }  // namespace relievo
