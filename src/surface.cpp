@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "hilbert.h"
 #include "relievo/normals.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
@@ -65,6 +66,11 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
   return xy;
 }
 
+// The points in an order in which neighbours in the view plane are neighbours in memory.
+std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>& points) {
+  return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
+}
+
 }  // namespace
 
 Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
@@ -101,7 +107,7 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
   if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
   std::vector<double> k(viewed.size(), 0.0);
   scatter(mean_curvature(viewed, spacing, visible, options.curvature), visible, k);
-  const std::vector<Index> shown = merged(visible, fillers);
+  const std::vector<Index> shown = along_the_plane(viewed, merged(visible, fillers));
   surface.points = pick(viewed.points, shown);
   surface.normals = pick(viewed.normals, shown);
 

@@ -28,6 +28,7 @@ class ReliefModel {
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr);
 
   const Surface& surface() const { return surface_; }
+  const HeightSystem& system() const { return system_; }
 
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
