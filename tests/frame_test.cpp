@@ -18,7 +18,8 @@ const ReliefModel& model() {
         [](double x, double y) {
           return Vec2(std::cos(5 * x) * std::cos(4 * y), -.8 * std::sin(5 * x) * std::sin(4 * y));
         });
-    return ReliefModel::prepare(find_surface(test::joined(bumps, test::torus(30000, 1.5, .4)), {}).value()).value();
+    return ReliefModel::prepare(find_surface(test::joined(bumps, test::torus(30000, 1.5, .4)), {}).value())
+        .value();
   }();
   return made;
 }
@@ -56,7 +57,8 @@ TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
     if (!surface.boundary.is_inside[t]) continue;
     const auto [a, b, c] = surface.triangulation.triangles[t];
     const Vec3 u = at(b) - at(a), v = at(c) - at(a);
-    const Vec3 cross(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(), u.x() * v.y() - u.y() * v.x());
+    const Vec3 cross(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+                     u.x() * v.y() - u.y() * v.x());
     for (const Index corner : {a, b, c}) sums[corner] += cross;
   }
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -133,7 +135,8 @@ TEST(Frame, ABaseIsAddedToTheHeights) {
   FrameOptions options;
   const Frame plane = frame_of(options);
   auto base = std::make_shared<std::vector<float>>(plane.heights.size());
-  for (std::size_t i = 0; i < base->size(); ++i) (*base)[i] = static_cast<float>(model().surface().points[i].x());
+  for (std::size_t i = 0; i < base->size(); ++i)
+    (*base)[i] = static_cast<float>(model().surface().points[i].x());
   options.base = base;
   const Frame curved = frame_of(options);
   EXPECT_EQ(curved.height, plane.height);

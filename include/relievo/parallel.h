@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace relievo {
@@ -76,6 +81,43 @@ class BlockFlags {
 
  private:
   std::vector<std::atomic<std::uint8_t>> flags_;
+};
+
+// A value that threads share: with() is the only way to it, one caller at a time.
+template <typename T>
+class Guarded {
+ public:
+  template <typename F>
+  decltype(auto) with(F&& f) {
+    const std::lock_guard lock(mutex_);
+    return std::forward<F>(f)(value_);
+  }
+  template <typename F>
+  decltype(auto) with(F&& f) const {
+    const std::lock_guard lock(mutex_);
+    return std::forward<F>(f)(value_);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  T value_;
+};
+
+// A thread of its own that calls one function again and again, as long as that returns true, and then sleeps
+// until wake(). Its methods may be called from any thread but that one.
+class BackgroundLoop {
+ public:
+  explicit BackgroundLoop(std::function<bool()> step);
+  ~BackgroundLoop();  // ends after the running step
+
+  void wake();
+
+  // Waits until the loop sleeps and was not woken since. Returns false if that takes longer than the timeout.
+  bool wait_until_idle(std::chrono::milliseconds timeout);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace relievo
