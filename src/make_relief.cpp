@@ -39,7 +39,9 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   const auto& [compression, gamma, max_slope] = relief.shape;
-  report.alpha = options.height_mm ? compression.alpha() : options.effective_alpha();
+  // As given, where it was given: from u it comes back with a rounding error.
+  const bool is_given = !options.height_mm && compression.beta > 0;
+  report.alpha = is_given ? options.effective_alpha() : compression.alpha();
   report.beta = compression.beta;
   report.u = compression.u;
   report.gamma = gamma;
@@ -56,7 +58,7 @@ double lowest(const Relief& relief) {
   return std::min(0.0, *std::min_element(relief.heights.begin(), relief.heights.end()));
 }
 
-// Puts the near, lower left corner of the visible points' box at `corner` of the plate, whose box starts at
+// Puts the far, lower left corner of the visible points' box at `corner` of the plate, whose box starts at
 // the origin.
 void place(ReliefReport& report, const Surface& surface, const Vec3& corner, double mm_per_unit) {
   report.scale = mm_per_unit;
