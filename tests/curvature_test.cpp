@@ -106,6 +106,14 @@ TEST_P(Curvature, SurvivesNoiseOfHalfTheSpacing) {
   EXPECT_LT(e.deviation, .35);
 }
 
+TEST_P(Curvature, TakesAllNeighboursOfALargeScale) {
+  const Statistics e = errors(
+      test::sphere(40000, 1), [](const Vec3&) { return 1.0; }, [](const Vec3& p) { return p.z() > .95; },
+      {GetParam(), 6});
+  EXPECT_NEAR(e.mean, 0, .05);
+  EXPECT_LT(e.deviation, .1);
+}
+
 TEST_P(Curvature, OfTheOtherSideOfAThinWallDoesNotCount) {
   const Cloud front = test::sphere(20000, 1);
   Cloud back = test::sphere(20000, .99, 8);

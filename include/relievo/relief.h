@@ -33,7 +33,7 @@ class ReliefModel {
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
 
-  // Returns the relief whose height is `height` to a part in 10^5, detail included, by changing the
+  // Returns the relief whose height is `height`, detail included, by changing the
   // compression's u at the beta, gamma and slope asked for (the intent of Algorithm 1, section 3.6). Errors:
   // kind geometry if no u gives that height, telling the largest that is reached, in units of `unit_mm`
   // millimetres; kind cancelled.
