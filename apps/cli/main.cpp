@@ -1,6 +1,8 @@
 #include <cstdio>
+#include <new>
 
 #include "commands.h"
+#include "files.h"
 #include "relievo/version.h"
 
 int main(int argc, char** argv) {
@@ -24,10 +26,14 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "relievo: expected make, info or sample, found '%s'; see relievo --help\n", argv[1]);
     return 2;
   }
+  relievo::cli::remove_temporary_files_on_signals();
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "relievo: expected more free memory for so many points\n");
+    return 1;
   }
   if (result) return 0;
   std::fprintf(stderr, "relievo: %s\n", result.error().message().c_str());
