@@ -16,7 +16,7 @@ struct Shape {
 };
 
 struct Relief {
-  std::vector<double> heights;  // per visible point, above the base, in the cloud's units
+  std::vector<double> heights;  // per point of the surface, above the base, in its units
   double height = 0;            // h: highest minus lowest, base and detail included
   Shape shape;                  // what it was made with
 };
