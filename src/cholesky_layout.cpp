@@ -157,9 +157,15 @@ class Layout {
 
   void find_rows(Task& task) {
     task.rows = result_->rows.size();
-    for (Index s = task.first_node; s < task.end_node; ++s)
+    std::vector<std::uint16_t>& rows = result_->rows;
+    for (Index s = task.first_node; s < task.end_node; ++s) {
+      const auto first = static_cast<std::uint16_t>(nodes_.first[s] - task.first_column);
+      const std::size_t padded = rows.size() + padded_rows(nodes_.width(s), nodes_.below(s));
+      for (Index i = 0; i < nodes_.width(s); ++i) rows.push_back(static_cast<std::uint16_t>(first + i));
       for (const Index row : nodes_.rows_of(s))
-        result_->rows.push_back(static_cast<std::uint16_t>(place_in(task, row)));
+        rows.push_back(static_cast<std::uint16_t>(place_in(task, row)));
+      rows.resize(padded, first);
+    }
     task.end_rows = result_->rows.size();
   }
 

@@ -27,7 +27,7 @@ class Numeric {
   Index run() {
     fill_matrix();
     const std::size_t n = factor_.tasks.size();
-    factor_.values.reset(new float[factor_.value_count]);
+    factor_.values = make_large_array(factor_.value_count);
     left_over_.resize(n);
     failed_.assign(n, no_index);
     BlockFlags done(n);
@@ -195,6 +195,8 @@ void Numeric::eliminate_subtree(std::size_t t) {
   Index first = 0;  // place of the supernode's first column in the segment
   for (Index s = task.first_node; s < task.end_node; ++s) {
     const auto [width, below] = factor_.nodes[s];
+    const std::uint16_t* next_rows = rows + padded_rows(width, below);
+    rows += width;
     w.front.reset(width + below);
     for (Index i = 0; i < width; ++i) w.slot[first + i] = i;
     for (Index i = 0; i < below; ++i) w.slot[rows[i]] = width + i;
@@ -222,7 +224,7 @@ void Numeric::eliminate_subtree(std::size_t t) {
       add_packed(w.stack.data() + begin, w.child_slots, boundary_column);
       w.stack.resize(begin);
     }
-    rows += below;
+    rows = next_rows;
     first += width;
   }
 }
