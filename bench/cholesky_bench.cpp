@@ -41,28 +41,36 @@ std::vector<Vec2> scattered(std::size_t n) {
   return points;
 }
 
-// Cotangent weights as in HeightSystem; points of the hull are tied to the ground.
+double half_cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
+  const Vec2 u = a - apex, v = b - apex;
+  return .5 * u.dot(v) / std::max(u.x() * v.y() - u.y() * v.x(), 1e-300);
+}
+
+// Cotangent weights within the limits of HeightSystem; points of the hull are tied to the ground.
 System make_system(std::size_t n) {
   System system;
   system.positions = scattered(n);
   const Triangulation mesh = delaunay(system.positions);
   const auto size = static_cast<Eigen::Index>(n);
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(size, 1e-9);
   std::vector<Eigen::Triplet<double>> entries;
+  for (Index v = 0; v < n; ++v) entries.emplace_back(static_cast<int>(v), static_cast<int>(v), 0);
+  for (const Index v : mesh.hull) entries.emplace_back(static_cast<int>(v), static_cast<int>(v), 1);
   for (const Triangle& t : mesh.triangles)
     for (int corner = 0; corner < 3; ++corner) {
-      const int a = static_cast<int>(t[(corner + 1) % 3]), b = static_cast<int>(t[(corner + 2) % 3]);
-      const Vec2 u = system.positions[t[(corner + 1) % 3]] - system.positions[t[corner]];
-      const Vec2 v = system.positions[t[(corner + 2) % 3]] - system.positions[t[corner]];
-      const double weight = .5 * std::clamp(u.dot(v) / (u.x() * v.y() - u.y() * v.x()), -1e3, 1e3);
-      entries.emplace_back(std::max(a, b), std::min(a, b), -weight);
-      diagonal[a] += weight;
-      diagonal[b] += weight;
+      const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
+      entries.emplace_back(
+          static_cast<int>(std::max(a, b)), static_cast<int>(std::min(a, b)),
+          -half_cotangent(system.positions[t[corner]], system.positions[a], system.positions[b]));
     }
-  for (const Index v : mesh.hull) diagonal[v] += 1;
-  for (int v = 0; v < size; ++v) entries.emplace_back(v, v, diagonal[v]);
   system.A.resize(size, size);
   system.A.setFromTriplets(entries.begin(), entries.end());
+  for (int j = 0; j < size; ++j)
+    for (Sparse::InnerIterator entry(system.A, j); entry; ++entry) {
+      if (entry.row() == j) continue;
+      entry.valueRef() = std::clamp(entry.value(), -1e3, -1e-4);
+      system.A.coeffRef(j, j) -= entry.value();
+      system.A.coeffRef(entry.row(), entry.row()) -= entry.value();
+    }
   system.b = Eigen::VectorXd::LinSpaced(size, -1, 1);
   return system;
 }
