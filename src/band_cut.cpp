@@ -37,9 +37,8 @@ class PathFlow {
     }
   }
 
-  // Of the final flow: what can still be reached is on the near side.
-  std::vector<Side> cut(Side near, Side far) {
-    find_levels();
+  // Of the final flow, after maximise(): what can still be reached is on the near side.
+  std::vector<Side> cut(Side near, Side far) const {
     std::vector<Side> side(graph_.size(), far);
     for (Index v = 0; v < graph_.size(); ++v) {
       if (level_[2 * v + 1] != no_index)
@@ -220,6 +219,7 @@ BandCuts smallest_cuts(const Band& band) {
   BandCuts cuts;
   cuts.near_first = flow.cut(Side::first, Side::second);
   flow.reverse();
+  flow.maximise();  // it is: this only looks what can be reached from here
   cuts.near_second = flow.cut(Side::second, Side::first);
   return cuts;
 }

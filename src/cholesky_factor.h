@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "large_array.h"
 #include "relievo/cholesky.h"
 #include "relievo/types.h"
 #include "supernodes.h"
@@ -48,8 +49,8 @@ struct Cholesky::Factor {
   std::vector<Index> boundary;   // columns
   std::vector<Index> to_parent;  // where each stands in the parent's segment
   std::vector<NodeSize> nodes;
-  std::vector<std::uint16_t> rows;  // of supernodes in subtrees: places in the segment
-  std::unique_ptr<float[]> values;  // trapezoids of W, task after task, see trapezoid.h
+  std::vector<std::uint16_t> rows;  // of supernodes in subtrees, see Subtree
+  LargeArray values;                // trapezoids of W, task after task, see trapezoid.h
   std::size_t value_count = 0, segment_count = 0;
   TaskMatrix matrix;
 };

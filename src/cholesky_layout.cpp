@@ -15,8 +15,7 @@ Index subtree_limit(std::size_t columns) {
 
 class Layout {
  public:
-  explicit Layout(const Supernodes& nodes)
-      : nodes_(nodes), limit_(subtree_limit(nodes.order.size())), task_of_(nodes.size(), no_index) {}
+  explicit Layout(const Supernodes& nodes) : nodes_(nodes), limit_(subtree_limit(nodes.order.size())) {}
 
   std::unique_ptr<Cholesky::Factor> build() {
     result_ = std::make_unique<Cholesky::Factor>();
@@ -37,7 +36,7 @@ class Layout {
     begin_.resize(n);
     is_above_.assign(n, 0);
     for (Index s = 0; s < n; ++s) {
-      begin_[s] = columns[s] == 0 ? s : begin_[s];
+      if (columns[s] == 0) begin_[s] = s;
       columns[s] += nodes_.width(s);
       const Index rows = nodes_.width(s) + nodes_.below(s);
       if (columns[s] > limit_ || rows > largest_subtree_rows) is_above_[s] = 1;
@@ -56,7 +55,7 @@ class Layout {
       if (!is_above_[s] && p != no_index && !is_above_[p]) continue;
       const bool joins = !is_above_[s] && !tasks_.empty() && tasks_.back().is_subtree && last_parent_ == p &&
                          nodes_.first[s + 1] - tasks_.back().first_column <= limit_ &&
-                         rows_so_far_ + nodes_.below(s) <= largest_subtree_segment - 16384 - 8;
+                         rows_so_far_ + nodes_.below(s) <= largest_subtree_segment - limit_;
       if (!joins) {
         tasks_.push_back({});
         tasks_.back().first_node = is_above_[s] ? s : begin_[s];
@@ -157,15 +156,21 @@ class Layout {
 
   void find_rows(Task& task) {
     task.rows = result_->rows.size();
-    for (Index s = task.first_node; s < task.end_node; ++s)
+    std::vector<std::uint16_t>& rows = result_->rows;
+    for (Index s = task.first_node; s < task.end_node; ++s) {
+      const auto first = static_cast<std::uint16_t>(nodes_.first[s] - task.first_column);
+      const std::size_t padded = rows.size() + padded_rows(nodes_.width(s), nodes_.below(s));
+      for (Index i = 0; i < nodes_.width(s); ++i) rows.push_back(static_cast<std::uint16_t>(first + i));
       for (const Index row : nodes_.rows_of(s))
-        result_->rows.push_back(static_cast<std::uint16_t>(place_in(task, row)));
+        rows.push_back(static_cast<std::uint16_t>(place_in(task, row)));
+      rows.resize(padded, first);
+    }
     task.end_rows = result_->rows.size();
   }
 
   const Supernodes& nodes_;
   Index limit_;
-  std::vector<Index> task_of_, begin_;  // begin_: first supernode of the subtree of each
+  std::vector<Index> begin_;  // first supernode of the subtree of each
   std::vector<std::uint8_t> is_above_;
   std::vector<Task> tasks_;
   Index last_parent_ = no_index;

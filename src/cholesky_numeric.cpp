@@ -24,31 +24,12 @@ class Numeric {
     for (Index i = 0; i < place_.size(); ++i) place_[factor.order[i]] = i;
   }
 
-  Index run() {
-    fill_matrix();
-    const std::size_t n = factor_.tasks.size();
-    factor_.values.reset(new float[factor_.value_count]);
-    left_over_.resize(n);
-    failed_.assign(n, no_index);
-    BlockFlags done(n);
-    parallel_for(
-        n,
-        [&](std::size_t t) {
-          const Task& task = factor_.tasks[t];
-          for (Index c = task.first_child; c < task.end_child; ++c) done.wait(factor_.children[c]);
-          task.is_subtree ? eliminate_subtree(t) : eliminate_supernode(t);
-          done.set(t);
-        },
-        1);
-    const Index column = *std::min_element(failed_.begin(), failed_.end());
-    return column == no_index ? no_index : factor_.order[column];
-  }
+  Index run();
 
  private:
-  struct Worker;
+  class Subtree;
 
   void fill_matrix();
-  void eliminate_subtree(std::size_t t);
   void eliminate_supernode(std::size_t t);
   Index place_in(const Task& task, Index column) const;
   void add_matrix(const Task& task, Index first, Index width, std::span<const Index> slot,
@@ -167,64 +148,103 @@ void Numeric::eliminate_supernode(std::size_t t) {
   pack(front, task.own(), left_over_[t].data());
 }
 
-// Supernodes in postorder: what children leave over lies on top of a stack when their parent comes.
-struct Numeric::Worker {
+// The supernodes of a subtree task in postorder: what children leave over lies on top of a stack when their
+// parent comes.
+class Numeric::Subtree {
+ public:
+  Subtree(Numeric& numeric, std::size_t t)
+      : numeric_(numeric),
+        t_(t),
+        task_(numeric.factor_.tasks[t]),
+        left_over_(numeric.left_over_[t]),
+        slot_(task_.own() + task_.boundary),
+        values_(numeric.factor_.values.get() + task_.values) {
+    left_over_.assign(packed_size(task_.boundary), 0.0);
+  }
+
+  void eliminate() {
+    const std::uint16_t* rows = numeric_.factor_.rows.data() + task_.rows;
+    Index first = 0;  // place of the supernode's first column in the segment
+    for (Index s = task_.first_node; s < task_.end_node; ++s) {
+      const auto [width, below] = numeric_.factor_.nodes[s];
+      eliminate_node(first, width, {rows, width + below});
+      rows += padded_rows(width, below);
+      first += width;
+    }
+  }
+
+ private:
   struct Pending {
-    std::span<const std::uint16_t> rows;
-    Index parent_row;  // the first of them: the parent owns it
+    std::span<const std::uint16_t> rows;  // places; the parent owns the first
     std::size_t begin;
   };
-  Front front;
-  std::vector<Index> slot, child_slots;
-  std::vector<double> stack;
-  std::vector<Pending> pending;
+
+  void eliminate_node(Index first, Index width, std::span<const std::uint16_t> rows) {
+    front_.reset(static_cast<Index>(rows.size()));
+    for (Index i = 0; i < rows.size(); ++i) slot_[rows[i]] = i;
+    numeric_.add_matrix(task_, task_.first_column + first, width, slot_, front_);
+    while (!pending_.empty() && pending_.back().rows[0] < first + width) add_child();
+    numeric_.eliminate(t_, task_.first_column + first, width, front_, values_);
+    const auto below = rows.subspan(width);
+    const std::size_t begin = stack_.size();
+    stack_.resize(begin + packed_size(below.size()));
+    pack(front_, width, stack_.data() + begin);
+    pending_.push_back({below, begin});
+    if (below.empty() || below[0] >= task_.own()) add_to_boundary();
+  }
+
+  void add_child() {
+    child_slots_.clear();
+    for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(slot_[row]);
+    add_packed(stack_.data() + pending_.back().begin, child_slots_,
+               [&](Index c) { return front_.column(c); });
+    pop();
+  }
+
+  // A root: its parent belongs to another task.
+  void add_to_boundary() {
+    child_slots_.clear();
+    for (const std::uint16_t row : pending_.back().rows) child_slots_.push_back(row - task_.own());
+    // Packed column c begins with row c.
+    add_packed(stack_.data() + pending_.back().begin, child_slots_,
+               [&](Index c) { return left_over_.data() + std::size_t{c} * task_.boundary - packed_size(c); });
+    pop();
+  }
+
+  void pop() {
+    stack_.resize(pending_.back().begin);
+    pending_.pop_back();
+  }
+
+  Numeric& numeric_;
+  std::size_t t_;
+  const Task& task_;
+  Packed& left_over_;
+  std::vector<Index> slot_, child_slots_;  // slot_: row of the front, by place in the segment
+  float* values_;
+  Front front_;
+  std::vector<double> stack_;
+  std::vector<Pending> pending_;
 };
 
-void Numeric::eliminate_subtree(std::size_t t) {
-  const Task& task = factor_.tasks[t];
-  Worker w;
-  w.slot.resize(task.own() + task.boundary + 1);
-  Packed& left_over = left_over_[t];
-  left_over.assign(packed_size(task.boundary), 0.0);
-  const auto boundary_column = [&](Index c) {
-    // Packed column c begins at row c.
-    return left_over.data() + std::size_t{c} * task.boundary - packed_size(c);
-  };
-  const std::uint16_t* rows = factor_.rows.data() + task.rows;
-  float* values = factor_.values.get() + task.values;
-  Index first = 0;  // place of the supernode's first column in the segment
-  for (Index s = task.first_node; s < task.end_node; ++s) {
-    const auto [width, below] = factor_.nodes[s];
-    w.front.reset(width + below);
-    for (Index i = 0; i < width; ++i) w.slot[first + i] = i;
-    for (Index i = 0; i < below; ++i) w.slot[rows[i]] = width + i;
-    add_matrix(task, task.first_column + first, width, w.slot, w.front);
-    const auto add_slots = [&](std::span<const std::uint16_t> from, Index offset) {
-      w.child_slots.clear();
-      for (const std::uint16_t row : from) w.child_slots.push_back(offset == 0 ? w.slot[row] : row - offset);
-    };
-    while (!w.pending.empty() && w.pending.back().parent_row < first + width) {
-      add_slots(w.pending.back().rows, 0);
-      add_packed(w.stack.data() + w.pending.back().begin, w.child_slots,
-                 [&](Index c) { return w.front.column(c); });
-      w.stack.resize(w.pending.back().begin);
-      w.pending.pop_back();
-    }
-    eliminate(t, task.first_column + first, width, w.front, values);
-    const std::size_t begin = w.stack.size();
-    w.stack.resize(begin + packed_size(below));
-    pack(w.front, width, w.stack.data() + begin);
-    if (below > 0 && rows[0] < task.own()) {
-      w.pending.push_back({{rows, below}, rows[0], begin});
-    } else {
-      w.child_slots.clear();
-      for (Index i = 0; i < below; ++i) w.child_slots.push_back(rows[i] - task.own());
-      add_packed(w.stack.data() + begin, w.child_slots, boundary_column);
-      w.stack.resize(begin);
-    }
-    rows += below;
-    first += width;
-  }
+Index Numeric::run() {
+  fill_matrix();
+  const std::size_t n = factor_.tasks.size();
+  factor_.values = make_large_array(factor_.value_count);
+  left_over_.resize(n);
+  failed_.assign(n, no_index);
+  BlockFlags done(n);
+  parallel_for(
+      n,
+      [&](std::size_t t) {
+        const Task& task = factor_.tasks[t];
+        for (Index c = task.first_child; c < task.end_child; ++c) done.wait(factor_.children[c]);
+        task.is_subtree ? Subtree(*this, t).eliminate() : eliminate_supernode(t);
+        done.set(t);
+      },
+      1);
+  const Index column = *std::min_element(failed_.begin(), failed_.end());
+  return column == no_index ? no_index : factor_.order[column];
 }
 
 }  // namespace

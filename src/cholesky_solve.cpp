@@ -11,6 +11,7 @@ struct Cholesky::Workspace::Storage {
   std::vector<float> segments;
   BlockFlags done;
   std::vector<double> solution, residual;  // by place in the order
+  std::vector<double> largest;             // of the residual, per task
 };
 
 Cholesky::Workspace::Workspace(std::unique_ptr<Storage> storage) : storage_(std::move(storage)) {}
@@ -115,17 +116,6 @@ void subtract_product(const TaskMatrix& A, const Task& task, std::span<const dou
   }
 }
 
-double largest(std::span<const double> v) {
-  return parallel_reduce(
-      v.size(), 0.0,
-      [&](std::size_t begin, std::size_t end) {
-        double most = 0;
-        for (std::size_t i = begin; i < end; ++i) most = std::max(most, std::abs(v[i]));
-        return most;
-      },
-      [](double a, double b) { return std::max(a, b); });
-}
-
 // Keeps the substitution in the range of single precision, whatever the unit of the right-hand side.
 double unit_of(double largest) {
   return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::ilogb(largest)) : 1;
@@ -155,19 +145,24 @@ struct Refinement {
   const Factor& factor;
   std::vector<float>& segments;
   BlockFlags& done;
-  std::vector<double>&solution, &residual;
+  std::vector<double>&solution, &residual, &largest;
+
+  // The residual of an x of 0 is b. Returns its largest element.
+  double start(std::span<const double> b) const {
+    return for_each_task([&](const Task& task) {
+      for (Index i = task.first_column; i < task.end_column; ++i) {
+        residual[i] = b[factor.order[i]];
+        solution[i] = 0;
+      }
+    });
+  }
 
   // Returns the largest element of the residual.
   double find_residual(std::span<const double> b) const {
-    parallel_for(
-        factor.tasks.size(),
-        [&](std::size_t t) {
-          const Task& task = factor.tasks[t];
-          for (Index i = task.first_column; i < task.end_column; ++i) residual[i] = b[factor.order[i]];
-          subtract_product(factor.matrix, task, solution, residual);
-        },
-        1);
-    return largest(residual);
+    return for_each_task([&](const Task& task) {
+      for (Index i = task.first_column; i < task.end_column; ++i) residual[i] = b[factor.order[i]];
+      subtract_product(factor.matrix, task, solution, residual);
+    });
   }
 
   void correct(double largest_residual) const {
@@ -177,38 +172,59 @@ struct Refinement {
         [&](Index i, float value) { solution[i] += unit * static_cast<double>(value); });
   }
 
+  void read(std::span<const double> x) const {
+    parallel_for(solution.size(), [&](std::size_t i) { solution[i] = x[factor.order[i]]; });
+  }
+
   void write(std::span<double> x) const {
     parallel_for(solution.size(), [&](std::size_t i) { x[factor.order[i]] = solution[i]; });
   }
+
+ private:
+  template <typename F>
+  double for_each_task(F&& f) const {
+    parallel_for(
+        factor.tasks.size(),
+        [&](std::size_t t) {
+          const Task& task = factor.tasks[t];
+          f(task);
+          largest[t] = 0;
+          for (Index i = task.first_column; i < task.end_column; ++i)
+            largest[t] = std::max(largest[t], std::abs(residual[i]));
+        },
+        1);
+    return largest.empty() ? 0 : *std::max_element(largest.begin(), largest.end());
+  }
 };
+
+Refinement refinement_in(Cholesky::Workspace::Storage& w, const Factor& factor) {
+  w.solution.resize(factor.order.size());
+  w.residual.resize(factor.order.size());
+  w.largest.resize(factor.tasks.size());
+  return {factor, w.segments, w.done, w.solution, w.residual, w.largest};
+}
 
 }  // namespace
 
 void Cholesky::refine(std::span<const double> b, std::span<double> x, Workspace& workspace) const {
-  Workspace::Storage& w = *workspace.storage_;
-  w.solution.resize(size());
-  w.residual.resize(size());
-  const Refinement refinement{*factor_, w.segments, w.done, w.solution, w.residual};
-  parallel_for(size(), [&](std::size_t i) { w.solution[i] = x[factor_->order[i]]; });
+  const Refinement refinement = refinement_in(*workspace.storage_, *factor_);
+  refinement.read(x);
   refinement.correct(refinement.find_residual(b));
   refinement.write(x);
 }
 
 void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const {
-  Workspace::Storage& w = *workspace.storage_;
-  w.solution.resize(size());
-  w.residual.resize(size());
-  const Refinement refinement{*factor_, w.segments, w.done, w.solution, w.residual};
-  std::fill(w.solution.begin(), w.solution.end(), 0.0);
-  parallel_for(size(), [&](std::size_t i) { w.residual[i] = b[factor_->order[i]]; });
-  // The residual of a solution rounded to double is a few roundings of the largest product in it.
-  double last = largest(w.residual);
-  const double enough = 1e-16 * last;
+  const Refinement refinement = refinement_in(*workspace.storage_, *factor_);
+  double last = refinement.start(b), rate = 1;
+  const double enough = 1e-13 * last;
   const int most_steps = 6;
   for (int step = 0; step < most_steps && last > enough; ++step) {
     refinement.correct(last);
+    // Each step gains as much as the one before: the last residual need not be looked at.
+    if (rate * last < enough) break;
     const double now = refinement.find_residual(b);
     if (!(now < last / 4)) break;
+    rate = now / last;
     last = now;
   }
   refinement.write(x);

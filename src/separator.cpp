@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "relievo/parallel.h"
 
@@ -17,7 +18,7 @@ struct Sweep {
   Eigen::Vector2f direction = {1, 0};
   std::vector<float> value;
   float low = 0, high = 0;
-  Index width = 0;  // vertices of the band that touch what lies below: a first guess of the separator's size
+  Index width = 0;  // vertices of the band that touch what lies below, of a sample: a guess of the cut's size
 };
 
 bool is_in_band(const Sweep& sweep, Index v) {
@@ -48,7 +49,8 @@ Sweep make_sweep(const Graph& graph, std::vector<float> value, Eigen::Vector2f d
   sweep.direction = direction;
   sweep.value = std::move(value);
   find_band(sweep);
-  for (Index v = 0; v < graph.size(); ++v)
+  const Index step = graph.size() / 4096 + 1;
+  for (Index v = 0; v < graph.size(); v += step)
     if (is_in_band(sweep, v) && touches_below(graph, sweep, v)) ++sweep.width;
   return sweep;
 }
@@ -102,9 +104,9 @@ void close_gaps(const Graph& graph, Separation& cut) {
 // An estimate of the factor entries that a separation causes: those of the separator itself, whose front has
 // about four times its width, and those that the larger side will need more than an even half would.
 double cost(const Separation& cut) {
+  if (cut.first == 0 || cut.second == 0) return std::numeric_limits<double>::infinity();
   const double n = static_cast<double>(cut.side.size()), s = cut.separator;
-  const double a = std::max(1.0, double{static_cast<double>(cut.first)}) / n;
-  const double b = std::max(1.0, double{static_cast<double>(cut.second)}) / n;
+  const double a = cut.first / n, b = cut.second / n;
   const double unevenness = 1 + a * std::log2(a) + b * std::log2(b);
   return s * (s / 2 + 2.2 * std::sqrt(n)) + 2 * n * unevenness;
 }

@@ -155,7 +155,7 @@ class Fundamental {
 // What a substitution pays for a supernode, in floats read: each row below is gathered and scattered, and the
 // supernode itself begun.
 double substitution_cost(Index width, Index below) {
-  return static_cast<double>(trapezoid_floats(width, below)) + 4.0 * below + 60;
+  return static_cast<double>(trapezoid_floats(width, below)) + 2.0 * below + 40;
 }
 
 // Which supernodes join their parents: the group of each, named by its topmost member.

@@ -121,24 +121,39 @@ RELIEVO_INLINE void multiply_transposed(NodeSize node, const float* values, cons
 }
 
 RELIEVO_INLINE void forward_inline(const Subtree& subtree) {
-  alignas(32) float out[largest_subtree_rows + 8];
+  alignas(32) float out[largest_subtree_rows + 8], b[largest_subtree_rows];
   const float* values = subtree.values;
   const std::uint16_t* rows = subtree.rows;
   float* own = subtree.segment;
   for (const NodeSize node : subtree.nodes) {
-    for (Index i = 0; i < node.width + node.below; i += 8) eight(out + i) = Float8{};
-    values = add_product(node, values, own, out);
-    for (Index i = 0; i < node.width; ++i) own[i] = out[i];
-    for (Index i = 0; i < node.below; ++i) subtree.segment[rows[i]] += out[node.width + i];
+    const Index count = node.width + node.below;
+    for (Index i = 0; i < count; i += 8) eight(out + i) = Float8{};
+    for (Index i = 0; i < node.width; ++i) b[i] = own[i], own[i] = 0;
+    values = add_product(node, values, b, out);
+    for (Index i = 0; i < count; ++i) subtree.segment[rows[i]] += out[i];
     own += node.width;
-    rows += node.below;
+    rows += padded_rows(node.width, node.below);
   }
+}
+
+// Vectors are put together in registers: reading them back right after single stores would stall.
+RELIEVO_INLINE void gather(const float* segment, const std::uint16_t* rows, Index count, float* x) {
+  Index i = 0;
+  for (; i + 8 <= count; i += 8, rows += 8)
+    eight(x + i) = Float8{segment[rows[0]], segment[rows[1]], segment[rows[2]], segment[rows[3]],
+                          segment[rows[4]], segment[rows[5]], segment[rows[6]], segment[rows[7]]};
+  if (i < count) four(x + i) = Float4{segment[rows[0]], segment[rows[1]], segment[rows[2]], segment[rows[3]]};
 }
 
 std::size_t value_count(NodeSize node) {
   const std::size_t rows = padded_rows(node.width, node.below);
   const std::size_t full = node.width / 8, rest = node.width % 8;
   return 8 * (full * rows - 4 * full * (full - (full > 0 ? 1 : 0))) + rest * (rows - 8 * full);
+}
+
+// Asks for the values read soon. Backwards the processor does not guess them by itself.
+RELIEVO_INLINE void prefetch(const float* begin, std::size_t floats) {
+  for (std::size_t i = 0; i < floats; i += 16) __builtin_prefetch(begin + i);
 }
 
 RELIEVO_INLINE void backward_inline(const Subtree& end) {
@@ -149,12 +164,13 @@ RELIEVO_INLINE void backward_inline(const Subtree& end) {
   for (const NodeSize node : end.nodes) own += node.width;
   for (std::size_t s = end.nodes.size(); s-- > 0;) {
     const NodeSize node = end.nodes[s];
-    values -= value_count(node);
-    rows -= node.below;
+    const std::size_t floats = value_count(node);
+    values -= floats;
+    prefetch(values - 1024 - floats, floats + 16);
+    const Index count = padded_rows(node.width, node.below);
+    rows -= count;
     own -= node.width;
-    for (Index i = 0; i < node.width; ++i) x[i] = own[i];
-    for (Index i = 0; i < node.below; ++i) x[node.width + i] = end.segment[rows[i]];
-    four(x + node.width + node.below) = Float4{};
+    gather(end.segment, rows, count, x);
     multiply_transposed(node, values, x, own);
   }
 }

@@ -26,7 +26,7 @@ struct NodeSize {
 inline constexpr Index largest_subtree_rows = 2048;
 
 // A run of supernodes, each the child of a later one or of none. Their columns have consecutive places in
-// `segment`; `rows` are the places of the rows below, one supernode after the other, as are `values`.
+// `segment`; `rows` are the places of each supernode's rows, its own columns included, padded with any place.
 struct Subtree {
   std::span<const NodeSize> nodes;
   const float* values;

@@ -25,9 +25,10 @@ class Cholesky {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
+    struct Storage;
+
    private:
     friend class Cholesky;
-    struct Storage;
     explicit Workspace(std::unique_ptr<Storage> storage);
     std::unique_ptr<Storage> storage_;
   };
@@ -60,8 +61,8 @@ class Cholesky {
   // triangulation.
   void solve(std::span<const float> b, std::span<float> x, Workspace& workspace) const;
 
-  // Substitution, then refinement in double until the residual is at the level of rounding or stops falling:
-  // two or three substitutions as a rule.
+  // Substitution, then refinement in double until the largest element of the residual is 1e-13 of that of b
+  // or stops falling: two substitutions as a rule.
   void solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
   void solve(std::span<const double> b, std::span<double> x) const;
 
