@@ -1,22 +1,58 @@
 #include "relievo/cholesky.h"
 
-#include <Eigen/SparseCholesky>
 #include <cmath>
+#include <numeric>
+
+#include "cholesky_factor.h"
+#include "dissection.h"
 
 namespace relievo {
-
-struct Cholesky::Factor {
-  Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> ldlt;
-};
-
 namespace {
 
 Error not_positive_definite(std::string why) {
   return {ErrorKind::geometry, "matrix", {}, "expected a symmetric positive definite matrix, " + why};
 }
 
+using Entries = Eigen::SparseMatrix<double>::InnerIterator;
+
 bool is_finite(const Eigen::SparseMatrix<double>& A) {
-  return Eigen::Map<const Eigen::ArrayXd>(A.valuePtr(), A.nonZeros()).isFinite().all();
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Entries entry(A, j); entry; ++entry)
+      if (!std::isfinite(entry.value())) return false;
+  return true;
+}
+
+// Calls f(column, row, value) for the entries below the diagonal, which it adds to the graph's own.
+template <typename F>
+void for_each_below(const Eigen::SparseMatrix<double>& A, F&& f) {
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Entries entry(A, j); entry; ++entry)
+      if (entry.row() > j) f(static_cast<Index>(j), static_cast<Index>(entry.row()), entry.value());
+}
+
+WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A) {
+  WeightedGraph result;
+  const auto n = static_cast<Index>(A.cols());
+  std::vector<Index>& begin = result.graph.begin;
+  begin.assign(n + 1, 0);
+  for_each_below(A, [&](Index j, Index i, double) { ++begin[i + 1], ++begin[j + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  result.graph.to.resize(begin[n]);
+  result.weight.resize(begin[n]);
+  std::vector<Index> next(begin.begin(), begin.end() - 1);
+  const auto add = [&](Index from, Index to, double value) {
+    result.graph.to[next[from]] = to;
+    result.weight[next[from]++] = value;
+  };
+  for_each_below(A, [&](Index j, Index i, double value) {
+    add(i, j, value);
+    add(j, i, value);
+  });
+  result.diagonal.assign(n, 0.0);
+  for (int j = 0; j < A.outerSize(); ++j)
+    for (Entries entry(A, j); entry; ++entry)
+      if (entry.row() == j) result.diagonal[static_cast<std::size_t>(j)] += entry.value();
+  return result;
 }
 
 }  // namespace
@@ -26,31 +62,35 @@ Cholesky::Cholesky(Cholesky&&) noexcept = default;
 Cholesky& Cholesky::operator=(Cholesky&&) noexcept = default;
 Cholesky::~Cholesky() = default;
 
-Result<Cholesky> Cholesky::factor(const Eigen::SparseMatrix<double>& A) {
+Result<Cholesky> Cholesky::factor(const Eigen::SparseMatrix<double>& A, std::span<const Vec2> positions) {
   if (A.rows() != A.cols()) return std::unexpected(not_positive_definite("found one that is not square"));
-  Eigen::SparseMatrix<double> compressed = A;
-  compressed.makeCompressed();
-  if (!is_finite(compressed))
-    return std::unexpected(not_positive_definite("found an entry that is not finite"));
-  auto factor = std::make_unique<Factor>();
-  if (A.rows() > 0) {
-    factor->ldlt.compute(compressed);
-    // LDL^T exists for indefinite matrices, too: the signs of D tell.
-    if (factor->ldlt.info() != Eigen::Success || !(factor->ldlt.vectorD().minCoeff() > 0))
-      return std::unexpected(not_positive_definite("found a pivot that is not positive"));
+  if (!is_finite(A)) return std::unexpected(not_positive_definite("found an entry that is not finite"));
+  if (!positions.empty() && positions.size() != static_cast<std::size_t>(A.cols()))
+    return std::unexpected(Error{ErrorKind::option,
+                                 "positions",
+                                 {},
+                                 "expected one per unknown, found " + std::to_string(positions.size())});
+  const WeightedGraph graph = graph_of(A);
+  std::unique_ptr<Factor> factor = lay_out(analyse(graph.graph, dissection_order(graph.graph, positions)));
+  const Index failed = graph.graph.size() > 0 ? factorise(graph, *factor) : no_index;
+  if (failed != no_index) {
+    Error error = not_positive_definite("found a pivot that is not positive");
+    error.place = "unknown " + std::to_string(failed);
+    return std::unexpected(error);
   }
   return Cholesky(std::move(factor));
 }
 
 std::size_t Cholesky::size() const {
-  return static_cast<std::size_t>(factor_->ldlt.cols());
+  return factor_->order.size();
 }
 
-void Cholesky::solve(std::span<const double> b, std::span<double> x) const {
-  if (size() == 0) return;
-  const auto n = static_cast<Eigen::Index>(size());
-  const Eigen::VectorXd solution = factor_->ldlt.solve(Eigen::Map<const Eigen::VectorXd>(b.data(), n));
-  Eigen::Map<Eigen::VectorXd>(x.data(), n) = solution;
+std::size_t Cholesky::memory() const {
+  const Factor& f = *factor_;
+  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
+  return bytes(f.order) + bytes(f.tasks) + bytes(f.children) + bytes(f.boundary) + bytes(f.to_parent) +
+         bytes(f.nodes) + bytes(f.rows) + f.value_count * sizeof(float) + bytes(f.matrix.diagonal) +
+         bytes(f.matrix.begin) + bytes(f.matrix.to) + bytes(f.matrix.value);
 }
 
 }  // namespace relievo

@@ -55,9 +55,7 @@ class ChosenPoints {
 std::vector<Index> inward_order(std::span<const Vec2> points, std::span<const float> boundary_distance) {
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), Index{0});
-  const auto key = [&](Index i) {
-    return std::tuple(boundary_distance[i], points[i].x(), points[i].y(), i);
-  };
+  const auto key = [&](Index i) { return std::tuple(boundary_distance[i], points[i].x(), points[i].y(), i); };
   std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
   return order;
 }

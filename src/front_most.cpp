@@ -9,7 +9,10 @@ namespace {
 class Grid {
  public:
   Grid(const Cloud& cloud, int cells) : cloud_(cloud), box_(bounds(cloud)) {
-    cell_ = std::max(box_.diagonal() / cells, 1e-300);
+    // No finer than about two points apart, or one sees the back through the front.
+    const Vec3 size = box_.size();
+    const double spacing = std::sqrt(2 * size.x() * size.y() / static_cast<double>(cloud.size()));
+    cell_ = std::max({box_.diagonal() / cells, 2 * spacing, 1e-300});
     columns_ = 1 + static_cast<std::size_t>(box_.size().x() / cell_);
     rows_ = 1 + static_cast<std::size_t>(box_.size().y() / cell_);
     front_.assign(columns_ * rows_, no_index);

@@ -46,7 +46,7 @@ std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulati
 
 // The edges leaving each free point, the two halves of an edge added up.
 struct Adjacency {
-  std::vector<std::size_t> begin;
+  std::vector<Index> begin;
   std::vector<HalfEdge> edges;
 };
 
@@ -63,7 +63,7 @@ Adjacency gather(const std::vector<HalfEdge>& all, std::span<const Index> unknow
   Adjacency result;
   result.begin.reserve(unknowns + 1);
   for (std::size_t f = 0; f < unknowns; ++f) {
-    result.begin.push_back(result.edges.size());
+    result.begin.push_back(static_cast<Index>(result.edges.size()));
     const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[f]);
     const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[f + 1]);
     std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.to < b.to; });
@@ -74,7 +74,7 @@ Adjacency gather(const std::vector<HalfEdge>& all, std::span<const Index> unknow
         result.edges.push_back(*e);
     }
   }
-  result.begin.push_back(result.edges.size());
+  result.begin.push_back(static_cast<Index>(result.edges.size()));
   for (HalfEdge& e : result.edges) e.cotangent = std::clamp(e.cotangent, least_weight, largest_weight);
   return result;
 }
@@ -85,7 +85,7 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   entries.reserve(n + adjacency.edges.size() / 2);
   for (std::size_t f = 0; f < n; ++f) {
     double diagonal = 0;
-    for (std::size_t e = adjacency.begin[f]; e < adjacency.begin[f + 1]; ++e) {
+    for (Index e = adjacency.begin[f]; e < adjacency.begin[f + 1]; ++e) {
       const HalfEdge& edge = adjacency.edges[e];
       const auto weight = static_cast<double>(edge.cotangent);
       diagonal += weight;
@@ -105,54 +105,66 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
 Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Triangulation& triangulation,
                                          const Boundary& boundary) {
   std::vector<Index> unknown(points.size(), no_index), free_points;
+  std::vector<Vec2> positions;
   for (Index i = 0; i < points.size(); ++i) {
     if (boundary.is_boundary[i]) continue;
     unknown[i] = static_cast<Index>(free_points.size());
     free_points.push_back(i);
+    positions.push_back(points[i]);
   }
   Adjacency adjacency = gather(half_edges(points, triangulation, boundary), unknown, free_points.size());
-  Result<Cholesky> factor = Cholesky::factor(laplacian(adjacency, unknown));
+  Result<Cholesky> factor = Cholesky::factor(laplacian(adjacency, unknown), positions);
   if (!factor) return std::unexpected(factor.error());
 
   HeightSystem system(std::move(*factor));
   system.edges_.reserve(adjacency.edges.size());
-  for (const HalfEdge& e : adjacency.edges)
-    system.edges_.push_back({e.to, e.cotangent, points[e.from] - points[e.to]});
+  for (const HalfEdge& e : adjacency.edges) {
+    const Vec2 pull = .5 * static_cast<double>(e.cotangent) * (points[e.from] - points[e.to]);
+    system.edges_.push_back({e.to, pull.cast<float>()});
+  }
   system.unknown_ = std::move(unknown);
   system.free_points_ = std::move(free_points);
   system.begin_ = std::move(adjacency.begin);
   return system;
 }
 
-double HeightSystem::right_hand_side(Index f, std::span<const Vec2> slopes) const {
-  const Vec2& s = slopes[free_points_[f]];
-  double b = 0;
-  for (std::size_t e = begin_[f]; e < begin_[f + 1]; ++e) {
+std::size_t HeightSystem::memory() const {
+  const std::size_t indices = unknown_.size() + free_points_.size() + begin_.size();
+  return factor_.memory() + sizeof(Index) * indices + sizeof(Edge) * edges_.size();
+}
+
+HeightSystem::Workspace HeightSystem::make_workspace() const {
+  return {factor_.make_workspace(), std::vector<float>(free_points_.size())};
+}
+
+template <typename Real, typename Slope>
+Real HeightSystem::right_hand_side(std::size_t f, std::span<const Slope> slopes) const {
+  const Slope s = slopes[free_points_[f]];
+  Real x = 0, y = 0;
+  for (Index e = begin_[f]; e < begin_[f + 1]; ++e) {
     const Edge& edge = edges_[e];
-    b += static_cast<double>(edge.weight) * .5 * (s + slopes[edge.other]).dot(edge.step);
+    const Slope& other = slopes[edge.other];
+    x += (s.x() + other.x()) * static_cast<Real>(edge.pull.x());
+    y += (s.y() + other.y()) * static_cast<Real>(edge.pull.y());
   }
-  return b;
+  return x + y;
 }
 
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
   std::vector<double> b(free_points_.size());
-  parallel_for(b.size(), [&](std::size_t f) { b[f] = right_hand_side(static_cast<Index>(f), slopes); });
+  parallel_for(b.size(), [&](std::size_t f) { b[f] = right_hand_side<double>(f, slopes); });
   factor_.solve(b, b);
   parallel_for(heights.size(),
                [&](std::size_t i) { heights[i] = unknown_[i] == no_index ? 0 : b[unknown_[i]]; });
 }
 
-double HeightSystem::residual(std::span<const Vec2> slopes, std::span<const double> heights) const {
-  double worst = 0, largest = 0;
-  for (Index f = 0; f < free_points_.size(); ++f) {
-    const double b = right_hand_side(f, slopes);
-    double Ax = 0;
-    for (std::size_t e = begin_[f]; e < begin_[f + 1]; ++e)
-      Ax += static_cast<double>(edges_[e].weight) * (heights[free_points_[f]] - heights[edges_[e].other]);
-    worst = std::max(worst, std::abs(Ax - b));
-    largest = std::max(largest, std::abs(b));
-  }
-  return largest > 0 ? worst / largest : 0;
+void HeightSystem::solve(std::span<const Vec2f> slopes, std::span<float> heights,
+                         Workspace& workspace) const {
+  std::vector<float>& b = workspace.unknowns;
+  parallel_for(b.size(), [&](std::size_t f) { b[f] = right_hand_side<float>(f, slopes); });
+  factor_.solve(b, b, workspace.factor);
+  parallel_for(heights.size(),
+               [&](std::size_t i) { heights[i] = unknown_[i] == no_index ? 0 : b[unknown_[i]]; });
 }
 
 }  // namespace relievo

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "relievo/relief.h"
+#include "relievo/text.h"
 #include "relievo/view.h"
 
 namespace relievo {
@@ -39,7 +40,9 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   const auto& [compression, gamma, max_slope] = relief.shape;
-  report.alpha = options.height_mm ? compression.alpha() : options.effective_alpha();
+  // As given, where it was given: from u it comes back with a rounding error.
+  const bool is_given = !options.height_mm && compression.beta > 0;
+  report.alpha = is_given ? options.effective_alpha() : compression.alpha();
   report.beta = compression.beta;
   report.u = compression.u;
   report.gamma = gamma;
@@ -56,7 +59,7 @@ double lowest(const Relief& relief) {
   return std::min(0.0, *std::min_element(relief.heights.begin(), relief.heights.end()));
 }
 
-// Puts the near, lower left corner of the visible points' box at `corner` of the plate, whose box starts at
+// Puts the far, lower left corner of the visible points' box at `corner` of the plate, whose box starts at
 // the origin.
 void place(ReliefReport& report, const Surface& surface, const Vec3& corner, double mm_per_unit) {
   report.scale = mm_per_unit;
@@ -71,7 +74,9 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
 
-  Result<Surface> surface = find_surface(cloud, *view, {}, progress);
+  const std::vector<Index> strays = far_points(cloud);
+  Result<Surface> surface =
+      find_surface(strays.empty() ? cloud : without(cloud, strays), *view, {}, progress);
   if (!surface) return std::unexpected(surface.error());
   const Vec3 size = visible_box(*surface).size();
   const double mm_per_unit = options.width_mm / std::max(size.x(), size.y());
@@ -90,7 +95,10 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
   if (!solid) return std::unexpected(solid.error());
   made.solid = std::move(*solid);
   made.report.height_mm = relief->height * mm_per_unit;
-  const double ground_mm = options.thickness_mm - mm_per_unit * lowest(*relief);
+  if (!strays.empty())
+    made.report.remarks.push_back(cat("left out ", strays.size(), " points far from all others"));
+  made.report.below_ground_mm = -mm_per_unit * lowest(*relief);
+  const double ground_mm = options.thickness_mm + made.report.below_ground_mm;
   place(made.report, model->surface(), {options.margin_mm, options.margin_mm, ground_mm}, mm_per_unit);
   if (progress) progress->finish();
   return made;

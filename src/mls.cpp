@@ -1,6 +1,7 @@
 #include "mls.h"
 
 #include <cmath>
+#include <vector>
 
 namespace relievo {
 namespace {
@@ -37,14 +38,12 @@ struct NormalField {
 // With u_i = d_i . n(x): de/dy = sum of theta (2 u n - c u^2 d), so g = sum of theta (2 u - c u^3), divided
 // here by twice the sum of theta. Below, f(u) = u - c u^3 / 2 and the sums run over the neighbours.
 MlsValue mls_function(std::span<const MlsSample> neighbours, double h) {
-  constexpr std::size_t most = 512;
-  neighbours = neighbours.first(std::min(neighbours.size(), most));
   const double c = 2 / (h * h);
-  double theta[most];
+  std::vector<double> theta(neighbours.size());
   double total = 0;
   for (std::size_t i = 0; i < neighbours.size(); ++i)
     total += theta[i] = std::exp(-neighbours[i].d.squaredNorm() / (h * h));
-  const NormalField field(neighbours, {theta, neighbours.size()}, c);
+  const NormalField field(neighbours, theta, c);
   const double length = field.N.norm();
   if (!(length > .1 * total) || neighbours.size() < 4) return {};
 

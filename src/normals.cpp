@@ -50,6 +50,29 @@ void turn_to_viewer(Cloud& viewed) {
     if (n.z() < 0) n = -n;
 }
 
+void turn_to_viewer(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
+  turn_to_viewer(viewed);
+  constexpr float seen_well = .5F;
+  std::vector<Index> settled;  // in the order in which they were; also the queue
+  std::vector<std::uint8_t> is_settled(viewed.size(), 0);
+  const auto settle = [&](Index i) {
+    is_settled[i] = 1;
+    settled.push_back(i);
+  };
+  for (const Index i : seen)
+    if (viewed.normals[i].z() > seen_well) settle(i);
+  for (std::size_t next = 0; next < settled.size(); ++next)
+    for (const Index i : spacing.nearest[settled[next]]) {
+      if (i == no_index || is_settled[i]) continue;
+      Vec3f& n = viewed.normals[i];
+      float agreement = n.dot(viewed.normals[settled[next]]);
+      for (const Index j : spacing.nearest[i])
+        if (j != no_index && is_settled[j]) agreement += n.dot(viewed.normals[j]);
+      if (agreement < 0) n = -n;
+      settle(i);
+    }
+}
+
 bool normals_point_inward(const Cloud& cloud) {
   if (!cloud.has_normals()) return false;
   double facing = 0;

@@ -120,4 +120,61 @@ void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
   }
 }
 
+void BlockFlags::wait(std::size_t block) const {
+  // Waits are short as a rule: look again at once, and let others run only after a while.
+  for (int look = 0; flags_[block].load(std::memory_order_acquire) == 0; ++look)
+    if (look > 2000) std::this_thread::yield();
+}
+
+struct BackgroundLoop::State {
+  std::function<bool()> step;
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool is_woken = false, is_working = false, is_ending = false;
+  std::thread thread;
+
+  void run() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      changed.wait(lock, [&] { return is_ending || is_woken; });
+      if (is_ending) return;
+      is_woken = false;
+      is_working = true;
+      lock.unlock();
+      const bool goes_on = step();
+      lock.lock();
+      is_working = false;
+      is_woken |= goes_on;
+      changed.notify_all();
+    }
+  }
+};
+
+BackgroundLoop::BackgroundLoop(std::function<bool()> step) : state_(std::make_unique<State>()) {
+  state_->step = std::move(step);
+  state_->thread = std::thread([state = state_.get()] { state->run(); });
+}
+
+BackgroundLoop::~BackgroundLoop() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->is_ending = true;
+  }
+  state_->changed.notify_all();
+  state_->thread.join();
+}
+
+void BackgroundLoop::wake() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->is_woken = true;
+  }
+  state_->changed.notify_all();
+}
+
+bool BackgroundLoop::wait_until_idle(std::chrono::milliseconds timeout) {
+  std::unique_lock lock(state_->mutex);
+  return state_->changed.wait_for(lock, timeout, [&] { return !state_->is_woken && !state_->is_working; });
+}
+
 }  // namespace relievo

@@ -38,23 +38,27 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
                                            Progress* progress) const {
   shape.compression.u = std::numeric_limits<double>::infinity();
   Relief relief = make(shape);
+  const auto excess = [&] { return std::log(std::max(relief.height, 1e-300) / height); };
   constexpr double tolerance = 1e-5;
-  if (relief.height < height * (1 - tolerance))
+  bool is_cancelled = false;
+  const auto excess_at = [&](double log_u) {
+    shape.compression.u = std::exp(log_u);
+    relief = make(shape);
+    is_cancelled = progress && progress->is_cancelled();
+    return is_cancelled ? 0 : excess();
+  };
+  if (excess() > tolerance) find_root(excess_at, tolerance);
+  if (is_cancelled) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  if (!(std::abs(excess()) <= tolerance))
     return std::unexpected(
         Error{ErrorKind::geometry,
               {},
               {},
               cat("expected a height that can be reached, at most ", relief.height * unit_mm,
                   " mm for this view and width, found ", height * unit_mm, " mm")});
-  bool is_cancelled = false;
-  const auto excess = [&](double log_u) {
-    shape.compression.u = std::exp(log_u);
-    relief = make(shape);
-    is_cancelled = progress && progress->is_cancelled();
-    return is_cancelled ? 0 : std::log(std::max(relief.height, 1e-300) / height);
-  };
-  if (relief.height > height * (1 + tolerance)) find_root(excess, tolerance);
-  if (is_cancelled) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  // What the search leaves, a part in 10^5 at most, is scaled away.
+  for (double& z : relief.heights) z *= height / relief.height;
+  relief.height = height;
   return relief;
 }
 

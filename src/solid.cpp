@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "relievo/parallel.h"
+#include "relievo/text.h"
 
 namespace relievo {
 namespace {
@@ -21,7 +22,7 @@ std::unexpected<Error> fail(ErrorKind kind, std::string input, std::string expec
 Result<void> check_options(const PlateOptions& options) {
   const auto is_good = [](double mm) { return std::isfinite(mm) && mm >= least_size_mm; };
   const auto wanted = [](double mm) {
-    return "expected a finite length of at least 0.001 mm, found " + std::to_string(mm);
+    return cat("expected a finite length of at least 0.001 mm, found ", mm);
   };
   if (!is_good(options.margin_mm)) return fail(ErrorKind::option, "margin", wanted(options.margin_mm));
   if (!is_good(options.thickness_mm))
@@ -157,8 +158,8 @@ void separate_twins(Solid& solid, double middle_z) {
   }
 }
 
-std::string name(std::string kind, std::size_t i) {
-  return kind.append(" ").append(std::to_string(i));
+std::string name(const char* kind, std::size_t i) {
+  return cat(kind, " ", i);
 }
 
 std::string wrong_corners(const Solid& solid) {
@@ -209,8 +210,8 @@ std::string wrong_edges(const Solid& solid) {
     for (std::size_t i = 0; i < edges.size(); i += 2) {
       const bool is_pair = i + 1 < edges.size() && edges[i] % 2 == 0 && edges[i + 1] == edges[i] + 1;
       if (!is_pair)
-        return name("edge", p) + "-" + std::to_string(edges[i] / 2) +
-               " is not shared by exactly two triangles with opposite directions";
+        return cat("edge ", p, "-", edges[i] / 2,
+                   " is not shared by exactly two triangles with opposite directions");
     }
   }
   return {};
@@ -219,13 +220,12 @@ std::string wrong_edges(const Solid& solid) {
 std::string wrong_twins(const Solid& solid) {
   const auto twins = find_twins(solid);
   if (twins.empty()) return {};
-  return name("points", twins[0][0]) + " and " + std::to_string(twins[0][1]) +
-         " are the same in single precision";
+  return cat("points ", twins[0][0], " and ", twins[0][1], " are the same in single precision");
 }
 
 std::string wrong_volume(const Solid& solid) {
   const double volume = volume_mm3(solid);
-  return volume > 0 ? "" : "the volume is " + std::to_string(volume) + " mm3, not positive";
+  return volume > 0 ? "" : cat("the volume is ", volume, " mm3, not positive");
 }
 
 }  // namespace

@@ -80,6 +80,13 @@ void MultilevelSpline::prepare(Level& level, std::span<const Vec2> sites, double
     level.inverse[i] = weight[i] > 0 ? static_cast<float>(1 / weight[i]) : 0;
 }
 
+std::size_t MultilevelSpline::memory() const {
+  std::size_t sum = weights_.size() * sizeof(float);
+  for (const Level& level : levels_)
+    sum += level.sites.size() * sizeof(Site) + level.inverse.size() * sizeof(float);
+  return sum;
+}
+
 SplineFunction MultilevelSpline::make_function() const {
   return {0, std::vector<float>(levels_.back().inverse.size())};
 }

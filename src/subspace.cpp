@@ -1,22 +1,17 @@
 #include "relievo/subspace.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
-#include "disjoint_sets.h"
-#include "neighbours.h"
+#include "control_mesh.h"
+#include "frame_slopes.h"
+#include "region_samples.h"
 #include "relievo/detail.h"
-#include "relievo/parallel.h"
 
 namespace relievo {
 namespace {
 
-std::vector<Vec2> in_plane(std::span<const Vec3> points) {
-  std::vector<Vec2> xy(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) xy[i] = points[i].head<2>();
-  return xy;
-}
+constexpr Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
 template <typename T>
 std::vector<T> pick(const std::vector<T>& from, std::span<const Index> which) {
@@ -25,236 +20,172 @@ std::vector<T> pick(const std::vector<T>& from, std::span<const Index> which) {
   return out;
 }
 
-double cross(const Vec2& u, const Vec2& v) {
-  return u.x() * v.y() - u.y() * v.x();
+template <typename T>
+std::size_t bytes(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
 }
 
-// Finds triangles by walking from the last one found.
-class Walker {
- public:
-  Walker(std::span<const Vec2> points, const Triangulation& mesh) : points_(points), mesh_(mesh) {}
-
-  // A triangle that holds p, no_index outside the hull.
-  Index find(const Vec2& p) {
-    Index t = last_;
-    for (std::size_t step = 0; step < mesh_.triangles.size(); ++step) {
-      last_ = t;
-      const int across = edge_towards(t, p);
-      if (across < 0) return t;
-      t = mesh_.neighbours[t][static_cast<std::size_t>(across)];
-      if (t == no_index) return no_index;
-    }
-    return no_index;
-  }
-
- private:
-  // The corner whose opposite edge has p most clearly on its far side, -1 if none.
-  int edge_towards(Index t, const Vec2& p) const {
-    int worst = -1;
-    double least = 0;
-    for (int i = 0; i < 3; ++i) {
-      const Vec2& a = points_[mesh_.triangles[t][static_cast<std::size_t>(i + 1) % 3]];
-      const Vec2& b = points_[mesh_.triangles[t][static_cast<std::size_t>(i + 2) % 3]];
-      const double side = cross(b - a, p - a) / (b - a).norm();
-      if (side < least) least = side, worst = i;
-    }
-    return worst;
-  }
-
-  std::span<const Vec2> points_;
-  const Triangulation& mesh_;
-  Index last_ = 0;
-};
-
-// A triangle of control points belongs to the relief if most of its area does: every triangle of all points is
-// asked for.
-std::vector<std::uint8_t> covered(std::span<const Vec2> control, const Triangulation& mesh,
-                                  std::span<const Vec2> points, const Surface& surface) {
-  std::vector<double> inside_area(mesh.triangles.size(), 0.0);
-  Walker walker(control, mesh);
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const auto [a, b, c] = surface.triangulation.triangles[t];
-    const Index found = walker.find((points[a] + points[b] + points[c]) / 3);
-    if (found != no_index)
-      inside_area[found] += cross(points[b] - points[a], points[c] - points[a]);
-  }
-  std::vector<std::uint8_t> is_inside(mesh.triangles.size());
-  for (std::size_t t = 0; t < is_inside.size(); ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    is_inside[t] = inside_area[t] > .5 * cross(control[b] - control[a], control[c] - control[a]);
-  }
-  return is_inside;
+std::vector<Vec2> in_plane(const Surface& surface) {
+  std::vector<Vec2> xy(surface.points.size());
+  for (std::size_t i = 0; i < xy.size(); ++i) xy[i] = surface.points[i].head<2>();
+  return xy;
 }
 
-Boundary control_boundary(const ControlPoints& control, const Triangulation& mesh,
-                          std::vector<std::uint8_t> is_inside) {
-  const std::size_t n = control.points.size();
-  std::vector<std::uint8_t> is_boundary(n, 0), is_used(n, 0), is_at_edge(n, 0), is_held(n, 0);
-  for (std::size_t i = 0; i < control.boundary_points; ++i) is_boundary[i] = 1;
-  DisjointSets pieces(n);
-  for (std::size_t t = 0; t < is_inside.size(); ++t) {
-    const auto [a, b, c] = mesh.triangles[t];
-    for (const Index i : mesh.triangles[t]) (is_inside[t] ? is_used : is_at_edge)[i] = 1;
-    if (is_inside[t]) pieces.join(a, b), pieces.join(b, c);
-  }
-  for (const Index i : mesh.hull) is_at_edge[i] = 1;
-  for (Index i = 0; i < n; ++i)
-    if (is_boundary[i]) is_held[pieces.find(i)] = 1;
-  for (Index i = 0; i < n; ++i)
-    if (!is_used[i] || (is_at_edge[i] && !is_held[pieces.find(i)])) is_boundary[i] = 1;
-  return {std::move(is_inside), std::move(is_boundary), {}};
-}
-
-constexpr Compression keep_all{std::numeric_limits<double>::infinity(), 0};
-
-// The points nearest to each control point, at most `most` of them, spread evenly over the list of the region.
-struct Regions {
-  std::vector<Index> begin;  // of control point c in `points`
-  std::vector<Index> points;
-};
-
-Regions regions_of(std::span<const Vec2> points, const ControlPoints& control, std::size_t most) {
-  const std::vector<Vec2> centres = [&] {
-    std::vector<Vec2> out;
-    for (const Index i : control.points) out.push_back(points[i]);
-    return out;
-  }();
-  const KdTree<Vec2> tree(centres);
-  std::vector<Index> nearest(points.size());
-  parallel_for(points.size(), [&](std::size_t i) {
-    double distance_sq;
-    tree.nearest(points[i], 1, &nearest[i], &distance_sq);
-  });
-  std::vector<std::vector<Index>> lists(centres.size());
-  for (Index i = 0; i < points.size(); ++i) lists[nearest[i]].push_back(i);
-  Regions regions;
-  for (std::size_t c = 0; c < lists.size(); ++c) {
-    regions.begin.push_back(static_cast<Index>(regions.points.size()));
-    if (most <= 1 || lists[c].empty()) {
-      regions.points.push_back(control.points[c]);
-      continue;
-    }
-    const std::size_t n = std::min(most, lists[c].size());
-    for (std::size_t k = 0; k < n; ++k) regions.points.push_back(lists[c][(2 * k + 1) * lists[c].size() / (2 * n)]);
-  }
-  regions.begin.push_back(static_cast<Index>(regions.points.size()));
-  return regions;
-}
-
-Result<std::vector<double>> reference_heights(const Surface& surface, std::span<const Vec2> points,
-                                              std::span<const float> boundary_weight, double max_slope) {
-  const Result<HeightSystem> system = HeightSystem::build(points, surface.triangulation, surface.boundary);
+// z0: equation (9) with w_k = 1.
+Result<std::vector<double>> solve_reference(const Surface& surface, std::span<const Vec2> points,
+                                            std::span<const float> boundary_weight, double max_slope) {
+  const auto system = HeightSystem::build(points, surface.triangulation, surface.boundary);
   if (!system) return std::unexpected(system.error());
   std::vector<Vec2> slopes(points.size());
-  compressed_slopes({surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta}, keep_all,
-                    max_slope, slopes);
+  compressed_slopes({surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta},
+                    keep_all, max_slope, slopes);
   std::vector<double> heights(points.size());
   system->solve(slopes, heights);
   return heights;
 }
 
+// Cells a little narrower than the regions; four levels, the coarsest cells six radii wide, carry the ratio
+// to where there is none.
+SplineOptions spline_options(std::span<const Vec2> points, double radius) {
+  SplineOptions options;
+  options.min = options.max = points[0];
+  for (const Vec2& p : points) {
+    options.min = options.min.cwiseMin(p);
+    options.max = options.max.cwiseMax(p);
+  }
+  constexpr double most_cells = 1024;  // per side
+  options.cell = std::max(.75 * radius, (options.max - options.min).maxCoeff() / most_cells);
+  options.levels = 4;
+  options.damping = 1e-4;
+  return options;
+}
+
 }  // namespace
+
+struct SubspaceModel::Workspace::Storage {
+  WeightTable weight;
+  std::vector<Vec2f> sample_slopes, slopes;
+  std::vector<float> heights, ratios;  // of the control points
+  HeightSystem::Workspace system;
+  SplineFunction ratio;
+  MultilevelSpline::Workspace spline;
+};
+
+SubspaceModel::Workspace::Workspace(std::unique_ptr<Storage> storage) : storage_(std::move(storage)) {}
+SubspaceModel::Workspace::Workspace(Workspace&&) noexcept = default;
+SubspaceModel::Workspace& SubspaceModel::Workspace::operator=(Workspace&&) noexcept = default;
+SubspaceModel::Workspace::~Workspace() = default;
+
+SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
+    : system_(std::move(system)), samples_(std::move(samples)), delta_(delta) {}
 
 Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const SubspaceOptions& options,
                                              std::span<const double> reference, Progress* progress) {
-  if (auto go = begin_stage(progress, "control points", .75); !go) return std::unexpected(go.error());
-  const std::vector<Vec2> points = in_plane(surface.points);
+  if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
+  const std::vector<Vec2> points = in_plane(surface);
   std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
-  std::vector<double> solved;
+  Result<std::vector<double>> solved;
   if (reference.empty()) {
-    auto heights = reference_heights(surface, points, boundary_weight, options.max_slope);
-    if (!heights) return std::unexpected(heights.error());
-    solved = std::move(*heights);
-    reference = solved;
+    solved = solve_reference(surface, points, boundary_weight, options.max_slope);
+    if (!solved) return std::unexpected(solved.error());
+    reference = *solved;
   }
 
+  if (auto go = begin_stage(progress, "control points", .85); !go) return std::unexpected(go.error());
   ControlPoints control = grow_control_points(points, surface.boundary.distance, options.control);
-  const std::vector<Vec2> sites = pick(points, control.points);
-  const Triangulation mesh = delaunay(sites);
-  Result<HeightSystem> system =
-      HeightSystem::build(sites, mesh, control_boundary(control, mesh, covered(sites, mesh, points, surface)));
+  const ControlMesh mesh = mesh_control_points(surface, control);
+  Result<HeightSystem> system = HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary);
   if (!system) return std::unexpected(system.error());
+  const std::vector<Index> samples = sample_regions(surface, control, options.normals_per_point);
 
-  const Regions regions = regions_of(points, control, options.normals_per_point);
-  const std::vector<Vec3f> region_normals = pick(surface.normals, regions.points);
-  const std::vector<float> region_k = pick(surface.curvature.k, regions.points);
-  const std::vector<float> region_w = pick(boundary_weight, regions.points);
-
-  SplineOptions so;
-  so.min = so.max = points[0];
-  for (const Vec2& p : points) so.min = so.min.cwiseMin(p), so.max = so.max.cwiseMax(p);
-  so.cell = options.cell * std::max(control.radius, 1e-3 * (so.max - so.min).maxCoeff());
-  so.levels = options.levels;
-  so.damping = options.damping;
-
-  // z0_c
-  std::vector<Vec2> ns(region_normals.size()), cs(sites.size());
-  compressed_slopes({region_normals, region_k, region_w, surface.curvature.delta}, keep_all, options.max_slope, ns);
-  auto average = [&] {
-    for (std::size_t c = 0; c < cs.size(); ++c) {
-      Vec2 sum = Vec2::Zero();
-      for (Index i = regions.begin[c]; i < regions.begin[c + 1]; ++i) sum += ns[i];
-      cs[c] = sum / static_cast<double>(regions.begin[c + 1] - regions.begin[c]);
-    }
-  };
-  average();
-  std::vector<double> z0c(sites.size());
-  system->solve(cs, z0c);
-  const double level = options.level_ratio * height_span(z0c);
-  std::vector<float> weights(sites.size());
-  for (std::size_t c = 0; c < weights.size(); ++c)
-    weights[c] = static_cast<float>(std::pow(z0c[c] * z0c[c] + 1e-12 * level * level, options.weight_power / 2));
-
-  SubspaceModel model(std::move(*system), MultilevelSpline(sites, weights, so));
+  SubspaceModel model(
+      std::move(*system),
+      {pick(surface.normals, samples), pick(surface.curvature.k, samples), pick(boundary_weight, samples)},
+      surface.curvature.delta);
   model.control_ = std::move(control);
-  model.region_begin_ = regions.begin;
-  model.region_normals_ = region_normals;
-  model.region_k_ = region_k;
-  model.region_boundary_weight_ = region_w;
-  model.delta_ = surface.curvature.delta;
-  model.control_reference_ = z0c;
-  model.level_sq_ = level * level;
-  model.places_ = model.spline_.pack(points);
   model.reference_.assign(reference.begin(), reference.end());
   model.k_ = surface.curvature.k;
   model.boundary_weight_ = std::move(boundary_weight);
+  model.set_reference(mesh.points, spline_options(points, model.control_.radius), options.max_slope);
+  model.places_ = model.spline_.pack(points);
   return model;
+}
+
+std::size_t SubspaceModel::memory() const {
+  return system_.memory() + spline_.memory() + bytes(control_.points) + bytes(samples_.normals) +
+         bytes(samples_.k) + bytes(samples_.boundary_weight) + bytes(control_reference_) +
+         bytes(ratio_terms_) + bytes(places_) + bytes(reference_) + bytes(k_) + bytes(boundary_weight_);
 }
 
 SubspaceModel::Workspace SubspaceModel::make_workspace() const {
   const std::size_t n = control_.points.size();
-  return {std::vector<Vec2>(region_k_.size()), std::vector<Vec2>(n), std::vector<double>(n),
-          std::vector<float>(n), spline_.make_function(), spline_.make_workspace()};
+  return Workspace(
+      std::make_unique<Workspace::Storage>(Workspace::Storage{{},
+                                                              std::vector<Vec2f>(samples_.k.size()),
+                                                              std::vector<Vec2f>(n),
+                                                              std::vector<float>(n),
+                                                              std::vector<float>(n),
+                                                              system_.make_workspace(),
+                                                              spline_.make_function(),
+                                                              spline_.make_workspace()}));
 }
 
-void SubspaceModel::solve(const Shape& shape, Workspace& w) const {
-  compressed_slopes({region_normals_, region_k_, region_boundary_weight_, delta_}, shape.compression, shape.max_slope,
-                    w.normal_slopes);
-  parallel_for(w.slopes.size(), [&](std::size_t c) {
-    Vec2 sum = Vec2::Zero();
-    for (Index i = region_begin_[c]; i < region_begin_[c + 1]; ++i) sum += w.normal_slopes[i];
-    w.slopes[c] = sum / static_cast<double>(region_begin_[c + 1] - region_begin_[c]);
-  });
-  system_.solve(w.slopes, w.heights);
+// z_c: a control point's slope is the mean of those its region's samples have.
+void SubspaceModel::solve(const Shape& shape, Workspace::Storage& storage) const {
+  storage.weight.fill(delta_, shape.compression);
+  frame_slopes({samples_.normals, samples_.k, samples_.boundary_weight, delta_}, storage.weight,
+               shape.max_slope, storage.sample_slopes);
+  const std::size_t per_point = samples_.k.size() / control_.points.size();
+  const Vec2f* sample = storage.sample_slopes.data();
+  for (Vec2f& slope : storage.slopes) {
+    slope = Vec2f::Zero();
+    for (std::size_t i = 0; i < per_point; ++i) slope += *sample++;
+    slope /= static_cast<float>(per_point);
+  }
+  system_.solve(storage.slopes, storage.heights, storage.system);
 }
 
-void SubspaceModel::heights(const Shape& shape, Workspace& w, std::span<float> heights) const {
-  solve(shape, w);
-  double zz = 0, z0z0 = 0;
-  for (std::size_t c = 0; c < w.heights.size(); ++c) {
-    zz += w.heights[c] * control_reference_[c];
-    z0z0 += control_reference_[c] * control_reference_[c];
+// The least squares of z_c - r z0_c, so to speak: near the base, where z0_c says little about the ratio, it
+// counts little, too, and below a thousandth of the height it fades to the ratio of all control points.
+void SubspaceModel::set_reference(std::span<const Vec2> sites, const SplineOptions& options,
+                                  double max_slope) {
+  Workspace workspace = make_workspace();
+  solve({keep_all, 0, max_slope}, *workspace.storage_);
+  control_reference_ = workspace.storage_->heights;
+  const auto [lowest, highest] = std::minmax_element(control_reference_.begin(), control_reference_.end());
+  const float faint = 1e-3F * (*highest - *lowest);
+  std::vector<float> weights;
+  for (const float z0 : control_reference_) {
+    const float sum = std::max(z0 * z0 + faint * faint, std::numeric_limits<float>::min());
+    ratio_terms_.push_back({z0 / sum, faint * faint / sum});
+    weights.push_back(z0 * z0);
   }
-  const double overall = z0z0 > 0 ? zz / z0z0 : 0;
-  for (std::size_t c = 0; c < w.heights.size(); ++c) {
-    const double z0 = control_reference_[c];
-    w.ratios[c] = static_cast<float>((w.heights[c] * z0 + level_sq_ * overall) / std::max(z0 * z0 + level_sq_, 1e-300));
+  spline_ = MultilevelSpline(sites, weights, options);
+}
+
+void SubspaceModel::find_ratios(Workspace::Storage& storage) const {
+  double compressed = 0, reference = 0;
+  for (std::size_t c = 0; c < storage.heights.size(); ++c) {
+    const auto z0 = static_cast<double>(control_reference_[c]);
+    compressed += z0 * static_cast<double>(storage.heights[c]);
+    reference += z0 * z0;
   }
-  spline_.fit(w.ratios, w.function, w.fit);
+  const auto overall = static_cast<float>(reference > 0 ? compressed / reference : 0);
+  for (std::size_t c = 0; c < storage.heights.size(); ++c) {
+    const auto [pull, rest] = ratio_terms_[c];
+    storage.ratios[c] = storage.heights[c] * pull + rest * overall;
+  }
+}
+
+void SubspaceModel::heights(const Shape& shape, Workspace& workspace, std::span<float> heights) const {
+  Workspace::Storage& storage = *workspace.storage_;
+  solve(shape, storage);
+  find_ratios(storage);
+  spline_.fit(storage.ratios, storage.ratio, storage.spline);
   parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
-    spline_.evaluate(w.function, std::span(places_).subspan(begin, end - begin), heights.subspan(begin, end - begin));
-    for (std::size_t i = begin; i < end; ++i) heights[i] *= reference_[i];
+    const std::span<float> z = heights.subspan(begin, end - begin);
+    spline_.evaluate(storage.ratio, std::span(places_).subspan(begin, z.size()), z);
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] *= reference_[begin + i];
   });
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "hilbert.h"
 #include "relievo/normals.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
@@ -24,6 +25,16 @@ std::vector<T> pick(const std::vector<T>& from, std::span<const Index> order) {
   return out;
 }
 
+Result<void> check_numbers(const Cloud& cloud) {
+  if (cloud.has_normals() && cloud.normals.size() != cloud.size())
+    return geometry_error(
+        cat("expected a normal for each of ", cloud.size(), " points, found ", cloud.normals.size()));
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (!cloud.points[i].allFinite() || (cloud.has_normals() && !cloud.normals[i].allFinite()))
+      return geometry_error(cat("expected finite coordinates and normals, found others at point ", i));
+  return {};
+}
+
 // Fails for clouds that are a point or a line, up to rounding.
 Result<void> check_extent(const Cloud& cloud) {
   if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
@@ -38,11 +49,12 @@ Result<void> check_extent(const Cloud& cloud) {
   return {};
 }
 
-void settle_normals(Cloud& viewed, const Cloud& cloud, Surface& surface) {
+void settle_normals(Cloud& viewed, const Spacing& spacing, const Cloud& cloud, Surface& surface) {
   surface.has_estimated_normals = !viewed.has_normals();
   if (surface.has_estimated_normals) {
     estimate_normals(viewed);
     turn_to_viewer(viewed);
+    turn_to_viewer(viewed, spacing, visible_points(viewed, spacing));
   } else if (normals_point_inward(cloud)) {
     surface.has_flipped_normals = true;
     flip_normals(viewed);
@@ -65,10 +77,62 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
   return xy;
 }
 
+// The points in an order in which neighbours in the view plane are neighbours in memory.
+std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>& points) {
+  return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
+}
+
+// The whole cloud in view coordinates, in the order of the curve, with normals.
+struct Viewed {
+  Cloud cloud;
+  Spacing spacing;
+};
+
+// Stages 1 and 2.
+Result<Viewed> look_at(const Cloud& cloud, Surface& surface, Progress* progress) {
+  if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
+  Viewed viewed{in_view(cloud, surface.view), {}};
+  const std::vector<Index> order = space_curve_order(viewed.cloud.points);
+  viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order)};
+
+  if (auto go = begin_stage(progress, "spacing", .05); !go) return std::unexpected(go.error());
+  viewed.spacing = measure_spacing(viewed.cloud);
+  surface.rho = viewed.spacing.rho;
+  if (!(surface.rho > 0))
+    return geometry_error("expected points at a distance from each other, found most of them equal");
+
+  if (auto go = begin_stage(progress, "normals", .2); !go) return std::unexpected(go.error());
+  settle_normals(viewed.cloud, viewed.spacing, cloud, surface);
+  return viewed;
+}
+
+// Stages 3 and 4: the surface's points and normals. Returns their mean curvature, 0 at fillers.
+Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& options, Surface& surface,
+                                        Progress* progress) {
+  if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
+  auto& [cloud, spacing] = viewed;
+  const std::vector<Index> visible = visible_points(cloud, spacing, options.visible);
+  if (visible.size() < 4)
+    return geometry_error(
+        cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
+  surface.visible_points = visible.size();
+  const std::vector<Index> fillers = filler_points(cloud, spacing, visible, options.visible);
+  for (const Index i : fillers) cloud.normals[i] = Vec3f::UnitZ();
+
+  if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
+  std::vector<double> k(cloud.size(), 0.0);
+  scatter(mean_curvature(cloud, spacing, visible, options.curvature), visible, k);
+  const std::vector<Index> shown = along_the_plane(cloud, merged(visible, fillers));
+  surface.points = pick(cloud.points, shown);
+  surface.normals = pick(cloud.normals, shown);
+  return pick(k, shown);
+}
+
 }  // namespace
 
 Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
                              Progress* progress) {
+  if (auto ok = check_numbers(cloud); !ok) return std::unexpected(ok.error());
   if (auto ok = check_extent(cloud); !ok) return std::unexpected(ok.error());
   Surface surface;
   surface.view = view;
@@ -76,43 +140,18 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
   surface.diagonal = bounds(cloud).diagonal();
   surface.input_points = cloud.size();
 
-  if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
-  Cloud viewed = in_view(cloud, view);
-  const std::vector<Index> order = space_curve_order(viewed.points);
-  viewed = {pick(viewed.points, order), pick(viewed.normals, order)};
-
-  if (auto go = begin_stage(progress, "spacing", .05); !go) return std::unexpected(go.error());
-  const Spacing spacing = measure_spacing(viewed);
-  surface.rho = spacing.rho;
-  if (!(spacing.rho > 0))
-    return geometry_error("expected points at a distance from each other, found most of them equal");
-
-  if (auto go = begin_stage(progress, "normals", .2); !go) return std::unexpected(go.error());
-  settle_normals(viewed, cloud, surface);
-
-  if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
-  const std::vector<Index> visible = visible_points(viewed, spacing, options.visible);
-  if (visible.size() < 4)
-    return geometry_error("expected points that face the viewer, found none; try another view");
-  surface.visible_points = visible.size();
-  const std::vector<Index> fillers = filler_points(viewed, spacing, visible, options.visible);
-  for (const Index i : fillers) viewed.normals[i] = Vec3f::UnitZ();
-
-  if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
-  std::vector<double> k(viewed.size(), 0.0);
-  scatter(mean_curvature(viewed, spacing, visible, options.curvature), visible, k);
-  const std::vector<Index> shown = merged(visible, fillers);
-  surface.points = pick(viewed.points, shown);
-  surface.normals = pick(viewed.normals, shown);
+  Result<Viewed> viewed = look_at(cloud, surface, progress);
+  if (!viewed) return std::unexpected(viewed.error());
+  const Result<std::vector<double>> k = find_points(*viewed, options, surface, progress);
+  if (!k) return std::unexpected(k.error());
 
   if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
   if (surface.triangulation.triangles.empty())
     return geometry_error("expected visible points that enclose an area, found all of them on one line");
-
   surface.curvature =
-      normalise(average_in_plane(pick(k, shown), xy, surface.normals, surface.triangulation, surface.rho));
+      normalise(average_in_plane(*k, xy, surface.normals, surface.triangulation, surface.rho));
 
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
   surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);

@@ -43,12 +43,14 @@ Result<Vec3> parse_direction(std::string_view option, std::string_view text) {
 
 Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up) {
   const double length = towards_viewer.norm();
-  if (!(length > 0) || !std::isfinite(length) || !up.allFinite())
-    return std::unexpected(option_error("view", "expected a direction that is not zero and finite"));
+  if (!(length > 0) || !std::isfinite(length))
+    return std::unexpected(option_error("--view", "expected a direction that is not zero and finite"));
+  if (!(up.norm() > 0) || !std::isfinite(up.norm()))
+    return std::unexpected(option_error("--up", "expected a direction that is not zero and finite"));
   const Vec3 z = towards_viewer / length;
-  Vec3 x = up.cross(z);
+  Vec3 x = up.normalized().cross(z);
   for (const Vec3& other : {Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitY())})
-    if (x.norm() < 1e-6 * up.norm() || x.norm() == 0) x = other.cross(z);
+    if (x.norm() < 1e-6) x = other.cross(z);
   x.normalize();
   View view;
   view.rotation << x.transpose(), z.cross(x).transpose(), z.transpose();
@@ -65,11 +67,11 @@ Result<View> parse_view(std::string_view text, std::string_view up) {
     const std::optional<Vec3> direction = parse_triple(text);
     if (!direction)
       return std::unexpected(option_error(
-          "view", cat("expected front, back, left, right, top, bottom or X,Y,Z, found '", text, "'")));
+          "--view", cat("expected front, back, left, right, top, bottom or X,Y,Z, found '", text, "'")));
     wanted.towards_viewer = *direction;
   }
   if (!up.empty()) {
-    const Result<Vec3> parsed = parse_direction("up", up);
+    const Result<Vec3> parsed = parse_direction("--up", up);
     if (!parsed) return std::unexpected(parsed.error());
     wanted.up = *parsed;
   }
@@ -85,7 +87,7 @@ View view_from_euler(double theta_x, double theta_y) {
 Result<View> view_from_quaternion(double w, double x, double y, double z) {
   Eigen::Quaterniond q(w, x, y, z);
   if (!(q.norm() > 0) || !std::isfinite(q.norm()))
-    return std::unexpected(option_error("view", "expected a quaternion that is not zero and finite"));
+    return std::unexpected(option_error("--view", "expected a quaternion that is not zero and finite"));
   return View{q.normalized().toRotationMatrix()};
 }
 

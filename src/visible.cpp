@@ -92,13 +92,14 @@ class Visibility {
   // in the plane takes one of them, and coordinates of single precision in a file must not fall together.
   std::vector<Index> without_twins(std::vector<Index> visible) const {
     const auto at = [&](Index i) -> const Vec3& { return cloud_.points[i]; };
+    // Swept along a slanting unit direction: the points of a column of a range image share their x, not this.
+    const auto along = [&](Index i) { return .811 * at(i).x() + .585 * at(i).y(); };
     std::sort(visible.begin(), visible.end(),
-              [&](Index a, Index b) { return std::pair(at(a).x(), a) < std::pair(at(b).x(), b); });
+              [&](Index a, Index b) { return std::pair(along(a), a) < std::pair(along(b), b); });
     const double reach = options_.twin_distance * spacing_.rho;
     std::vector<std::uint8_t> is_hidden(visible.size(), 0);
     for (std::size_t a = 0; a < visible.size(); ++a)
-      for (std::size_t b = a + 1; b < visible.size() && at(visible[b]).x() - at(visible[a]).x() <= reach;
-           ++b) {
+      for (std::size_t b = a + 1; b < visible.size() && along(visible[b]) - along(visible[a]) <= reach; ++b) {
         if ((at(visible[a]) - at(visible[b])).head<2>().norm() > reach) continue;
         is_hidden[at(visible[a]).z() < at(visible[b]).z() ? a : b] = 1;
       }
@@ -142,6 +143,7 @@ std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
 
 std::vector<Index> filler_points(const Cloud& viewed, const Spacing& spacing, std::span<const Index> visible,
                                  const VisibleOptions& options) {
+  if (!viewed.has_normals()) return {};
   std::vector<Vec2> seen(visible.size());
   std::transform(visible.begin(), visible.end(), seen.begin(),
                  [&](Index i) { return viewed.points[i].head<2>(); });

@@ -14,6 +14,7 @@ Compression Compression::from_alpha(double alpha, double beta) {
 }
 
 double Compression::alpha() const {
+  if (beta == 0) return std::numeric_limits<double>::quiet_NaN();
   return std::exp(-std::log(u) / beta);
 }
 

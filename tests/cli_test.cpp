@@ -185,6 +185,42 @@ TEST_F(Cli, LeavesNothingHalfWrittenOnAFullDisk) {
   expect_refusal("make torus.ply -o t.stl", "t.stl", "trap '' XFSZ; ulimit -f 100;");
 }
 
+// The limit lets the solid pass and stops the height map, which is larger.
+TEST_F(Cli, WritesAllFilesOrNone) {
+  const std::string limit = "trap '' XFSZ; ulimit -f 4000;";
+  EXPECT_EQ(run("make torus.ply -o t.stl", limit).exit_code, 0);
+  fs::remove(folder_ / "t.stl");
+  expect_refusal("make torus.ply -o t.stl --heightmap h.png --heightmap-size 4096", "h.png", limit);
+}
+
+// The signal of a file that grows too large stands for Ctrl-C: it comes in the middle of writing for sure.
+TEST_F(Cli, LeavesNothingHalfWrittenWhenASignalEndsIt) {
+  EXPECT_NE(run("make torus.ply -o t.stl", "ulimit -c 0; ulimit -f 100;").exit_code, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(Cli, RefusesToOverwriteItsInputOrItsOutputs) {
+  const std::string torus = read_all(folder_ / "torus.ply");
+  expect_refusal("make torus.ply -o torus.ply", "different files");
+  expect_refusal("make torus.ply -o ./../$(basename $PWD)/torus.ply", "different files");
+  expect_refusal("make torus.ply -o t.stl --preview p.png --heightmap ./p.png", "different files");
+  expect_refusal("make torus.ply -o t.stl --report /dev/null", "device");
+  EXPECT_EQ(read_all(folder_ / "torus.ply"), torus);
+}
+
+TEST_F(Cli, TakesDirectionsThatBeginWithAMinus) {
+  EXPECT_EQ(run("make torus.ply -o t.stl --view -1,0.5,2 --up -1,0,0").exit_code, 0);
+}
+
+TEST_F(Cli, SaysWhichPointsItLeftOutForTheirNormals) {
+  Cloud cloud = test::torus(20000, 1, .4);
+  cloud.normals[5].setZero();
+  const std::vector<std::byte> bytes = write_ply(cloud);
+  write_all(folder_ / "torus.ply", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  EXPECT_NE(run("make torus.ply -o t.stl").err.find("left out 1 points without a usable normal"),
+            std::string::npos);
+}
+
 TEST_F(Cli, KeepsTheOldFileOnFailure) {
   write_all(folder_ / "t.stl", "old");
   EXPECT_GT(run("make torus.ply -o t.stl", "trap '' XFSZ; ulimit -f 100;").exit_code, 0);

@@ -100,10 +100,46 @@ TEST_P(Curvature, OfAPlaneIsZero) {
 TEST_P(Curvature, SurvivesNoiseOfHalfTheSpacing) {
   const Cloud clean = test::sphere(40000, 1);
   const double rho = measure_spacing(clean).rho;
-  const Statistics e =
-      errors(test::noisy(clean, .5 * rho, .05), [](const Vec3&) { return 1.0; }, everywhere, {GetParam(), 5});
+  const Statistics e = errors(
+      test::noisy(clean, .5 * rho, .05), [](const Vec3&) { return 1.0; },
+      [](const Vec3& p) { return p.z() > .7; }, {GetParam(), 5});
   EXPECT_NEAR(e.mean, 0, tolerance(.05, .12));
   EXPECT_LT(e.deviation, .35);
+}
+
+TEST_P(Curvature, OfOtherShapesSurvivesThatNoiseToo) {
+  const auto noisy = [](const Cloud& clean) {
+    return test::noisy(clean, .5 * measure_spacing(clean).rho, .05);
+  };
+  const CurvatureOptions wide{GetParam(), 5};
+  const Statistics cylinder = errors(
+      noisy(test::cylinder(20000, 1, 8)), [](const Vec3&) { return .5; },
+      [](const Vec3& p) { return std::abs(p.y()) < 1; }, wide);
+  EXPECT_NEAR(cylinder.mean, 0, .05);
+  EXPECT_LT(cylinder.deviation, .15);
+  const auto truth = [](const Vec3& p) {
+    const double cos_v = p.head<2>().norm() - 3;
+    return (3 + 2 * cos_v) / (2 * (3 + cos_v));
+  };
+  const Statistics torus = errors(
+      noisy(test::torus(40000, 3, 1)), truth, [](const Vec3& p) { return p.x() > 3; }, wide);
+  EXPECT_NEAR(torus.mean, 0, .08);
+  EXPECT_LT(torus.deviation, .2);
+  const Statistics saddle = errors(
+      noisy(test::height_field(
+          20000, 1, [](double x, double y) { return .5 * (x * x - y * y); },
+          [](double x, double y) { return Vec2(x, -y); })),
+      [](const Vec3&) { return 0.0; }, [](const Vec3& p) { return p.head<2>().norm() < .1; }, wide);
+  EXPECT_NEAR(saddle.mean, 0, .1);
+  EXPECT_LT(saddle.deviation, .4);
+}
+
+TEST_P(Curvature, TakesAllNeighboursOfALargeScale) {
+  const Statistics e = errors(
+      test::sphere(40000, 1), [](const Vec3&) { return 1.0; }, [](const Vec3& p) { return p.z() > .95; },
+      {GetParam(), 6});
+  EXPECT_NEAR(e.mean, 0, .05);
+  EXPECT_LT(e.deviation, .1);
 }
 
 TEST_P(Curvature, OfTheOtherSideOfAThinWallDoesNotCount) {

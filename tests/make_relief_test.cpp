@@ -50,6 +50,9 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   const auto to_order = make_relief(figure(), options);
   ASSERT_TRUE(to_order);
   EXPECT_NEAR(to_order->report.u, std::pow(to_order->report.alpha, -.5), 1e-9);
+  options = {};
+  options.saturation = 0;
+  EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
 
 // A cloud far from its origin, turned: the report's transform puts each visible point over its place in the

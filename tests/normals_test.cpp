@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "relievo/view.h"
+#include "relievo/visible.h"
 #include "shapes.h"
 
 namespace relievo {
@@ -33,6 +34,29 @@ TEST(TurnToViewer, LeavesNoNormalFacingAway) {
   Cloud sphere = test::sphere(1000, 1);
   turn_to_viewer(sphere);
   for (const Vec3f& n : sphere.normals) EXPECT_GE(n.z(), 0);
+}
+
+// Round a sphere's edge the estimated normals go on turning away, as they should, instead of folding back.
+TEST(TurnToViewer, GoesOnRoundAnEdge) {
+  const Cloud truth = test::sphere(20000, 1);
+  Cloud cloud{truth.points, {}};
+  estimate_normals(cloud);
+  turn_to_viewer(cloud);
+  const Spacing spacing = measure_spacing(cloud);
+  turn_to_viewer(cloud, spacing, visible_points(cloud, spacing));
+  std::size_t wrong = 0, counted = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    ++counted;
+    wrong += cloud.normals[i].dot(truth.normals[i]) < 0;
+  }
+  EXPECT_LT(static_cast<double>(wrong), .001 * static_cast<double>(counted));
+}
+
+TEST(NormalsPointInward, TellsASparseModelInsideOut) {
+  Cloud model = test::torus(1500, 1, .4);
+  EXPECT_FALSE(normals_point_inward(model));
+  flip_normals(model);
+  EXPECT_TRUE(normals_point_inward(model));
 }
 
 TEST(NormalsPointInward, TellsAClosedModelInsideOut) {

@@ -112,7 +112,7 @@ TEST_P(ReliefAtHeight, IsTheHeightAsked) {
 
 INSTANTIATE_TEST_SUITE_P(Grid, ReliefAtHeight,
                          testing::Combine(testing::Values(.1, .05, .025, .0125, 1e-6),
-                                          testing::Values(0, .01, 1, 5, 50)));
+                                          testing::Values(0, .01, 1, 5, 50, 100)));
 
 TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   const ReliefModel model = model_of(figure());
@@ -122,6 +122,23 @@ TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   ASSERT_FALSE(relief);
   EXPECT_EQ(relief.error().kind, ErrorKind::geometry);
   EXPECT_NE(relief.error().message().find("at most"), std::string::npos);
+}
+
+// At a high saturation most of the height comes at a u that double cannot hold: an honest error, no wrong
+// height.
+TEST(Relief, IsTheHeightAskedOrAnError) {
+  const ReliefModel model = model_of(figure());
+  for (const double beta : {0.0, 10.0, 100.0}) {
+    const double most = model.make({{keep_all.u, beta}, .04}).height;
+    for (const double share : {.5, .9, .99, .999, .99999}) {
+      const auto relief = model.make_at_height(share * most, {{1, beta}, .04}, 1);
+      if (!relief) {
+        EXPECT_EQ(beta, 100) << share;
+      } else {
+        EXPECT_NEAR(relief->height / (share * most), 1, 2e-5) << beta << ' ' << share;
+      }
+    }
+  }
 }
 
 TEST(Relief, OfTwoSheetsLosesTheJumpBetweenThem) {

@@ -180,7 +180,7 @@ TEST(MakePlate, RejectsBadOptionsAndFronts) {
   infinite.points[4].z() = INFINITY;
   for (const Front& bad : {hullless, dangling, infinite}) EXPECT_EQ(kind(bad, {}), ErrorKind::geometry);
   EXPECT_EQ(make_plate(good, {-1, 3}).error().message(),
-            "margin: expected a finite length of at least 0.001 mm, found -1.000000");
+            "margin: expected a finite length of at least 0.001 mm, found -1");
 }
 
 // --------------------------------------------------------------------------------------------- check_solid

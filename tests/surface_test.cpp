@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "shapes.h"
 
 namespace relievo {
@@ -20,6 +22,18 @@ TEST(Surface, RefusesWhatIsNone) {
   EXPECT_NE(failure({std::vector<Vec3>(3, Vec3::Zero()), {}}).find("found 3"), std::string::npos);
   EXPECT_NE(failure({std::vector<Vec3>(100, Vec3(1, 2, 3)), {}}).find("equal"), std::string::npos);
   EXPECT_NE(failure(line).find("line"), std::string::npos);
+}
+
+TEST(Surface, RefusesNumbersThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Cloud cloud = test::sphere(1000, 1);
+  cloud.points[7].y() = nan;
+  EXPECT_NE(failure(cloud).find("point 7"), std::string::npos);
+  cloud = test::sphere(1000, 1);
+  cloud.normals[8].x() = static_cast<float>(nan);
+  EXPECT_NE(failure(cloud).find("point 8"), std::string::npos);
+  cloud.normals.pop_back();
+  EXPECT_NE(failure(cloud).find("found 999"), std::string::npos);
 }
 
 TEST(Surface, RefusesACloudThatFacesAway) {

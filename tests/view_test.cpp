@@ -44,10 +44,18 @@ TEST(View, RotationsAreProper) {
   }
 }
 
+TEST(View, TakesDirectionsOfAnyLength) {
+  for (const char* up : {"0,1e9,0", "0,1e-9,0", "1e9,1e9,0"}) {
+    const Mat3 R = parse_view("0,1,0", up)->rotation;
+    EXPECT_TRUE((R * R.transpose()).isIdentity(1e-12)) << up;
+  }
+}
+
 TEST(View, RefusesWhatIsNoDirection) {
   for (const char* text : {"", "up", "1,2", "1,2,3,4", "0,0,0", "a,b,c", "1,2,nan", "1e999,0,0", "1, 2, 3"})
     EXPECT_FALSE(parse_view(text)) << text;
   EXPECT_FALSE(parse_view("front", "sideways"));
+  EXPECT_FALSE(parse_view("front", "0,0,0"));
   EXPECT_EQ(parse_view("up").error().kind, ErrorKind::option);
 }
 

@@ -115,6 +115,9 @@ TEST(FillerPoints, AreNotNeededOnAClosedModel) {
 }
 
 TEST(Visible, OfNothingIsNothing) {
+  const Cloud no_normals{test::sheet(1000, 1, 0).points, {}};
+  EXPECT_TRUE(visible(no_normals).empty());
+  EXPECT_TRUE(filler_points(no_normals, measure_spacing(no_normals), std::vector<Index>{0}).empty());
   EXPECT_TRUE(visible({}).empty());
   Cloud away = test::sheet(1000, 1, 0);
   for (Vec3f& n : away.normals) n = -n;

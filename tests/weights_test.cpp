@@ -57,6 +57,10 @@ TEST(Compression, AlphaAndUSayTheSame) {
     }
 }
 
+TEST(Compression, LeavesAlphaOpenAtBetaZero) {
+  for (const double u : {0.0, .5, 1.0, 2.0, infinity}) EXPECT_TRUE(std::isnan((Compression{u, 0}.alpha())));
+}
+
 TEST(BoundaryWeight, IsEquationSeven) {
   const double rho = .5;
   EXPECT_EQ(boundary_weight(0, rho), 0);

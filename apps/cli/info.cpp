@@ -12,8 +12,11 @@
 namespace relievo::cli {
 namespace {
 
+// Ten digits, for geo-referenced coordinates.
 std::string vector_text(const Vec3& v) {
-  return cat(v.x(), ", ", v.y(), ", ", v.z());
+  char text[96];
+  std::snprintf(text, sizeof text, "%.10g, %.10g, %.10g", v.x(), v.y(), v.z());
+  return text;
 }
 
 std::string normals_text(const Cloud& cloud) {

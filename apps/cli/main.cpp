@@ -1,6 +1,8 @@
 #include <cstdio>
+#include <new>
 
 #include "commands.h"
+#include "files.h"
 #include "relievo/version.h"
 
 int main(int argc, char** argv) {
@@ -14,6 +16,7 @@ int main(int argc, char** argv) {
   relievo::cli::add_make(program, result);
   relievo::cli::add_info(program, result);
   relievo::cli::add_sample(program, result);
+  relievo::cli::add_bench(program, result);
   program.footer(
       "Examples:\n"
       "  relievo sample shell -o shell.ply\n"
@@ -21,13 +24,18 @@ int main(int argc, char** argv) {
       "  relievo info scan.ply");
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty()) {
-    std::fprintf(stderr, "relievo: expected make, info or sample, found '%s'; see relievo --help\n", argv[1]);
+    std::fprintf(stderr, "relievo: expected make, info, sample or bench, found '%s'; see relievo --help\n",
+                 argv[1]);
     return 2;
   }
+  relievo::cli::remove_temporary_files_on_signals();
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return program.exit(error) == 0 ? 0 : 2;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "relievo: expected more free memory for so many points\n");
+    return 1;
   }
   if (result) return 0;
   std::fprintf(stderr, "relievo: %s\n", result.error().message().c_str());

@@ -33,11 +33,21 @@ const std::map<std::string, SolidWriter>& solid_writers() {
   return writers;
 }
 
-// One finished file, not yet written.
-struct OutputFile {
-  std::string path;
-  std::vector<std::byte> bytes;
-};
+// Each output has a place of its own that can be written to.
+Result<void> check_places(const MakeArguments& arguments) {
+  std::vector<std::string> taken{arguments.input};
+  for (const std::string& path :
+       {arguments.output, arguments.preview, arguments.heightmap, arguments.report}) {
+    if (path.empty()) continue;
+    if (auto ok = check_writable(path); !ok) return ok;
+    for (const std::string& other : taken)
+      if (is_same_file(path, other))
+        return std::unexpected(
+            Error{ErrorKind::option, path, {}, "expected different files for input and outputs"});
+    taken.push_back(path);
+  }
+  return {};
+}
 
 Result<void> check_outputs(const MakeArguments& arguments) {
   if (!solid_writers().contains(ending_of(arguments.output)))
@@ -46,17 +56,14 @@ Result<void> check_outputs(const MakeArguments& arguments) {
   for (const std::string& picture : {arguments.preview, arguments.heightmap})
     if (!picture.empty() && ending_of(picture) != "png")
       return std::unexpected(Error{ErrorKind::option, picture, {}, "expected a file ending in .png"});
-  for (const std::string& path : {arguments.output, arguments.preview, arguments.heightmap, arguments.report})
-    if (!path.empty())
-      if (auto ok = check_writable(path); !ok) return ok;
-  return {};
+  return check_places(arguments);
 }
 
 std::vector<std::byte> height_map_file(const Solid& solid, int longer_side_px) {
   const HeightMap map = make_height_map(solid, longer_side_px);
   const std::pair<std::string, std::string> scale[] = {{"mm_per_pixel", cat(map.mm_per_pixel)},
                                                        {"mm_per_grey", cat(map.mm_per_grey)}};
-  return write_png(map.image, scale);
+  return write_png(map.image, scale, map.mm_per_pixel);
 }
 
 nlohmann::json report_json(const ReliefReport& report, const Progress& progress) {
@@ -80,6 +87,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
           {"height_requested_mm",
            report.height_requested_mm ? nlohmann::json(*report.height_requested_mm) : nlohmann::json()},
           {"height_mm", report.height_mm},
+          {"below_ground_mm", report.below_ground_mm},
           {"seconds", seconds},
           {"model_to_mm",
            {{"rotation", rotation},
@@ -93,19 +101,23 @@ std::vector<std::byte> text_bytes(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-void say(const MakeArguments& arguments, const std::string& line) {
-  if (!arguments.is_quiet) std::fprintf(stderr, "%s\n", line.c_str());
+Result<CloudFile> load(const std::string& input, Progress& progress) {
+  if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
+  const Result<std::vector<std::byte>> bytes = read_file(input);
+  if (!bytes) return std::unexpected(bytes.error());
+  return read_cloud(*bytes, input);
 }
 
-Result<CloudFile> load(const MakeArguments& arguments, Progress& progress) {
-  if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
-  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
-  if (!bytes) return std::unexpected(bytes.error());
-  Result<CloudFile> file = read_cloud(*bytes, arguments.input);
-  if (file && file->dropped_points > 0)
-    say(arguments, cat(arguments.input, ": left out ", file->dropped_points,
-                       " points with coordinates that are not finite"));
-  return file;
+// What was left out of a file, in a line for each, or nothing.
+std::vector<std::string> remarks_on(const CloudFile& file, const std::string& input) {
+  std::vector<std::string> lines;
+  if (file.dropped_points > 0)
+    lines.push_back(
+        cat(input, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
+  if (file.dropped_normals > 0)
+    lines.push_back(cat(input, ": left out ", file.dropped_normals,
+                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
+  return lines;
 }
 
 std::vector<OutputFile> finished_files(const MakeArguments& arguments, const MadeRelief& made,
@@ -122,25 +134,42 @@ std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Mad
   return files;
 }
 
-Result<void> make(const MakeArguments& arguments) {
-  if (auto ok = check(arguments.relief); !ok) return ok;
-  if (auto ok = check_outputs(arguments); !ok) return ok;
-  set_thread_count(arguments.threads);
-  Progress progress(progress_bar(arguments.is_quiet));
-  const Result<CloudFile> file = load(arguments, progress);
+// Every file in memory, and the lines to say about them.
+struct Finished {
+  std::vector<OutputFile> files;
+  std::vector<std::string> lines;
+};
+
+Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
+  const Result<CloudFile> file = load(arguments.input, progress);
   if (!file) return std::unexpected(file.error());
+  Finished finished{{}, remarks_on(*file, arguments.input)};
   Result<MadeRelief> made = make_relief(file->cloud, arguments.relief, &progress);
   if (!made) {
     if (made.error().input.empty()) made.error().input = arguments.input;
     return std::unexpected(made.error());
   }
   (void)progress.stage("files", .97);
-  const std::vector<OutputFile> files = finished_files(arguments, *made, progress);
-  for (const std::string& remark : made->report.remarks) say(arguments, remark);
-  for (const OutputFile& out : files)
-    if (auto ok = write_file(out.path, out.bytes); !ok) return ok;
-  say(arguments, cat(arguments.output, ": ", made->report.visible_points, " of ", made->report.input_points,
-                     " points, height ", made->report.height_mm, " mm"));
+  finished.files = finished_files(arguments, *made, progress);
+  const ReliefReport& report = made->report;
+  finished.lines.insert(finished.lines.end(), report.remarks.begin(), report.remarks.end());
+  finished.lines.push_back(cat(arguments.output, ": ", report.visible_points, " of ", report.input_points,
+                               " points, height ", report.height_mm, " mm, ", report.below_ground_mm,
+                               " of it below the ground"));
+  return finished;
+}
+
+Result<void> make(const MakeArguments& arguments) {
+  if (auto ok = check(arguments.relief); !ok) return ok;
+  if (auto ok = check_outputs(arguments); !ok) return ok;
+  set_thread_count(arguments.threads);
+  Progress progress(progress_bar(arguments.is_quiet));
+  const Result<Finished> finished = run(arguments, progress);
+  progress.finish();  // erases the bar, also before an error
+  if (!finished) return std::unexpected(finished.error());
+  if (auto ok = write_files(finished->files); !ok) return ok;
+  for (const std::string& line : finished->lines)
+    if (!arguments.is_quiet) std::fprintf(stderr, "%s\n", line.c_str());
   return {};
 }
 

@@ -21,7 +21,8 @@ Result<void> sample(const SampleArguments& arguments) {
   if (auto ok = check_writable(arguments.output); !ok) return ok;
   const Result<Cloud> cloud = make_sample(arguments.name, arguments.options);
   if (!cloud) return std::unexpected(cloud.error());
-  return write_file(arguments.output, write_ply(*cloud, cat("relievo sample ", arguments.name)));
+  const OutputFile file{arguments.output, write_ply(*cloud, cat("relievo sample ", arguments.name))};
+  return write_files({&file, 1});
 }
 
 std::string names_text() {

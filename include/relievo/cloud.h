@@ -22,4 +22,12 @@ struct Cloud {
 // Box of all points; empty for an empty cloud.
 Box bounds(const Cloud& cloud);
 
+// Returns the numbers of points that cannot belong to the model, ascending: further from its middle (the
+// median) than 20 times the distance within which nine points in ten lie. One stray, say at the origin of a
+// geo-referenced scan, would make the model a speck in its own box.
+std::vector<Index> far_points(const Cloud& cloud);
+
+// Returns the cloud without the points numbered by `left_out`, ascending.
+Cloud without(const Cloud& cloud, std::span<const Index> left_out);
+
 }  // namespace relievo

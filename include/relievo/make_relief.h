@@ -17,11 +17,12 @@ struct ReliefReport {
   std::size_t input_points = 0, visible_points = 0;
   double rho = 0;       // sampling distance, in the cloud's units
   double diagonal = 0;  // L_d: diagonal of the cloud's box, in its units
-  double alpha = 0;     // not finite where beta is 0: alpha has no effect there, and u rules
+  double alpha = 0;     // NaN where beta is 0: alpha has no effect there, and u rules
   double beta = 0, gamma = 0;
   double u = 0;  // alpha^-beta, see Compression
   std::optional<double> height_requested_mm;
-  double height_mm = 0;  // reached, lowest to highest point of the front
+  double height_mm = 0;        // reached, lowest to highest point of the front
+  double below_ground_mm = 0;  // of it, how deep the lowest point lies below the flat ground
 
   // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
   // in z the model keeps its depth and its lowest visible point lies on the ground.

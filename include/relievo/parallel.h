@@ -3,7 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace relievo {
@@ -17,8 +24,8 @@ void set_thread_count(int threads);
 
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
-// Runs f(context, b) once for each b in [0, blocks), on all threads; returns when all are done. A nested call
-// runs on the calling thread alone.
+// Runs f(context, b) once for each b in [0, blocks), on all threads; returns when all are done. Blocks are
+// begun in ascending order. A nested call runs on the calling thread alone.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
@@ -58,5 +65,59 @@ T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t 
   for (const T& part : parts) start = merge(start, part);
   return start;
 }
+
+// One flag per block, for blocks that need the results of earlier ones. A block may wait for a block of a
+// lower number of the same parallel call, and no other: as blocks are begun in order, that one is under way.
+class BlockFlags {
+ public:
+  explicit BlockFlags(std::size_t blocks = 0) : flags_(blocks) {}
+
+  void reset() {
+    for (auto& flag : flags_) flag.store(0, std::memory_order_relaxed);
+  }
+  void set(std::size_t block) { flags_[block].store(1, std::memory_order_release); }
+  // Returns when the flag is set; what was written before is then visible.
+  void wait(std::size_t block) const;
+
+ private:
+  std::vector<std::atomic<std::uint8_t>> flags_;
+};
+
+// A value that threads share: with() is the only way to it, one caller at a time.
+template <typename T>
+class Guarded {
+ public:
+  template <typename F>
+  decltype(auto) with(F&& f) {
+    const std::lock_guard lock(mutex_);
+    return std::forward<F>(f)(value_);
+  }
+  template <typename F>
+  decltype(auto) with(F&& f) const {
+    const std::lock_guard lock(mutex_);
+    return std::forward<F>(f)(value_);
+  }
+
+ private:
+  mutable std::mutex mutex_;
+  T value_;
+};
+
+// A thread of its own that calls one function again and again, as long as that returns true, and then sleeps
+// until wake(). Its methods may be called from any thread but that one.
+class BackgroundLoop {
+ public:
+  explicit BackgroundLoop(std::function<bool()> step);
+  ~BackgroundLoop();  // ends after the running step
+
+  void wake();
+
+  // Waits until the loop sleeps and was not woken since. Returns false if that takes longer than the timeout.
+  bool wait_until_idle(std::chrono::milliseconds timeout);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 }  // namespace relievo

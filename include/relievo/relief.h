@@ -16,7 +16,7 @@ struct Shape {
 };
 
 struct Relief {
-  std::vector<double> heights;  // per visible point, above the base, in the cloud's units
+  std::vector<double> heights;  // per point of the surface, above the base, in its units
   double height = 0;            // h: highest minus lowest, base and detail included
   Shape shape;                  // what it was made with
 };
@@ -28,11 +28,12 @@ class ReliefModel {
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr);
 
   const Surface& surface() const { return surface_; }
+  const HeightSystem& system() const { return system_; }
 
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
 
-  // Returns the relief whose height is `height` to a part in 10^5, detail included, by changing the
+  // Returns the relief whose height is `height`, detail included, by changing the
   // compression's u at the beta, gamma and slope asked for (the intent of Algorithm 1, section 3.6). Errors:
   // kind geometry if no u gives that height, telling the largest that is reached, in units of `unit_mm`
   // millimetres; kind cancelled.

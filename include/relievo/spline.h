@@ -13,7 +13,7 @@ namespace relievo {
 
 struct SplineOptions {
   Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; other places take the value at its edge
-  double cell = .01;   // side of the finest lattice's cells, > 0
+  double cell = .01;                            // side of the finest lattice's cells, > 0
   int levels = 5;      // number of lattices, [1, 16]; cells are twice as wide from each to the next coarser
   double damping = 0;  // share of the mean weight of the sites, >= 0: see MultilevelSpline::fit()
 };
@@ -40,8 +40,13 @@ class MultilevelSpline {
     std::vector<float> correction;  // per node
   };
 
+  MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // no sites: the function is 0
+
   // Prepares fits at the sites, each of a weight >= 0: how much it counts against its neighbours.
   MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights, const SplineOptions& options);
+
+  // Bytes held.
+  std::size_t memory() const;
 
   SplineFunction make_function() const;
   Workspace make_workspace() const;

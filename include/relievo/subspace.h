@@ -1,7 +1,9 @@
-// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points, at a cost that
-// hardly grows with the cloud. Close to ReliefModel's, not equal; the final output is that one's.
+// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points. Most of a
+// relief costs the same however large the cloud is.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "relievo/control_points.h"
@@ -12,68 +14,81 @@ namespace relievo {
 
 struct SubspaceOptions {
   ControlPointOptions control;
-  std::size_t normals_per_point = 8;  // most visible points whose slopes stand for a control point's region
-  double cell = 1;                    // side of the spline's finest cells, in radii of the control points
-  int levels = 5;                     // of the spline
-  double damping = .01;               // of the spline, see SplineOptions
-  double level_ratio = .01;  // below this share of the reference's height the ratio fades to the overall one
-  double weight_power = 2;
-  double max_slope = 4;               // of the reference heights
+  std::size_t normals_per_point = 8;  // whose mean slope stands for the region of a control point, > 0
+  double max_slope = 4;               // of the reference heights, see Shape
 };
 
-// Control points with their factored system, and the way from their heights to those of all points. Const
-// calls may run concurrently.
+// Control points with their factored system, and the way from their heights to those of all points: the ratio
+// z_c / z0_c of compressed and reference heights, both solved on the control points, is carried to all points
+// by a multilevel B-spline and multiplied by their reference heights z0, (9) with w_k = 1.
+//
+// Heights are within about 1 to 2 % (root mean square, of the height) of ReliefModel's, which the final
+// output should be: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of
+// its own.
 class SubspaceModel {
  public:
-  // What make() needs besides the model, so that a frame allocates nothing.
-  struct Workspace {
-    std::vector<Vec2> normal_slopes, slopes;
-    std::vector<double> heights;
-    std::vector<float> ratios;
-    SplineFunction function;
-    MultilevelSpline::Workspace fit;
+  // What a relief needs besides the model, so that frames allocate nothing.
+  class Workspace {
+   public:
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+    ~Workspace();
+
+   private:
+    friend class SubspaceModel;
+    struct Storage;
+    explicit Workspace(std::unique_ptr<Storage> storage);
+    std::unique_ptr<Storage> storage_;
   };
 
-  // Prepares the model; copies what it needs of the surface. `reference` holds per point the reference heights
-  // z0, (9) with w_k = 1; if it is empty they are solved for, once, by a HeightSystem of all points, which is
-  // most of the cost. Errors: see HeightSystem::build(); kind cancelled.
+  // Copies what it needs of the surface. `reference` holds z0 per point, what ReliefModel::make() gives for
+  // {infinity, 0}, no detail and the same greatest slope; if it is empty, z0 is solved for, which takes most
+  // of the time and memory. Errors: see HeightSystem::build(); kind cancelled.
   static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {},
                                        std::span<const double> reference = {}, Progress* progress = nullptr);
 
+  // Number of points of the surface.
   std::size_t size() const { return reference_.size(); }
+
   const ControlPoints& control_points() const { return control_; }
 
-  // Returns the relief of that shape, as ReliefModel::make() does.
-  Relief make(const Shape& shape) const;
+  // Bytes held.
+  std::size_t memory() const;
 
   Workspace make_workspace() const;
 
-  // Writes the heights of that shape before detail. Allocates nothing.
+  // Returns the relief of that shape: what ReliefModel::make() does, approximately.
+  Relief make(const Shape& shape) const;
+
+  // Writes the heights above the base, before detail, of all points.
   void heights(const Shape& shape, Workspace& workspace, std::span<float> heights) const;
 
- public:
-  // The ratio z_c / z0_c of a control point is (z_c pull + rest * overall ratio).
+ private:
+  // Normals that stand for a region, as many for each control point.
+  struct Samples {
+    std::vector<Vec3f> normals;
+    std::vector<float> k, boundary_weight;
+  };
+  // The ratio of a control point is z_c * pull + rest * (the ratio of all of them).
   struct RatioTerm {
     float pull = 0, rest = 0;
   };
 
-  SubspaceModel(HeightSystem system, MultilevelSpline spline)
-      : system_(std::move(system)), spline_(std::move(spline)) {}
-  void solve(const Shape& shape, Workspace& workspace) const;
+  SubspaceModel(HeightSystem system, Samples samples, double delta);
+  void solve(const Shape& shape, Workspace::Storage& storage) const;
+  void set_reference(std::span<const Vec2> sites, const SplineOptions& options, double max_slope);
+  void find_ratios(Workspace::Storage& storage) const;
 
   ControlPoints control_;
-  std::vector<Index> region_begin_;  // normals of control point c: region_begin_[c] to region_begin_[c + 1]
-  std::vector<Vec3f> region_normals_;
-  std::vector<float> region_k_, region_boundary_weight_;
+  HeightSystem system_;
+  Samples samples_;
   double delta_ = 0;
-  HeightSystem system_;  // of the control points
 
-  std::vector<double> control_reference_;  // z0_c
-  double level_sq_ = 0;
+  std::vector<float> control_reference_;  // z0_c
+  std::vector<RatioTerm> ratio_terms_;
   MultilevelSpline spline_;
-  std::vector<SplinePlace> places_;  // of all points
-  std::vector<float> reference_;     // z0
-  std::vector<float> k_, boundary_weight_;
+  std::vector<SplinePlace> places_;
+  std::vector<float> reference_, k_, boundary_weight_;
 };
 
 }  // namespace relievo

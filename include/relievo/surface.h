@@ -36,8 +36,9 @@ struct Surface {
 };
 
 // Returns the surface. Normals are estimated if the cloud has none, and turned if they point inwards.
-// Errors: kind geometry if fewer than 4 points, all points equal or on one line, no point faces the viewer,
-// or the visible points enclose no area; kind cancelled.
+// Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
+// are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind
+// cancelled.
 Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options = {},
                              Progress* progress = nullptr);
 

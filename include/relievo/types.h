@@ -10,6 +10,7 @@
 namespace relievo {
 
 using Vec2 = Eigen::Vector2d;
+using Vec2f = Eigen::Vector2f;
 using Vec3 = Eigen::Vector3d;
 using Vec3f = Eigen::Vector3f;
 using Mat3 = Eigen::Matrix3d;

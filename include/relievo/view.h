@@ -15,7 +15,7 @@ struct View {
 
 // Returns the view of the side that `towards_viewer` points out of: (0, 0, 1) sees the front of a model whose
 // front is +Z. `up` is shown upright. Neither needs to be unit length; if up is parallel to the direction, an
-// up axis is chosen. Errors: kind option if the direction is zero or not finite.
+// up axis is chosen. Errors: kind option if either is zero or not finite.
 Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up = Vec3::UnitY());
 
 // The same for "front" "back" "left" "right" "top" "bottom" or three numbers "X,Y,Z". front is +Z, right +X,

@@ -12,12 +12,12 @@ namespace relievo {
 // Height and saturation of a relief. The paper's height coefficient is alpha; u = alpha^-beta says the same
 // for every beta > 0 and gives every height at beta = 0 as well, where alpha has no effect.
 struct Compression {
-  double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal
+  double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal that has curvature
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points alike
 
   // From the paper's pair; alpha in [0, infinity).
   static Compression from_alpha(double alpha, double beta);
-  // The paper's height coefficient u^(-1/beta): infinite or NaN where beta = 0 leaves it open.
+  // The paper's height coefficient u^(-1/beta); NaN where beta = 0 leaves it open.
   double alpha() const;
 };
 

@@ -1,0 +1,181 @@
+// The solver on Laplacians of Delaunay graphs of random points, by number of points; CHOLMOD beside it on the
+// same matrix where it is installed.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "relievo/cholesky.h"
+#include "relievo/parallel.h"
+#include "relievo/triangulation.h"
+
+#if defined(RELIEVO_BENCH_CHOLMOD)
+#include <cholmod.h>
+#endif
+
+namespace relievo {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+struct System {
+  Sparse A;
+  std::vector<Vec2> positions;
+  Eigen::VectorXd b;
+};
+
+// Points in a disc with two holes, the same on every platform.
+std::vector<Vec2> scattered(std::size_t n) {
+  std::vector<Vec2> points;
+  std::uint64_t state = 1;
+  const auto uniform = [&state] {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(state >> 11) * 0x1p-52 - 1;
+  };
+  while (points.size() < n) {
+    const Vec2 p(uniform(), uniform());
+    if (p.norm() < 1 && (p - Vec2(.3, .2)).norm() > .15 && (p + Vec2(.4, .1)).norm() > .1)
+      points.push_back(p);
+  }
+  return points;
+}
+
+double half_cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
+  const Vec2 u = a - apex, v = b - apex;
+  return .5 * u.dot(v) / std::max(u.x() * v.y() - u.y() * v.x(), 1e-300);
+}
+
+// Cotangent weights within the limits of HeightSystem; points of the hull are tied to the ground.
+System make_system(std::size_t n) {
+  System system;
+  system.positions = scattered(n);
+  const Triangulation mesh = delaunay(system.positions);
+  const auto size = static_cast<Eigen::Index>(n);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index v = 0; v < n; ++v) entries.emplace_back(static_cast<int>(v), static_cast<int>(v), 0);
+  for (const Index v : mesh.hull) entries.emplace_back(static_cast<int>(v), static_cast<int>(v), 1);
+  for (const Triangle& t : mesh.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const Index a = t[(corner + 1) % 3], b = t[(corner + 2) % 3];
+      entries.emplace_back(
+          static_cast<int>(std::max(a, b)), static_cast<int>(std::min(a, b)),
+          -half_cotangent(system.positions[t[corner]], system.positions[a], system.positions[b]));
+    }
+  system.A.resize(size, size);
+  system.A.setFromTriplets(entries.begin(), entries.end());
+  for (int j = 0; j < size; ++j)
+    for (Sparse::InnerIterator entry(system.A, j); entry; ++entry) {
+      if (entry.row() == j) continue;
+      entry.valueRef() = std::clamp(entry.value(), -1e3, -1e-4);
+      system.A.coeffRef(j, j) -= entry.value();
+      system.A.coeffRef(entry.row(), entry.row()) -= entry.value();
+    }
+  system.b = Eigen::VectorXd::LinSpaced(size, -1, 1);
+  return system;
+}
+
+const System& system_of(const benchmark::State& state) {
+  static std::map<std::int64_t, System> cache;
+  const auto [entry, is_new] = cache.try_emplace(state.range(0));
+  if (is_new) entry->second = make_system(static_cast<std::size_t>(state.range(0)));
+  return entry->second;
+}
+
+void cholesky_factor(benchmark::State& state) {
+  const System& system = system_of(state);
+  for (auto _ : state) benchmark::DoNotOptimize(Cholesky::factor(system.A, system.positions));
+}
+
+void cholesky_solve_single(benchmark::State& state) {
+  const System& system = system_of(state);
+  set_thread_count(static_cast<int>(state.range(1)));
+  const auto factor = Cholesky::factor(system.A, system.positions);
+  Cholesky::Workspace workspace = factor->make_workspace();
+  const Eigen::VectorXf b = system.b.cast<float>();
+  Eigen::VectorXf x(b.size());
+  const auto n = static_cast<std::size_t>(b.size());
+  for (auto _ : state)
+    factor->solve(std::span<const float>(b.data(), n), std::span<float>(x.data(), n), workspace);
+  state.counters["bytes_per_unknown"] = static_cast<double>(factor->memory()) / static_cast<double>(n);
+  set_thread_count(0);
+}
+
+void cholesky_solve_double(benchmark::State& state) {
+  const System& system = system_of(state);
+  const auto factor = Cholesky::factor(system.A, system.positions);
+  Cholesky::Workspace workspace = factor->make_workspace();
+  Eigen::VectorXd x(system.b.size());
+  const auto n = static_cast<std::size_t>(x.size());
+  for (auto _ : state)
+    factor->solve(std::span<const double>(system.b.data(), n), std::span<double>(x.data(), n), workspace);
+}
+
+#if defined(RELIEVO_BENCH_CHOLMOD)
+// One ordering tried, as given by the benchmark's second argument.
+struct Cholmod {
+  cholmod_common common;
+  cholmod_sparse A{};
+
+  Cholmod(const Sparse& matrix, int ordering) {
+    cholmod_start(&common);
+    common.nmethods = 1;
+    common.method[0].ordering = ordering;
+    auto& source = const_cast<Sparse&>(matrix);
+    A.nrow = A.ncol = static_cast<std::size_t>(source.cols());
+    A.nzmax = static_cast<std::size_t>(source.nonZeros());
+    A.p = source.outerIndexPtr();
+    A.i = source.innerIndexPtr();
+    A.x = source.valuePtr();
+    A.stype = -1;
+    A.itype = CHOLMOD_INT;
+    A.xtype = CHOLMOD_REAL;
+    A.dtype = CHOLMOD_DOUBLE;
+    A.sorted = A.packed = 1;
+  }
+  ~Cholmod() { cholmod_finish(&common); }
+
+  cholmod_factor* factor() {
+    cholmod_factor* L = cholmod_analyze(&A, &common);
+    cholmod_factorize(&A, L, &common);
+    return L;
+  }
+};
+
+void cholmod_factor_all(benchmark::State& state) {
+  Cholmod cholmod(system_of(state).A, static_cast<int>(state.range(1)));
+  for (auto _ : state) {
+    cholmod_factor* L = cholmod.factor();
+    cholmod_free_factor(&L, &cholmod.common);
+  }
+}
+
+void cholmod_solve_again(benchmark::State& state) {
+  Cholmod cholmod(system_of(state).A, static_cast<int>(state.range(1)));
+  cholmod_factor* L = cholmod.factor();
+  cholmod_dense* b = cholmod_ones(cholmod.A.nrow, 1, CHOLMOD_REAL, &cholmod.common);
+  cholmod_dense *x = nullptr, *Y = nullptr, *E = nullptr;
+  for (auto _ : state) cholmod_solve2(CHOLMOD_A, L, b, nullptr, &x, nullptr, &Y, &E, &cholmod.common);
+  for (cholmod_dense** dense : {&b, &x, &Y, &E}) cholmod_free_dense(dense, &cholmod.common);
+  cholmod_free_factor(&L, &cholmod.common);
+}
+#endif
+
+void by_size(benchmark::internal::Benchmark* b) {
+  b->Arg(50000)->Arg(150000)->Arg(316000)->Arg(450000)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+void by_size_and(benchmark::internal::Benchmark* b, std::int64_t first, std::int64_t second) {
+  for (const std::int64_t n : {50000, 150000, 316000, 450000}) b->Args({n, first})->Args({n, second});
+  b->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+BENCHMARK(cholesky_factor)->Apply(by_size);
+BENCHMARK(cholesky_solve_single)->Apply([](auto* b) { by_size_and(b, 1, 2); });
+BENCHMARK(cholesky_solve_double)->Apply(by_size);
+#if defined(RELIEVO_BENCH_CHOLMOD)
+BENCHMARK(cholmod_factor_all)->Apply([](auto* b) { by_size_and(b, CHOLMOD_AMD, CHOLMOD_METIS); });
+BENCHMARK(cholmod_solve_again)->Apply([](auto* b) { by_size_and(b, CHOLMOD_AMD, CHOLMOD_METIS); });
+#endif
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,13 @@
+// An order of elimination for planar graphs: geometric nested dissection.
+#pragma once
+
+#include "graph.h"
+
+namespace relievo {
+
+// Returns the vertices in an order of elimination that fills little: separators last, the pieces they leave
+// before them, recursively; small pieces by minimum degree. `positions` (one per vertex) only steer: bad ones
+// cost fill. Same result for any number of threads.
+std::vector<Index> dissection_order(const Graph& graph, std::span<const Vec2> positions);
+
+}  // namespace relievo

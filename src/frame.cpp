@@ -1,0 +1,173 @@
+#include "relievo/frame.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "relievo/parallel.h"
+#include "root.h"
+#include "vertex_normals.h"
+#include "weight_table.h"
+
+namespace relievo {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<Vec2> in_plane(const Surface& surface) {
+  std::vector<Vec2> xy(surface.points.size());
+  for (std::size_t i = 0; i < xy.size(); ++i) xy[i] = surface.points[i].head<2>();
+  return xy;
+}
+
+struct Span {
+  float lowest = 0, highest = 0;  // the base is part of it
+  void extend(float z) {
+    lowest = std::min(lowest, z);
+    highest = std::max(highest, z);
+  }
+};
+
+}  // namespace
+
+struct FrameMaker::Packed {
+  const ReliefModel& model;
+  const Surface& surface = model.surface();
+  VertexNormals vertex_normals{in_plane(surface), surface.triangulation, surface.boundary};
+  HeightSystem::Workspace workspace = model.system().make_workspace();
+  std::vector<Vec2f> slopes{surface.points.size()};
+  std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
+  double boundary_width = 0;  // that boundary_weight is for
+  WeightTable weight;
+  std::vector<Span> spans{(surface.points.size() + default_grain - 1) / default_grain};
+  // Where the last locked height was found, and by how much ln h changes with ln u there.
+  double last_log_u = 0, elasticity = 1;
+
+  explicit Packed(const ReliefModel& m) : model(m) {}
+
+  std::size_t size() const { return surface.points.size(); }
+
+  void set_boundary_width(double width) {
+    if (width == boundary_width) return;
+    boundary_width = width;
+    const double rho = surface.rho * width / 2;  // (7) has 2 rho
+    parallel_for(size(), [&](std::size_t i) {
+      const auto distance = static_cast<double>(surface.boundary.distance[i]);
+      boundary_weight[i] = static_cast<float>(relievo::boundary_weight(distance, rho));
+    });
+  }
+
+  // Equations (5) to (7) by table; see compressed_slope().
+  void compress(const Shape& shape) {
+    weight.fill(surface.curvature.delta, shape.compression);
+    const auto max_slope = static_cast<float>(shape.max_slope);
+    parallel_for(size(), [&](std::size_t i) {
+      const Vec3f& n = surface.normals[i];
+      const float w = weight(surface.curvature.k[i]) * boundary_weight[i];
+      const float x = -w * n.x(), y = -w * n.y(), z = w * n.z() + (1 - w);
+      const float length = std::sqrt(x * x + y * y);
+      const float scale = length <= max_slope * z ? 1 / std::max(z, 1e-30F) : max_slope / length;
+      slopes[i] = {x * scale, y * scale};
+    });
+  }
+
+  // Calls change(i, z) for every height, which may change it, and returns the span of what comes out.
+  template <typename Change>
+  float pass(std::vector<float>& heights, Change change) {
+    parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
+      Span span;
+      for (std::size_t i = begin; i < end; ++i) {
+        change(i, heights[i]);
+        span.extend(heights[i]);
+      }
+      spans[begin / default_grain] = span;
+    });
+    Span all;
+    for (const Span& span : spans) {
+      all.extend(span.lowest);
+      all.extend(span.highest);
+    }
+    return all.highest - all.lowest;
+  }
+
+  // Heights and detail for the frame's shape.
+  void raise(Frame& frame) {
+    const auto start = Clock::now();
+    compress(frame.options.shape);
+    model.system().solve(slopes, frame.heights, workspace);
+    const float h = pass(frame.heights, [](std::size_t, float&) {});
+    frame.times.heights_s += seconds_since(start);
+    ++frame.times.solves;
+
+    const auto detail_start = Clock::now();
+    const float amount = static_cast<float>(frame.options.shape.gamma) * h;
+    const float span = pass(frame.heights, [&](std::size_t i, float& z) {
+      z += amount * surface.curvature.k[i] * boundary_weight[i];
+    });
+    frame.height = static_cast<double>(span);
+    frame.times.detail_s += seconds_since(detail_start);
+  }
+
+  // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().
+  void raise_to(double height, Frame& frame) {
+    constexpr double tolerance = 5e-4;
+    const auto excess = [&](double log_u) {
+      frame.options.shape.compression.u = std::exp(log_u);
+      raise(frame);
+      return std::log(std::max(frame.height, 1e-300) / height);
+    };
+    double x = last_log_u, fx = excess(x);
+    for (int round = 0; round < 6 && std::abs(fx) > tolerance; ++round) {
+      const double next = x - std::clamp(fx / elasticity, -2.0, 2.0), fnext = excess(next);
+      if (next != x && (fnext - fx) / (next - x) > .02) elasticity = (fnext - fx) / (next - x);
+      x = next, fx = fnext;
+    }
+    if (std::abs(fx) > tolerance) fx = search(excess, tolerance, x);
+    frame.is_height_met = std::abs(fx) <= tolerance;
+    if (frame.is_height_met) last_log_u = x;
+  }
+
+  // The sure way, for far jumps and heights at or out of reach.
+  template <typename F>
+  static double search(F& excess, double tolerance, double& x) {
+    const double most = excess(std::numeric_limits<double>::infinity());
+    if (most <= tolerance) return most;
+    double f = 0;
+    x = find_root([&](double log_u) { return f = excess(log_u); }, tolerance);
+    return f;
+  }
+};
+
+FrameMaker::FrameMaker(const ReliefModel& model) : packed_(std::make_unique<Packed>(model)) {}
+FrameMaker::FrameMaker(FrameMaker&&) noexcept = default;
+FrameMaker::~FrameMaker() = default;
+
+void FrameMaker::make(const FrameOptions& options, Frame& frame) {
+  frame.options = options;
+  frame.heights.resize(packed_->size());
+  frame.normals.resize(packed_->size());
+  frame.shading.resize(packed_->size());
+  frame.times = {};
+  frame.is_height_met = true;
+  packed_->set_boundary_width(options.boundary_width);
+  if (options.height)
+    packed_->raise_to(*options.height, frame);
+  else
+    packed_->raise(frame);
+
+  const auto start = Clock::now();
+  if (options.base)
+    parallel_for(packed_->size(), [&](std::size_t i) { frame.heights[i] += (*options.base)[i]; });
+  packed_->vertex_normals.compute(frame.heights, options.light.normalized(), frame.normals, frame.shading);
+  frame.times.normals_s = seconds_since(start);
+}
+
+std::size_t FrameMaker::memory() const {
+  return packed_->vertex_normals.memory() + packed_->size() * (sizeof(Vec2f) + 2 * sizeof(float));
+}
+
+}  // namespace relievo
