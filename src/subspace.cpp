@@ -44,9 +44,7 @@ Result<std::vector<double>> solve_reference(const Surface& surface, std::span<co
   return heights;
 }
 
-// Cells a little narrower than the regions; four levels, the coarsest cells six radii wide, carry the ratio
-// to where there is none.
-SplineOptions spline_options(std::span<const Vec2> points, double radius) {
+SplineOptions spline_options(std::span<const Vec2> points, double cell, int levels) {
   SplineOptions options;
   options.min = options.max = points[0];
   for (const Vec2& p : points) {
@@ -54,8 +52,8 @@ SplineOptions spline_options(std::span<const Vec2> points, double radius) {
     options.max = options.max.cwiseMax(p);
   }
   constexpr double most_cells = 1024;  // per side
-  options.cell = std::max(.75 * radius, (options.max - options.min).maxCoeff() / most_cells);
-  options.levels = 4;
+  options.cell = std::max(cell, (options.max - options.min).maxCoeff() / most_cells);
+  options.levels = levels;
   options.damping = 1e-4;
   return options;
 }
@@ -65,10 +63,10 @@ SplineOptions spline_options(std::span<const Vec2> points, double radius) {
 struct SubspaceModel::Workspace::Storage {
   WeightTable weight;
   std::vector<Vec2f> sample_slopes, slopes;
-  std::vector<float> heights, ratios;  // of the control points
+  std::vector<float> heights, ratios, offsets;  // of the control points
   HeightSystem::Workspace system;
-  SplineFunction ratio;
-  MultilevelSpline::Workspace spline;
+  SplineFunction ratio, offset;
+  MultilevelSpline::Workspace ratio_fit, offset_fit;
 };
 
 SubspaceModel::Workspace::Workspace(std::unique_ptr<Storage> storage) : storage_(std::move(storage)) {}
@@ -106,15 +104,19 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
   model.reference_.assign(reference.begin(), reference.end());
   model.k_ = surface.curvature.k;
   model.boundary_weight_ = std::move(boundary_weight);
-  model.set_reference(mesh.points, spline_options(points, model.control_.radius), options.max_slope);
-  model.places_ = model.spline_.pack(points);
+  const double r2 = model.control_.radius;
+  const double q = getenv("CC") ? atof(getenv("CC")) : 2;
+  model.set_reference(mesh.points, spline_options(points, q * r2, 4), options.max_slope);
+  model.offset_spline_ = MultilevelSpline(mesh.points, std::vector<float>(mesh.points.size(), 1.F), spline_options(points, .75 * r2, 4));
+  model.ratio_places_ = model.ratio_spline_.pack(points);
+  model.offset_places_ = model.offset_spline_.pack(points);
   return model;
 }
 
 std::size_t SubspaceModel::memory() const {
-  return system_.memory() + spline_.memory() + bytes(control_.points) + bytes(samples_.normals) +
+  return system_.memory() + ratio_spline_.memory() + offset_spline_.memory() + bytes(control_.points) + bytes(samples_.normals) +
          bytes(samples_.k) + bytes(samples_.boundary_weight) + bytes(control_reference_) +
-         bytes(ratio_terms_) + bytes(places_) + bytes(reference_) + bytes(k_) + bytes(boundary_weight_);
+         bytes(ratio_terms_) + bytes(ratio_places_) + bytes(offset_places_) + bytes(reference_) + bytes(k_) + bytes(boundary_weight_);
 }
 
 SubspaceModel::Workspace SubspaceModel::make_workspace() const {
@@ -160,7 +162,7 @@ void SubspaceModel::set_reference(std::span<const Vec2> sites, const SplineOptio
     ratio_terms_.push_back({z0 / sum, faint * faint / sum});
     weights.push_back(z0 * z0);
   }
-  spline_ = MultilevelSpline(sites, weights, options);
+  ratio_spline_ = MultilevelSpline(sites, weights, options);
 }
 
 void SubspaceModel::find_ratios(Workspace::Storage& storage) const {
@@ -175,17 +177,24 @@ void SubspaceModel::find_ratios(Workspace::Storage& storage) const {
     const auto [pull, rest] = ratio_terms_[c];
     storage.ratios[c] = storage.heights[c] * pull + rest * overall;
   }
+  ratio_spline_.fit(storage.ratios, storage.ratio, storage.ratio_fit);
+  for (std::size_t c = 0; c < storage.heights.size(); ++c) {
+    const float fitted = storage.ratios[c] - storage.ratio_fit.rest[c];
+    storage.offsets[c] = storage.heights[c] - fitted * control_reference_[c];
+  }
+  offset_spline_.fit(storage.offsets, storage.offset, storage.offset_fit);
 }
 
 void SubspaceModel::heights(const Shape& shape, Workspace& workspace, std::span<float> heights) const {
   Workspace::Storage& storage = *workspace.storage_;
   solve(shape, storage);
   find_ratios(storage);
-  spline_.fit(storage.ratios, storage.ratio, storage.spline);
   parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
     const std::span<float> z = heights.subspan(begin, end - begin);
-    spline_.evaluate(storage.ratio, std::span(places_).subspan(begin, z.size()), z);
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] *= reference_[begin + i];
+    std::array<float, default_grain> offset;
+    ratio_spline_.evaluate(storage.ratio, std::span(ratio_places_).subspan(begin, z.size()), z);
+    offset_spline_.evaluate(storage.offset, std::span(offset_places_).subspan(begin, z.size()), std::span(offset).first(z.size()));
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] = z[i] * reference_[begin + i] + offset[i] * boundary_weight_[begin + i];
   });
 }
 

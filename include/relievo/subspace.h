@@ -86,8 +86,8 @@ class SubspaceModel {
 
   std::vector<float> control_reference_;  // z0_c
   std::vector<RatioTerm> ratio_terms_;
-  MultilevelSpline spline_;
-  std::vector<SplinePlace> places_;
+  MultilevelSpline ratio_spline_, offset_spline_;
+  std::vector<SplinePlace> ratio_places_, offset_places_;
   std::vector<float> reference_, k_, boundary_weight_;
 };
 
