@@ -19,12 +19,20 @@ Row basis(float t) {
   return c0 + t * (c1 + t * (c2 + t * c3));
 }
 
-// The 4 x 4 nodes from `node` on, against the two bases.
-float value_at(const float* node, std::size_t columns, float x, float y) {
-  const Row wy = basis(y);
-  Row sum = wy[0] * ConstRow(node);
-  for (int l = 1; l < 4; ++l) sum += wy[l] * ConstRow(node + static_cast<std::size_t>(l) * columns);
-  return (sum * basis(x)).sum();
+// A place's weights in x and y.
+struct Stencil {
+  Row x, y;
+
+  // The sum over 4 x 4 nodes.
+  float operator()(const float* node, std::size_t columns) const {
+    Row sum = y[0] * ConstRow(node);
+    for (int l = 1; l < 4; ++l) sum += y[l] * ConstRow(node + static_cast<std::size_t>(l) * columns);
+    return (sum * x).sum();
+  }
+};
+
+Stencil stencil(const SplinePlace& place) {
+  return {basis(static_cast<float>(place.x) * 0x1p-16F), basis(static_cast<float>(place.y) * 0x1p-16F)};
 }
 
 // Section 4: a node of the lattice of half the cells, from three (at even places) or two of the whole cells.
@@ -51,7 +59,8 @@ MultilevelSpline::MultilevelSpline(std::span<const Vec2> sites, std::span<const 
     level.columns = (cells(size.x()) << i) + 3;
     level.rows = (cells(size.y()) << i) + 3;
     level.cell = std::ldexp(options.cell, coarsest - static_cast<int>(i));
-    prepare(level, sites, damping);
+    const int number = static_cast<int>(i);
+    if (number >= options.first_fitted && number <= options.last_fitted) prepare(level, sites, damping);
   }
 }
 
@@ -88,11 +97,11 @@ std::size_t MultilevelSpline::memory() const {
 }
 
 SplineFunction MultilevelSpline::make_function() const {
-  return {0, std::vector<float>(levels_.back().inverse.size())};
+  return {0, std::vector<float>(levels_.back().columns * levels_.back().rows)};
 }
 
 MultilevelSpline::Workspace MultilevelSpline::make_workspace() const {
-  const std::size_t nodes = levels_.back().inverse.size();
+  const std::size_t nodes = levels_.back().columns * levels_.back().rows;
   return {std::vector<float>(weights_.size()), std::vector<float>(nodes), std::vector<float>(nodes)};
 }
 
@@ -106,7 +115,7 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
   std::fill(function.nodes.begin(), function.nodes.end(), 0.F);
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) refine(levels_[i - 1], function.nodes, workspace.coarser);
-    correct(levels_[i], function.nodes, workspace);
+    if (!levels_[i].sites.empty()) correct(levels_[i], function.nodes, workspace);
   }
 }
 
@@ -140,7 +149,7 @@ void MultilevelSpline::correct(const Level& level, std::vector<float>& nodes, Wo
   for (std::size_t i = 0; i < size; ++i) nodes[i] += correction[i] *= level.inverse[i];
   for (std::size_t i = 0; i < level.sites.size(); ++i) {
     const Site& site = level.sites[i];
-    workspace.rest[i] -= value_at(&correction[site.node], columns, site.x, site.y);
+    workspace.rest[i] -= Stencil{basis(site.x), basis(site.y)}(&correction[site.node], columns);
   }
 }
 
@@ -160,9 +169,18 @@ void MultilevelSpline::evaluate(const SplineFunction& function, std::span<const 
                                 std::span<float> values) const {
   const std::size_t columns = levels_.back().columns;
   parallel_for(places.size(), [&](std::size_t i) {
-    const SplinePlace& p = places[i];
-    const float x = static_cast<float>(p.x) * 0x1p-16F, y = static_cast<float>(p.y) * 0x1p-16F;
-    values[i] = function.mean + value_at(&function.nodes[p.node], columns, x, y);
+    values[i] = function.mean + stencil(places[i])(&function.nodes[places[i].node], columns);
+  });
+}
+
+void MultilevelSpline::evaluate(const Pair& functions, std::span<const SplinePlace> places,
+                                const PairValues& values) const {
+  const auto& [f, g] = functions;
+  const std::size_t columns = levels_.back().columns;
+  parallel_for(places.size(), [&](std::size_t i) {
+    const Stencil at = stencil(places[i]);
+    values.a[i] = f.mean + at(&f.nodes[places[i].node], columns);
+    values.b[i] = g.mean + at(&g.nodes[places[i].node], columns);
   });
 }
 

@@ -1,6 +1,7 @@
 #include "relievo/subspace.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "control_mesh.h"
@@ -44,7 +45,11 @@ Result<std::vector<double>> solve_reference(const Surface& surface, std::span<co
   return heights;
 }
 
-SplineOptions spline_options(std::span<const Vec2> points, double cell, int levels) {
+// Ratio and offset share their lattices, with cells from 12 radii of the control points down to 3/4. The
+// ratio is fitted on the first, the offset on the others.
+constexpr int last_ratio_level = 1;
+
+SplineOptions spline_options(std::span<const Vec2> points, double radius) {
   SplineOptions options;
   options.min = options.max = points[0];
   for (const Vec2& p : points) {
@@ -52,8 +57,8 @@ SplineOptions spline_options(std::span<const Vec2> points, double cell, int leve
     options.max = options.max.cwiseMax(p);
   }
   constexpr double most_cells = 1024;  // per side
-  options.cell = std::max(cell, (options.max - options.min).maxCoeff() / most_cells);
-  options.levels = levels;
+  options.cell = std::max(.75 * radius, (options.max - options.min).maxCoeff() / most_cells);
+  options.levels = 5;
   options.damping = 1e-4;
   return options;
 }
@@ -61,10 +66,12 @@ SplineOptions spline_options(std::span<const Vec2> points, double cell, int leve
 }  // namespace
 
 struct SubspaceModel::Workspace::Storage {
+  explicit Storage(HeightSystem::Workspace s) : system(std::move(s)) {}
+
+  HeightSystem::Workspace system;
   WeightTable weight;
   std::vector<Vec2f> sample_slopes, slopes;
   std::vector<float> heights, ratios, offsets;  // of the control points
-  HeightSystem::Workspace system;
   SplineFunction ratio, offset;
   MultilevelSpline::Workspace ratio_fit, offset_fit;
 };
@@ -104,32 +111,30 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
   model.reference_.assign(reference.begin(), reference.end());
   model.k_ = surface.curvature.k;
   model.boundary_weight_ = std::move(boundary_weight);
-  const double r2 = model.control_.radius;
-  const double q = getenv("CC") ? atof(getenv("CC")) : 2;
-  model.set_reference(mesh.points, spline_options(points, q * r2, 4), options.max_slope);
-  model.offset_spline_ = MultilevelSpline(mesh.points, std::vector<float>(mesh.points.size(), 1.F), spline_options(points, .75 * r2, 4));
-  model.ratio_places_ = model.ratio_spline_.pack(points);
-  model.offset_places_ = model.offset_spline_.pack(points);
+  model.set_reference(options.max_slope);
+  model.set_splines(mesh.points, points);
   return model;
 }
 
 std::size_t SubspaceModel::memory() const {
-  return system_.memory() + ratio_spline_.memory() + offset_spline_.memory() + bytes(control_.points) + bytes(samples_.normals) +
-         bytes(samples_.k) + bytes(samples_.boundary_weight) + bytes(control_reference_) +
-         bytes(ratio_terms_) + bytes(ratio_places_) + bytes(offset_places_) + bytes(reference_) + bytes(k_) + bytes(boundary_weight_);
+  return system_.memory() + ratio_spline_.memory() + offset_spline_.memory() + bytes(control_.points) +
+         bytes(samples_.normals) + bytes(samples_.k) + bytes(samples_.boundary_weight) +
+         bytes(control_reference_) + bytes(ratio_terms_) + bytes(places_) + bytes(reference_) + bytes(k_) +
+         bytes(boundary_weight_);
 }
 
 SubspaceModel::Workspace SubspaceModel::make_workspace() const {
   const std::size_t n = control_.points.size();
-  return Workspace(
-      std::make_unique<Workspace::Storage>(Workspace::Storage{{},
-                                                              std::vector<Vec2f>(samples_.k.size()),
-                                                              std::vector<Vec2f>(n),
-                                                              std::vector<float>(n),
-                                                              std::vector<float>(n),
-                                                              system_.make_workspace(),
-                                                              spline_.make_function(),
-                                                              spline_.make_workspace()}));
+  auto storage = std::make_unique<Workspace::Storage>(system_.make_workspace());
+  storage->sample_slopes.resize(samples_.k.size());
+  storage->slopes.resize(n);
+  for (std::vector<float>* values : {&storage->heights, &storage->ratios, &storage->offsets})
+    values->resize(n);
+  storage->ratio = ratio_spline_.make_function();
+  storage->offset = offset_spline_.make_function();
+  storage->ratio_fit = ratio_spline_.make_workspace();
+  storage->offset_fit = offset_spline_.make_workspace();
+  return Workspace(std::move(storage));
 }
 
 // z_c: a control point's slope is the mean of those its region's samples have.
@@ -147,25 +152,36 @@ void SubspaceModel::solve(const Shape& shape, Workspace::Storage& storage) const
   system_.solve(storage.slopes, storage.heights, storage.system);
 }
 
-// The least squares of z_c - r z0_c, so to speak: near the base, where z0_c says little about the ratio, it
-// counts little, too, and below a thousandth of the height it fades to the ratio of all control points.
-void SubspaceModel::set_reference(std::span<const Vec2> sites, const SplineOptions& options,
-                                  double max_slope) {
+// Below a thousandth of the height, where z0_c says nothing about the ratio, it fades to that of all control
+// points.
+void SubspaceModel::set_reference(double max_slope) {
   Workspace workspace = make_workspace();
   solve({keep_all, 0, max_slope}, *workspace.storage_);
   control_reference_ = workspace.storage_->heights;
   const auto [lowest, highest] = std::minmax_element(control_reference_.begin(), control_reference_.end());
   const float faint = 1e-3F * (*highest - *lowest);
-  std::vector<float> weights;
   for (const float z0 : control_reference_) {
     const float sum = std::max(z0 * z0 + faint * faint, std::numeric_limits<float>::min());
     ratio_terms_.push_back({z0 / sum, faint * faint / sum});
-    weights.push_back(z0 * z0);
   }
-  ratio_spline_ = MultilevelSpline(sites, weights, options);
 }
 
-void SubspaceModel::find_ratios(Workspace::Storage& storage) const {
+// Weights z0_c^2 make the fit of the ratio r one of z_c - r z0_c.
+void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec2> points) {
+  std::vector<float> weights;
+  for (const float z0 : control_reference_) weights.push_back(z0 * z0);
+  SplineOptions options = spline_options(points, control_.radius);
+  options.last_fitted = last_ratio_level;
+  ratio_spline_ = MultilevelSpline(sites, weights, options);
+
+  std::fill(weights.begin(), weights.end(), 1.F);
+  options.first_fitted = last_ratio_level + 1;
+  options.last_fitted = options.levels - 1;
+  offset_spline_ = MultilevelSpline(sites, weights, options);
+  places_ = offset_spline_.pack(points);
+}
+
+void SubspaceModel::fit(Workspace::Storage& storage) const {
   double compressed = 0, reference = 0;
   for (std::size_t c = 0; c < storage.heights.size(); ++c) {
     const auto z0 = static_cast<double>(control_reference_[c]);
@@ -188,13 +204,14 @@ void SubspaceModel::find_ratios(Workspace::Storage& storage) const {
 void SubspaceModel::heights(const Shape& shape, Workspace& workspace, std::span<float> heights) const {
   Workspace::Storage& storage = *workspace.storage_;
   solve(shape, storage);
-  find_ratios(storage);
+  fit(storage);
   parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
     const std::span<float> z = heights.subspan(begin, end - begin);
     std::array<float, default_grain> offset;
-    ratio_spline_.evaluate(storage.ratio, std::span(ratio_places_).subspan(begin, z.size()), z);
-    offset_spline_.evaluate(storage.offset, std::span(offset_places_).subspan(begin, z.size()), std::span(offset).first(z.size()));
-    for (std::size_t i = 0; i < z.size(); ++i) z[i] = z[i] * reference_[begin + i] + offset[i] * boundary_weight_[begin + i];
+    offset_spline_.evaluate({storage.ratio, storage.offset}, std::span(places_).subspan(begin, z.size()),
+                            {z, offset});
+    for (std::size_t i = 0; i < z.size(); ++i)
+      z[i] = z[i] * reference_[begin + i] + offset[i] * boundary_weight_[begin + i];
   });
 }
 

@@ -14,8 +14,10 @@ namespace relievo {
 struct SplineOptions {
   Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; other places take the value at its edge
   double cell = .01;                            // side of the finest lattice's cells, > 0
-  int levels = 5;      // number of lattices, [1, 16]; cells are twice as wide from each to the next coarser
-  double damping = 0;  // share of the mean weight of the sites, >= 0: see MultilevelSpline::fit()
+  int levels = 5;  // number of lattices, [1, 16]; cells are twice as wide from each to the next coarser
+  int first_fitted = 0,
+      last_fitted = 15;  // levels that are fitted, the coarsest is 0; others are only refined
+  double damping = 0;    // share of the mean weight of the sites, >= 0: see MultilevelSpline::fit()
 };
 
 // A place in the finest lattice.
@@ -58,9 +60,19 @@ class MultilevelSpline {
 
   std::vector<SplinePlace> pack(std::span<const Vec2> points) const;
 
-  // Writes the function's value at each place; about 4 ns each.
+  // Writes the function's value at each place.
   void evaluate(const SplineFunction& function, std::span<const SplinePlace> places,
                 std::span<float> values) const;
+
+  // The same for two functions, which may be those of another spline with the same domain, cell and levels.
+  struct Pair {
+    const SplineFunction& a;
+    const SplineFunction& b;
+  };
+  struct PairValues {
+    std::span<float> a, b;
+  };
+  void evaluate(const Pair& functions, std::span<const SplinePlace> places, const PairValues& values) const;
 
  private:
   struct Site {
@@ -70,7 +82,7 @@ class MultilevelSpline {
   struct Level {
     std::size_t columns = 0, rows = 0;  // of nodes: cells + 3
     double cell = 0;
-    std::vector<Site> sites;
+    std::vector<Site> sites;     // none unless the level is fitted
     std::vector<float> inverse;  // per node, of the weight around it
   };
 

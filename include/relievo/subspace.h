@@ -18,13 +18,13 @@ struct SubspaceOptions {
   double max_slope = 4;               // of the reference heights, see Shape
 };
 
-// Control points with their factored system, and the way from their heights to those of all points: the ratio
-// z_c / z0_c of compressed and reference heights, both solved on the control points, is carried to all points
-// by a multilevel B-spline and multiplied by their reference heights z0, (9) with w_k = 1.
+// Control points with their factored system, and the way from their heights to those of all points: z = r z0
+// + d. z0 are the reference heights, (9) with w_k = 1. The compression ratio r is that of compressed and
+// reference heights, z_c / z0_c, both solved on the control points; the offset d is what a smooth ratio
+// leaves of z_c, above all where z0 passes 0. Multilevel B-splines carry both to all points.
 //
-// Heights are within about 1 to 2 % (root mean square, of the height) of ReliefModel's, which the final
-// output should be: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of
-// its own.
+// Heights are within about 1 % (root mean square, of the height) of ReliefModel's, which is for the final
+// output: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of its own.
 class SubspaceModel {
  public:
   // What a relief needs besides the model, so that frames allocate nothing.
@@ -69,15 +69,16 @@ class SubspaceModel {
     std::vector<Vec3f> normals;
     std::vector<float> k, boundary_weight;
   };
-  // The ratio of a control point is z_c * pull + rest * (the ratio of all of them).
+  // A control point's ratio is z_c pull + (the ratio of all of them) rest.
   struct RatioTerm {
     float pull = 0, rest = 0;
   };
 
   SubspaceModel(HeightSystem system, Samples samples, double delta);
   void solve(const Shape& shape, Workspace::Storage& storage) const;
-  void set_reference(std::span<const Vec2> sites, const SplineOptions& options, double max_slope);
-  void find_ratios(Workspace::Storage& storage) const;
+  void fit(Workspace::Storage& storage) const;
+  void set_reference(double max_slope);
+  void set_splines(std::span<const Vec2> sites, std::span<const Vec2> points);
 
   ControlPoints control_;
   HeightSystem system_;
@@ -87,7 +88,7 @@ class SubspaceModel {
   std::vector<float> control_reference_;  // z0_c
   std::vector<RatioTerm> ratio_terms_;
   MultilevelSpline ratio_spline_, offset_spline_;
-  std::vector<SplinePlace> ratio_places_, offset_places_;
+  std::vector<SplinePlace> places_;
   std::vector<float> reference_, k_, boundary_weight_;
 };
 
