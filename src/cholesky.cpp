@@ -5,6 +5,7 @@
 
 #include "cholesky_factor.h"
 #include "dissection.h"
+#include "plane_order.h"
 
 namespace relievo {
 namespace {
@@ -22,7 +23,7 @@ bool is_finite(const Eigen::SparseMatrix<double>& A) {
   return true;
 }
 
-// Calls f(column, row, value) for the entries below the diagonal, which it adds to the graph's own.
+// Calls f(column, row, value) for the entries below the diagonal.
 template <typename F>
 void for_each_below(const Eigen::SparseMatrix<double>& A, F&& f) {
   for (int j = 0; j < A.outerSize(); ++j)
@@ -30,12 +31,15 @@ void for_each_below(const Eigen::SparseMatrix<double>& A, F&& f) {
       if (entry.row() > j) f(static_cast<Index>(j), static_cast<Index>(entry.row()), entry.value());
 }
 
-WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A) {
+// Unknown `order[v]` becomes vertex v.
+WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A, std::span<const Index> order) {
   WeightedGraph result;
   const auto n = static_cast<Index>(A.cols());
   std::vector<Index>& begin = result.graph.begin;
   begin.assign(n + 1, 0);
-  for_each_below(A, [&](Index j, Index i, double) { ++begin[i + 1], ++begin[j + 1]; });
+  std::vector<Index> vertex(n);
+  for (Index v = 0; v < n; ++v) vertex[order[v]] = v;
+  for_each_below(A, [&](Index j, Index i, double) { ++begin[vertex[i] + 1], ++begin[vertex[j] + 1]; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   result.graph.to.resize(begin[n]);
   result.weight.resize(begin[n]);
@@ -45,13 +49,20 @@ WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A) {
     result.weight[next[from]++] = value;
   };
   for_each_below(A, [&](Index j, Index i, double value) {
-    add(i, j, value);
-    add(j, i, value);
+    add(vertex[i], vertex[j], value);
+    add(vertex[j], vertex[i], value);
   });
   result.diagonal.assign(n, 0.0);
   for (int j = 0; j < A.outerSize(); ++j)
     for (Entries entry(A, j); entry; ++entry)
-      if (entry.row() == j) result.diagonal[static_cast<std::size_t>(j)] += entry.value();
+      if (entry.row() == j) result.diagonal[vertex[static_cast<std::size_t>(j)]] += entry.value();
+  return result;
+}
+
+std::vector<Eigen::Vector2f> in_order(std::span<const Eigen::Vector2f> points, std::span<const Index> order) {
+  std::vector<Eigen::Vector2f> result;
+  result.reserve(order.size());
+  for (const Index i : order) result.push_back(points[i]);
   return result;
 }
 
@@ -70,9 +81,15 @@ Result<Cholesky> Cholesky::factor(const Eigen::SparseMatrix<double>& A, std::spa
                                  "positions",
                                  {},
                                  "expected one per unknown, found " + std::to_string(positions.size())});
-  const WeightedGraph graph = graph_of(A);
-  std::unique_ptr<Factor> factor = lay_out(analyse(graph.graph, dissection_order(graph.graph, positions)));
-  const Index failed = graph.graph.size() > 0 ? factorise(graph, *factor) : no_index;
+  std::vector<Eigen::Vector2f> places = in_unit_square(positions);
+  places.resize(static_cast<std::size_t>(A.cols()), Eigen::Vector2f::Zero());
+  const std::vector<Index> vertices = plane_order(places);
+  const WeightedGraph graph = graph_of(A, vertices);
+  std::unique_ptr<Factor> factor =
+      lay_out(analyse(graph.graph, dissection_order(graph.graph, in_order(places, vertices))));
+  const Index failed_column = graph.graph.size() > 0 ? factorise(graph, *factor) : no_index;
+  for (Index& vertex : factor->order) vertex = vertices[vertex];
+  const Index failed = failed_column == no_index ? no_index : factor->order[failed_column];
   if (failed != no_index) {
     Error error = not_positive_definite("found a pivot that is not positive");
     error.place = "unknown " + std::to_string(failed);

@@ -243,8 +243,7 @@ Index Numeric::run() {
         done.set(t);
       },
       1);
-  const Index column = *std::min_element(failed_.begin(), failed_.end());
-  return column == no_index ? no_index : factor_.order[column];
+  return *std::min_element(failed_.begin(), failed_.end());
 }
 
 }  // namespace

@@ -12,9 +12,9 @@
 namespace relievo {
 namespace {
 
-// Neighbours beyond this many h weigh nothing. The fit of normals does not mind that a few percent of the
-// weight are cut off; the second derivatives of (3) do.
-constexpr double fit_support = 2, mls_support = 3;
+// Neighbours beyond this many h weigh nothing. The fit of normals does not mind where the weight ends; the
+// second derivatives of (3) do.
+constexpr double fit_support = 1.7, mls_support = 3;
 
 // Equations (2) and (3), at the place where p projects onto g = 0: two Newton steps along the gradient.
 double mls_curvature(std::span<MlsSample> neighbours, double h) {
@@ -27,28 +27,33 @@ double mls_curvature(std::span<MlsSample> neighbours, double h) {
   return here.is_valid ? mean_curvature_of_level_set(here.gradient, here.hessian) : 0;
 }
 
+// Close to exp(-d^2 / h^2) for a reach of 1.7 h, without the exponential, and 0 beyond the reach.
+double fit_weight(const MlsSample& s, double reach) {
+  const double rest = std::max(0.0, 1 - s.d.squaredNorm() / (reach * reach));
+  return rest * rest;
+}
+
 // Half the divergence of the normal field n(x) = n0 + J x, fitted to the neighbours by weighted least squares
 // in the tangent plane: exact where the normals vary linearly, as on spheres and cylinders, however the
 // points are scattered.
-double fitted_curvature(std::span<const MlsSample> neighbours, double h) {
+double fitted_curvature(std::span<const MlsSample> neighbours, double reach) {
   if (neighbours.size() < 6) return 0;
-  const auto weight = [&](const MlsSample& s) { return std::exp(-s.d.squaredNorm() / (h * h)); };
   Vec3 mean = Vec3::Zero();
-  for (const MlsSample& s : neighbours) mean += weight(s) * s.n;
+  for (const MlsSample& s : neighbours) mean += fit_weight(s, reach) * s.n;
   const Vec3 axis = mean.normalized();
   const Vec3 t1 = axis.unitOrthogonal(), t2 = axis.cross(t1);
   Mat3 moments = Mat3::Zero();
   Eigen::Matrix<double, 3, 2> products = Eigen::Matrix<double, 3, 2>::Zero();
   for (const MlsSample& s : neighbours) {
-    const Vec3 place(1, -s.d.dot(t1) / h, -s.d.dot(t2) / h);
-    const double theta = weight(s);
-    moments += theta * place * place.transpose();
-    products += theta * place * Eigen::RowVector2d(s.n.dot(t1), s.n.dot(t2));
+    const Vec3 place(1, -s.d.dot(t1) / reach, -s.d.dot(t2) / reach);
+    const Vec3 weighted = fit_weight(s, reach) * place;
+    moments += weighted * place.transpose();
+    products += weighted * Eigen::RowVector2d(s.n.dot(t1), s.n.dot(t2));
   }
   const double spread = moments(0, 0) * moments(1, 1) * moments(2, 2);
   if (!(moments.determinant() > 1e-6 * spread)) return 0;  // neighbours on a line: no field to fit
   const Eigen::Matrix<double, 3, 2> field = moments.inverse() * products;
-  return (field(1, 0) + field(2, 1)) / (2 * h);
+  return (field(1, 0) + field(2, 1)) / (2 * reach);
 }
 
 class CurvatureEstimator {
@@ -65,7 +70,7 @@ class CurvatureEstimator {
       if (cloud_.normals[j].dot(cloud_.normals[i]) <= 0) continue;
       samples.push_back({cloud_.points[i] - cloud_.points[j], cloud_.normals[j].cast<double>()});
     }
-    const double k = is_fit ? fitted_curvature(samples, h) : mls_curvature(samples, h);
+    const double k = is_fit ? fitted_curvature(samples, fit_support * h) : mls_curvature(samples, h);
     return std::clamp(k, -1 / spacing_.rho, 1 / spacing_.rho);
   }
 

@@ -1,6 +1,5 @@
 #include "dissection.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -104,20 +103,6 @@ class Dissection {
   std::vector<Index> slots_;
 };
 
-// Centred and scaled to about 1, so that single precision resolves them; 0 where they are not finite.
-std::vector<Eigen::Vector2f> scaled(std::span<const Vec2> positions) {
-  Eigen::AlignedBox2d box;
-  for (const Vec2& p : positions)
-    if (p.allFinite()) box.extend(p);
-  const double size = box.isEmpty() ? 0 : box.sizes().maxCoeff();
-  const double scale = size > 0 && std::isfinite(size) ? 1 / size : 0;
-  std::vector<Eigen::Vector2f> result(positions.size(), Eigen::Vector2f::Zero());
-  for (std::size_t i = 0; i < result.size(); ++i)
-    if (positions[i].allFinite() && scale > 0)
-      result[i] = ((positions[i] - box.center()) * scale).cast<float>();
-  return result;
-}
-
 // Grows with the angle, from 0 to 4.
 float pseudo_angle(const Eigen::Vector2f& step) {
   const float sum = std::abs(step.x()) + std::abs(step.y());
@@ -141,13 +126,12 @@ void turn_in_order(Graph& graph, std::span<const Eigen::Vector2f> positions) {
 
 }  // namespace
 
-std::vector<Index> dissection_order(const Graph& graph, std::span<const Vec2> positions) {
+std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   std::vector<Index> order(graph.size());
   std::iota(order.begin(), order.end(), Index{0});
   Part whole;
   whole.graph = graph;
-  whole.positions = scaled(positions);
-  whole.positions.resize(graph.size(), Eigen::Vector2f::Zero());
+  whole.positions.assign(positions.begin(), positions.end());
   whole.vertices = order;
   turn_in_order(whole.graph, whole.positions);
   Dissection(graph, order).run(std::move(whole));

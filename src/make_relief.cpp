@@ -47,6 +47,8 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   report.u = compression.u;
   report.gamma = gamma;
   report.height_requested_mm = options.height_mm;
+  if (options.alpha && compression.beta == 0)
+    report.remarks.push_back("alpha has no effect at saturation 0; a height sets how flat the relief is");
   if (surface.has_estimated_normals)
     report.remarks.push_back("the input has no normals: they were estimated");
   if (surface.has_flipped_normals)
@@ -100,7 +102,6 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
   made.report.below_ground_mm = -mm_per_unit * lowest(*relief);
   const double ground_mm = options.thickness_mm + made.report.below_ground_mm;
   place(made.report, model->surface(), {options.margin_mm, options.margin_mm, ground_mm}, mm_per_unit);
-  if (progress) progress->finish();
   return made;
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "planar.h"
+#include "plane_order.h"
 #include "relievo/parallel.h"
 #include "separator.h"
 
@@ -46,6 +47,10 @@ std::vector<Index> minimum_degree(const test::Sparse& A) {
   return order;
 }
 
+std::vector<Index> ordered(const Graph& graph, const std::vector<Vec2>& positions) {
+  return dissection_order(graph, in_unit_square(positions));
+}
+
 void expect_permutation(std::vector<Index> order, std::size_t n) {
   ASSERT_EQ(order.size(), n);
   std::sort(order.begin(), order.end());
@@ -56,9 +61,9 @@ TEST(Dissection, OrdersEveryVertexOnce) {
   for (const auto& [width, height] : {std::pair(1, 1), {1, 300}, {40, 40}, {300, 20}}) {
     const PlanarSystem system = jittered_grid(width, height);
     const Graph graph = test::graph_of(system.A);
-    expect_permutation(dissection_order(graph, system.positions), graph.size());
-    expect_permutation(dissection_order(graph, test::shuffled(system.positions)), graph.size());
-    expect_permutation(dissection_order(graph, std::vector<Vec2>(graph.size(), Vec2(1, 1))), graph.size());
+    expect_permutation(ordered(graph, system.positions), graph.size());
+    expect_permutation(ordered(graph, test::shuffled(system.positions)), graph.size());
+    expect_permutation(ordered(graph, std::vector<Vec2>(graph.size(), Vec2(1, 1))), graph.size());
   }
   EXPECT_TRUE(dissection_order({}, {}).empty());
 }
@@ -66,7 +71,7 @@ TEST(Dissection, OrdersEveryVertexOnce) {
 TEST(Dissection, FillsLessThanMinimumDegree) {
   const PlanarSystem system = jittered_grid(300, 300);
   const Graph graph = test::graph_of(system.A);
-  const std::size_t ours = fill_of(graph, dissection_order(graph, system.positions));
+  const std::size_t ours = fill_of(graph, ordered(graph, system.positions));
   EXPECT_LT(static_cast<double>(ours), .95 * static_cast<double>(fill_of(graph, minimum_degree(system.A))));
 }
 
@@ -74,9 +79,10 @@ TEST(Dissection, FillsLessThanMinimumDegree) {
 TEST(Dissection, NeedsNoPositionsForAModestFill) {
   const PlanarSystem system = jittered_grid(100, 100);
   const Graph graph = test::graph_of(system.A);
-  const double good = static_cast<double>(fill_of(graph, dissection_order(graph, system.positions)));
-  EXPECT_LT(static_cast<double>(fill_of(graph, dissection_order(graph, {}))), 1.6 * good);
-  const auto wrong = dissection_order(graph, test::shuffled(system.positions));
+  const double good = static_cast<double>(fill_of(graph, ordered(graph, system.positions)));
+  EXPECT_LT(static_cast<double>(fill_of(graph, ordered(graph, std::vector<Vec2>(graph.size(), Vec2(0, 0))))),
+            1.6 * good);
+  const auto wrong = ordered(graph, test::shuffled(system.positions));
   EXPECT_LT(static_cast<double>(fill_of(graph, wrong)), 1.6 * good);
 }
 
@@ -84,21 +90,15 @@ TEST(Dissection, IsTheSameForAnyNumberOfThreads) {
   const PlanarSystem system = jittered_grid(120, 110);
   const Graph graph = test::graph_of(system.A);
   set_thread_count(1);
-  const auto one = dissection_order(graph, system.positions);
+  const auto one = ordered(graph, system.positions);
   set_thread_count(3);
-  EXPECT_EQ(dissection_order(graph, system.positions), one);
+  EXPECT_EQ(ordered(graph, system.positions), one);
   set_thread_count(0);
-}
-
-std::vector<Eigen::Vector2f> single(const std::vector<Vec2>& positions) {
-  std::vector<Eigen::Vector2f> result;
-  for (const Vec2& p : positions) result.push_back(p.cast<float>());
-  return result;
 }
 
 TEST(Separator, ParsesAGridAcrossItsShortSide) {
   const PlanarSystem system = jittered_grid(90, 30);
-  const Separation cut = separate(test::graph_of(system.A), single(system.positions));
+  const Separation cut = separate(test::graph_of(system.A), in_unit_square(system.positions));
   EXPECT_EQ(cut.separator, 30U);
   EXPECT_GT(std::min(cut.first, cut.second), 900U);
 }
@@ -107,7 +107,7 @@ TEST(Separator, LeavesNoEdgeBetweenTheSides) {
   const PlanarSystem system = jittered_grid(40, 40);
   const Graph graph = test::graph_of(system.A);
   for (const auto& positions : {system.positions, test::shuffled(system.positions)}) {
-    const Separation cut = separate(graph, single(positions));
+    const Separation cut = separate(graph, in_unit_square(positions));
     EXPECT_EQ(cut.first + cut.second + cut.separator, graph.size());
     for (Index v = 0; v < graph.size(); ++v)
       for (const Index u : graph.neighbours(v))

@@ -24,7 +24,7 @@ enum class CurvatureMethod {
 
 struct CurvatureOptions {
   CurvatureMethod method = CurvatureMethod::normal_fit;
-  double scale = 2;  // width h of the Gaussian weight exp(-d^2 / h^2), in local spacings; more is smoother
+  double scale = 2;  // width h of the weight, about exp(-d^2 / h^2), in local spacings; more is smoother
 };
 
 // Returns the mean curvature, 1/length, convex positive, at the points numbered by `queries`, clamped to 1 /

@@ -38,8 +38,9 @@ struct MadeRelief {
   ReliefReport report;
 };
 
-// Returns the plate with the relief of the cloud. Stages and their times are in `progress`.
-// Errors: those of check(), parse_view(), find_surface() and ReliefModel::make_at_height(); kind cancelled.
+// Returns the plate with the relief of the cloud. Stages and their times are in `progress`; the caller ends
+// the last one. Errors: those of check(), parse_view(), find_surface() and ReliefModel::make_at_height();
+// kind cancelled.
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
