@@ -37,7 +37,7 @@ struct Span {
 struct FrameMaker::Packed {
   const ReliefModel& model;
   const Surface& surface = model.surface();
-  VertexNormals vertex_normals{in_plane(surface), surface.triangulation, surface.boundary};
+  PointLinks normal_links = vertex_normal_links(in_plane(surface), surface.triangulation, surface.boundary);
   HeightSystem::Workspace workspace = model.system().make_workspace();
   std::vector<Vec2f> slopes{surface.points.size()};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
@@ -162,12 +162,12 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   const auto start = Clock::now();
   if (options.base)
     parallel_for(packed_->size(), [&](std::size_t i) { frame.heights[i] += (*options.base)[i]; });
-  packed_->vertex_normals.compute(frame.heights, options.light.normalized(), frame.normals, frame.shading);
+  packed_->normal_links.normals(frame.heights, options.light.normalized(), {frame.normals, frame.shading});
   frame.times.normals_s = seconds_since(start);
 }
 
 std::size_t FrameMaker::memory() const {
-  return packed_->vertex_normals.memory() + packed_->size() * (sizeof(Vec2f) + 2 * sizeof(float));
+  return packed_->normal_links.memory() + packed_->size() * (sizeof(Vec2f) + 2 * sizeof(float));
 }
 
 }  // namespace relievo

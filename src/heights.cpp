@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/parallel.h"
+#include "point_links.h"
 
 namespace relievo {
 namespace {
@@ -100,6 +100,20 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
+PointLinks right_hand_side_links(std::span<const Vec2> points, const Adjacency& adjacency,
+                                 std::span<const Index> unknown) {
+  std::vector<Index> begin = {0};
+  begin.reserve(points.size() + 1);
+  for (const Index f : unknown) begin.push_back(f == no_index ? begin.back() : adjacency.begin[f + 1]);
+  std::vector<PointLink> links;
+  links.reserve(adjacency.edges.size());
+  for (const HalfEdge& e : adjacency.edges) {
+    const Vec2 pull = .5 * static_cast<double>(e.cotangent) * (points[e.from] - points[e.to]);
+    links.push_back({e.to, pull.cast<float>()});
+  }
+  return PointLinks(begin, links);
+}
+
 }  // namespace
 
 Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Triangulation& triangulation,
@@ -116,55 +130,34 @@ Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Tri
   Result<Cholesky> factor = Cholesky::factor(laplacian(adjacency, unknown), positions);
   if (!factor) return std::unexpected(factor.error());
 
-  HeightSystem system(std::move(*factor));
-  system.edges_.reserve(adjacency.edges.size());
-  for (const HalfEdge& e : adjacency.edges) {
-    const Vec2 pull = .5 * static_cast<double>(e.cotangent) * (points[e.from] - points[e.to]);
-    system.edges_.push_back({e.to, pull.cast<float>()});
-  }
-  system.unknown_ = std::move(unknown);
-  system.free_points_ = std::move(free_points);
-  system.begin_ = std::move(adjacency.begin);
-  return system;
+  factor->renumber(free_points);
+  return HeightSystem(std::move(*factor), right_hand_side_links(points, adjacency, unknown));
+}
+
+HeightSystem::HeightSystem(Cholesky factor, PointLinks edges)
+    : factor_(std::move(factor)), edges_(std::make_unique<PointLinks>(std::move(edges))) {}
+HeightSystem::HeightSystem(HeightSystem&&) noexcept = default;
+HeightSystem& HeightSystem::operator=(HeightSystem&&) noexcept = default;
+HeightSystem::~HeightSystem() = default;
+
+std::size_t HeightSystem::size() const {
+  return edges_->size();
 }
 
 std::size_t HeightSystem::memory() const {
-  const std::size_t indices = unknown_.size() + free_points_.size() + begin_.size();
-  return factor_.memory() + sizeof(Index) * indices + sizeof(Edge) * edges_.size();
+  return factor_.memory() + edges_->memory();
 }
 
-HeightSystem::Workspace HeightSystem::make_workspace() const {
-  return {factor_.make_workspace(), std::vector<float>(free_points_.size())};
-}
-
-template <typename Real, typename Slope>
-Real HeightSystem::right_hand_side(std::size_t f, std::span<const Slope> slopes) const {
-  const Slope s = slopes[free_points_[f]];
-  Real x = 0, y = 0;
-  for (Index e = begin_[f]; e < begin_[f + 1]; ++e) {
-    const Edge& edge = edges_[e];
-    const Slope& other = slopes[edge.other];
-    x += (s.x() + other.x()) * static_cast<Real>(edge.pull.x());
-    y += (s.y() + other.y()) * static_cast<Real>(edge.pull.y());
-  }
-  return x + y;
-}
-
+// The right-hand side of boundary points, which have no links, is 0 and stays: their heights.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
-  std::vector<double> b(free_points_.size());
-  parallel_for(b.size(), [&](std::size_t f) { b[f] = right_hand_side<double>(f, slopes); });
-  factor_.solve(b, b);
-  parallel_for(heights.size(),
-               [&](std::size_t i) { heights[i] = unknown_[i] == no_index ? 0 : b[unknown_[i]]; });
+  edges_->divergence(slopes, heights);
+  factor_.solve(heights, heights);
 }
 
 void HeightSystem::solve(std::span<const Vec2f> slopes, std::span<float> heights,
                          Workspace& workspace) const {
-  std::vector<float>& b = workspace.unknowns;
-  parallel_for(b.size(), [&](std::size_t f) { b[f] = right_hand_side<float>(f, slopes); });
-  factor_.solve(b, b, workspace.factor);
-  parallel_for(heights.size(),
-               [&](std::size_t i) { heights[i] = unknown_[i] == no_index ? 0 : b[unknown_[i]]; });
+  edges_->divergence(slopes, heights);
+  factor_.solve(heights, heights, workspace);
 }
 
 }  // namespace relievo

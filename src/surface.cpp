@@ -155,6 +155,7 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
 
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
   surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
+  surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
 }
 

@@ -22,7 +22,7 @@ struct Surface {
   std::vector<Vec3> points;    // relative to `centre`, rotated
   std::vector<Vec3f> normals;  // unit length, z > 0; (0, 0, 1) at fillers
   NormalisedCurvature curvature;
-  Triangulation triangulation;
+  Triangulation triangulation;  // its `neighbours` are not kept
   Boundary boundary;
 
   View view;
