@@ -153,7 +153,7 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   frame.shading.resize(packed_->size());
   frame.times = {};
   frame.is_height_met = true;
-  packed_->set_boundary_width(options.boundary_width);
+  packed_->set_boundary_width(options.shape.boundary_width);
   if (options.height)
     packed_->raise_to(*options.height, frame);
   else

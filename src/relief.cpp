@@ -25,11 +25,15 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress) {
 
 Relief ReliefModel::make(const Shape& shape) const {
   std::vector<Vec2> slopes(surface_.points.size());
-  compressed_slopes({surface_.normals, surface_.curvature.k, boundary_weight_, surface_.curvature.delta},
+  std::vector<float> own_weight;
+  if (shape.boundary_width != Shape{}.boundary_width)  // (7) has 2 rho
+    own_weight = boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);
+  const std::vector<float>& boundary_weight = own_weight.empty() ? boundary_weight_ : own_weight;
+  compressed_slopes({surface_.normals, surface_.curvature.k, boundary_weight, surface_.curvature.delta},
                     shape.compression, shape.max_slope, slopes);
   Relief relief{std::vector<double>(slopes.size()), 0, shape};
   system_.solve(slopes, relief.heights);
-  add_detail(relief.heights, {surface_.curvature.k, boundary_weight_, shape.gamma});
+  add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
   relief.height = height_span(relief.heights);
   return relief;
 }

@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-constexpr Compression keep_all{std::numeric_limits<double>::infinity(), 0};
+const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
 template <typename T>
 std::vector<T> pick(const std::vector<T>& from, std::span<const Index> which) {

@@ -14,7 +14,6 @@ namespace relievo {
 struct FrameOptions {
   Shape shape;
   std::optional<double> height;   // locked: shape.compression.u is found so that this height is met to 0.1 %
-  double boundary_width = 2;      // of (7), in rho, > 0
   Vec3f light = Vec3f(-1, 1, 1);  // towards the light, not zero
   std::shared_ptr<const std::vector<float>> base;  // added to the heights, per point; none is a plane
 };

@@ -16,6 +16,9 @@ struct ReliefOptions {
   std::optional<double> alpha;       // the paper's height coefficient, 4 if neither it nor a height is given
   std::optional<double> saturation;  // the paper's beta: 0.01, or 0 with a height
   std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
+  std::optional<double> steepest_deg;  // steepest slope of the front, 76 without it
+  double boundary_width = 2;           // of (7), in sampling distances
+  std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
   std::string view = "front";
   std::string up;
   double margin_mm = 5;
@@ -50,6 +53,10 @@ void visit(Options& o, F&& f) {
   f(OptionField{"saturation", "B", "saturation coefficient, 0 is even; default 0.01, with height 0", 0, 100},
     o.saturation);
   f(OptionField{"detail", "G", "detail coefficient; default 0.02, with height 0.04", 0, 1}, o.detail);
+  f(OptionField{"steepest", "DEG", "steepest slope of the front; default 76", 1, 89}, o.steepest_deg);
+  f(OptionField{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100}, o.boundary_width);
+  f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
+    o.tone);
   f(
       OptionField{
           "view", "SIDE",

@@ -10,9 +10,10 @@
 namespace relievo {
 
 struct Shape {
-  Compression compression;  // height and saturation
-  double gamma = 0;         // detail coefficient, [0, 1]
-  double max_slope = 4;     // steepest slope asked of the surface, > 0; 4 is 76 degrees
+  Compression compression;    // height and saturation
+  double gamma = 0;           // detail coefficient, [0, 1]
+  double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
+  double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
 };
 
 struct Relief {
@@ -45,7 +46,7 @@ class ReliefModel {
 
   Surface surface_;
   HeightSystem system_;
-  std::vector<float> boundary_weight_;
+  std::vector<float> boundary_weight_;  // for the default width
 };
 
 }  // namespace relievo

@@ -2,9 +2,11 @@
 // to (7).
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "relievo/tone_curve.h"
 #include "relievo/types.h"
 
 namespace relievo {
@@ -14,6 +16,9 @@ namespace relievo {
 struct Compression {
   double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal that has curvature
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points alike
+  // In place of the exponential of (6): w_k = 1 - (1 - curve(|k|))^u, so that u still sets the height and 1
+  // keeps what the curve says; beta has no effect then.
+  std::shared_ptr<const ToneCurve> curve = nullptr;
 
   // From the paper's pair; alpha in [0, infinity).
   static Compression from_alpha(double alpha, double beta);
