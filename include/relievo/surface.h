@@ -33,6 +33,9 @@ struct Surface {
   std::size_t visible_points = 0;  // of them; the rest of `points` are fillers
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the file's normals pointed inwards
+
+  // Bytes held.
+  std::size_t memory() const;
 };
 
 // Returns the surface. Normals are estimated if the cloud has none, and turned if they point inwards.

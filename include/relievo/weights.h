@@ -26,6 +26,14 @@ struct Compression {
   double alpha() const;
 };
 
+// All that shapes a relief.
+struct Shape {
+  Compression compression;    // height and saturation
+  double gamma = 0;           // detail coefficient, [0, 1]
+  double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
+  double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
+};
+
 // Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never
 // overflows. Where delta is 0 (no curvature anywhere) all points are alike, as for beta = 0.
 double curvature_weight(double k, double delta, const Compression& compression);
