@@ -69,10 +69,10 @@ struct SubspaceModel::Workspace::Storage {
 
   HeightSystem::Workspace system;
   WeightTable weight;
-  std::vector<Vec2f> sample_slopes, slopes;
-  std::vector<float> sample_boundary_weight;
+  std::vector<Vec2f> slopes;
   std::vector<float> heights, ratios, offsets;  // of the control points
   SplineFunction ratio, offset;
+  std::vector<float> pair;  // of their nodes
   MultilevelSpline::Workspace ratio_fit, offset_fit;
 };
 
@@ -122,13 +122,12 @@ std::size_t SubspaceModel::memory() const {
 SubspaceModel::Workspace SubspaceModel::make_workspace() const {
   const std::size_t n = control_.points.size();
   auto storage = std::make_unique<Workspace::Storage>(system_.make_workspace());
-  storage->sample_slopes.resize(samples_.k.size());
-  storage->sample_boundary_weight.resize(samples_.k.size());
   storage->slopes.resize(n);
   for (std::vector<float>* values : {&storage->heights, &storage->ratios, &storage->offsets})
     values->resize(n);
   storage->ratio = ratio_spline_.make_function();
   storage->offset = offset_spline_.make_function();
+  storage->pair.resize(2 * storage->offset.nodes.size());
   storage->ratio_fit = ratio_spline_.make_workspace();
   storage->offset_fit = offset_spline_.make_workspace();
   return Workspace(std::move(storage));
@@ -139,17 +138,19 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
                           Workspace& workspace) const {
   Workspace::Storage& storage = *workspace.storage_;
   storage.weight.fill(delta_, shape.compression);
-  for (std::size_t i = 0; i < samples_.points.size(); ++i)
-    storage.sample_boundary_weight[i] = boundary_weight[samples_.points[i]];
-  frame_slopes({samples_.normals, samples_.k, storage.sample_boundary_weight, delta_}, storage.weight,
-               shape.max_slope, storage.sample_slopes);
   const std::size_t per_point = samples_.k.size() / control_.points.size();
-  const Vec2f* sample = storage.sample_slopes.data();
-  for (Vec2f& slope : storage.slopes) {
-    slope = Vec2f::Zero();
-    for (std::size_t i = 0; i < per_point; ++i) slope += *sample++;
-    slope /= static_cast<float>(per_point);
-  }
+  const auto max_slope = static_cast<float>(shape.max_slope);
+  parallel_for(
+      control_.points.size(),
+      [&](std::size_t c) {
+        Vec2f sum = Vec2f::Zero();
+        for (std::size_t i = c * per_point; i < (c + 1) * per_point; ++i) {
+          const float w = storage.weight(samples_.k[i]) * boundary_weight[samples_.points[i]];
+          sum += frame_slope(samples_.normals[i], w, max_slope);
+        }
+        storage.slopes[c] = sum / static_cast<float>(per_point);
+      },
+      512);
   system_.solve(storage.slopes, storage.heights, storage.system);
 }
 
@@ -206,13 +207,14 @@ void SubspaceModel::carry(std::span<const float> boundary_weight, Workspace& wor
                           std::span<float> heights) const {
   Workspace::Storage& storage = *workspace.storage_;
   fit(storage);
+  MultilevelSpline::pair_up(storage.ratio, storage.offset, storage.pair);
+  const float ratio = storage.ratio.mean, offset = storage.offset.mean;
   parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
     const std::span<float> z = heights.subspan(begin, end - begin);
-    std::array<float, default_grain> offset;
-    offset_spline_.evaluate({storage.ratio, storage.offset}, std::span(places_).subspan(begin, z.size()),
-                            {z, offset});
+    std::array<float, default_grain> offsets;
+    offset_spline_.evaluate(storage.pair, std::span(places_).subspan(begin, z.size()), {z, offsets});
     for (std::size_t i = 0; i < z.size(); ++i)
-      z[i] = z[i] * reference_[begin + i] + offset[i] * boundary_weight[begin + i];
+      z[i] = (z[i] + ratio) * reference_[begin + i] + (offsets[i] + offset) * boundary_weight[begin + i];
   });
 }
 

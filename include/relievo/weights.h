@@ -20,6 +20,8 @@ struct Compression {
   // keeps what the curve says; beta has no effect then.
   std::shared_ptr<const ToneCurve> curve = nullptr;
 
+  bool operator==(const Compression&) const = default;
+
   // From the paper's pair; alpha in [0, infinity).
   static Compression from_alpha(double alpha, double beta);
   // The paper's height coefficient u^(-1/beta); NaN where beta = 0 leaves it open.
