@@ -66,8 +66,12 @@ void hide_lamp(const HeightField& field, const Vec3& to_lamp, std::vector<Light>
 }  // namespace
 
 LightMap::LightMap(const Solid& solid, const Vec3& to_lamp, int longer_side_px)
-    : field_(draw_height_field(solid, longer_side_px)), light_(field_.z.size(), Light{1, 1}) {
+    : LightMap(draw_height_field(solid, longer_side_px), to_lamp) {}
+
+LightMap::LightMap(HeightField field, const Vec3& to_lamp)
+    : field_(std::move(field)), light_(field_.z.size(), Light{1, 1}) {
   if (light_.empty()) return;
+  const int longer_side_px = std::max(field_.width, field_.height);
   hide_sky(field_, std::max(1, longer_side_px / 120), light_);
   hide_sky(field_, std::max(1, longer_side_px / 30), light_);
   hide_lamp(field_, to_lamp, light_);

@@ -17,6 +17,7 @@ class LightMap {
   // `to_lamp` has length 1. The map's longer side has `longer_side_px` pixels; an empty front gives a map of
   // ones.
   LightMap(const Solid& solid, const Vec3& to_lamp, int longer_side_px);
+  LightMap(HeightField field, const Vec3& to_lamp);
 
   // At a point of the front, between pixels interpolated.
   Light at(const Vec3& point) const;
