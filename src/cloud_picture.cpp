@@ -61,6 +61,7 @@ void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
 void paint(const Canvas& canvas, Picture& picture) {
   const Vec3f to_lamp = Vec3f(-1, 1, 1.4F).normalized();
   const Shader shader(Material::plaster, to_lamp, Vec3f::UnitZ());
+  const DisplayTable& display = display_table();
   parallel_for(canvas.depth.size(), [&](std::size_t i) {
     std::uint8_t* const rgba = picture.rgba.data() + 4 * i;
     if (canvas.depth[i] == nothing) {
@@ -68,7 +69,7 @@ void paint(const Canvas& canvas, Picture& picture) {
       return;
     }
     const Vec3f colour = shader.colour({canvas.normals[i].normalized(), {1, 1}, Vec3f::Zero(), 0});
-    for (int c = 0; c < 3; ++c) rgba[c] = display_value(colour[c]);
+    for (int c = 0; c < 3; ++c) rgba[c] = display(colour[c]);
     rgba[3] = 255;
   });
 }

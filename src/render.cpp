@@ -73,6 +73,9 @@ struct Placement {
             height / 2.0 - std::clamp(p.y(), -farthest_px, farthest_px), p.z()};
   }
   Vec3f to_place(double x, double y, double z) const {
+    if (is_front)
+      return {static_cast<float>((x - width / 2.0) * (1 / pixels_per_mm) + pan.x()),
+              static_cast<float>((height / 2.0 - y) * (1 / pixels_per_mm) + pan.y()), 0};
     const Vec3 p = Vec3(x - width / 2.0, height / 2.0 - y, z) / pixels_per_mm;
     return (turn.transpose() * p + pan).cast<float>();
   }
@@ -101,10 +104,13 @@ Vec2 half_plate(const Topology& topology, const RenderOptions& options) {
 Placement placement_of(const Topology& topology, const RenderOptions& options, int samples_per_side) {
   const Vec2 size = 2 * half_plate(topology, options);
   const double pad = 2 * padding * std::min(options.width, options.height);
-  const double fit = std::min((options.width - pad) / size.x(), (options.height - pad) / size.y());
   const Camera& camera = options.camera;
+  const Mat3 turn = turn_of(camera);
+  const Vec3 seen = turn.cwiseAbs() * Vec3(size.x(), size.y(), 2 * options.thickness_mm);
+  const double fit = std::min((options.width - pad) / std::max(size.x(), seen.x()),
+                              (options.height - pad) / std::max(size.y(), seen.y()));
   Placement placement{options.width * samples_per_side, options.height * samples_per_side,
-                      std::max(fit, 1e-3) * camera.zoom * samples_per_side, turn_of(camera)};
+                      std::max(fit, 1e-3) * camera.zoom * samples_per_side, turn};
   placement.pan << camera.pan, 0;
   placement.is_front = camera.yaw_deg == 0 && camera.pitch_deg == 0;
   return placement;
@@ -132,13 +138,12 @@ Scene raster_scene(const Scene3& scene, const Placement& placement) {
   return raster;
 }
 
-Vec3f wall_normal(const Triangle& corners, std::size_t first_rectangle, const Placement& placement) {
+Vec3f wall_normal(const Triangle& corners, std::size_t first_rectangle) {
   const auto is_bottom = [&](Index i) { return i >= first_rectangle + 4; };
   if (is_bottom(corners[0]) && is_bottom(corners[1]) && is_bottom(corners[2])) return -Vec3f::UnitZ();
   // A wall runs between two neighbouring corners: 0-1 below, 1-2 right, 2-3 above, 3-0 left.
   bool has[4] = {};
   for (const Index i : corners) has[(i - first_rectangle) % 4] = true;
-  (void)placement;
   if (has[0] && has[1]) return -Vec3f::UnitY();
   if (has[1] && has[2]) return Vec3f::UnitX();
   return has[2] && has[3] ? Vec3f(Vec3f::UnitY()) : Vec3f(-Vec3f::UnitX());
@@ -164,21 +169,23 @@ class Painter {
     if (pixel.part == Part::nothing) return {};
     const float scale = static_cast<float>(scene_.options.mm_per_unit);
     Lit lit{Vec3f::UnitZ(), {1, 1}, placement_.to_place(column + .5, row + .5, static_cast<double>(pixel.z))};
-    if (placement_.is_front) lit.place.z() = 0;
     if (pixel.part == Part::relief) {
       lit.normal = pixel.mean(scene_.shown.normals.data()).normalized();
       lit.place.z() = pixel.mean(scene_.shown.heights.data()) * scale;
     }
     if (pixel.part == Part::wall) return wall(pixel, lit);
     lit.height = scene_.span_mm > 0 ? (lit.place.z() - scene_.lowest_mm) / scene_.span_mm : 0;
-    lit.light = light_.at(lit.place.cast<double>());
+    lit.light = light_.at(lit.place);
     return {shader_.colour(lit), 1};
   }
 
  private:
   Colour wall(const Pixel& pixel, Lit& lit) const {
-    lit.normal = wall_normal(pixel.corners, scene_.topology.places.size(), placement_);
-    lit.light = {.75F, .75F};
+    // Leaning to the viewer: plain walls in the dark would look like holes.
+    const Vec3f to_viewer = placement_.turn.row(2).transpose().cast<float>();
+    lit.normal = (wall_normal(pixel.corners, scene_.topology.places.size()) + .8F * to_viewer).normalized();
+    lit.light = {.7F, .75F};
+    lit.height = .55F;
     return {shader_.colour(lit), 1};
   }
 
@@ -191,13 +198,14 @@ class Painter {
 // The plate's soft shadow on what lies behind it, on a coarse grid.
 class Backdrop {
  public:
-  explicit Backdrop(const PixelMap& map) : step_(std::max(1, std::max(map.width, map.height) / 128)) {
-    columns_ = map.width / step_ + 2;
-    const int rows = map.height / step_ + 2;
+  explicit Backdrop(const PixelMap& map) {
+    while (std::max(map.width, map.height) >> shift_ > 160) ++shift_;
+    const int step = 1 << shift_, rows = (map.height >> shift_) + 2;
+    columns_ = (map.width >> shift_) + 2;
     shade_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows), 0);
     for (int row = 0; row < rows; ++row)
       for (int column = 0; column < columns_; ++column) {
-        const int x = column * step_, y = (row - 1) * step_;  // moved down: the lamp is above
+        const int x = column * step, y = (row - 1) * step;  // moved down: the lamp is above
         if (x >= map.width || y < 0 || y >= map.height) continue;
         const auto at =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(map.width) + static_cast<std::size_t>(x);
@@ -207,9 +215,9 @@ class Backdrop {
   }
 
   float at(int x, int y) const {
-    const int column = x / step_, row = y / step_;
-    const float s = static_cast<float>(x % step_) / static_cast<float>(step_);
-    const float t = static_cast<float>(y % step_) / static_cast<float>(step_);
+    const int column = x >> shift_, row = y >> shift_, rest = (1 << shift_) - 1;
+    const float share = 1 / static_cast<float>(rest + 1);
+    const float s = static_cast<float>(x & rest) * share, t = static_cast<float>(y & rest) * share;
     const auto between = [&](int r) {
       const float left = shade_[index(column, r)];
       return left + s * (shade_[index(column + 1, r)] - left);
@@ -223,21 +231,20 @@ class Backdrop {
            static_cast<std::size_t>(column);
   }
 
-  int step_, columns_;
+  int shift_ = 0, columns_ = 0;
   std::vector<float> shade_;
 };
 
-void store(const Colour& colour, float shade, std::uint8_t* rgba) {
-  const float behind = (1 - colour.coverage) * shade, opacity = colour.coverage + behind;
-  for (int i = 0; i < 3; ++i) {
-    const float plate = colour.coverage > 0 ? colour.rgb[i] / colour.coverage : 0.F;
-    rgba[i] = opacity > 0 ? display_value(plate * colour.coverage / opacity) : std::uint8_t{0};
-  }
+void store(const Colour& colour, float shade, const DisplayTable& display, std::uint8_t* rgba) {
+  const float opacity = colour.coverage + (1 - colour.coverage) * shade;
+  const float scale = opacity > 0 && opacity < 1 ? 1 / opacity : 1;
+  for (int i = 0; i < 3; ++i) rgba[i] = display(colour.rgb[i] * scale);
   rgba[3] = static_cast<std::uint8_t>(opacity * 255 + .5F);
 }
 
 void paint(const Painter& painter, const PixelMap& map, int samples_per_side, Picture& picture) {
   const Backdrop backdrop(map);
+  const DisplayTable& display = display_table();
   const int n = samples_per_side;
   const float share = 1 / static_cast<float>(n * n);
   picture.rgba.resize(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height) * 4);
@@ -254,7 +261,7 @@ void paint(const Painter& painter, const PixelMap& map, int samples_per_side, Pi
         sum.coverage += share * part.coverage;
       }
       const float shade = sum.coverage < 1 ? backdrop.at(column * n, static_cast<int>(row) * n) : 0;
-      store(sum, shade, rgba);
+      store(sum, shade, display, rgba);
     }
   };
   parallel_for(static_cast<std::size_t>(picture.height), paint_row, 8);
@@ -341,8 +348,8 @@ void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Pic
   picture.pixels_per_mm = placement.pixels_per_mm / samples_per_side;
   const Vec3 to_lamp = options.light.cast<double>().normalized();
   HeightField field = options.is_fine ? scenery_->height_field(scene, 640, scenery_->fine_grid)
-                                      : scenery_->height_field(scene, 320, scenery_->quick_grid);
-  const LightMap light(std::move(field), to_lamp);
+                                      : scenery_->height_field(scene, 280, scenery_->quick_grid);
+  const LightMap light(std::move(field), options.has_shadows ? to_lamp : Vec3(Vec3::UnitZ()));
   const PixelMap& map =
       scenery_->map_for(scene, placement, options.is_fine ? scenery_->fine : scenery_->quick);
   paint(Painter(scene, placement, light), map, samples_per_side, picture);

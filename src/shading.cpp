@@ -6,8 +6,6 @@
 namespace relievo {
 namespace {
 
-constexpr float display_gamma = 1.45F;
-
 float smooth_step(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.F, 1.F);
   return t * t * (3 - 2 * t);
@@ -52,22 +50,6 @@ float smooth_noise(float x, float y) {
   return low + t * (high - low);
 }
 
-class DisplayTable {
- public:
-  DisplayTable() {
-    for (std::size_t i = 0; i < levels_.size(); ++i)
-      levels_[i] =
-          static_cast<std::uint8_t>(std::pow(static_cast<float>(i) / most, 1 / display_gamma) * 255 + .5F);
-  }
-  std::uint8_t operator()(float x) const {
-    return levels_[static_cast<std::size_t>(std::clamp(x, 0.F, 1.F) * most + .5F)];
-  }
-
- private:
-  static constexpr float most = 8191;
-  std::array<std::uint8_t, 8192> levels_;
-};
-
 }  // namespace
 
 Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
@@ -75,6 +57,7 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
       to_lamp_(to_lamp),
       to_sky_(Vec3f(-.35F * to_lamp.x(), -.2F * to_lamp.y(), .9F).normalized()),
       halfway_((to_lamp + to_viewer).normalized()),
+      exposure_(std::clamp(std::sqrt(.577F / std::max(.05F, to_lamp.z())), .9F, 1.5F)),
       to_window_(Vec3f(to_lamp.x() - .25F, to_lamp.y() + .1F, .55F).normalized()) {}
 
 Vec3f Shader::colour(const Lit& lit) const {
@@ -82,11 +65,10 @@ Vec3f Shader::colour(const Lit& lit) const {
   const float sky = (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky;
   switch (material_) {
     case Material::plaster:
-      return Vec3f(.93F, .91F, .87F) * (.77F * lamp + .23F * sky);
+      return Vec3f(.93F, .91F, .87F) * (.77F * exposure_ * lamp + .23F * sky);
     case Material::porcelain:
-      return mix(Vec3f(1, .95F, .84F), Vec3f(.30F, .17F, .09F), std::sqrt(lit.height)) *
-                 (.94F * std::exp(-1.15F * lit.height)) +
-             Vec3f::Constant(.05F * sky * lamp);
+      return mix(Vec3f(1, .965F, .89F), Vec3f(.62F, .33F, .16F), lit.height) * std::exp(-1.45F * lit.height) *
+             (.96F + .04F * lamp);
     case Material::walnut:
       return wood(lit);
     default:
@@ -102,7 +84,7 @@ Vec3f Shader::metal(const Lit& lit) const {
   const float window = smooth_step(.55F, 1.F, lit.normal.dot(to_window_)) * lit.light.sky;
   const Vec3f body = mix(m.tarnish, m.colour, lit.light.sky * lit.light.sky);
   const Vec3f shine = mix(m.colour, Vec3f::Ones(), .35F);
-  return body * (m.diffuse * lamp + .10F * sky + m.window * window * lamp) +
+  return body * (m.diffuse * exposure_ * lamp + .10F * sky + m.window * window * lamp) +
          shine * (m.glint * glint * glint);
 }
 
@@ -110,21 +92,31 @@ Vec3f Shader::metal(const Lit& lit) const {
 // them aside.
 Vec3f Shader::wood(const Lit& lit) const {
   const float x = lit.place.x() + 1.6F * lit.place.z(), y = lit.place.y();
-  const float bend = 5 * smooth_noise(x * .03F + 7, y * .018F) + 1.2F * smooth_noise(x * .11F, y * .05F);
-  const float ring = x * .22F + bend, phase = ring - std::floor(ring);
+  const float bend = 4 * smooth_noise(x * .03F + 7, y * .012F) + .5F * smooth_noise(x * .11F, y * .03F);
+  const float ring = x * .3F + bend, phase = ring - std::floor(ring);
   const float late = phase * phase * (1 - smooth_step(.88F, 1, phase));
   const float fibre = smooth_noise(x * 6.F, y * .35F), pore = smooth_noise(x * 11.F, y * .9F + 40);
-  const Vec3f grain = mix(Vec3f(.60F, .40F, .25F), Vec3f(.37F, .22F, .125F), .75F * late + .25F * fibre) *
-                      (pore > .86F ? .82F : 1.F);
+  const Vec3f grain = mix(Vec3f(.46F, .29F, .18F), Vec3f(.27F, .155F, .09F), .6F * late + .4F * fibre) *
+                      (pore > .86F ? .85F : 1.F);
   const float lamp = std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp;
   const float sky = (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky;
   const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), 4) * lit.light.lamp;
-  return grain * (1.0F * lamp + .26F * sky) + Vec3f(1, .93F, .82F) * (.05F * glint);
+  return grain * (exposure_ * lamp + .28F * sky) + Vec3f(1, .93F, .82F) * (.05F * glint);
 }
 
-std::uint8_t display_value(float linear) {
+DisplayTable::DisplayTable() : levels_(static_cast<std::size_t>(brightest * steps) + 2) {
+  const float display_gamma = 1.45F, knee = .85F, rest = 1 - knee;
+  for (std::size_t i = 0; i < levels_.size(); ++i) {
+    float linear = static_cast<float>(i) / steps;
+    // Highlights lose their contrast little by little.
+    if (linear > knee) linear = knee + rest * (1 - std::exp((knee - linear) / rest));
+    levels_[i] = static_cast<std::uint8_t>(std::pow(linear, 1 / display_gamma) * 255 + .5F);
+  }
+}
+
+const DisplayTable& display_table() {
   static const DisplayTable table;
-  return table(linear);
+  return table;
 }
 
 }  // namespace relievo

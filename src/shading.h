@@ -1,7 +1,7 @@
 // From light to colour: materials of the live pictures.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -31,10 +31,24 @@ class Shader {
   Vec3f wood(const Lit& lit) const;
 
   Material material_;
-  Vec3f to_lamp_, to_sky_, halfway_, to_window_;
+  Vec3f to_lamp_, to_sky_, halfway_;
+  float exposure_;  // a raking lamp is turned up, as a photographer would
+  Vec3f to_window_;
 };
 
-// Display value of a linear one in [0, 1].
-std::uint8_t display_value(float linear);
+// Display values of linear ones.
+class DisplayTable {
+ public:
+  DisplayTable();
+  std::uint8_t operator()(float linear) const {
+    return levels_[static_cast<std::size_t>(std::clamp(linear, 0.F, brightest) * steps + .5F)];
+  }
+
+ private:
+  static constexpr float brightest = 2, steps = 4096;
+  std::vector<std::uint8_t> levels_;
+};
+
+const DisplayTable& display_table();
 
 }  // namespace relievo

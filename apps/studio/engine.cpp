@@ -278,7 +278,9 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   FrameRenderer& renderer = state_->renderer_for(model);
   const Shown shown = request.is_original ? renderer.original() : Shown{frame->heights, frame->normals};
   PictureAnswer answer;
-  renderer.render(shown, render_options(request, scale), answer.picture);
+  RenderOptions render = render_options(request, scale);
+  render.has_shadows = !request.is_original;  // the model's own depth would bury the ground in them
+  renderer.render(shown, render, answer.picture);
   answer.drawing_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   answer.compression = frame->options.shape.compression;
   answer.height_mm = frame->height * scale;

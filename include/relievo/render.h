@@ -35,6 +35,7 @@ struct RenderOptions {
   Camera camera;
   Material material = Material::plaster;
   Vec3f light = Vec3f(-1, 1, 1);  // towards the lamp, seen from the plate; not zero
+  bool has_shadows = true;        // cast by the relief on itself
   bool is_fine = false;           // four samples per pixel and finer shadows, for four times the time
 };
 

@@ -3,7 +3,7 @@
 
 import {$, clamp, make} from "./controls.js";
 
-const WIDTH = 320, HEIGHT = 168, MOST_POINTS = 16, NEAREST = 0.02;
+const WIDTH = 320, HEIGHT = 150, MOST_POINTS = 16, NEAREST = 0.02;
 
 export const PRESETS = [
   {name: "The paper's formula (6)", tone: ""},

@@ -137,7 +137,7 @@ const number = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString())
 
 let frames = "";
 function showNumbers(about, ms, isFine) {
-  if (!isFine && times.length > 2) frames = `${times.length} frames/s`;
+  if (!isFine && times.length > 5) frames = `${times.length} frames/s`;
   const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
     `height ${about.height_mm.toFixed(3)} mm`, frames, !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
   $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");

@@ -91,14 +91,21 @@ export class ViewDialog {
     this.isBusy = true;
     while (this.isWanted && this.dialog.open) {
       this.isWanted = false;
-      const size = {width: this.model.clientWidth, height: this.model.clientHeight};
+      clearTimeout(this.timer);
       try {
-        paint(this.canvas, (await this.engine.scan({towards: this.towards, up: this.up, ...size})).image);
+        await this.drawAt(1);
       } catch (error) {
         this.onFailed(error);
       }
     }
     this.isBusy = false;
+    this.timer = setTimeout(() => !this.isBusy && this.dialog.open && this.drawAt(2).catch(this.onFailed), 200);
+  }
+
+  async drawAt(scale) {
+    const width = this.model.clientWidth * scale, height = this.model.clientHeight * scale, before = this.towards;
+    const {image} = await this.engine.scan({towards: this.towards, up: this.up, width, height});
+    if (scale === 1 || before === this.towards) paint(this.canvas, image);
   }
 
   async suggest() {
