@@ -195,10 +195,10 @@ EngineStatus Engine::status() const {
       status.is_busy = true;
       status.stage = "read";
       status.fraction = 0;
-      status.error = std::nullopt;
     }
     if (s.error) status.error = s.error;
     if (s.is_cancelled) status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
+    if (status.is_busy) status.error = std::nullopt;  // that of an older attempt
     return status;
   });
 }

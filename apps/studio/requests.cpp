@@ -51,6 +51,7 @@ std::optional<Vec3> triple(const Json& json, const char* key) {
 }
 
 Result<Camera> camera_from(const Json& json) {
+  if (!json.is_object()) return wrong("camera", "expected an object");
   const auto yaw = number(json, "yaw", {-360, 360, 0}), pitch = number(json, "pitch", {-90, 90, 0});
   const auto zoom = number(json, "zoom", {.05, 100, 1});
   const auto x = number(json, "x", {-1e6, 1e6, 0}), y = number(json, "y", {-1e6, 1e6, 0});

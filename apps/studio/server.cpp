@@ -2,6 +2,7 @@
 
 #include <httplib.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 
 #include <array>
 #include <atomic>
@@ -82,6 +83,12 @@ void answer(Response& response, const Picture& picture, const Json& about) {
                        "application/octet-stream");
 }
 
+// A server that lets more than five connections wait to be accepted.
+class PatientServer : public httplib::Server {
+ public:
+  void widen_queue() { ::listen(svr_sock_, 1024); }
+};
+
 // Counts what is under way, for the time it lives.
 class Turn {
  public:
@@ -107,7 +114,7 @@ struct Server::State {
   int port = 0;
   std::atomic<int> pages = 0, waiting = 0;
   std::atomic<bool> had_page = false, is_stopping = false;
-  httplib::Server http;
+  PatientServer http;
 
   State(Engine& e, const Store& s, const ServerOptions& o) : engine(e), store(s), options(o) { set_up(); }
 
@@ -395,6 +402,7 @@ Result<std::string> Server::bind() {
   }
   if (state_->port <= 0)
     return std::unexpected(Error{ErrorKind::option, "--port", {}, "expected a port that is free"});
+  state_->http.widen_queue();
   return cat("http://127.0.0.1:", state_->port, "/", state_->token, "/");
 }
 

@@ -388,7 +388,7 @@ function key(event) {
 
 function fillStart(about) {
   $("#samples").append(...about.samples.map(({name, description}) => make("li", {}, make("button", {onclick: () => openInput({sample: name, name})},
-    make("img", {src: `sample-${name}.png`, alt: "", width: 320, height: 200}),
+    make("img", {src: `sample-${name}.jpg`, alt: "", width: 320, height: 200}),
     make("span", {}, make("b", {}, name.replaceAll("-", " ").replaceAll("_", " ")), make("small", {}, description))))));
   const recent = about.recent.filter(({sample}) => !sample);
   $("#recent-shelf").hidden = recent.length === 0;
