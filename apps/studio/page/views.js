@@ -29,7 +29,7 @@ export class ViewDialog {
     this.dialog = $("#view-dialog");
     this.model = $("#model");
     this.canvas = $("canvas", this.model);
-    $("#sides").append(...SIDES.map((side) => make("button", {type: "button", "data-side": side, onclick: () => this.face(side)}, side)));
+    $("#sides").append(...SIDES.map((side) => make("button", {type: "button", "data-side": side, onclick: () => this.face(side)}, viewName(side))));
     $("#suggest").onclick = () => this.suggest();
     this.dialog.onclose = () => this.dialog.returnValue === "apply" && this.onApply(this.result());
     this.listen();
