@@ -1,11 +1,13 @@
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "files.h"
+#include "project.h"
 #include "relievo/io.h"
 #include "relievo/make_relief.h"
 #include "relievo/parallel.h"
@@ -23,6 +25,7 @@ struct MakeArguments {
   int threads = 0;
   bool is_quiet = false;
   ReliefOptions relief;
+  std::optional<studio::Input> scan;  // of a project
 };
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
@@ -101,8 +104,15 @@ std::vector<std::byte> text_bytes(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-Result<CloudFile> load(const std::string& input, Progress& progress) {
+Result<CloudFile> load(const MakeArguments& arguments, Progress& progress) {
   if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
+  if (arguments.scan) {
+    studio::Input scan = *arguments.scan;
+    Result<Cloud> cloud = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
+    if (!cloud) return std::unexpected(cloud.error());
+    return CloudFile{std::move(*cloud), "project", 0, 0};
+  }
+  const std::string& input = arguments.input;
   const Result<std::vector<std::byte>> bytes = read_file(input);
   if (!bytes) return std::unexpected(bytes.error());
   return read_cloud(*bytes, input);
@@ -141,7 +151,7 @@ struct Finished {
 };
 
 Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
-  const Result<CloudFile> file = load(arguments.input, progress);
+  const Result<CloudFile> file = load(arguments, progress);
   if (!file) return std::unexpected(file.error());
   Finished finished{{}, remarks_on(*file, arguments.input)};
   Result<MadeRelief> made = make_relief(file->cloud, arguments.relief, &progress);
@@ -197,12 +207,33 @@ struct FlagAdder {
   }
 };
 
+// Takes what a project says, but for the flags that were given.
+Result<void> take_project(MakeArguments& arguments, const CLI::App& command) {
+  if (ending_of(arguments.input) != "relievo") return {};
+  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
+  if (!bytes) return std::unexpected(bytes.error());
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  Result<studio::Project> project = studio::read_project(text, arguments.input);
+  if (!project) return std::unexpected(project.error());
+  visit(project->options, [&](const OptionField& field, auto& value) {
+    if (command.count(FlagAdder::flag(field)) == 0) return;
+    if (field.name == "alpha") project->options.height_mm = std::nullopt;
+    visit(arguments.relief, [&](const OptionField& other, auto& given) {
+      if constexpr (std::is_same_v<decltype(value), decltype(given)>)
+        if (other.name == field.name) value = given;
+    });
+  });
+  arguments.relief = project->options;
+  arguments.scan = project->input;
+  return {};
+}
+
 }  // namespace
 
 void add_make(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<MakeArguments>();
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
-  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS")
+  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS, or a studio's project")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .ply or .obj, in millimetres")
@@ -223,7 +254,10 @@ void add_make(CLI::App& program, Result<void>& result) {
       ->capture_default_str();
   command.add_option("--report", arguments->report, "what was made and how, as JSON")->type_name("R.json");
   command.add_flag("--quiet", arguments->is_quiet, "print errors only");
-  command.callback([arguments, &result] { result = make(*arguments); });
+  command.callback([arguments, &command, &result] {
+    result = take_project(*arguments, command);
+    if (result) result = make(*arguments);
+  });
 }
 
 }  // namespace relievo::cli
