@@ -144,7 +144,7 @@ Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
   const Result<CloudFile> file = load(arguments.input, progress);
   if (!file) return std::unexpected(file.error());
   Finished finished{{}, remarks_on(*file, arguments.input)};
-  Result<MadeRelief> made = make_relief(file->cloud, arguments.relief, &progress);
+  Result<MadeRelief> made = make_relief(*file, arguments.relief, &progress);
   if (!made) {
     if (made.error().input.empty()) made.error().input = arguments.input;
     return std::unexpected(made.error());
@@ -202,7 +202,9 @@ struct FlagAdder {
 void add_make(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<MakeArguments>();
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
-  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS")
+  command
+      .add_option("input", arguments->input,
+                  "point cloud (PLY, PCD, LAS, XYZ, PTS) or mesh (PLY, STL, OBJ, OFF, GLB)")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .ply or .obj, in millimetres")
