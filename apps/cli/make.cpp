@@ -6,7 +6,8 @@
 
 #include "commands.h"
 #include "files.h"
-#include "relievo/io.h"
+#include "flags.h"
+#include "inputs.h"
 #include "relievo/make_relief.h"
 #include "relievo/parallel.h"
 #include "relievo/preview.h"
@@ -23,6 +24,7 @@ struct MakeArguments {
   int threads = 0;
   bool is_quiet = false;
   ReliefOptions relief;
+  InputArguments in;
 };
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
@@ -101,25 +103,6 @@ std::vector<std::byte> text_bytes(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-Result<CloudFile> load(const std::string& input, Progress& progress) {
-  if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
-  const Result<std::vector<std::byte>> bytes = read_file(input);
-  if (!bytes) return std::unexpected(bytes.error());
-  return read_cloud(*bytes, input);
-}
-
-// What was left out of a file, in a line for each, or nothing.
-std::vector<std::string> remarks_on(const CloudFile& file, const std::string& input) {
-  std::vector<std::string> lines;
-  if (file.dropped_points > 0)
-    lines.push_back(
-        cat(input, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
-  if (file.dropped_normals > 0)
-    lines.push_back(cat(input, ": left out ", file.dropped_normals,
-                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
-  return lines;
-}
-
 std::vector<OutputFile> finished_files(const MakeArguments& arguments, const MadeRelief& made,
                                        Progress& progress) {
   std::vector<OutputFile> files;
@@ -141,10 +124,10 @@ struct Finished {
 };
 
 Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
-  const Result<CloudFile> file = load(arguments.input, progress);
-  if (!file) return std::unexpected(file.error());
-  Finished finished{{}, remarks_on(*file, arguments.input)};
-  Result<MadeRelief> made = make_relief(*file, arguments.relief, &progress);
+  const Result<Input> input = read_input(arguments.input, arguments.in, arguments.relief.points, &progress);
+  if (!input) return std::unexpected(input.error());
+  Finished finished{{}, input->remarks};
+  Result<MadeRelief> made = make_relief(input->file, arguments.relief, &progress);
   if (!made) {
     if (made.error().input.empty()) made.error().input = arguments.input;
     return std::unexpected(made.error());
@@ -161,6 +144,7 @@ Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
 
 Result<void> make(const MakeArguments& arguments) {
   if (auto ok = check(arguments.relief); !ok) return ok;
+  if (auto ok = check(arguments.in.depth); !ok) return ok;
   if (auto ok = check_outputs(arguments); !ok) return ok;
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
@@ -173,38 +157,15 @@ Result<void> make(const MakeArguments& arguments) {
   return {};
 }
 
-// Adds one flag for each field of ReliefOptions.
-struct FlagAdder {
-  CLI::App& command;
-
-  void operator()(const OptionField& field, double& value) {
-    describe(command.add_option(flag(field), value, help(field)), field)->capture_default_str();
-  }
-  void operator()(const OptionField& field, std::optional<double>& value) {
-    describe(command.add_option(flag(field), value, help(field)), field);
-  }
-  void operator()(const OptionField& field, std::string& value) {
-    CLI::Option* option = command.add_option(flag(field), value, std::string(field.help));
-    describe(option, field)->capture_default_str();
-  }
-
-  static std::string flag(const OptionField& field) { return cat("--", field.name); }
-  static std::string help(const OptionField& field) {
-    return cat(field.help, " [", field.min, " to ", field.max, "]");
-  }
-  static CLI::Option* describe(CLI::Option* option, const OptionField& field) {
-    return option->type_name(std::string(field.unit));
-  }
-};
-
 }  // namespace
 
 void add_make(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<MakeArguments>();
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
   command
-      .add_option("input", arguments->input,
-                  "point cloud (PLY, PCD, LAS, XYZ, PTS) or mesh (PLY, STL, OBJ, OFF, GLB)")
+      .add_option(
+          "input", arguments->input,
+          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, TIFF)")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .ply or .obj, in millimetres")
@@ -217,8 +178,8 @@ void add_make(CLI::App& program, Result<void>& result) {
       ->check(CLI::Range(16, 16384).description(""))
       ->type_name("PX")
       ->capture_default_str();
-  FlagAdder adder{command};
-  visit(arguments->relief, adder);
+  add_flags(command, arguments->relief);
+  add_input_flags(command, arguments->in);
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
       ->check(CLI::Range(0, 256).description(""))
       ->type_name("N")
