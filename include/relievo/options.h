@@ -16,12 +16,16 @@ struct ReliefOptions {
   std::optional<double> alpha;       // the paper's height coefficient, 4 if neither it nor a height is given
   std::optional<double> saturation;  // the paper's beta: 0.01, or 0 with a height
   std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
+  std::optional<double> steepest_deg;  // steepest slope of the front, 76 without it
+  double boundary_width = 2;           // of (7), in sampling distances
+  std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
+  std::string mode = "exact";
   std::string view = "front";
   std::string up;
   double margin_mm = 5;
   double thickness_mm = 3;
   double points = 3e5;                 // visible points to take from a mesh
-  std::string form = "relief";         // or "mirror", "die", "lithophane": see shape.h
+  std::string form = "relief";         // or "mirror", "die", "lithophane": see forms.h
   std::optional<double> tolerance_mm;  // largest error of a mesh made simpler; without it all points stay
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
@@ -53,6 +57,12 @@ void visit(Options& o, F&& f) {
   f(OptionField{"saturation", "B", "saturation coefficient, 0 is even; default 0.01, with height 0", 0, 100},
     o.saturation);
   f(OptionField{"detail", "G", "detail coefficient; default 0.02, with height 0.04", 0, 1}, o.detail);
+  f(OptionField{"steepest", "DEG", "steepest slope of the front; default 76", 1, 89}, o.steepest_deg);
+  f(OptionField{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100}, o.boundary_width);
+  f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
+    o.tone);
+  f(OptionField{"mode", "MODE", "exact, subspace (from 8,000 control points, close to exact) or auto"},
+    o.mode);
   f(
       OptionField{
           "view", "SIDE",
