@@ -52,6 +52,26 @@ TEST(Options, HeightAndAlphaContradict) {
   EXPECT_NE(complaint(options).find("found both"), std::string::npos);
 }
 
+TEST(Options, MethodsAreKnownAndHaveWhatTheyNeed) {
+  ReliefOptions options;
+  options.method = "carving";
+  EXPECT_NE(complaint(options).find("'carving'"), std::string::npos);
+  options.method = "gradient";
+  EXPECT_NE(complaint(options).find("--height"), std::string::npos);
+  options.height_mm = 3;
+  EXPECT_EQ(complaint(options), "");
+  options.detail = .1;
+  EXPECT_NE(complaint(options).find("--detail"), std::string::npos);
+}
+
+TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
+  ReliefOptions options;
+  options.height_mm = 3;
+  options.method = "paper";
+  EXPECT_EQ(options.effective_saturation(), .01);
+  EXPECT_EQ(options.effective_detail(), .02);
+}
+
 TEST(Options, EachFieldHasANameAndHelp) {
   ReliefOptions options;
   int fields = 0;
@@ -61,7 +81,7 @@ TEST(Options, EachFieldHasANameAndHelp) {
     EXPECT_FALSE(field.help.empty());
     EXPECT_LT(field.min, field.max);
   });
-  EXPECT_EQ(fields, 9);
+  EXPECT_EQ(fields, 10);
 }
 
 }  // namespace
