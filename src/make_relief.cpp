@@ -1,6 +1,9 @@
 #include "relievo/make_relief.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "relievo/method.h"
 #include "relievo/text.h"
@@ -11,11 +14,11 @@ namespace {
 
 Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, double mm_per_unit,
                             Progress* progress) {
-  const double beta = options.effective_saturation();
-  const Shape shape{Compression::from_alpha(options.effective_alpha(), beta), options.effective_detail()};
-  if (!options.height_mm) return model.make(shape);
+  const Result<Shape> shape = shape_of(options);
+  if (!shape) return std::unexpected(shape.error());
+  if (!options.height_mm) return model.make(*shape);
   return make_by_method(*parse_method(options.effective_method()), model, *options.height_mm / mm_per_unit,
-                        shape, mm_per_unit, progress);
+                        *shape, mm_per_unit, progress);
 }
 
 Box visible_box(const Surface& surface) {
@@ -40,13 +43,14 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   report.visible_points = surface.visible_points;
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
-  const auto& [compression, gamma, max_slope] = relief.shape;
+  const Compression& compression = relief.shape.compression;
   // As given, where it was given: from u it comes back with a rounding error.
   const bool is_given = !options.height_mm && compression.beta > 0;
   report.alpha = is_given ? options.effective_alpha() : compression.alpha();
+  if (compression.curve) report.alpha = std::numeric_limits<double>::quiet_NaN();
   report.beta = compression.beta;
   report.u = compression.u;
-  report.gamma = gamma;
+  report.gamma = relief.shape.gamma;
   report.method = options.effective_method();
   report.height_requested_mm = options.height_mm;
   if (options.alpha && compression.beta == 0)
@@ -73,6 +77,44 @@ void place(ReliefReport& report, const Surface& surface, const Vec3& corner, dou
 
 }  // namespace
 
+Result<Shape> shape_of(const ReliefOptions& options) {
+  const double beta = options.effective_saturation();
+  Shape shape{Compression::from_alpha(options.effective_alpha(), beta), options.effective_detail()};
+  if (options.steepest_deg) shape.max_slope = std::tan(*options.steepest_deg * std::numbers::pi / 180);
+  shape.boundary_width = options.boundary_width;
+  if (options.tone.empty()) return shape;
+  Result<ToneCurve> curve = parse_tone_curve(options.tone);
+  if (!curve) return std::unexpected(curve.error());
+  shape.compression.curve = std::make_shared<const ToneCurve>(std::move(*curve));
+  return shape;
+}
+
+double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
+  const Vec3 size = visible_box(surface).size();
+  return options.width_mm / std::max(size.x(), size.y());
+}
+
+Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const double scale = mm_per_unit(model.surface(), options);
+  if (auto go = begin_stage(progress, "relief", .85); !go) return std::unexpected(go.error());
+  const Result<Relief> relief = shape_relief(model, options, scale, progress);
+  if (!relief) return std::unexpected(relief.error());
+
+  if (auto go = begin_stage(progress, "solid", .95); !go) return std::unexpected(go.error());
+  MadeRelief made;
+  made.report = report_on(model.surface(), *relief, options);
+  const Front front = front_in_mm(model.surface(), *relief, scale);
+  Result<Solid> solid = make_plate(front, {options.margin_mm, options.thickness_mm});
+  if (!solid) return std::unexpected(solid.error());
+  made.solid = std::move(*solid);
+  made.report.height_mm = relief->height * scale;
+  made.report.below_ground_mm = -scale * lowest(*relief);
+  const double ground_mm = options.thickness_mm + made.report.below_ground_mm;
+  place(made.report, model.surface(), {options.margin_mm, options.margin_mm, ground_mm}, scale);
+  return made;
+}
+
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
@@ -82,28 +124,13 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
   Result<Surface> surface =
       find_surface(strays.empty() ? cloud : without(cloud, strays), *view, {}, progress);
   if (!surface) return std::unexpected(surface.error());
-  const Vec3 size = visible_box(*surface).size();
-  const double mm_per_unit = options.width_mm / std::max(size.x(), size.y());
-
-  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress);
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
   if (!model) return std::unexpected(model.error());
-  if (auto go = begin_stage(progress, "relief", .85); !go) return std::unexpected(go.error());
-  const Result<Relief> relief = shape_relief(*model, options, mm_per_unit, progress);
-  if (!relief) return std::unexpected(relief.error());
-
-  if (auto go = begin_stage(progress, "solid", .95); !go) return std::unexpected(go.error());
-  MadeRelief made;
-  made.report = report_on(model->surface(), *relief, options);
-  const Front front = front_in_mm(model->surface(), *relief, mm_per_unit);
-  Result<Solid> solid = make_plate(front, {options.margin_mm, options.thickness_mm});
-  if (!solid) return std::unexpected(solid.error());
-  made.solid = std::move(*solid);
-  made.report.height_mm = relief->height * mm_per_unit;
-  if (!strays.empty())
-    made.report.remarks.push_back(cat("left out ", strays.size(), " points far from all others"));
-  made.report.below_ground_mm = -mm_per_unit * lowest(*relief);
-  const double ground_mm = options.thickness_mm + made.report.below_ground_mm;
-  place(made.report, model->surface(), {options.margin_mm, options.margin_mm, ground_mm}, mm_per_unit);
+  Result<MadeRelief> made = make_relief(*model, options, progress);
+  if (made && !strays.empty())
+    made->report.remarks.push_back(cat("left out ", strays.size(), " points far from all others"));
   return made;
 }
 

@@ -18,10 +18,21 @@ double Compression::alpha() const {
   return std::exp(-std::log(u) / beta);
 }
 
+namespace {
+
+double tone_weight(double share, double u) {
+  if (share <= 0 || u <= 0) return 0;
+  return share >= 1 ? 1 : -std::expm1(u * std::log1p(-share));
+}
+
+}  // namespace
+
 // Equation (6).
 double curvature_weight(double k, double delta, const Compression& compression) {
-  const auto& [u, beta] = compression;
-  if (beta == 0 || !(delta > 0)) return -std::expm1(-u);
+  const double u = compression.u, beta = compression.beta;
+  if (!(delta > 0)) return -std::expm1(-u);
+  if (compression.curve) return tone_weight((*compression.curve)(k), u);
+  if (beta == 0) return -std::expm1(-u);
   if (k == 0) return 0;
   return -std::expm1(-std::exp(std::log(u) + beta * (std::log(std::abs(k)) - std::log(delta))));
 }

@@ -125,7 +125,7 @@ TEST(Frame, TellsThatAHeightIsOutOfReach) {
 TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
   FrameOptions options;
   const Frame narrow = frame_of(options);
-  options.boundary_width = 8;
+  options.shape.boundary_width = 8;
   const Frame wide = frame_of(options);
   EXPECT_LT(wide.height, narrow.height);
   EXPECT_GT(wide.height, 0);

@@ -95,5 +95,39 @@ TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
   EXPECT_EQ(make_relief({}, options).error().kind, ErrorKind::option);
 }
 
+TEST(MakeRelief, FromAPreparedModelIsTheSame) {
+  ReliefOptions options;
+  options.view = "1,0.5,2";
+  options.height_mm = 2;
+  options.tone = "0,0.1;0.5,0.6;1,0.3";
+  options.steepest_deg = 60;
+  options.boundary_width = 5;
+  const auto whole = make_relief(figure(), options);
+  ASSERT_TRUE(whole) << whole.error().message();
+  const auto model = ReliefModel::prepare(*find_surface(figure(), *parse_view(options.view)));
+  const auto half = make_relief(*model, options);
+  ASSERT_TRUE(half);
+  EXPECT_EQ(write_stl(half->solid), write_stl(whole->solid));
+}
+
+TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
+  ReliefOptions options;
+  const double plain = make_relief(figure(), options)->report.height_mm;
+  options.boundary_width = 10;
+  EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
+  options.boundary_width = 2;
+  options.steepest_deg = 10;
+  EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
+}
+
+TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
+  ReliefOptions options;
+  options.saturation = 1;
+  options.tone = "0.5,0";
+  EXPECT_NEAR(make_relief(figure(), options)->report.height_mm, 0, 1e-9);
+  options.tone = "nonsense";
+  EXPECT_EQ(make_relief(figure(), options).error().input, "--tone");
+}
+
 }  // namespace
 }  // namespace relievo

@@ -73,7 +73,7 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
                                    : Vec2(g.normalized() * std::log(1 + 3 * g.norm()) / 3));
   }
   std::vector<double> heights(slopes.size());
-  model.system().solve(slopes, heights);
+  model.system()->solve(slopes, heights);
   const double highest = *std::ranges::max_element(heights);
   for (std::size_t i = 0; i < heights.size(); ++i)
     ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);

@@ -14,14 +14,13 @@ namespace relievo {
 struct FrameOptions {
   Shape shape;
   std::optional<double> height;   // locked: shape.compression.u is found so that this height is met to 0.1 %
-  double boundary_width = 2;      // of (7), in rho, > 0
   Vec3f light = Vec3f(-1, 1, 1);  // towards the light, not zero
   std::shared_ptr<const std::vector<float>> base;  // added to the heights, per point; none is a plane
 };
 
 struct FrameTimes {
   double heights_s = 0;  // t1: weights, slopes, right-hand side, solve; all rounds of a locked height
-  double detail_s = 0;   // t2
+  double detail_s = 0;   // t2: detail, and the mapping from control points if there are
   double normals_s = 0;  // t3: normals and shading
   int solves = 0;        // 1, or as many as a locked height took
 };

@@ -8,6 +8,7 @@
 #include "relievo/cloud.h"
 #include "relievo/options.h"
 #include "relievo/progress.h"
+#include "relievo/relief.h"
 #include "relievo/solid.h"
 
 namespace relievo {
@@ -18,7 +19,7 @@ struct ReliefReport {
   double rho = 0;       // sampling distance, in the cloud's units
   double diagonal = 0;  // L_d: diagonal of the cloud's box, in its units
   std::string method;   // its name, see method.h; alpha, beta, gamma and u mean nothing for the rivals
-  double alpha = 0;     // NaN where beta is 0: alpha has no effect there, and u rules
+  double alpha = 0;     // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
   double beta = 0, gamma = 0;
   double u = 0;  // alpha^-beta, see Compression
   std::optional<double> height_requested_mm;
@@ -44,5 +45,17 @@ struct MadeRelief {
 // kind cancelled.
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
                                Progress* progress = nullptr);
+
+// The same, bit for bit, in a fraction of the time: from a model that was prepared from the cloud without its
+// far points in the view asked for. options.view and options.up are not looked at.
+Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
+                               Progress* progress = nullptr);
+
+// The shape that the options ask for; where they give a height, at its starting point. Errors: kind option
+// for a tone curve that is none.
+Result<Shape> shape_of(const ReliefOptions& options);
+
+// Millimetres per unit of the surface at the width asked for.
+double mm_per_unit(const Surface& surface, const ReliefOptions& options);
 
 }  // namespace relievo

@@ -17,6 +17,10 @@ struct ReliefOptions {
   std::optional<double> saturation;  // the paper's beta: 0.01, or 0 with a height
   std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
   std::string method;                // see method.h; ours with a height, else the paper's
+  std::optional<double> steepest_deg;  // steepest slope of the front, 76 without it
+  double boundary_width = 2;           // of (7), in sampling distances
+  std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
+  std::string mode = "exact";
   std::string view = "front";
   std::string up;
   double margin_mm = 5;
@@ -55,6 +59,12 @@ void visit(Options& o, F&& f) {
   f(OptionField{"method", "NAME",
                 "ours, paper, linear, equalise, gradient or detail; default ours with a height, else paper"},
     o.method);
+  f(OptionField{"steepest", "DEG", "steepest slope of the front; default 76", 1, 89}, o.steepest_deg);
+  f(OptionField{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100}, o.boundary_width);
+  f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
+    o.tone);
+  f(OptionField{"mode", "MODE", "exact, subspace (from 8,000 control points, close to exact) or auto"},
+    o.mode);
   f(
       OptionField{
           "view", "SIDE",

@@ -2,9 +2,11 @@
 // to (7).
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "relievo/tone_curve.h"
 #include "relievo/types.h"
 
 namespace relievo {
@@ -14,11 +16,24 @@ namespace relievo {
 struct Compression {
   double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal that has curvature
   double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points alike
+  // In place of the exponential of (6): w_k = 1 - (1 - curve(|k|))^u, so that u still sets the height and 1
+  // keeps what the curve says; beta has no effect then.
+  std::shared_ptr<const ToneCurve> curve = nullptr;
+
+  bool operator==(const Compression&) const = default;
 
   // From the paper's pair; alpha in [0, infinity).
   static Compression from_alpha(double alpha, double beta);
   // The paper's height coefficient u^(-1/beta); NaN where beta = 0 leaves it open.
   double alpha() const;
+};
+
+// All that shapes a relief.
+struct Shape {
+  Compression compression;    // height and saturation
+  double gamma = 0;           // detail coefficient, [0, 1]
+  double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
+  double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
 };
 
 // Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never

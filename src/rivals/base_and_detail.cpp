@@ -16,7 +16,7 @@ Relief base_and_detail_relief(const ReliefModel& model, double height, const Det
     slopes[i] *= std::min(1.0, 4 / std::max(slopes[i].norm(), 1e-9));
   }
   std::vector<double> heights(n);
-  model.system().solve(slopes, heights);
+  model.system()->solve(slopes, heights);
 
   std::vector<Vec2f> smooth(n);
   for (std::size_t i = 0; i < n; ++i) smooth[i] = {static_cast<float>(heights[i]), 0};

@@ -43,7 +43,7 @@ Relief gradient_relief(const ReliefModel& model, double height, const GradientOp
   std::vector<Vec2> slopes(field.size());
   for (std::size_t i = 0; i < field.size(); ++i) slopes[i] = field[i].cast<double>();
   std::vector<double> heights(slopes.size());
-  model.system().solve(slopes, heights);
+  model.system()->solve(slopes, heights);
   return scaled_relief(std::move(heights), surface, height);
 }
 
