@@ -184,7 +184,7 @@ class Painter {
     // Leaning to the viewer: plain walls in the dark would look like holes.
     const Vec3f to_viewer = placement_.turn.row(2).transpose().cast<float>();
     lit.normal = (wall_normal(pixel.corners, scene_.topology.places.size()) + .8F * to_viewer).normalized();
-    lit.light = {.7F, .75F};
+    lit.light = {.8F, 1};
     lit.height = .55F;
     return {shader_.colour(lit), 1};
   }

@@ -82,6 +82,7 @@ struct Engine::State {
   std::mutex drawing;  // guards what follows
   std::uint64_t drawn_model = 0;
   std::optional<FrameRenderer> renderer;
+  std::optional<FrameOptions> last;  // that were asked for, of this model
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
@@ -129,12 +130,15 @@ struct Engine::State {
     return newest;
   }
 
-  // With `drawing` held.
-  FrameRenderer& renderer_for(const std::shared_ptr<const ReliefModel>& ready) {
+  // With `drawing` held: the model, ready to be drawn; null before the first.
+  std::shared_ptr<const ReliefModel> model_to_draw() {
+    std::shared_ptr<const ReliefModel> ready = model();
     const std::uint64_t number = shared.with([](const Shared& s) { return s.models; });
-    if (!renderer || drawn_model != number) renderer.emplace(ready);
+    if (!ready || (renderer && drawn_model == number)) return ready;
+    renderer.emplace(ready);
+    last = std::nullopt;
     drawn_model = number;
-    return *renderer;
+    return ready;
   }
 };
 
@@ -235,7 +239,6 @@ Result<FrameOptions> frame_options(const PictureRequest& request, double scale) 
   if (!shape) return std::unexpected(shape.error());
   FrameOptions options;
   options.shape = *shape;
-  options.light = request.render.light;
   if (request.u)
     options.shape.compression.u = *request.u;
   else if (request.options.height_mm)
@@ -251,10 +254,22 @@ RenderOptions render_options(const PictureRequest& request, double scale) {
   return render;
 }
 
+// Whether a frame would come out alike: then only light or camera have changed, and it need not be made
+// again.
+bool is_same(const FrameOptions& a, const FrameOptions& b) {
+  const Compression &p = a.shape.compression, &q = b.shape.compression;
+  const bool is_same_curve = p.curve && q.curve ? p.curve->points() == q.curve->points() : p.curve == q.curve;
+  return is_same_curve && p.u == q.u && p.beta == q.beta && a.height == b.height &&
+         a.shape.gamma == b.shape.gamma && a.shape.max_slope == b.shape.max_slope &&
+         a.shape.boundary_width == b.shape.boundary_width;
+}
+
 // The frame asked for; while another view is prepared, the last one of the old.
-std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& options, std::size_t points) {
+std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& options, std::size_t points,
+                                       std::optional<FrameOptions>& last) {
   const bool is_preparing = session.status().is_preparing;
-  if (!is_preparing) {
+  if (!is_preparing && !(last && is_same(*last, options))) {
+    last = options;
     session.request(options);
     session.wait_until_idle(10s);
   }
@@ -266,16 +281,16 @@ std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& opt
 
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   const std::lock_guard turn(state_->drawing);
-  const std::shared_ptr<const ReliefModel> model = state_->model();
+  const std::shared_ptr<const ReliefModel> model = state_->model_to_draw();
   if (!model) return nothing_open();
   const double scale = mm_per_unit(model->surface(), request.options);
   const Result<FrameOptions> wanted = frame_options(request, scale);
   if (!wanted) return std::unexpected(wanted.error());
-  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size());
+  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size(), state_->last);
   if (!frame) return nothing_open();
 
   const auto start = std::chrono::steady_clock::now();
-  FrameRenderer& renderer = state_->renderer_for(model);
+  FrameRenderer& renderer = *state_->renderer;
   const Shown shown = request.is_original ? renderer.original() : Shown{frame->heights, frame->normals};
   PictureAnswer answer;
   RenderOptions render = render_options(request, scale);
@@ -292,14 +307,14 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
 Result<std::vector<float>> Engine::profile(const PictureRequest& request, const Vec2& from, const Vec2& to,
                                            std::size_t samples) {
   const std::lock_guard turn(state_->drawing);
-  const std::shared_ptr<const ReliefModel> model = state_->model();
+  const std::shared_ptr<const ReliefModel> model = state_->model_to_draw();
   if (!model) return nothing_open();
   const double scale = mm_per_unit(model->surface(), request.options);
   const Result<FrameOptions> wanted = frame_options(request, scale);
   if (!wanted) return std::unexpected(wanted.error());
-  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size());
+  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size(), state_->last);
   if (!frame) return nothing_open();
-  FrameRenderer& renderer = state_->renderer_for(model);
+  FrameRenderer& renderer = *state_->renderer;
   const Shown shown = request.is_original ? renderer.original() : Shown{frame->heights, frame->normals};
   return renderer.profile(shown, render_options(request, scale), from, to, samples);
 }
