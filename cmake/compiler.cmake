@@ -1,7 +1,7 @@
 # Warnings are errors on our own targets. Contraction is off and fast-math never on: same input, same bits.
 function(relievo_compiler_options target)
   target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off)
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off -fno-math-errno)
   if(RELIEVO_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${RELIEVO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PUBLIC -fsanitize=${RELIEVO_SANITIZE})

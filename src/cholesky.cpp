@@ -102,6 +102,10 @@ std::size_t Cholesky::size() const {
   return factor_->order.size();
 }
 
+void Cholesky::renumber(std::span<const Index> numbers) {
+  for (Index& unknown : factor_->order) unknown = numbers[unknown];
+}
+
 std::size_t Cholesky::memory() const {
   const Factor& f = *factor_;
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };

@@ -1,21 +1,32 @@
 #include "relievo/frame.h"
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
+#include "frame_slopes.h"
 #include "relievo/parallel.h"
 #include "root.h"
 #include "vertex_normals.h"
-#include "weight_table.h"
 
 namespace relievo {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+using SolverWorkspace = std::variant<HeightSystem::Workspace, SubspaceModel::Workspace>;
+
+SolverWorkspace make_workspace(const ReliefModel& model) {
+  if (const HeightSystem* system = model.system()) return system->make_workspace();
+  return model.subspace()->make_workspace();
 }
 
 std::vector<Vec2> in_plane(const Surface& surface) {
@@ -27,19 +38,37 @@ std::vector<Vec2> in_plane(const Surface& surface) {
 struct Span {
   float lowest = 0, highest = 0;  // the base is part of it
   void extend(float z) {
-    lowest = std::min(lowest, z);
-    highest = std::max(highest, z);
+    lowest = z < lowest ? z : lowest;
+    highest = z > highest ? z : highest;
   }
 };
+
+// Eight spans side by side, which the compiler turns into vectors.
+Span span_of(std::span<const float> heights) {
+  constexpr std::size_t lanes = 8;
+  std::array<float, lanes> low{}, high{};
+  std::size_t i = 0;
+  for (; i + lanes <= heights.size(); i += lanes) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      low[l] = heights[i + l] < low[l] ? heights[i + l] : low[l];
+      high[l] = heights[i + l] > high[l] ? heights[i + l] : high[l];
+    }
+  }
+  Span span;
+  for (; i < heights.size(); ++i) span.extend(heights[i]);
+  for (std::size_t l = 0; l < lanes; ++l) span.extend(low[l]), span.extend(high[l]);
+  return span;
+}
 
 }  // namespace
 
 struct FrameMaker::Packed {
   const ReliefModel& model;
   const Surface& surface = model.surface();
-  VertexNormals vertex_normals{in_plane(surface), surface.triangulation, surface.boundary};
-  HeightSystem::Workspace workspace = model.system().make_workspace();
-  std::vector<Vec2f> slopes{surface.points.size()};
+  PointLinks normal_links = vertex_normal_links(in_plane(surface), surface.triangulation, surface.boundary,
+                                                model.system() ? &model.system()->links() : nullptr);
+  SolverWorkspace workspace = make_workspace(model);
+  std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
   double boundary_width = 0;  // that boundary_weight is for
   WeightTable weight;
@@ -61,30 +90,34 @@ struct FrameMaker::Packed {
     });
   }
 
-  // Equations (5) to (7) by table; see compressed_slope().
-  void compress(const Shape& shape) {
-    weight.fill(surface.curvature.delta, shape.compression);
-    const auto max_slope = static_cast<float>(shape.max_slope);
-    parallel_for(size(), [&](std::size_t i) {
-      const Vec3f& n = surface.normals[i];
-      const float w = weight(surface.curvature.k[i]) * boundary_weight[i];
-      const float x = -w * n.x(), y = -w * n.y(), z = w * n.z() + (1 - w);
-      const float length = std::sqrt(x * x + y * y);
-      const float scale = length <= max_slope * z ? 1 / std::max(z, 1e-30F) : max_slope / length;
-      slopes[i] = {x * scale, y * scale};
-    });
+  // Heights before detail: weights by table, slopes, right-hand side and solve; or those of the control
+  // points and their way to all.
+  void find_heights(Frame& frame) {
+    const Shape& shape = frame.options.shape;
+    const Stopwatch watch;
+    if (const HeightSystem* system = model.system()) {
+      weight.fill(surface.curvature.delta, shape.compression);
+      frame_slopes({surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta}, weight,
+                   shape.max_slope, slopes);
+      system->solve(slopes, frame.heights, std::get<HeightSystem::Workspace>(workspace));
+      frame.times.heights_s += watch.seconds();
+    } else {
+      auto& own = std::get<SubspaceModel::Workspace>(workspace);
+      model.subspace()->solve(shape, boundary_weight, own);
+      frame.times.heights_s += watch.seconds();
+      const Stopwatch mapping;
+      model.subspace()->carry(boundary_weight, own, frame.heights);
+      frame.times.detail_s += mapping.seconds();
+    }
+    ++frame.times.solves;
   }
 
   // Calls change(i, z) for every height, which may change it, and returns the span of what comes out.
   template <typename Change>
   float pass(std::vector<float>& heights, Change change) {
     parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
-      Span span;
-      for (std::size_t i = begin; i < end; ++i) {
-        change(i, heights[i]);
-        span.extend(heights[i]);
-      }
-      spans[begin / default_grain] = span;
+      for (std::size_t i = begin; i < end; ++i) change(i, heights[i]);
+      spans[begin / default_grain] = span_of(std::span(heights).subspan(begin, end - begin));
     });
     Span all;
     for (const Span& span : spans) {
@@ -96,20 +129,15 @@ struct FrameMaker::Packed {
 
   // Heights and detail for the frame's shape.
   void raise(Frame& frame) {
-    const auto start = Clock::now();
-    compress(frame.options.shape);
-    model.system().solve(slopes, frame.heights, workspace);
+    find_heights(frame);
+    const Stopwatch watch;
     const float h = pass(frame.heights, [](std::size_t, float&) {});
-    frame.times.heights_s += seconds_since(start);
-    ++frame.times.solves;
-
-    const auto detail_start = Clock::now();
     const float amount = static_cast<float>(frame.options.shape.gamma) * h;
     const float span = pass(frame.heights, [&](std::size_t i, float& z) {
       z += amount * surface.curvature.k[i] * boundary_weight[i];
     });
     frame.height = static_cast<double>(span);
-    frame.times.detail_s += seconds_since(detail_start);
+    frame.times.detail_s += watch.seconds();
   }
 
   // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().
@@ -159,15 +187,17 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   else
     packed_->raise(frame);
 
-  const auto start = Clock::now();
+  const Stopwatch watch;
   if (options.base)
     parallel_for(packed_->size(), [&](std::size_t i) { frame.heights[i] += (*options.base)[i]; });
-  packed_->vertex_normals.compute(frame.heights, options.light.normalized(), frame.normals, frame.shading);
-  frame.times.normals_s = seconds_since(start);
+  packed_->normal_links.normals(frame.heights, options.light.normalized(), {frame.normals, frame.shading});
+  frame.times.normals_s = watch.seconds();
 }
 
 std::size_t FrameMaker::memory() const {
-  return packed_->vertex_normals.memory() + packed_->size() * (sizeof(Vec2f) + 2 * sizeof(float));
+  const std::size_t workspace = std::visit([](const auto& w) { return w.memory(); }, packed_->workspace);
+  return packed_->normal_links.memory() + workspace + packed_->slopes.size() * sizeof(Vec2f) +
+         packed_->boundary_weight.size() * sizeof(float);
 }
 
 }  // namespace relievo

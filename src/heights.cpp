@@ -1,170 +1,45 @@
 #include "relievo/heights.h"
 
-#include <algorithm>
-#include <cmath>
-
-#include "relievo/parallel.h"
+#include "height_equations.h"
 
 namespace relievo {
-namespace {
-
-// Cotangents of nearly flat angles are cut here: beyond it an edge is as stiff as single precision can use.
-constexpr float largest_weight = 1e3F;
-// Cocircular points give weights of 0; a trace of stiffness keeps the matrix positive definite whatever the
-// points.
-constexpr float least_weight = 1e-4F;
-
-struct HalfEdge {
-  Index from, to;
-  float cotangent;
-};
-
-double cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
-  const Vec2 u = a - apex, v = b - apex;
-  return u.dot(v) / std::max(u.x() * v.y() - u.y() * v.x(), 1e-300);
-}
-
-// Both directions of each triangle's edges, ordered by end points; an edge of two triangles stands twice in a
-// row.
-std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulation& mesh,
-                                 const Boundary& boundary) {
-  std::vector<HalfEdge> edges;
-  edges.reserve(mesh.triangles.size() * 6);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!boundary.is_inside[t]) continue;
-    for (int corner = 0; corner < 3; ++corner) {
-      const Index apex = mesh.triangles[t][corner];
-      const Index a = mesh.triangles[t][(corner + 1) % 3], b = mesh.triangles[t][(corner + 2) % 3];
-      const auto half =
-          static_cast<float>(.5 * std::clamp(cotangent(points[apex], points[a], points[b]), -1e6, 1e6));
-      edges.push_back({a, b, half});
-      edges.push_back({b, a, half});
-    }
-  }
-  return edges;
-}
-
-// The edges leaving each free point, the two halves of an edge added up.
-struct Adjacency {
-  std::vector<Index> begin;
-  std::vector<HalfEdge> edges;
-};
-
-Adjacency gather(const std::vector<HalfEdge>& all, std::span<const Index> unknown, std::size_t unknowns) {
-  std::vector<std::size_t> begin(unknowns + 1, 0);
-  for (const HalfEdge& e : all)
-    if (unknown[e.from] != no_index) ++begin[unknown[e.from] + 1];
-  for (std::size_t f = 0; f < unknowns; ++f) begin[f + 1] += begin[f];
-  std::vector<HalfEdge> sorted(begin.back());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const HalfEdge& e : all)
-    if (unknown[e.from] != no_index) sorted[next[unknown[e.from]]++] = e;
-
-  Adjacency result;
-  result.begin.reserve(unknowns + 1);
-  for (std::size_t f = 0; f < unknowns; ++f) {
-    result.begin.push_back(static_cast<Index>(result.edges.size()));
-    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[f]);
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[f + 1]);
-    std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.to < b.to; });
-    for (auto e = first; e != last; ++e) {
-      if (e != first && e->to == result.edges.back().to)
-        result.edges.back().cotangent += e->cotangent;
-      else
-        result.edges.push_back(*e);
-    }
-  }
-  result.begin.push_back(static_cast<Index>(result.edges.size()));
-  for (HalfEdge& e : result.edges) e.cotangent = std::clamp(e.cotangent, least_weight, largest_weight);
-  return result;
-}
-
-Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown) {
-  const std::size_t n = adjacency.begin.size() - 1;
-  std::vector<Eigen::Triplet<double, int>> entries;
-  entries.reserve(n + adjacency.edges.size() / 2);
-  for (std::size_t f = 0; f < n; ++f) {
-    double diagonal = 0;
-    for (Index e = adjacency.begin[f]; e < adjacency.begin[f + 1]; ++e) {
-      const HalfEdge& edge = adjacency.edges[e];
-      const auto weight = static_cast<double>(edge.cotangent);
-      diagonal += weight;
-      const Index other = unknown[edge.to];
-      if (other != no_index && other < f)
-        entries.emplace_back(static_cast<int>(f), static_cast<int>(other), -weight);
-    }
-    entries.emplace_back(static_cast<int>(f), static_cast<int>(f), diagonal);
-  }
-  Eigen::SparseMatrix<double> A(static_cast<int>(n), static_cast<int>(n));
-  A.setFromTriplets(entries.begin(), entries.end());
-  return A;
-}
-
-}  // namespace
 
 Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Triangulation& triangulation,
                                          const Boundary& boundary) {
-  std::vector<Index> unknown(points.size(), no_index), free_points;
+  const HeightEquations equations = height_equations(points, triangulation, boundary);
   std::vector<Vec2> positions;
-  for (Index i = 0; i < points.size(); ++i) {
-    if (boundary.is_boundary[i]) continue;
-    unknown[i] = static_cast<Index>(free_points.size());
-    free_points.push_back(i);
-    positions.push_back(points[i]);
-  }
-  Adjacency adjacency = gather(half_edges(points, triangulation, boundary), unknown, free_points.size());
-  Result<Cholesky> factor = Cholesky::factor(laplacian(adjacency, unknown), positions);
+  positions.reserve(equations.free_points.size());
+  for (const Index i : equations.free_points) positions.push_back(points[i]);
+  Result<Cholesky> factor = Cholesky::factor(equations.A, positions);
   if (!factor) return std::unexpected(factor.error());
+  factor->renumber(equations.free_points);
+  return HeightSystem(std::move(*factor), PointLinks(equations.begin, equations.edges));
+}
 
-  HeightSystem system(std::move(*factor));
-  system.edges_.reserve(adjacency.edges.size());
-  for (const HalfEdge& e : adjacency.edges) {
-    const Vec2 pull = .5 * static_cast<double>(e.cotangent) * (points[e.from] - points[e.to]);
-    system.edges_.push_back({e.to, pull.cast<float>()});
-  }
-  system.unknown_ = std::move(unknown);
-  system.free_points_ = std::move(free_points);
-  system.begin_ = std::move(adjacency.begin);
-  return system;
+HeightSystem::HeightSystem(Cholesky factor, PointLinks edges)
+    : factor_(std::move(factor)), edges_(std::make_unique<PointLinks>(std::move(edges))) {}
+HeightSystem::HeightSystem(HeightSystem&&) noexcept = default;
+HeightSystem& HeightSystem::operator=(HeightSystem&&) noexcept = default;
+HeightSystem::~HeightSystem() = default;
+
+std::size_t HeightSystem::size() const {
+  return edges_->size();
 }
 
 std::size_t HeightSystem::memory() const {
-  const std::size_t indices = unknown_.size() + free_points_.size() + begin_.size();
-  return factor_.memory() + sizeof(Index) * indices + sizeof(Edge) * edges_.size();
+  return factor_.memory() + edges_->memory();
 }
 
-HeightSystem::Workspace HeightSystem::make_workspace() const {
-  return {factor_.make_workspace(), std::vector<float>(free_points_.size())};
-}
-
-template <typename Real, typename Slope>
-Real HeightSystem::right_hand_side(std::size_t f, std::span<const Slope> slopes) const {
-  const Slope s = slopes[free_points_[f]];
-  Real x = 0, y = 0;
-  for (Index e = begin_[f]; e < begin_[f + 1]; ++e) {
-    const Edge& edge = edges_[e];
-    const Slope& other = slopes[edge.other];
-    x += (s.x() + other.x()) * static_cast<Real>(edge.pull.x());
-    y += (s.y() + other.y()) * static_cast<Real>(edge.pull.y());
-  }
-  return x + y;
-}
-
+// The right-hand side of boundary points, which have no links, is 0 and stays: their heights.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
-  std::vector<double> b(free_points_.size());
-  parallel_for(b.size(), [&](std::size_t f) { b[f] = right_hand_side<double>(f, slopes); });
-  factor_.solve(b, b);
-  parallel_for(heights.size(),
-               [&](std::size_t i) { heights[i] = unknown_[i] == no_index ? 0 : b[unknown_[i]]; });
+  edges_->divergence(slopes, heights);
+  factor_.solve(heights, heights);
 }
 
 void HeightSystem::solve(std::span<const Vec2f> slopes, std::span<float> heights,
                          Workspace& workspace) const {
-  std::vector<float>& b = workspace.unknowns;
-  parallel_for(b.size(), [&](std::size_t f) { b[f] = right_hand_side<float>(f, slopes); });
-  factor_.solve(b, b, workspace.factor);
-  parallel_for(heights.size(),
-               [&](std::size_t i) { heights[i] = unknown_[i] == no_index ? 0 : b[unknown_[i]]; });
+  edges_->divergence(slopes, heights);
+  factor_.solve(heights, heights, workspace);
 }
 
 }  // namespace relievo

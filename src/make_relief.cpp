@@ -122,7 +122,9 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
   Result<Surface> surface =
       find_surface(strays.empty() ? cloud : without(cloud, strays), *view, {}, progress);
   if (!surface) return std::unexpected(surface.error());
-  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress);
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
   if (!model) return std::unexpected(model.error());
   Result<MadeRelief> made = make_relief(*model, options, progress);
   if (made && !strays.empty())

@@ -9,12 +9,28 @@
 
 namespace relievo {
 
-ReliefModel::ReliefModel(Surface surface, HeightSystem system)
-    : surface_(std::move(surface)),
-      system_(std::move(system)),
-      boundary_weight_(boundary_weights(surface_.boundary.distance, surface_.rho)) {}
+Result<Mode> parse_mode(std::string_view name) {
+  if (name == "exact") return Mode::exact;
+  if (name == "subspace") return Mode::subspace;
+  if (name == "auto") return Mode::automatic;
+  return std::unexpected(
+      Error{ErrorKind::option, "--mode", {}, cat("expected exact, subspace or auto, found \"", name, "\"")});
+}
 
-Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress) {
+Mode settle(Mode mode, const Surface& surface) {
+  if (mode != Mode::automatic) return mode;
+  return surface.points.size() > most_exact_points ? Mode::subspace : Mode::exact;
+}
+
+ReliefModel::ReliefModel(Surface surface, Solver solver)
+    : surface_(std::move(surface)), solver_(std::move(solver)) {}
+
+Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
+  if (settle(mode, surface) == Mode::subspace) {
+    Result<SubspaceModel> subspace = SubspaceModel::prepare(surface, {}, {}, progress);
+    if (!subspace) return std::unexpected(subspace.error());
+    return ReliefModel(std::move(surface), std::move(*subspace));
+  }
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
   std::vector<Vec2> xy(surface.points.size());
   for (std::size_t i = 0; i < xy.size(); ++i) xy[i] = surface.points[i].head<2>();
@@ -23,16 +39,31 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress) {
   return ReliefModel(std::move(surface), std::move(*system));
 }
 
-Relief ReliefModel::make(const Shape& shape) const {
+std::size_t ReliefModel::memory() const {
+  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, solver_);
+  return solver + surface_.memory();
+}
+
+std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const float> boundary_weight) const {
+  if (const SubspaceModel* model = subspace()) {
+    SubspaceModel::Workspace workspace = model->make_workspace();
+    std::vector<float> heights(surface_.points.size());
+    model->solve(shape, boundary_weight, workspace);
+    model->carry(boundary_weight, workspace, heights);
+    return {heights.begin(), heights.end()};
+  }
   std::vector<Vec2> slopes(surface_.points.size());
-  std::vector<float> own_weight;
-  if (shape.boundary_width != Shape{}.boundary_width)  // (7) has 2 rho
-    own_weight = boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);
-  const std::vector<float>& boundary_weight = own_weight.empty() ? boundary_weight_ : own_weight;
   compressed_slopes({surface_.normals, surface_.curvature.k, boundary_weight, surface_.curvature.delta},
                     shape.compression, shape.max_slope, slopes);
-  Relief relief{std::vector<double>(slopes.size()), 0, shape};
-  system_.solve(slopes, relief.heights);
+  std::vector<double> heights(slopes.size());
+  system()->solve(slopes, heights);
+  return heights;
+}
+
+Relief ReliefModel::make(const Shape& shape) const {
+  const std::vector<float> boundary_weight =
+      boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);  // (7) has 2 rho
+  Relief relief{heights(shape, boundary_weight), 0, shape};
   add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
   relief.height = height_span(relief.heights);
   return relief;

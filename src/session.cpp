@@ -12,6 +12,7 @@ struct Opening {
   std::shared_ptr<const Cloud> cloud;
   View view;
   SurfaceOptions options;
+  Mode mode = Mode::automatic;
 };
 
 // What the callers and the loop share.
@@ -27,7 +28,7 @@ struct Shared {
 Result<ReliefModel> prepare(const Opening& opening, Progress& progress) {
   Result<Surface> surface = find_surface(*opening.cloud, opening.view, opening.options, &progress);
   if (!surface) return std::unexpected(surface.error());
-  return ReliefModel::prepare(std::move(*surface), &progress);
+  return ReliefModel::prepare(std::move(*surface), &progress, opening.mode);
 }
 
 }  // namespace
@@ -115,10 +116,11 @@ Session::~Session() {
   cancel();
 }
 
-void Session::open(std::shared_ptr<const Cloud> cloud, const View& view, const SurfaceOptions& options) {
+void Session::open(std::shared_ptr<const Cloud> cloud, const View& view, const SurfaceOptions& options,
+                   Mode mode) {
   state_->shared.with([&](Shared& s) {
     if (s.progress) s.progress->cancel();
-    s.opening = Opening{std::move(cloud), view, options};
+    s.opening = Opening{std::move(cloud), view, options, mode};
     s.status.is_preparing = true;
     s.status.stage = "waiting";
     s.status.fraction = 0;

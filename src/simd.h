@@ -3,6 +3,9 @@
 
 #include <cstring>
 
+// How a vector would be passed to a function depends on the instructions; ours are inlined.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace relievo {
 
 // Eight floats or four doubles. Code written with them compiles to AVX2 inside a function marked

@@ -7,7 +7,6 @@
 #include "control_mesh.h"
 #include "frame_slopes.h"
 #include "region_samples.h"
-#include "relievo/detail.h"
 
 namespace relievo {
 namespace {
@@ -70,9 +69,10 @@ struct SubspaceModel::Workspace::Storage {
 
   HeightSystem::Workspace system;
   WeightTable weight;
-  std::vector<Vec2f> sample_slopes, slopes;
+  std::vector<Vec2f> slopes;
   std::vector<float> heights, ratios, offsets;  // of the control points
   SplineFunction ratio, offset;
+  std::vector<float> pair;  // of their nodes
   MultilevelSpline::Workspace ratio_fit, offset_fit;
 };
 
@@ -81,6 +81,10 @@ SubspaceModel::Workspace::Workspace(Workspace&&) noexcept = default;
 SubspaceModel::Workspace& SubspaceModel::Workspace::operator=(Workspace&&) noexcept = default;
 SubspaceModel::Workspace::~Workspace() = default;
 
+std::size_t SubspaceModel::Workspace::memory() const {
+  return storage_->system.memory() + bytes(storage_->pair) + bytes(storage_->slopes);
+}
+
 SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
     : system_(std::move(system)), samples_(std::move(samples)), delta_(delta) {}
 
@@ -88,7 +92,7 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
                                              std::span<const double> reference, Progress* progress) {
   if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
   const std::vector<Vec2> points = in_plane(surface);
-  std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
+  const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
   Result<std::vector<double>> solved;
   if (reference.empty()) {
     solved = solve_reference(surface, points, boundary_weight, options.max_slope);
@@ -103,60 +107,62 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
   if (!system) return std::unexpected(system.error());
   const std::vector<Index> samples = sample_regions(surface, control, options.normals_per_point);
 
-  SubspaceModel model(
-      std::move(*system),
-      {pick(surface.normals, samples), pick(surface.curvature.k, samples), pick(boundary_weight, samples)},
-      surface.curvature.delta);
+  SubspaceModel model(std::move(*system),
+                      {pick(surface.normals, samples), pick(surface.curvature.k, samples), samples},
+                      surface.curvature.delta);
   model.control_ = std::move(control);
   model.reference_.assign(reference.begin(), reference.end());
-  model.k_ = surface.curvature.k;
-  model.boundary_weight_ = std::move(boundary_weight);
-  model.set_reference(options.max_slope);
+  model.set_reference(options.max_slope, boundary_weight);
   model.set_splines(mesh.points, points);
   return model;
 }
 
 std::size_t SubspaceModel::memory() const {
   return system_.memory() + ratio_spline_.memory() + offset_spline_.memory() + bytes(control_.points) +
-         bytes(samples_.normals) + bytes(samples_.k) + bytes(samples_.boundary_weight) +
-         bytes(control_reference_) + bytes(ratio_terms_) + bytes(places_) + bytes(reference_) + bytes(k_) +
-         bytes(boundary_weight_);
+         bytes(samples_.normals) + bytes(samples_.k) + bytes(samples_.points) + bytes(control_reference_) +
+         bytes(ratio_terms_) + bytes(places_) + bytes(reference_);
 }
 
 SubspaceModel::Workspace SubspaceModel::make_workspace() const {
   const std::size_t n = control_.points.size();
   auto storage = std::make_unique<Workspace::Storage>(system_.make_workspace());
-  storage->sample_slopes.resize(samples_.k.size());
   storage->slopes.resize(n);
   for (std::vector<float>* values : {&storage->heights, &storage->ratios, &storage->offsets})
     values->resize(n);
   storage->ratio = ratio_spline_.make_function();
   storage->offset = offset_spline_.make_function();
+  storage->pair.resize(2 * storage->offset.nodes.size());
   storage->ratio_fit = ratio_spline_.make_workspace();
   storage->offset_fit = offset_spline_.make_workspace();
   return Workspace(std::move(storage));
 }
 
 // z_c: a control point's slope is the mean of those its region's samples have.
-void SubspaceModel::solve(const Shape& shape, Workspace::Storage& storage) const {
+void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_weight,
+                          Workspace& workspace) const {
+  Workspace::Storage& storage = *workspace.storage_;
   storage.weight.fill(delta_, shape.compression);
-  frame_slopes({samples_.normals, samples_.k, samples_.boundary_weight, delta_}, storage.weight,
-               shape.max_slope, storage.sample_slopes);
   const std::size_t per_point = samples_.k.size() / control_.points.size();
-  const Vec2f* sample = storage.sample_slopes.data();
-  for (Vec2f& slope : storage.slopes) {
-    slope = Vec2f::Zero();
-    for (std::size_t i = 0; i < per_point; ++i) slope += *sample++;
-    slope /= static_cast<float>(per_point);
-  }
+  const auto max_slope = static_cast<float>(shape.max_slope);
+  parallel_for(
+      control_.points.size(),
+      [&](std::size_t c) {
+        Vec2f sum = Vec2f::Zero();
+        for (std::size_t i = c * per_point; i < (c + 1) * per_point; ++i) {
+          const float w = storage.weight(samples_.k[i]) * boundary_weight[samples_.points[i]];
+          sum += frame_slope(samples_.normals[i], w, max_slope);
+        }
+        storage.slopes[c] = sum / static_cast<float>(per_point);
+      },
+      512);
   system_.solve(storage.slopes, storage.heights, storage.system);
 }
 
 // Below a thousandth of the height, where z0_c says nothing about the ratio, it fades to that of all control
 // points.
-void SubspaceModel::set_reference(double max_slope) {
+void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
-  solve({keep_all, 0, max_slope}, *workspace.storage_);
+  solve({keep_all, 0, max_slope}, boundary_weight, workspace);
   control_reference_ = workspace.storage_->heights;
   const auto [lowest, highest] = std::minmax_element(control_reference_.begin(), control_reference_.end());
   const float faint = 1e-3F * (*highest - *lowest);
@@ -201,28 +207,19 @@ void SubspaceModel::fit(Workspace::Storage& storage) const {
   offset_spline_.fit(storage.offsets, storage.offset, storage.offset_fit);
 }
 
-void SubspaceModel::heights(const Shape& shape, Workspace& workspace, std::span<float> heights) const {
+void SubspaceModel::carry(std::span<const float> boundary_weight, Workspace& workspace,
+                          std::span<float> heights) const {
   Workspace::Storage& storage = *workspace.storage_;
-  solve(shape, storage);
   fit(storage);
+  MultilevelSpline::pair_up(storage.ratio, storage.offset, storage.pair);
+  const float ratio = storage.ratio.mean, offset = storage.offset.mean;
   parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
     const std::span<float> z = heights.subspan(begin, end - begin);
-    std::array<float, default_grain> offset;
-    offset_spline_.evaluate({storage.ratio, storage.offset}, std::span(places_).subspan(begin, z.size()),
-                            {z, offset});
+    std::array<float, default_grain> offsets;
+    offset_spline_.evaluate(storage.pair, std::span(places_).subspan(begin, z.size()), {z, offsets});
     for (std::size_t i = 0; i < z.size(); ++i)
-      z[i] = z[i] * reference_[begin + i] + offset[i] * boundary_weight_[begin + i];
+      z[i] = (z[i] + ratio) * reference_[begin + i] + (offsets[i] + offset) * boundary_weight[begin + i];
   });
-}
-
-Relief SubspaceModel::make(const Shape& shape) const {
-  Workspace workspace = make_workspace();
-  std::vector<float> z(size());
-  heights(shape, workspace, z);
-  Relief relief{std::vector<double>(z.begin(), z.end()), 0, shape};
-  add_detail(relief.heights, {k_, boundary_weight_, shape.gamma});
-  relief.height = height_span(relief.heights);
-  return relief;
 }
 
 }  // namespace relievo

@@ -128,7 +128,18 @@ Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& op
   return pick(k, shown);
 }
 
+template <typename T>
+std::size_t bytes(const std::vector<T>& v) {
+  return v.size() * sizeof(T);
+}
+
 }  // namespace
+
+std::size_t Surface::memory() const {
+  return bytes(points) + bytes(normals) + bytes(curvature.k) + bytes(triangulation.triangles) +
+         bytes(triangulation.hull) + bytes(boundary.is_inside) + bytes(boundary.is_boundary) +
+         bytes(boundary.distance);
+}
 
 Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
                              Progress* progress) {
@@ -155,6 +166,7 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
 
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
   surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
+  surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
 }
 

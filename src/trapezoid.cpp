@@ -47,19 +47,22 @@ RELIEVO_INLINE void add_across(const Float4* v, float* sums) {
   four(sums) = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 
-// result = panel^T * x, for Width columns.
+// result = panel^T * x, for Width columns. From the last row up: see multiply_transposed().
 template <int Width>
 RELIEVO_INLINE void multiply_panel(const float* panel, Index rows, const float* x, float* result) {
-  Float8 sum[Width] = {};
-  Index r = 0;
-  for (; r + 8 <= rows; r += 8, panel += 8 * Width)
-    for (int w = 0; w < Width; ++w) sum[w] += eight(panel + 8 * w) * eight(x + r);
+  Index r = rows / 8 * 8;
+  const float* block = panel + std::size_t{r} * Width;
   Float4 half[8] = {};
-  for (int w = 0; w < Width; ++w)
-    half[w] = __builtin_shufflevector(sum[w], sum[w], 0, 1, 2, 3) +
-              __builtin_shufflevector(sum[w], sum[w], 4, 5, 6, 7);
   if (r < rows)
-    for (int w = 0; w < Width; ++w) half[w] += four(panel + 4 * w) * four(x + r);
+    for (int w = 0; w < Width; ++w) half[w] = four(block + 4 * w) * four(x + r);
+  Float8 sum[Width] = {};
+  while (r > 0) {
+    r -= 8, block -= 8 * Width;
+    for (int w = Width; w-- > 0;) sum[w] += eight(block + 8 * w) * eight(x + r);
+  }
+  for (int w = 0; w < Width; ++w)
+    half[w] += __builtin_shufflevector(sum[w], sum[w], 0, 1, 2, 3) +
+               __builtin_shufflevector(sum[w], sum[w], 4, 5, 6, 7);
   float sums[8];
   add_across(half, sums);
   if (Width > 4) add_across(half + 4, sums + 4);
@@ -105,19 +108,24 @@ RELIEVO_INLINE const float* add_product(NodeSize node, const float* values, cons
   return values + std::size_t{node.width - c} * (rows - c);
 }
 
-// result = W^T x.
+// Number of values of the panels left of column c.
+RELIEVO_INLINE std::size_t values_before(Index c, Index rows) {
+  return std::size_t{c} * rows - std::size_t{c} * (c - panel_width) / 2;
+}
+
+// result = W^T x. Reads the values exactly backwards: the processor fetches such a stream ahead by itself.
 RELIEVO_INLINE void multiply_transposed(NodeSize node, const float* values, const float* x, float* result) {
   const Index rows = padded_rows(node.width, node.below);
-  Index c = 0;
-  for (; c + 8 <= node.width; c += 8) {
-    multiply_panel<8>(values, rows - c, x + c, result + c);
-    values += std::size_t{8} * (rows - c);
+  Index c = node.width / 8 * 8;
+  if (c < node.width)
+    with_width(
+        node.width - c, [&]<int Width>() __attribute__((always_inline)) {
+          multiply_panel<Width>(values + values_before(c, rows), rows - c, x + c, result + c);
+        });
+  while (c > 0) {
+    c -= 8;
+    multiply_panel<8>(values + values_before(c, rows), rows - c, x + c, result + c);
   }
-  if (c == node.width) return;
-  with_width(
-      node.width - c, [&]<int Width>() __attribute__((always_inline)) {
-        multiply_panel<Width>(values, rows - c, x + c, result + c);
-      });
 }
 
 RELIEVO_INLINE void forward_inline(const Subtree& subtree) {
@@ -145,15 +153,9 @@ RELIEVO_INLINE void gather(const float* segment, const std::uint16_t* rows, Inde
   if (i < count) four(x + i) = Float4{segment[rows[0]], segment[rows[1]], segment[rows[2]], segment[rows[3]]};
 }
 
-std::size_t value_count(NodeSize node) {
-  const std::size_t rows = padded_rows(node.width, node.below);
-  const std::size_t full = node.width / 8, rest = node.width % 8;
-  return 8 * (full * rows - 4 * full * (full - (full > 0 ? 1 : 0))) + rest * (rows - 8 * full);
-}
-
-// Asks for the values read soon. Backwards the processor does not guess them by itself.
-RELIEVO_INLINE void prefetch(const float* begin, std::size_t floats) {
-  for (std::size_t i = 0; i < floats; i += 16) __builtin_prefetch(begin + i);
+RELIEVO_INLINE std::size_t value_count(NodeSize node) {
+  const Index rows = padded_rows(node.width, node.below), full = node.width / 8 * 8;
+  return values_before(full, rows) + std::size_t{node.width - full} * (rows - full);
 }
 
 RELIEVO_INLINE void backward_inline(const Subtree& end) {
@@ -164,9 +166,7 @@ RELIEVO_INLINE void backward_inline(const Subtree& end) {
   for (const NodeSize node : end.nodes) own += node.width;
   for (std::size_t s = end.nodes.size(); s-- > 0;) {
     const NodeSize node = end.nodes[s];
-    const std::size_t floats = value_count(node);
-    values -= floats;
-    prefetch(values - 1024 - floats, floats + 16);
+    values -= value_count(node);
     const Index count = padded_rows(node.width, node.below);
     rows -= count;
     own -= node.width;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/parallel.h"
-
 namespace relievo {
 namespace {
 
@@ -28,8 +26,8 @@ double twice_area(std::span<const Vec2> points, const Triangle& t) {
 
 }  // namespace
 
-VertexNormals::VertexNormals(std::span<const Vec2> points, const Triangulation& triangulation,
-                             const Boundary& boundary) {
+PointLinks vertex_normal_links(std::span<const Vec2> points, const Triangulation& triangulation,
+                               const Boundary& boundary, const PointLinks* like) {
   std::vector<double> z(points.size(), 0.0);  // of the sum of cross products: it does not change
   std::vector<Index> count(points.size() + 1, 0);
   std::vector<Term> terms;
@@ -50,10 +48,12 @@ VertexNormals::VertexNormals(std::span<const Vec2> points, const Triangulation& 
   std::vector<Index> next(count.begin(), count.end() - 1);
   for (const Term& term : terms) sorted[next[term.point]++] = term;
 
-  begin_.reserve(points.size() + 1);
-  links_.reserve(terms.size() * 7 / 18 + 16);
+  std::vector<Index> begin;
+  std::vector<PointLink> links;
+  begin.reserve(points.size() + 1);
+  links.reserve(terms.size() * 7 / 18 + 16);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    begin_.push_back(static_cast<Index>(links_.size()));
+    begin.push_back(static_cast<Index>(links.size()));
     const auto first = sorted.begin() + count[i], last = sorted.begin() + count[i + 1];
     std::stable_sort(first, last, [](const Term& p, const Term& q) { return p.other < q.other; });
     for (auto term = first; term != last;) {
@@ -62,26 +62,11 @@ VertexNormals::VertexNormals(std::span<const Vec2> points, const Triangulation& 
       for (; term != last && term->other == other; ++term) pull += term->pull;
       // The point's own height cancels where triangles close around it.
       const bool cancels = pull.norm() <= 1e-12 * std::sqrt(z[i]);
-      if (!cancels && z[i] > 0) links_.push_back({other, (pull / z[i]).cast<float>()});
+      if (!cancels && z[i] > 0) links.push_back({other, (pull / z[i]).cast<float>()});
     }
   }
-  begin_.push_back(static_cast<Index>(links_.size()));
-  links_.shrink_to_fit();
-}
-
-void VertexNormals::compute(std::span<const float> heights, const Vec3f& light, std::span<Vec3f> normals,
-                            std::span<float> shading) const {
-  parallel_for(normals.size(), [&](std::size_t i) {
-    float x = 0, y = 0;
-    for (Index l = begin_[i]; l < begin_[i + 1]; ++l) {
-      const float z = heights[links_[l].other];
-      x += z * links_[l].pull.x();
-      y += z * links_[l].pull.y();
-    }
-    const float scale = 1 / std::sqrt(x * x + y * y + 1);
-    normals[i] = {x * scale, y * scale, scale};
-    shading[i] = std::max(0.F, (x * light.x() + y * light.y() + light.z()) * scale);
-  });
+  begin.push_back(static_cast<Index>(links.size()));
+  return like ? PointLinks(begin, links, *like) : PointLinks(begin, links);
 }
 
 }  // namespace relievo

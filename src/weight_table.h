@@ -17,6 +17,7 @@ namespace relievo {
 class WeightTable {
  public:
   void fill(double delta, const Compression& compression) {
+    if (!entries_.empty() && delta == delta_ && compression == compression_) return;
     delta_ = delta;
     compression_ = compression;
     entries_.resize(last_place - first_place + 2);

@@ -25,6 +25,9 @@ class Cholesky {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
+    // Bytes held.
+    std::size_t memory() const;
+
     struct Storage;
 
    private:
@@ -49,13 +52,18 @@ class Cholesky {
   // Number of unknowns.
   std::size_t size() const;
 
+  // From now on unknown i stands at element numbers[i] of b and x; their other elements are neither read nor
+  // written. One number per unknown, no two the same.
+  void renumber(std::span<const Index> numbers);
+
   // Bytes held, workspaces not counted.
   std::size_t memory() const;
 
   Workspace make_workspace() const;
 
-  // All of these write to x the solution of A x = b. b and x have size() elements and may be the same
-  // storage. With a workspace nothing is allocated (see there for the first solve in double).
+  // All of these write to x the solution of A x = b. b and x have size() elements (see also
+  // renumber()) and may be the same storage. With a workspace nothing is allocated (see there for the first
+  // solve in double).
 
   // One substitution in single precision: an error of about 1e-6 of the largest |x| for a well-shaped
   // triangulation.

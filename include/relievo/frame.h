@@ -20,7 +20,7 @@ struct FrameOptions {
 
 struct FrameTimes {
   double heights_s = 0;  // t1: weights, slopes, right-hand side, solve; all rounds of a locked height
-  double detail_s = 0;   // t2
+  double detail_s = 0;   // t2: detail, and the mapping from control points if there are
   double normals_s = 0;  // t3: normals and shading
   int solves = 0;        // 1, or as many as a locked height took
 };

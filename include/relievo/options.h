@@ -19,6 +19,7 @@ struct ReliefOptions {
   std::optional<double> steepest_deg;  // steepest slope of the front, 76 without it
   double boundary_width = 2;           // of (7), in sampling distances
   std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
+  std::string mode = "exact";
   std::string view = "front";
   std::string up;
   double margin_mm = 5;
@@ -57,6 +58,8 @@ void visit(Options& o, F&& f) {
   f(OptionField{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100}, o.boundary_width);
   f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
     o.tone);
+  f(OptionField{"mode", "MODE", "exact, subspace (from 8,000 control points, close to exact) or auto"},
+    o.mode);
   f(
       OptionField{
           "view", "SIDE",

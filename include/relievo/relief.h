@@ -1,20 +1,16 @@
-// The relief of a surface: prepared once, shaped many times. Stages 8, 9, 11, 12 and 14.
+// The relief of a surface: prepared once, shaped many times. Stages 7 to 12 and 14.
 #pragma once
 
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "relievo/heights.h"
+#include "relievo/subspace.h"
 #include "relievo/surface.h"
 #include "relievo/weights.h"
 
 namespace relievo {
-
-struct Shape {
-  Compression compression;    // height and saturation
-  double gamma = 0;           // detail coefficient, [0, 1]
-  double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
-  double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
-};
 
 struct Relief {
   std::vector<double> heights;  // per point of the surface, above the base, in its units
@@ -22,14 +18,37 @@ struct Relief {
   Shape shape;                  // what it was made with
 };
 
+// How heights are found.
+enum class Mode {
+  exact,     // from all visible points
+  subspace,  // from a few thousand control points: see SubspaceModel
+  automatic  // exact, unless there are more visible points than `most_exact_points`
+};
+
+// Their frames take about 40 ms on two cores.
+inline constexpr std::size_t most_exact_points = 1'500'000;
+
+// Returns the mode of that name: exact, subspace or auto. Errors: kind option, naming --mode.
+Result<Mode> parse_mode(std::string_view name);
+
+// Returns exact or subspace: what `automatic` comes to for that surface, other modes as they are.
+Mode settle(Mode mode, const Surface& surface);
+
 // A surface with its factored system. Const calls may run concurrently.
 class ReliefModel {
  public:
-  // Takes the surface and factors its system. Errors: see HeightSystem::build(); kind cancelled.
-  static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr);
+  // Takes the surface and factors its system, or that of its control points. Errors: see
+  // HeightSystem::build(); kind cancelled.
+  static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
 
   const Surface& surface() const { return surface_; }
-  const HeightSystem& system() const { return system_; }
+
+  // The system of all points, or of the control points; the other is null.
+  const HeightSystem* system() const { return std::get_if<HeightSystem>(&solver_); }
+  const SubspaceModel* subspace() const { return std::get_if<SubspaceModel>(&solver_); }
+
+  // Bytes held.
+  std::size_t memory() const;
 
   // Returns the relief of that shape.
   Relief make(const Shape& shape) const;
@@ -42,11 +61,13 @@ class ReliefModel {
                                 Progress* progress = nullptr) const;
 
  private:
-  ReliefModel(Surface surface, HeightSystem system);
+  using Solver = std::variant<HeightSystem, SubspaceModel>;
+
+  ReliefModel(Surface surface, Solver solver);
+  std::vector<double> heights(const Shape& shape, std::span<const float> boundary_weight) const;
 
   Surface surface_;
-  HeightSystem system_;
-  std::vector<float> boundary_weight_;  // for the default width
+  Solver solver_;
 };
 
 }  // namespace relievo

@@ -32,7 +32,8 @@ class Session {
   Session();
   ~Session();  // cancels what runs and waits for it
 
-  void open(std::shared_ptr<const Cloud> cloud, const View& view, const SurfaceOptions& options = {});
+  void open(std::shared_ptr<const Cloud> cloud, const View& view, const SurfaceOptions& options = {},
+            Mode mode = Mode::automatic);
 
   // Cancels the preparation that runs or waits, if any. Frames are too short for that.
   void cancel();

@@ -64,20 +64,26 @@ class MultilevelSpline {
   void evaluate(const SplineFunction& function, std::span<const SplinePlace> places,
                 std::span<float> values) const;
 
-  // The same for two functions, which may be those of another spline with the same domain, cell and levels.
-  struct Pair {
-    const SplineFunction& a;
-    const SplineFunction& b;
-  };
+  // Overwrites `pair` with two functions, which may be those of another spline with the same domain, cell and
+  // levels: at each node both, side by side.
+  static void pair_up(const SplineFunction& a, const SplineFunction& b, std::vector<float>& pair);
+
+  // Writes the values of both at each place, less their means; in the calling thread alone.
   struct PairValues {
     std::span<float> a, b;
   };
-  void evaluate(const Pair& functions, std::span<const SplinePlace> places, const PairValues& values) const;
+  void evaluate(std::span<const float> pair, std::span<const SplinePlace> places,
+                const PairValues& values) const;
 
  private:
-  struct Site {
+  struct Position {
     Index node = 0;
-    float x = 0, y = 0;  // position in the middle cell, [0, 1]
+    float x = 0, y = 0;  // in the middle cell, [0, 1]
+  };
+  struct Site {
+    Eigen::Array4f x, y;  // weights of the nodes
+    Index node = 0;
+    float scale = 0;  // the site's weight over the sum of the squares of those
   };
   struct Level {
     std::size_t columns = 0, rows = 0;  // of nodes: cells + 3
@@ -86,7 +92,7 @@ class MultilevelSpline {
     std::vector<float> inverse;  // per node, of the weight around it
   };
 
-  Site locate(const Level& level, const Vec2& point) const;
+  Position locate(const Level& level, const Vec2& point) const;
   void prepare(Level& level, std::span<const Vec2> sites, double damping) const;
   static void refine(const Level& coarse, std::vector<float>& nodes, std::vector<float>& copy);
   void correct(const Level& level, std::vector<float>& nodes, Workspace& workspace) const;

@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "relievo/control_points.h"
-#include "relievo/relief.h"
+#include "relievo/heights.h"
 #include "relievo/spline.h"
+#include "relievo/surface.h"
+#include "relievo/weights.h"
 
 namespace relievo {
 
@@ -23,8 +25,8 @@ struct SubspaceOptions {
 // reference heights, z_c / z0_c, both solved on the control points; the offset d is what a smooth ratio
 // leaves of z_c, above all where z0 passes 0. Multilevel B-splines carry both to all points.
 //
-// Heights are within about 1 % (root mean square, of the height) of ReliefModel's, which is for the final
-// output: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of its own.
+// Heights are within about 1 % (root mean square, of the height) of the exact ones:
+// docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of its own.
 class SubspaceModel {
  public:
   // What a relief needs besides the model, so that frames allocate nothing.
@@ -34,6 +36,9 @@ class SubspaceModel {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
+    // Bytes held, up to a little.
+    std::size_t memory() const;
+
    private:
     friend class SubspaceModel;
     struct Storage;
@@ -41,8 +46,8 @@ class SubspaceModel {
     std::unique_ptr<Storage> storage_;
   };
 
-  // Copies what it needs of the surface. `reference` holds z0 per point, what ReliefModel::make() gives for
-  // {infinity, 0}, no detail and the same greatest slope; if it is empty, z0 is solved for, which takes most
+  // Copies what it needs of the surface. `reference` holds z0 per point, the exact heights for
+  // compression {infinity, 0} and the same greatest slope; if it is empty, z0 is solved for, which takes most
   // of the time and memory. Errors: see HeightSystem::build(); kind cancelled.
   static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {},
                                        std::span<const double> reference = {}, Progress* progress = nullptr);
@@ -57,17 +62,19 @@ class SubspaceModel {
 
   Workspace make_workspace() const;
 
-  // Returns the relief of that shape: what ReliefModel::make() does, approximately.
-  Relief make(const Shape& shape) const;
+  // Finds the heights of the control points. `boundary_weight` is w_b per point of the surface, for the
+  // shape's boundary width.
+  void solve(const Shape& shape, std::span<const float> boundary_weight, Workspace& workspace) const;
 
-  // Writes the heights above the base, before detail, of all points.
-  void heights(const Shape& shape, Workspace& workspace, std::span<float> heights) const;
+  // Carries them to all points: writes their heights above the base, before detail.
+  void carry(std::span<const float> boundary_weight, Workspace& workspace, std::span<float> heights) const;
 
  private:
   // Normals that stand for a region, as many for each control point.
   struct Samples {
     std::vector<Vec3f> normals;
-    std::vector<float> k, boundary_weight;
+    std::vector<float> k;
+    std::vector<Index> points;  // that they are taken from
   };
   // A control point's ratio is z_c pull + (the ratio of all of them) rest.
   struct RatioTerm {
@@ -75,9 +82,8 @@ class SubspaceModel {
   };
 
   SubspaceModel(HeightSystem system, Samples samples, double delta);
-  void solve(const Shape& shape, Workspace::Storage& storage) const;
   void fit(Workspace::Storage& storage) const;
-  void set_reference(double max_slope);
+  void set_reference(double max_slope, std::span<const float> boundary_weight);
   void set_splines(std::span<const Vec2> sites, std::span<const Vec2> points);
 
   ControlPoints control_;
@@ -89,7 +95,7 @@ class SubspaceModel {
   std::vector<RatioTerm> ratio_terms_;
   MultilevelSpline ratio_spline_, offset_spline_;
   std::vector<SplinePlace> places_;
-  std::vector<float> reference_, k_, boundary_weight_;
+  std::vector<float> reference_;  // z0 of all points
 };
 
 }  // namespace relievo

@@ -22,7 +22,7 @@ struct Surface {
   std::vector<Vec3> points;    // relative to `centre`, rotated
   std::vector<Vec3f> normals;  // unit length, z > 0; (0, 0, 1) at fillers
   NormalisedCurvature curvature;
-  Triangulation triangulation;
+  Triangulation triangulation;  // its `neighbours` are not kept
   Boundary boundary;
 
   View view;
@@ -33,6 +33,9 @@ struct Surface {
   std::size_t visible_points = 0;  // of them; the rest of `points` are fillers
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the file's normals pointed inwards
+
+  // Bytes held.
+  std::size_t memory() const;
 };
 
 // Returns the surface. Normals are estimated if the cloud has none, and turned if they point inwards.

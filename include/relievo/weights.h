@@ -20,10 +20,20 @@ struct Compression {
   // keeps what the curve says; beta has no effect then.
   std::shared_ptr<const ToneCurve> curve = nullptr;
 
+  bool operator==(const Compression&) const = default;
+
   // From the paper's pair; alpha in [0, infinity).
   static Compression from_alpha(double alpha, double beta);
   // The paper's height coefficient u^(-1/beta); NaN where beta = 0 leaves it open.
   double alpha() const;
+};
+
+// All that shapes a relief.
+struct Shape {
+  Compression compression;    // height and saturation
+  double gamma = 0;           // detail coefficient, [0, 1]
+  double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
+  double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
 };
 
 // Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never

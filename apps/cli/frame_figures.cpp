@@ -1,0 +1,70 @@
+#include "frame_figures.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "relievo/frame.h"
+#include "relievo/parallel.h"
+
+namespace relievo::cli {
+
+double Series::percentile(double share) const {
+  if (ms.empty()) return 0;
+  std::vector<double> sorted = ms;
+  std::sort(sorted.begin(), sorted.end());
+  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1) + .5)];
+}
+
+FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run) {
+  const int threads_before = thread_count();
+  set_thread_count(run.threads);
+  FrameFigures figures{model.subspace() ? "subspace" : "exact", 0, run.threads, {}, {}, {}, {}, 0};
+  if (run.is_locked) figures.mode += ", height locked";
+  if (model.subspace()) figures.control_points = model.subspace()->control_points().points.size();
+  FrameMaker maker(model);
+  Frame frame;
+  FrameOptions options;
+  options.shape = {{.5, .01}, .04};
+  maker.make(options, frame);
+  if (run.is_locked) options.height = .8 * frame.height;
+  if (run.is_locked) maker.make(options, frame);
+  for (int i = 0; i < run.frames; ++i) {
+    (run.is_locked ? options.shape.compression.beta : options.shape.gamma) += .001;
+    maker.make(options, frame);
+    const FrameTimes& t = frame.times;
+    figures.heights.ms.push_back(1e3 * t.heights_s);
+    figures.detail.ms.push_back(1e3 * t.detail_s);
+    figures.normals.ms.push_back(1e3 * t.normals_s);
+    figures.whole.ms.push_back(1e3 * (t.heights_s + t.detail_s + t.normals_s));
+    figures.solves += static_cast<double>(t.solves) / run.frames;
+  }
+  set_thread_count(threads_before);
+  return figures;
+}
+
+double bytes_per_point(const ReliefModel& model) {
+  const FrameMaker maker(model);
+  return static_cast<double>(model.memory() + maker.memory()) /
+         static_cast<double>(model.surface().points.size());
+}
+
+void print_frame_head() {
+  std::printf("%-30s %9s %8s %7s %6s %6s %6s %6s %6s %8s %6s\n", "frames, milliseconds", "visible", "control",
+              "threads", "t1", "t2", "t3", "p50", "p95", "frames/s", "solves");
+}
+
+void print_frames(const FrameFigures& f, std::size_t visible_points) {
+  const double p50 = f.whole.percentile(.5);
+  std::printf("  %-28s %9zu %8zu %7d %6.2f %6.2f %6.2f %6.2f %6.2f %8.1f %6.2f\n", f.mode.c_str(),
+              visible_points, f.control_points, f.threads, f.heights.percentile(.5), f.detail.percentile(.5),
+              f.normals.percentile(.5), p50, f.whole.percentile(.95), p50 > 0 ? 1e3 / p50 : 0, f.solves);
+}
+
+void print_paper_rows() {
+  std::printf("the paper's Table 1 (six cores; t1 to t3 of three frames at once)\n");
+  for (const PaperRow& row : paper_table_1)
+    std::printf("  %-28s %9d %8d %7d %6d %6d %6d %6s %6s %8.2f\n", row.model, row.visible_points,
+                row.control_points, 6, row.t1, row.t2, row.t3, "", "", row.frames_per_second);
+}
+
+}  // namespace relievo::cli

@@ -1,0 +1,69 @@
+// What frames take, measured; and what the paper printed.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "relievo/relief.h"
+
+namespace relievo::cli {
+
+// Milliseconds of one part of a frame over many frames.
+struct Series {
+  std::vector<double> ms;
+
+  double percentile(double share) const;
+};
+
+struct FrameFigures {
+  std::string mode;
+  std::size_t control_points = 0;  // 0: all visible points
+  int threads = 1;
+  Series heights, detail, normals, whole;  // t1, t2, t3 and all of it
+  double solves = 0;                       // per frame
+};
+
+struct FrameRun {
+  int threads = 1;
+  int frames = 60;
+  bool is_locked = false;  // height locked
+};
+
+// Makes frames as a user does who drags a slider: the detail, or with a locked height the saturation.
+FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run);
+
+// Bytes that a model and what makes its frames hold, per visible point.
+double bytes_per_point(const ReliefModel& model);
+
+// A line of the paper's Table 1: six cores, milliseconds. The paper works on t1 to t3 of three frames at
+// once.
+struct PaperRow {
+  const char* model;
+  int visible_points, control_points, t1, t2, t3;
+  double frames_per_second;
+};
+inline constexpr std::array<PaperRow, 15> paper_table_1{{
+    {"children", 636699, 7813, 19, 35, 48, 26.28},
+    {"bust", 104543, 7924, 17, 26, 7, 38.38},
+    {"eagle", 388646, 7913, 18, 33, 27, 30.16},
+    {"lion", 178120, 6322, 14, 22, 10, 44.47},
+    {"armadillo", 320108, 8129, 20, 32, 25, 31.70},
+    {"squirrel", 99331, 6747, 15, 23, 7, 44.29},
+    {"horse", 184202, 10045, 23, 35, 18, 28.51},
+    {"bimba", 198457, 7469, 16, 26, 13, 36.39},
+    {"dragon", 282472, 8669, 21, 30, 21, 33.14},
+    {"models (12.a)", 328846, 10755, 25, 38, 21, 26.18},
+    {"models (12.b)", 416327, 9021, 22, 38, 28, 26.55},
+    {"frog", 168171, 7664, 17, 27, 12, 36.66},
+    {"turtle", 181220, 8111, 17, 28, 12, 35.34},
+    {"beckham", 346606, 8089, 18, 33, 24, 30.33},
+    {"buddha", 173336, 7314, 17, 26, 11, 38.35},
+}};
+
+// Prints lines of a table in the shape of the paper's: its head, a measured line, and the paper's own.
+void print_frame_head();
+void print_frames(const FrameFigures& figures, std::size_t visible_points);
+void print_paper_rows();
+
+}  // namespace relievo::cli

@@ -1,0 +1,28 @@
+// Equation (9) written out for fixed points: the matrix, and what the right-hand side takes of the slopes.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <span>
+#include <vector>
+
+#include "point_links.h"
+#include "relievo/boundary.h"
+#include "relievo/triangulation.h"
+
+namespace relievo {
+
+struct HeightEquations {
+  std::vector<Index> free_points;  // point of each unknown: those that are not on the boundary
+  Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the cotangent Laplacian
+  // Edges of point i are edges[begin[i]] up to edges[begin[i + 1]], in ascending order of the others;
+  // boundary points have one to themselves, too. The right-hand side is their divergence: see PointLinks.
+  // Pull: half the cotangent weight times the step from the other point; 0 at boundary points, whose heights
+  // are 0.
+  std::vector<Index> begin = {0};
+  std::vector<PointLink> edges;
+};
+
+HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
+                                 const Boundary& boundary);
+
+}  // namespace relievo
