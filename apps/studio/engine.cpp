@@ -37,8 +37,8 @@ struct Shared {
   bool is_reading = false;
   bool is_cancelled = false;
   std::optional<Error> error;
-  Scan scan;    // the newest that was read
-  Input shown;  // of the model that is shown
+  Scan scan;   // the newest that was read
+  Scan shown;  // of the model that is shown
   std::uint64_t models = 0;
   std::shared_ptr<const ReliefModel> model;
 };
@@ -124,10 +124,20 @@ struct Engine::State {
     shared.with([&](Shared& s) {
       if (newest == s.model) return;
       s.model = newest;
-      s.shown = s.scan.input;
+      s.shown = s.scan;
       ++s.models;
     });
     return newest;
+  }
+
+  // The scan that was read last, or the one that is shown if that came to nothing.
+  Scan scan_in_use() {
+    model();
+    const SessionStatus status = session.status();
+    return shared.with([&](const Shared& s) {
+      const bool has_failed = !status.is_preparing && (status.error || s.error);
+      return has_failed && s.shown.cloud ? s.shown : s.scan;
+    });
   }
 
   // With `drawing` held: the model, ready to be drawn; null before the first.
@@ -162,12 +172,13 @@ void Engine::open(const Input& input, const std::string& view, const std::string
 Result<void> Engine::choose_view(const std::string& view, const std::string& up) {
   const Result<View> parsed = parse_view(view, up);
   if (!parsed) return std::unexpected(parsed.error());
-  const Scan scan = state_->shared.with([&](Shared& s) {
+  const Scan scan = state_->scan_in_use();
+  state_->shared.with([&](Shared& s) {
     s.error = std::nullopt;
     s.is_cancelled = false;
     s.view = view;
     s.up = up;
-    return s.scan;
+    s.scan = scan;
   });
   if (!scan.cloud) return nothing_open();
   state_->session.open(scan.cloud, *parsed);
@@ -190,7 +201,7 @@ EngineStatus Engine::status() const {
                         session.stage,
                         session.fraction,
                         session.error,
-                        s.shown,
+                        s.shown.input,
                         s.wanted,
                         s.view,
                         s.up,
@@ -227,7 +238,7 @@ Result<ModelFacts> Engine::facts() const {
   if (surface.has_estimated_normals) facts.remarks.push_back("The scan has no normals: they were estimated.");
   if (surface.has_flipped_normals)
     facts.remarks.push_back("The scan's normals point inwards: they were turned.");
-  const std::size_t left_out = state_->shared.with([](const Shared& s) { return s.scan.left_out; });
+  const std::size_t left_out = state_->shared.with([](const Shared& s) { return s.shown.left_out; });
   if (left_out > 0) facts.remarks.push_back(cat("Left out ", left_out, " points far from all others."));
   return facts;
 }
@@ -321,7 +332,7 @@ Result<std::vector<float>> Engine::profile(const PictureRequest& request, const 
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   const std::lock_guard turn(state_->drawing);
-  const auto cloud = state_->shared.with([](const Shared& s) { return s.scan.cloud; });
+  const auto cloud = state_->scan_in_use().cloud;
   if (!cloud) return nothing_open();
   if (cloud != state_->drawn_cloud) state_->cloud_renderer.emplace(*cloud);
   state_->drawn_cloud = cloud;
@@ -331,7 +342,7 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
 }
 
 Result<std::vector<std::string>> Engine::suggest_views() {
-  const auto cloud = state_->shared.with([](const Shared& s) { return s.scan.cloud; });
+  const auto cloud = state_->scan_in_use().cloud;
   if (!cloud) return nothing_open();
   std::vector<std::string> names;
   for (const ViewGuess& guess : rank_views(*cloud)) names.emplace_back(guess.name);

@@ -22,6 +22,7 @@ let facts = null;
 let status = {busy: false, model: 0};
 let last = null; // what came with the newest picture
 let shownView = null; // of the model that is shown
+let fallback = null; // the document before the scan that is being opened
 let times = []; // of the newest pictures
 
 // ------------------------------------------------------------------------------------------------- sliders
@@ -85,7 +86,7 @@ function showDocument() {
   $("#redo").disabled = !doc.canRedo;
   $("#view-name").textContent = viewName(options.view);
   for (const swatch of $("#materials").children) check(swatch, swatch.dataset.material === material);
-  $("#title").textContent = input?.name ?? "";
+  $("#title").textContent = input?.sample ? sampleName(input.sample) : input?.name ?? "";
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
 }
 
@@ -175,6 +176,8 @@ async function arrived() {
     return failed(error);
   }
   shownView = {view: status.view, up: status.up};
+  fallback = null;
+  if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
   stage.isReady = true;
   stage.model = status.model;
   stage.share = 1;
@@ -186,6 +189,12 @@ async function arrived() {
 function complain({error, model}) {
   if (error.kind !== "cancelled") toast(error.text);
   if (model === 0) return showStart(true);
+  if (fallback && doc.restore(fallback)) {
+    fallback = null; // the old relief is still there: go on with it
+    showDocument();
+    keepSoon();
+    return;
+  }
   const {view, up} = doc.now.options;
   if (shownView && (view !== shownView.view || up !== shownView.up)) doc.change({options: shownView});
 }
@@ -234,6 +243,7 @@ function lost() {
 
 async function openInput(input, step = {...FIRST, input}) {
   showStart(false);
+  fallback = status.model > 0 ? doc.keep() : null;
   doc.begin({...step, input});
   try {
     await engine.open(input, viewOf(step));
@@ -379,6 +389,7 @@ function key(event) {
   if (event.key === "?") return $("#help-dialog").showModal();
   if ($("#studio").hidden || !facts) return;
   if (event.key === "b" && !event.repeat) return stage.hold(true);
+  if (event.key === "Escape") return setTable(false);
   const material = Object.keys(MATERIALS)[Number(event.key) - 1];
   if (material) return doc.change({material});
   KEYS[event.key]?.();
@@ -389,11 +400,13 @@ function key(event) {
 function fillStart(about) {
   $("#samples").append(...about.samples.map(({name, description}) => make("li", {}, make("button", {onclick: () => openInput({sample: name, name})},
     make("img", {src: `sample-${name}.jpg`, alt: "", width: 320, height: 200}),
-    make("span", {}, make("b", {}, name.replaceAll("-", " ").replaceAll("_", " ")), make("small", {}, description))))));
+    make("span", {}, make("b", {}, sampleName(name)), make("small", {}, description))))));
   const recent = about.recent.filter(({sample}) => !sample);
   $("#recent-shelf").hidden = recent.length === 0;
   $("#recent").append(...recent.map((input) => make("li", {}, make("button", {title: input.path, onclick: () => openInput(input)}, input.name))));
 }
+
+const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
 
 const isSame = (a, b) => a && b && (a.sample ?? "") === (b.sample ?? "") && (a.path ?? "") === (b.path ?? "");
 
