@@ -82,6 +82,7 @@ struct Engine::State {
   std::mutex drawing;  // guards what follows
   std::uint64_t drawn_model = 0;
   std::optional<FrameRenderer> renderer;
+  std::weak_ptr<const Frame> drawn_frame;
   std::optional<FrameOptions> last;  // that were asked for, of this model
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
@@ -311,7 +312,9 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   answer.compression = frame->options.shape.compression;
   answer.height_mm = frame->height * scale;
   answer.is_height_met = frame->is_height_met;
-  answer.times = frame->times;
+  // A frame that was shown before cost nothing now.
+  if (state_->drawn_frame.lock() != frame) answer.times = frame->times;
+  state_->drawn_frame = frame;
   return answer;
 }
 

@@ -199,19 +199,18 @@ function complain({error, model}) {
   if (shownView && (view !== shownView.view || up !== shownView.up)) doc.change({options: shownView});
 }
 
-function showProgress() {
-  const box = $("#progress");
-  box.hidden = !status.busy;
+function showProgress({busy, stage, fraction = 0} = status) {
+  const box = $("#progress"), percent = Math.round(fraction * 100);
+  box.hidden = !busy;
   box.classList.toggle("alone", status.model === 0);
-  const percent = Math.round((status.fraction ?? 0) * 100);
   box.setAttribute("aria-valuenow", percent);
-  box.setAttribute("aria-valuetext", `${stageName(status.stage)}, ${percent} percent`);
+  box.setAttribute("aria-valuetext", `${stageName(stage)}, ${percent} percent`);
   $(".fill", box).style.width = `${Math.max(4, percent)}%`;
-  $("#stage-name").textContent = `${stageName(status.stage)} …`;
+  $("#stage-name").textContent = `${stageName(stage)} …`;
 }
 
 const STAGES = {
-  waiting: "Getting ready", read: "Reading the scan", view: "Turning the model", spacing: "Measuring the spacing", normals: "Looking at normals",
+  "take in": "Taking in the file", waiting: "Getting ready", read: "Reading the scan", view: "Turning the model", spacing: "Measuring the spacing", normals: "Looking at normals",
   visible: "Finding what is seen", curvature: "Measuring curvature", triangulation: "Connecting the points", boundary: "Finding the rim",
   factorisation: "Preparing live work",
 };
@@ -255,12 +254,25 @@ async function openInput(input, step = {...FIRST, input}) {
 async function openFile(file) {
   if (!file) return;
   try {
-    if (!file.name.endsWith(".relievo")) return await openInput(await engine.upload(file));
+    if (!file.name.endsWith(".relievo")) return await openInput(await takeIn(file));
     const text = await file.text(), checked = await engine.readProject(file.name, text);
     const step = stepOfProject(text, checked);
     await openInput(step.input, step);
   } catch (error) {
     failed(error);
+  }
+}
+
+// The engine gets the file's bytes; for large scans that takes a moment.
+async function takeIn(file) {
+  showStart(false);
+  showProgress({busy: true, stage: "take in"});
+  try {
+    return await engine.upload(file);
+  } catch (error) {
+    showProgress(status);
+    showStart(status.model === 0);
+    throw error;
   }
 }
 

@@ -139,6 +139,18 @@ test("drags the height: number and picture change", {skip}, async () => {
   assertOther(await picture(), first);
 });
 
+test("moves sliders by wheel and double click, too", {skip}, async () => {
+  const height = await value("Height in mm");
+  await slider("Steepest wall").hover();
+  await page.mouse.wheel(0, 200);
+  assert.ok((await value("Steepest wall in degrees")) < 76);
+  await slider("Steepest wall").dblclick();
+  assert.equal(await value("Steepest wall in degrees"), 76);
+  await field("Height in mm").fill("nonsense".replace(/\D/g, ""));
+  await field("Height in mm").press("Enter");
+  assert.equal(await value("Height in mm"), height);
+});
+
 test("keeps a locked height while saturation moves", {skip}, async () => {
   await set("Height in mm", 3);
   await untilHeight(3, 0.01);
