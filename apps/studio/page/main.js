@@ -136,13 +136,16 @@ function pictured(about, ms, isFine) {
 
 const number = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString());
 
+// A frame meets a locked height to a part in a thousand, the finished relief exactly.
+const shownHeight = ({height_mm, is_height_met}) => (doc.now.isHeightLocked && is_height_met ? doc.now.options.height : height_mm);
+
 let frames = "";
 function showNumbers(about, ms, isFine) {
   if (!isFine && times.length > 5) frames = `${times.length} frames/s`;
   const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
-    `height ${about.height_mm.toFixed(3)} mm`, frames, !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
+    `height ${shownHeight(about).toFixed(2)} mm`, frames, !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
   $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
-  $("#numbers").title = `heights ${about.heights_ms.toFixed(1)} ms in ${about.solves} solves, detail ${about.detail_ms.toFixed(1)} ms, normals ${about.normals_ms.toFixed(1)} ms, picture ${about.drawing_ms.toFixed(1)} ms`;
+  $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; heights ${about.heights_ms.toFixed(1)} ms in ${about.solves} solves, detail ${about.detail_ms.toFixed(1)} ms, normals ${about.normals_ms.toFixed(1)} ms, picture ${about.drawing_ms.toFixed(1)} ms`;
 }
 
 function showSection(heights, from, to) {

@@ -80,7 +80,8 @@ function difference(a, b) {
 const assertSame = (a, b) => assert.ok(difference(a, b) < 0.05, `pictures differ by ${difference(a, b)}`);
 const assertOther = (a, b) => assert.ok(difference(a, b) > 0.2, `pictures differ by ${difference(a, b)} only`);
 
-const heightShown = async () => Number((await numbers().innerText()).match(/height ([\d.]+) mm/)?.[1]);
+// Of the newest frame, not what was asked for.
+const heightShown = async () => Number((await numbers().getByTitle(/height reached/).getAttribute("title")).match(/reached ([\d.]+)/)[1]);
 
 async function untilHeight(wanted, tolerance) {
   for (let i = 0; i < 100; ++i) {
