@@ -7,8 +7,9 @@
 
 #include "commands.h"
 #include "files.h"
+#include "flags.h"
+#include "inputs.h"
 #include "project.h"
-#include "relievo/io.h"
 #include "relievo/make_relief.h"
 #include "relievo/parallel.h"
 #include "relievo/preview.h"
@@ -26,6 +27,7 @@ struct MakeArguments {
   bool is_quiet = false;
   ReliefOptions relief;
   std::optional<studio::Input> scan;  // of a project
+  InputArguments in;
 };
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
@@ -104,30 +106,13 @@ std::vector<std::byte> text_bytes(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-Result<CloudFile> load(const MakeArguments& arguments, Progress& progress) {
+Result<Input> load(const MakeArguments& arguments, Progress& progress) {
+  if (!arguments.scan) return read_input(arguments.input, arguments.in, arguments.relief.points, &progress);
   if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
-  if (arguments.scan) {
-    studio::Input scan = *arguments.scan;
-    Result<Cloud> cloud = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
-    if (!cloud) return std::unexpected(cloud.error());
-    return CloudFile{std::move(*cloud), "project", 0, 0};
-  }
-  const std::string& input = arguments.input;
-  const Result<std::vector<std::byte>> bytes = read_file(input);
-  if (!bytes) return std::unexpected(bytes.error());
-  return read_cloud(*bytes, input);
-}
-
-// What was left out of a file, in a line for each, or nothing.
-std::vector<std::string> remarks_on(const CloudFile& file, const std::string& input) {
-  std::vector<std::string> lines;
-  if (file.dropped_points > 0)
-    lines.push_back(
-        cat(input, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
-  if (file.dropped_normals > 0)
-    lines.push_back(cat(input, ": left out ", file.dropped_normals,
-                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
-  return lines;
+  studio::Input scan = *arguments.scan;
+  Result<CloudFile> file = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
+  if (!file) return std::unexpected(file.error());
+  return Input{std::move(*file), {}};
 }
 
 std::vector<OutputFile> finished_files(const MakeArguments& arguments, const MadeRelief& made,
@@ -151,10 +136,10 @@ struct Finished {
 };
 
 Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
-  const Result<CloudFile> file = load(arguments, progress);
-  if (!file) return std::unexpected(file.error());
-  Finished finished{{}, remarks_on(*file, arguments.input)};
-  Result<MadeRelief> made = make_relief(file->cloud, arguments.relief, &progress);
+  const Result<Input> input = load(arguments, progress);
+  if (!input) return std::unexpected(input.error());
+  Finished finished{{}, input->remarks};
+  Result<MadeRelief> made = make_relief(input->file, arguments.relief, &progress);
   if (!made) {
     if (made.error().input.empty()) made.error().input = arguments.input;
     return std::unexpected(made.error());
@@ -171,6 +156,7 @@ Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
 
 Result<void> make(const MakeArguments& arguments) {
   if (auto ok = check(arguments.relief); !ok) return ok;
+  if (auto ok = check(arguments.in.depth); !ok) return ok;
   if (auto ok = check_outputs(arguments); !ok) return ok;
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
@@ -182,30 +168,6 @@ Result<void> make(const MakeArguments& arguments) {
     if (!arguments.is_quiet) std::fprintf(stderr, "%s\n", line.c_str());
   return {};
 }
-
-// Adds one flag for each field of ReliefOptions.
-struct FlagAdder {
-  CLI::App& command;
-
-  void operator()(const OptionField& field, double& value) {
-    describe(command.add_option(flag(field), value, help(field)), field)->capture_default_str();
-  }
-  void operator()(const OptionField& field, std::optional<double>& value) {
-    describe(command.add_option(flag(field), value, help(field)), field);
-  }
-  void operator()(const OptionField& field, std::string& value) {
-    CLI::Option* option = command.add_option(flag(field), value, std::string(field.help));
-    describe(option, field)->capture_default_str();
-  }
-
-  static std::string flag(const OptionField& field) { return cat("--", field.name); }
-  static std::string help(const OptionField& field) {
-    return cat(field.help, " [", field.min, " to ", field.max, "]");
-  }
-  static CLI::Option* describe(CLI::Option* option, const OptionField& field) {
-    return option->type_name(std::string(field.unit));
-  }
-};
 
 // Takes what a project says, but for the flags that were given.
 Result<void> take_project(MakeArguments& arguments, const CLI::App& command) {
@@ -233,7 +195,10 @@ Result<void> take_project(MakeArguments& arguments, const CLI::App& command) {
 void add_make(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<MakeArguments>();
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
-  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS, or a studio's project")
+  command
+      .add_option("input", arguments->input,
+                  "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB), "
+                  "depth image (PNG, TIFF) or a studio's project")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .ply or .obj, in millimetres")
@@ -246,8 +211,8 @@ void add_make(CLI::App& program, Result<void>& result) {
       ->check(CLI::Range(16, 16384).description(""))
       ->type_name("PX")
       ->capture_default_str();
-  FlagAdder adder{command};
-  visit(arguments->relief, adder);
+  add_flags(command, arguments->relief);
+  add_input_flags(command, arguments->in);
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
       ->check(CLI::Range(0, 256).description(""))
       ->type_name("N")

@@ -26,8 +26,17 @@ struct Opening {
 // What is known of the scan that is open.
 struct Scan {
   Input input;
-  std::shared_ptr<const Cloud> cloud;
+  std::shared_ptr<const Cloud> cloud;  // of a mesh its corners
+  std::shared_ptr<const Mesh> mesh;    // null for a cloud
   std::size_t left_out = 0;
+
+  // What the relief is made of in that view.
+  Result<std::shared_ptr<const Cloud>> seen_from(const View& view) const {
+    if (!mesh) return cloud;
+    Result<Cloud> points = sample_mesh(*mesh, view);
+    if (!points) return std::unexpected(points.error());
+    return std::make_shared<const Cloud>(std::move(*points));
+  }
 };
 
 struct Shared {
@@ -95,28 +104,38 @@ struct Engine::State {
       return std::exchange(s.opening, std::nullopt);
     });
     if (!opening) return false;
-    Result<Cloud> cloud = load_input(opening->input, {});
-    if (cloud && cloud->size() > 0) {
-      const std::vector<Index> strays = far_points(*cloud);
-      Scan scan{opening->input, nullptr, strays.size()};
-      scan.cloud =
-          std::make_shared<const Cloud>(strays.empty() ? std::move(*cloud) : without(*cloud, strays));
-      hand_over(std::move(scan), opening->view);
-    }
+    Result<CloudFile> file = load_input(opening->input, {});
+    Result<void> done;
+    if (!file)
+      done = std::unexpected(file.error());
+    else if (file->cloud.size() > 0)
+      done = hand_over(scan_of(std::move(*file), opening->input), opening->view);
     shared.with([&](Shared& s) {
       s.is_reading = false;
-      if (!cloud) s.error = cloud.error();
+      if (!done) s.error = done.error();
     });
     return true;
   }
 
-  void hand_over(Scan scan, const View& view) {
+  static Scan scan_of(CloudFile file, const Input& input) {
+    const std::vector<Index> strays = far_points(file.cloud);
+    Scan scan{input, nullptr, nullptr, strays.size()};
+    scan.cloud =
+        std::make_shared<const Cloud>(strays.empty() ? std::move(file.cloud) : without(file.cloud, strays));
+    if (!file.mesh.empty()) scan.mesh = std::make_shared<const Mesh>(std::move(file.mesh));
+    return scan;
+  }
+
+  Result<void> hand_over(Scan scan, const View& view) {
+    const auto seen = scan.seen_from(view);
+    if (!seen) return std::unexpected(seen.error());
     const bool is_wanted = shared.with([&](Shared& s) {
       if (s.is_cancelled || s.opening) return false;
       s.scan = scan;
       return true;
     });
-    if (is_wanted) session.open(scan.cloud, view);
+    if (is_wanted) session.open(*seen, view);
+    return {};
   }
 
   // Notices a model that has become ready since the last call.
@@ -182,7 +201,9 @@ Result<void> Engine::choose_view(const std::string& view, const std::string& up)
     s.scan = scan;
   });
   if (!scan.cloud) return nothing_open();
-  state_->session.open(scan.cloud, *parsed);
+  const auto seen = scan.seen_from(*parsed);
+  if (!seen) return std::unexpected(seen.error());
+  state_->session.open(*seen, *parsed);
   return {};
 }
 
