@@ -387,6 +387,10 @@ Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::
   if (view->rotation != model->surface().view.rotation)
     return std::unexpected(
         Error{ErrorKind::option, "view", {}, "expected the view that is shown; it is still being prepared"});
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  if ((settle(*mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
+    return std::unexpected(Error{ErrorKind::option, "mode", {}, "expected auto, as the model was prepared"});
   const Result<MadeRelief> made = make_relief(*model, options);
   if (!made) return std::unexpected(made.error());
   return file_of(made->solid, format, heightmap_px);
