@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "relievo/parallel.h"
-#include "relievo/preview.h"
 #include "relievo/text.h"
 
 namespace relievo::studio {
@@ -59,27 +58,6 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
     ++counts[std::min<std::size_t>(bin, counts.size() - 1)];
   }
   return counts;
-}
-
-std::string text_of(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-Result<ExportedFile> file_of(const Solid& solid, const std::string& format, int heightmap_px) {
-  if (format == "stl") return ExportedFile{text_of(write_stl(solid)), "model/stl"};
-  if (format == "ply") return ExportedFile{text_of(write_ply(solid)), "application/octet-stream"};
-  if (format == "obj") return ExportedFile{text_of(write_obj(solid)), "model/obj"};
-  if (format == "preview") return ExportedFile{text_of(write_png(render_preview(solid, {}))), "image/png"};
-  const HeightMap map = make_height_map(solid, heightmap_px);
-  const std::pair<std::string, std::string> scale[] = {{"mm_per_pixel", cat(map.mm_per_pixel)},
-                                                       {"mm_per_grey", cat(map.mm_per_grey)}};
-  return ExportedFile{text_of(write_png(map.image, scale, map.mm_per_pixel)), "image/png"};
-}
-
-bool is_format(const std::string& format) {
-  for (const char* known : {"stl", "ply", "obj", "heightmap", "preview"})
-    if (format == known) return true;
-  return false;
 }
 
 }  // namespace
@@ -393,7 +371,7 @@ Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::
     return std::unexpected(Error{ErrorKind::option, "mode", {}, "expected auto, as the model was prepared"});
   const Result<MadeRelief> made = make_relief(*model, options);
   if (!made) return std::unexpected(made.error());
-  return file_of(made->solid, format, heightmap_px);
+  return export_file(made->solid, format, heightmap_px);
 }
 
 }  // namespace relievo::studio
