@@ -1,5 +1,6 @@
 #include "relievo/options.h"
 
+#include "relievo/forms.h"
 #include "relievo/text.h"
 
 namespace relievo {
@@ -32,6 +33,7 @@ Result<void> check(const ReliefOptions& options) {
   if (options.height_mm && options.alpha)
     return std::unexpected(
         Error{ErrorKind::option, "--alpha", {}, "expected either --height or --alpha, found both"});
+  if (const auto form = parse_form(options.form); !form) return std::unexpected(form.error());
   return {};
 }
 
