@@ -28,9 +28,9 @@ class ByteSource {
 
 // What stays of a large cloud.
 struct StreamedCloud {
-  Cloud cloud;                       // in the frame of the file
-  std::string format;                // for people
-  std::uint64_t input_points = 0;    // in the file
+  Cloud cloud;                     // in the frame of the file
+  std::string format;              // for people
+  std::uint64_t input_points = 0;  // in the file
 };
 
 // True if stream_front() reads what begins with these bytes: binary PLY whose vertices have no lists, nor
