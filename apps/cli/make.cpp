@@ -1,5 +1,6 @@
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "files.h"
 #include "flags.h"
 #include "inputs.h"
+#include "project.h"
 #include "relievo/export.h"
 #include "relievo/make_relief.h"
 #include "relievo/parallel.h"
@@ -26,6 +28,7 @@ struct MakeArguments {
   bool is_quiet = false;
   ReliefOptions relief;
   InputArguments in;
+  std::optional<studio::Input> scan;  // of a project
 };
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
@@ -118,6 +121,18 @@ std::vector<std::byte> text_bytes(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
+Result<Input> load(const MakeArguments& arguments, Progress& progress) {
+  if (!arguments.scan) return read_input(arguments.input, arguments.in, arguments.relief, &progress);
+  if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
+  studio::Input scan = *arguments.scan;
+  Result<Cloud> cloud = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
+  if (!cloud) return std::unexpected(cloud.error());
+  Input input;
+  input.file.cloud = std::move(*cloud);
+  input.file.format = "project";
+  return input;
+}
+
 std::vector<OutputFile> finished_files(const MakeArguments& arguments, const MadeRelief& made,
                                        Progress& progress) {
   std::vector<OutputFile> files;
@@ -140,7 +155,7 @@ struct Finished {
 };
 
 Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
-  const Result<Input> input = read_input(arguments.input, arguments.in, arguments.relief, &progress);
+  const Result<Input> input = load(arguments, progress);
   if (!input) return std::unexpected(input.error());
   Finished finished{{}, input->remarks};
   Result<MadeRelief> made = make_relief(input->file, arguments.relief, &progress);
@@ -173,15 +188,36 @@ Result<void> make(const MakeArguments& arguments) {
   return {};
 }
 
+// Takes what a project says, but for the flags that were given.
+Result<void> take_project(MakeArguments& arguments, const CLI::App& command) {
+  if (ending_of(arguments.input) != "relievo") return {};
+  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
+  if (!bytes) return std::unexpected(bytes.error());
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  Result<studio::Project> project = studio::read_project(text, arguments.input);
+  if (!project) return std::unexpected(project.error());
+  visit(project->options, [&](const OptionField& field, auto& value) {
+    if (command.count(FlagAdder::flag(field)) == 0) return;
+    if (field.name == "alpha") project->options.height_mm = std::nullopt;
+    visit(arguments.relief, [&](const OptionField& other, auto& given) {
+      if constexpr (std::is_same_v<decltype(value), decltype(given)>)
+        if (other.name == field.name) value = given;
+    });
+  });
+  arguments.relief = project->options;
+  arguments.scan = project->input;
+  return {};
+}
+
 }  // namespace
 
 void add_make(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<MakeArguments>();
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
   command
-      .add_option(
-          "input", arguments->input,
-          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, TIFF)")
+      .add_option("input", arguments->input,
+                  "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB), depth image (PNG, "
+                  "TIFF) or a studio's project")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .3mf, .ply or .obj, in millimetres")
@@ -204,7 +240,10 @@ void add_make(CLI::App& program, Result<void>& result) {
       ->capture_default_str();
   command.add_option("--report", arguments->report, "what was made and how, as JSON")->type_name("R.json");
   command.add_flag("--quiet", arguments->is_quiet, "print errors only");
-  command.callback([arguments, &result] { result = make(*arguments); });
+  command.callback([arguments, &command, &result] {
+    result = take_project(*arguments, command);
+    if (result) result = make(*arguments);
+  });
 }
 
 }  // namespace relievo::cli
