@@ -174,7 +174,7 @@ class Simplifier {
     return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
   }
 
-  // The hull's points but those on straight, level edges between others.
+  // The hull's points but those on straight, level edges between others; and what tells the height.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -183,6 +183,11 @@ class Simplifier {
       if (orient2d(before.head<2>(), here.head<2>(), after.head<2>()) == 0) continue;
       choose(at_point(0, 0, hull[i]));
     }
+    const auto [lowest, highest] =
+        std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });
+    const double ground = front_.points[hull[0]].z();
+    for (const auto extreme : {lowest, highest})
+      if (extreme->z() != ground) choose(at_point(0, 0, static_cast<Index>(extreme - front_.points.begin())));
   }
 
   // The worst place of each triangle that is off by more than the tolerance; nothing if a point lies in no

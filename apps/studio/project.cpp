@@ -139,6 +139,10 @@ Result<Cloud> load_input(Input& input, const std::string& folder) {
   input.hash = hash;
   Result<CloudFile> file = read_cloud(*bytes, path);
   if (!file) return std::unexpected(file.error());
+  // The corners of a coarse mesh are too few to show it.
+  constexpr std::size_t enough_points = 200000;
+  if (!file->mesh.empty() && file->cloud.size() < enough_points)
+    return scatter(file->mesh, 2 * enough_points);
   return std::move(file->cloud);
 }
 
