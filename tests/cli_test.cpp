@@ -143,7 +143,7 @@ TEST_F(Cli, Writes3mfAndTiff) {
 
 TEST_F(Cli, MakesEveryForm) {
   for (const std::string form : {"mirror", "die", "lithophane"})
-    EXPECT_EQ(run("make torus.ply -o " + form + ".stl --quiet --height 2 --form " + form).exit_code, 0)
+    EXPECT_EQ(run("make torus.ply --quiet --height 2 --form " + form + " -o " + form + ".stl").exit_code, 0)
         << form;
   EXPECT_NE(read_all(folder_ / "mirror.stl"), read_all(folder_ / "die.stl"));
   expect_refusal("make torus.ply -o t.stl --form coin", "--form");
@@ -186,7 +186,7 @@ TEST_F(Cli, TruncatedFilesOfEveryFormatAreRefused) {
       {"b.las", las(4)}};
   for (const auto& [name, text] : files) {
     write_all(folder_ / name, text.substr(0, text.size() * 2 / 3));
-    expect_refusal("make " + name + " -o t.stl --preview t.png", name);
+    expect_refusal("make -o t.stl --preview t.png " + name, name);
   }
 }
 

@@ -61,7 +61,7 @@ TEST(Options, EachFieldHasANameAndHelp) {
     EXPECT_FALSE(field.help.empty());
     EXPECT_LT(field.min, field.max);
   });
-  EXPECT_EQ(fields, 12);
+  EXPECT_EQ(fields, 16);
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ int main(int argc, char** argv) {
       "  relievo info scan.ply");
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty()) {
-    std::fprintf(stderr, "relievo: expected make, studio, info, sample or bench, found '%s'; see relievo --help\n",
+    std::fprintf(stderr,
+                 "relievo: expected make, studio, info, sample or bench, found '%s'; see relievo --help\n",
                  argv[1]);
     return 2;
   }
