@@ -1,154 +1,19 @@
 #include "relievo/render.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "blur.h"
-#include "pixel_map.h"
+#include "plate_scene.h"
 #include "relievo/parallel.h"
-#include "relievo/solid.h"
 #include "shading.h"
 
 namespace relievo {
 namespace {
 
 constexpr int largest_side = 8192;
-constexpr double padding = .055;      // around the plate, as a share of the picture's shorter side
 constexpr double light_margin = .06;  // of the map of light around the relief, as a share of its longer side
-constexpr double farthest_px = 100000;  // from the picture's middle, what a raster can take
-
-Mat3 turn_of(const Camera& camera) {
-  const double degree = std::numbers::pi / 180;
-  return (Eigen::AngleAxisd(camera.pitch_deg * degree, Vec3::UnitX()) *
-          Eigen::AngleAxisd(camera.yaw_deg * degree, Vec3::UnitY()))
-      .matrix();
-}
-
-// The plate's triangles; heights and corners move, these do not.
-struct Topology {
-  std::vector<Triangle> triangles;
-  std::vector<Part> parts;   // per triangle
-  std::vector<Vec2> places;  // of the surface's points from the middle, in its units
-  Vec2 half = Vec2::Zero();  // half the size of their box
-};
-
-Topology topology_of(const Surface& surface) {
-  Topology topology;
-  Box box;
-  for (const Vec3& p : surface.points) box.extend(p);
-  topology.half = box.size().head<2>() / 2;
-  Front front{std::vector<Vec3>(surface.points.size()), surface.triangulation.triangles,
-              surface.triangulation.hull};
-  const double to_mm = 100 / box.size().head<2>().maxCoeff();
-  for (std::size_t i = 0; i < surface.points.size(); ++i) {
-    topology.places.push_back((surface.points[i] - box.centre()).head<2>());
-    front.points[i] << to_mm * topology.places.back(), 0;
-  }
-  Result<Solid> solid = make_plate(front, {});
-  if (!solid) return topology;
-  for (std::size_t t = 0; t < solid->triangles.size(); ++t) {
-    const bool is_relief = t < surface.boundary.is_inside.size() && surface.boundary.is_inside[t];
-    topology.parts.push_back(is_relief                    ? Part::relief
-                             : t < solid->front_triangles ? Part::ground
-                                                          : Part::wall);
-  }
-  topology.triangles = std::move(solid->triangles);
-  return topology;
-}
-
-// Where the plate lies in the picture: pixel = middle + pixels_per_mm * turn * (place - pan), y downwards.
-struct Placement {
-  int width = 0, height = 0;
-  double pixels_per_mm = 1;
-  Mat3 turn = Mat3::Identity();
-  Vec3 pan = Vec3::Zero();
-  bool is_front = true;
-
-  Vec3 to_picture(const Vec3& place) const {
-    const Vec3 p = pixels_per_mm * (turn * (place - pan));
-    return {width / 2.0 + std::clamp(p.x(), -farthest_px, farthest_px),
-            height / 2.0 - std::clamp(p.y(), -farthest_px, farthest_px), p.z()};
-  }
-  Vec3f to_place(double x, double y, double z) const {
-    if (is_front)
-      return {static_cast<float>((x - width / 2.0) * (1 / pixels_per_mm) + pan.x()),
-              static_cast<float>((height / 2.0 - y) * (1 / pixels_per_mm) + pan.y()), 0};
-    const Vec3 p = Vec3(x - width / 2.0, height / 2.0 - y, z) / pixels_per_mm;
-    return (turn.transpose() * p + pan).cast<float>();
-  }
-  bool operator==(const Placement&) const = default;
-};
-
-// What all pixels of a picture share.
-struct Scene3 {
-  const Topology& topology;
-  const Shown& shown;
-  const RenderOptions& options;
-  float lowest_mm = 0, span_mm = 0;  // of the heights, ground included
-};
-
-Scene3 scene_of(const Topology& topology, const Shown& shown, const RenderOptions& options) {
-  const auto [lowest, highest] = std::ranges::minmax(shown.heights);
-  const auto scale = static_cast<float>(options.mm_per_unit);
-  const float low = std::min(0.F, lowest) * scale, high = std::max(0.F, highest) * scale;
-  return {topology, shown, options, low, high - low};
-}
-
-Vec2 half_plate(const Topology& topology, const RenderOptions& options) {
-  return options.mm_per_unit * topology.half + Vec2::Constant(options.margin_mm);
-}
-
-Placement placement_of(const Topology& topology, const RenderOptions& options, int samples_per_side) {
-  const Vec2 size = 2 * half_plate(topology, options);
-  const double pad = 2 * padding * std::min(options.width, options.height);
-  const Camera& camera = options.camera;
-  const Mat3 turn = turn_of(camera);
-  const Vec3 seen = turn.cwiseAbs() * Vec3(size.x(), size.y(), 2 * options.thickness_mm);
-  const double fit = std::min((options.width - pad) / std::max(size.x(), seen.x()),
-                              (options.height - pad) / std::max(size.y(), seen.y()));
-  Placement placement{options.width * samples_per_side, options.height * samples_per_side,
-                      std::max(fit, 1e-3) * camera.zoom * samples_per_side, turn};
-  placement.pan << camera.pan, 0;
-  placement.is_front = camera.yaw_deg == 0 && camera.pitch_deg == 0;
-  return placement;
-}
-
-// Seen from the front, heights make no difference and are left out.
-Scene raster_scene(const Scene3& scene, const Placement& placement) {
-  const auto& places = scene.topology.places;
-  const double scale = scene.options.mm_per_unit;
-  Scene raster;
-  raster.triangles = scene.topology.triangles;
-  raster.width = placement.width;
-  raster.height = placement.height;
-  raster.points.resize(places.size() + 8);
-  parallel_for(places.size(), [&](std::size_t i) {
-    const double z = placement.is_front ? 0 : static_cast<double>(scene.shown.heights[i]);
-    raster.points[i] = placement.to_picture(scale * Vec3(places[i].x(), places[i].y(), z));
-  });
-  const Vec2 half = half_plate(scene.topology, scene.options);
-  const double bottom = static_cast<double>(scene.lowest_mm) - scene.options.thickness_mm;
-  for (std::size_t i = 0; i < 8; ++i) {  // in the order of make_plate()
-    const double x = i % 4 == 1 || i % 4 == 2 ? half.x() : -half.x(), y = i % 4 >= 2 ? half.y() : -half.y();
-    raster.points[places.size() + i] = placement.to_picture({x, y, i < 4 ? 0 : bottom});
-  }
-  return raster;
-}
-
-Vec3f wall_normal(const Triangle& corners, std::size_t first_rectangle) {
-  const auto is_bottom = [&](Index i) { return i >= first_rectangle + 4; };
-  if (is_bottom(corners[0]) && is_bottom(corners[1]) && is_bottom(corners[2])) return -Vec3f::UnitZ();
-  // A wall runs between two neighbouring corners: 0-1 below, 1-2 right, 2-3 above, 3-0 left.
-  bool has[4] = {};
-  for (const Index i : corners) has[(i - first_rectangle) % 4] = true;
-  if (has[0] && has[1]) return -Vec3f::UnitY();
-  if (has[1] && has[2]) return Vec3f::UnitX();
-  return has[2] && has[3] ? Vec3f(Vec3f::UnitY()) : Vec3f(-Vec3f::UnitX());
-}
-
 // ---------------------------------------------------------------------------------------------------- pixels
 
 struct Colour {
@@ -158,7 +23,7 @@ struct Colour {
 
 class Painter {
  public:
-  Painter(const Scene3& scene, const Placement& placement, const LightMap& light)
+  Painter(const PlateScene& scene, const Placement& placement, const LightMap& light)
       : scene_(scene),
         placement_(placement),
         light_(light),
@@ -184,12 +49,12 @@ class Painter {
     // Leaning to the viewer: plain walls in the dark would look like holes.
     const Vec3f to_viewer = placement_.turn.row(2).transpose().cast<float>();
     lit.normal = (wall_normal(pixel.corners, scene_.topology.places.size()) + .8F * to_viewer).normalized();
-    lit.light = {.7F, .75F};
+    lit.light = {.8F, 1};
     lit.height = .55F;
     return {shader_.colour(lit), 1};
   }
 
-  const Scene3& scene_;
+  const PlateScene& scene_;
   const Placement& placement_;
   const LightMap& light_;
   Shader shader_;
@@ -283,7 +148,7 @@ struct FrameRenderer::Scenery {
   Kept quick, fine, quick_grid, fine_grid, profile_grid;
   PixelMap turned;
 
-  const PixelMap& map_for(const Scene3& scene, const Placement& placement, Kept& kept) {
+  const PixelMap& map_for(const PlateScene& scene, const Placement& placement, Kept& kept) {
     if (!placement.is_front) {
       draw_pixel_map(raster_scene(scene, placement), topology.parts, turned);
       return turned;
@@ -300,7 +165,7 @@ struct FrameRenderer::Scenery {
   }
 
   // Heights over the relief and a little around it.
-  HeightField height_field(const Scene3& scene, int longer_side_px, Kept& kept) {
+  HeightField height_field(const PlateScene& scene, int longer_side_px, Kept& kept) {
     const double scale = scene.options.mm_per_unit;
     const Vec2 half = scale * (topology.half + Vec2::Constant(2 * light_margin * topology.half.maxCoeff()));
     HeightField field;
@@ -343,7 +208,7 @@ void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Pic
   picture.width = options.width;
   picture.height = options.height;
   const int samples_per_side = options.is_fine ? 2 : 1;
-  const Scene3 scene = scene_of(scenery_->topology, shown, options);
+  const PlateScene scene = scene_of(scenery_->topology, shown, options);
   const Placement placement = placement_of(scenery_->topology, options, samples_per_side);
   picture.pixels_per_mm = placement.pixels_per_mm / samples_per_side;
   const Vec3 to_lamp = options.light.cast<double>().normalized();
@@ -357,7 +222,7 @@ void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Pic
 
 std::vector<float> FrameRenderer::profile(const Shown& shown, const RenderOptions& options, const Vec2& from,
                                           const Vec2& to, std::size_t samples) {
-  const Scene3 scene = scene_of(scenery_->topology, shown, options);
+  const PlateScene scene = scene_of(scenery_->topology, shown, options);
   const HeightField field = scenery_->height_field(scene, 1400, scenery_->profile_grid);
   std::vector<float> heights(samples);
   for (std::size_t i = 0; i < samples; ++i) {

@@ -118,6 +118,17 @@ void add_input_flags(CLI::App& command, InputArguments& arguments) {
       ->capture_default_str();
 }
 
+Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
+                          const InputArguments& arguments, double points, Progress* progress) {
+  DepthOptions depth = arguments.depth;
+  depth.points = points;
+  if (is_picture(bytes)) return read_depths(bytes, path, depth, arguments.camera, progress);
+  auto file = read_cloud(bytes, path);
+  if (!file) return std::unexpected(file.error());
+  std::vector<std::string> remarks = remarks_on(*file, path);
+  return Input{std::move(*file), std::move(remarks)};
+}
+
 Result<Input> read_input(const std::string& path, const InputArguments& arguments,
                          const ReliefOptions& relief, Progress* progress) {
   if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
@@ -126,13 +137,7 @@ Result<Input> read_input(const std::string& path, const InputArguments& argument
   if (*large) return std::move(**large);
   const auto bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
-  DepthOptions depth = arguments.depth;
-  depth.points = relief.points;
-  if (is_picture(*bytes)) return read_depths(*bytes, path, depth, arguments.camera, progress);
-  auto file = read_cloud(*bytes, path);
-  if (!file) return std::unexpected(file.error());
-  std::vector<std::string> remarks = remarks_on(*file, path);
-  return Input{std::move(*file), std::move(remarks)};
+  return parse_input(*bytes, path, arguments, relief.points, progress);
 }
 
 }  // namespace relievo::cli

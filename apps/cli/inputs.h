@@ -26,6 +26,10 @@ struct Input {
 // Adds the flags of InputArguments.
 void add_input_flags(CLI::App& command, InputArguments& arguments);
 
+// Makes of a file's bytes what read_input() makes of the file.
+Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
+                          const InputArguments& arguments, double points, Progress* progress);
+
 // Reads the file of that path: of a depth image or a very large file what the view and the number of points
 // in `relief` ask for. Errors: those of read_file(), read_cloud(), stream_front(), parse_camera(),
 // depth_cloud().

@@ -27,8 +27,8 @@ struct MakeArguments {
   int threads = 0;
   bool is_quiet = false;
   ReliefOptions relief;
-  InputArguments in;
   std::optional<studio::Input> scan;  // of a project
+  InputArguments in;
 };
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
@@ -98,6 +98,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
       {"visible_points", report.visible_points},
       {"rho", report.rho},
       {"diagonal", report.diagonal},
+      {"method", report.method},
       {"alpha", number_or_null(report.alpha)},
       {"beta", report.beta},
       {"gamma", report.gamma},
@@ -125,12 +126,9 @@ Result<Input> load(const MakeArguments& arguments, Progress& progress) {
   if (!arguments.scan) return read_input(arguments.input, arguments.in, arguments.relief, &progress);
   if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
   studio::Input scan = *arguments.scan;
-  Result<Cloud> cloud = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
-  if (!cloud) return std::unexpected(cloud.error());
-  Input input;
-  input.file.cloud = std::move(*cloud);
-  input.file.format = "project";
-  return input;
+  Result<CloudFile> file = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
+  if (!file) return std::unexpected(file.error());
+  return Input{std::move(*file), {}};
 }
 
 std::vector<OutputFile> finished_files(const MakeArguments& arguments, const MadeRelief& made,
@@ -216,8 +214,8 @@ void add_make(CLI::App& program, Result<void>& result) {
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
   command
       .add_option("input", arguments->input,
-                  "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB), depth image (PNG, "
-                  "TIFF) or a studio's project")
+                  "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB), "
+                  "depth image (PNG, TIFF) or a studio's project")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .3mf, .ply or .obj, in millimetres")

@@ -6,7 +6,6 @@
 #include <mutex>
 
 #include "relievo/parallel.h"
-#include "relievo/preview.h"
 #include "relievo/text.h"
 
 namespace relievo::studio {
@@ -26,8 +25,17 @@ struct Opening {
 // What is known of the scan that is open.
 struct Scan {
   Input input;
-  std::shared_ptr<const Cloud> cloud;
+  std::shared_ptr<const Cloud> cloud;  // of a mesh its corners
+  std::shared_ptr<const Mesh> mesh;    // null for a cloud
   std::size_t left_out = 0;
+
+  // What the relief is made of in that view.
+  Result<std::shared_ptr<const Cloud>> seen_from(const View& view) const {
+    if (!mesh) return cloud;
+    Result<Cloud> points = sample_mesh(*mesh, view);
+    if (!points) return std::unexpected(points.error());
+    return std::make_shared<const Cloud>(std::move(*points));
+  }
 };
 
 struct Shared {
@@ -37,8 +45,8 @@ struct Shared {
   bool is_reading = false;
   bool is_cancelled = false;
   std::optional<Error> error;
-  Scan scan;    // the newest that was read
-  Input shown;  // of the model that is shown
+  Scan scan;   // the newest that was read
+  Scan shown;  // of the model that is shown
   std::uint64_t models = 0;
   std::shared_ptr<const ReliefModel> model;
 };
@@ -52,27 +60,6 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
   return counts;
 }
 
-std::string text_of(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-Result<ExportedFile> file_of(const Solid& solid, const std::string& format, int heightmap_px) {
-  if (format == "stl") return ExportedFile{text_of(write_stl(solid)), "model/stl"};
-  if (format == "ply") return ExportedFile{text_of(write_ply(solid)), "application/octet-stream"};
-  if (format == "obj") return ExportedFile{text_of(write_obj(solid)), "model/obj"};
-  if (format == "preview") return ExportedFile{text_of(write_png(render_preview(solid, {}))), "image/png"};
-  const HeightMap map = make_height_map(solid, heightmap_px);
-  const std::pair<std::string, std::string> scale[] = {{"mm_per_pixel", cat(map.mm_per_pixel)},
-                                                       {"mm_per_grey", cat(map.mm_per_grey)}};
-  return ExportedFile{text_of(write_png(map.image, scale, map.mm_per_pixel)), "image/png"};
-}
-
-bool is_format(const std::string& format) {
-  for (const char* known : {"stl", "ply", "obj", "heightmap", "preview"})
-    if (format == known) return true;
-  return false;
-}
-
 }  // namespace
 
 struct Engine::State {
@@ -82,6 +69,8 @@ struct Engine::State {
   std::mutex drawing;  // guards what follows
   std::uint64_t drawn_model = 0;
   std::optional<FrameRenderer> renderer;
+  std::weak_ptr<const Frame> drawn_frame;
+  std::optional<FrameOptions> last;  // that were asked for, of this model
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
@@ -93,28 +82,38 @@ struct Engine::State {
       return std::exchange(s.opening, std::nullopt);
     });
     if (!opening) return false;
-    Result<Cloud> cloud = load_input(opening->input, {});
-    if (cloud && cloud->size() > 0) {
-      const std::vector<Index> strays = far_points(*cloud);
-      Scan scan{opening->input, nullptr, strays.size()};
-      scan.cloud =
-          std::make_shared<const Cloud>(strays.empty() ? std::move(*cloud) : without(*cloud, strays));
-      hand_over(std::move(scan), opening->view);
-    }
+    Result<CloudFile> file = load_input(opening->input, {});
+    Result<void> done;
+    if (!file)
+      done = std::unexpected(file.error());
+    else if (file->cloud.size() > 0)
+      done = hand_over(scan_of(std::move(*file), opening->input), opening->view);
     shared.with([&](Shared& s) {
       s.is_reading = false;
-      if (!cloud) s.error = cloud.error();
+      if (!done) s.error = done.error();
     });
     return true;
   }
 
-  void hand_over(Scan scan, const View& view) {
+  static Scan scan_of(CloudFile file, const Input& input) {
+    const std::vector<Index> strays = far_points(file.cloud);
+    Scan scan{input, nullptr, nullptr, strays.size()};
+    scan.cloud =
+        std::make_shared<const Cloud>(strays.empty() ? std::move(file.cloud) : without(file.cloud, strays));
+    if (!file.mesh.empty()) scan.mesh = std::make_shared<const Mesh>(std::move(file.mesh));
+    return scan;
+  }
+
+  Result<void> hand_over(Scan scan, const View& view) {
+    const auto seen = scan.seen_from(view);
+    if (!seen) return std::unexpected(seen.error());
     const bool is_wanted = shared.with([&](Shared& s) {
       if (s.is_cancelled || s.opening) return false;
       s.scan = scan;
       return true;
     });
-    if (is_wanted) session.open(scan.cloud, view);
+    if (is_wanted) session.open(*seen, view);
+    return {};
   }
 
   // Notices a model that has become ready since the last call.
@@ -123,18 +122,31 @@ struct Engine::State {
     shared.with([&](Shared& s) {
       if (newest == s.model) return;
       s.model = newest;
-      s.shown = s.scan.input;
+      s.shown = s.scan;
       ++s.models;
     });
     return newest;
   }
 
-  // With `drawing` held.
-  FrameRenderer& renderer_for(const std::shared_ptr<const ReliefModel>& ready) {
+  // The scan that was read last, or the one that is shown if that came to nothing.
+  Scan scan_in_use() {
+    model();
+    const SessionStatus status = session.status();
+    return shared.with([&](const Shared& s) {
+      const bool has_failed = !status.is_preparing && (status.error || s.error);
+      return has_failed && s.shown.cloud ? s.shown : s.scan;
+    });
+  }
+
+  // With `drawing` held: the model, ready to be drawn; null before the first.
+  std::shared_ptr<const ReliefModel> model_to_draw() {
+    std::shared_ptr<const ReliefModel> ready = model();
     const std::uint64_t number = shared.with([](const Shared& s) { return s.models; });
-    if (!renderer || drawn_model != number) renderer.emplace(ready);
+    if (!ready || (renderer && drawn_model == number)) return ready;
+    renderer.emplace(ready);
+    last = std::nullopt;
     drawn_model = number;
-    return *renderer;
+    return ready;
   }
 };
 
@@ -158,15 +170,18 @@ void Engine::open(const Input& input, const std::string& view, const std::string
 Result<void> Engine::choose_view(const std::string& view, const std::string& up) {
   const Result<View> parsed = parse_view(view, up);
   if (!parsed) return std::unexpected(parsed.error());
-  const Scan scan = state_->shared.with([&](Shared& s) {
+  const Scan scan = state_->scan_in_use();
+  state_->shared.with([&](Shared& s) {
     s.error = std::nullopt;
     s.is_cancelled = false;
     s.view = view;
     s.up = up;
-    return s.scan;
+    s.scan = scan;
   });
   if (!scan.cloud) return nothing_open();
-  state_->session.open(scan.cloud, *parsed);
+  const auto seen = scan.seen_from(*parsed);
+  if (!seen) return std::unexpected(seen.error());
+  state_->session.open(*seen, *parsed);
   return {};
 }
 
@@ -186,7 +201,7 @@ EngineStatus Engine::status() const {
                         session.stage,
                         session.fraction,
                         session.error,
-                        s.shown,
+                        s.shown.input,
                         s.wanted,
                         s.view,
                         s.up,
@@ -223,7 +238,7 @@ Result<ModelFacts> Engine::facts() const {
   if (surface.has_estimated_normals) facts.remarks.push_back("The scan has no normals: they were estimated.");
   if (surface.has_flipped_normals)
     facts.remarks.push_back("The scan's normals point inwards: they were turned.");
-  const std::size_t left_out = state_->shared.with([](const Shared& s) { return s.scan.left_out; });
+  const std::size_t left_out = state_->shared.with([](const Shared& s) { return s.shown.left_out; });
   if (left_out > 0) facts.remarks.push_back(cat("Left out ", left_out, " points far from all others."));
   return facts;
 }
@@ -235,7 +250,6 @@ Result<FrameOptions> frame_options(const PictureRequest& request, double scale) 
   if (!shape) return std::unexpected(shape.error());
   FrameOptions options;
   options.shape = *shape;
-  options.light = request.render.light;
   if (request.u)
     options.shape.compression.u = *request.u;
   else if (request.options.height_mm)
@@ -251,10 +265,22 @@ RenderOptions render_options(const PictureRequest& request, double scale) {
   return render;
 }
 
+// Whether a frame would come out alike: then only light or camera have changed, and it need not be made
+// again.
+bool is_same(const FrameOptions& a, const FrameOptions& b) {
+  const Compression &p = a.shape.compression, &q = b.shape.compression;
+  const bool is_same_curve = p.curve && q.curve ? p.curve->points() == q.curve->points() : p.curve == q.curve;
+  return is_same_curve && p.u == q.u && p.beta == q.beta && a.height == b.height &&
+         a.shape.gamma == b.shape.gamma && a.shape.max_slope == b.shape.max_slope &&
+         a.shape.boundary_width == b.shape.boundary_width;
+}
+
 // The frame asked for; while another view is prepared, the last one of the old.
-std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& options, std::size_t points) {
+std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& options, std::size_t points,
+                                       std::optional<FrameOptions>& last) {
   const bool is_preparing = session.status().is_preparing;
-  if (!is_preparing) {
+  if (!is_preparing && !(last && is_same(*last, options))) {
+    last = options;
     session.request(options);
     session.wait_until_idle(10s);
   }
@@ -266,16 +292,16 @@ std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& opt
 
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   const std::lock_guard turn(state_->drawing);
-  const std::shared_ptr<const ReliefModel> model = state_->model();
+  const std::shared_ptr<const ReliefModel> model = state_->model_to_draw();
   if (!model) return nothing_open();
   const double scale = mm_per_unit(model->surface(), request.options);
   const Result<FrameOptions> wanted = frame_options(request, scale);
   if (!wanted) return std::unexpected(wanted.error());
-  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size());
+  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size(), state_->last);
   if (!frame) return nothing_open();
 
   const auto start = std::chrono::steady_clock::now();
-  FrameRenderer& renderer = state_->renderer_for(model);
+  FrameRenderer& renderer = *state_->renderer;
   const Shown shown = request.is_original ? renderer.original() : Shown{frame->heights, frame->normals};
   PictureAnswer answer;
   RenderOptions render = render_options(request, scale);
@@ -285,28 +311,30 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   answer.compression = frame->options.shape.compression;
   answer.height_mm = frame->height * scale;
   answer.is_height_met = frame->is_height_met;
-  answer.times = frame->times;
+  // A frame that was shown before cost nothing now.
+  if (state_->drawn_frame.lock() != frame) answer.times = frame->times;
+  state_->drawn_frame = frame;
   return answer;
 }
 
 Result<std::vector<float>> Engine::profile(const PictureRequest& request, const Vec2& from, const Vec2& to,
                                            std::size_t samples) {
   const std::lock_guard turn(state_->drawing);
-  const std::shared_ptr<const ReliefModel> model = state_->model();
+  const std::shared_ptr<const ReliefModel> model = state_->model_to_draw();
   if (!model) return nothing_open();
   const double scale = mm_per_unit(model->surface(), request.options);
   const Result<FrameOptions> wanted = frame_options(request, scale);
   if (!wanted) return std::unexpected(wanted.error());
-  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size());
+  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size(), state_->last);
   if (!frame) return nothing_open();
-  FrameRenderer& renderer = state_->renderer_for(model);
+  FrameRenderer& renderer = *state_->renderer;
   const Shown shown = request.is_original ? renderer.original() : Shown{frame->heights, frame->normals};
   return renderer.profile(shown, render_options(request, scale), from, to, samples);
 }
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   const std::lock_guard turn(state_->drawing);
-  const auto cloud = state_->shared.with([](const Shared& s) { return s.scan.cloud; });
+  const auto cloud = state_->scan_in_use().cloud;
   if (!cloud) return nothing_open();
   if (cloud != state_->drawn_cloud) state_->cloud_renderer.emplace(*cloud);
   state_->drawn_cloud = cloud;
@@ -316,7 +344,7 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
 }
 
 Result<std::vector<std::string>> Engine::suggest_views() {
-  const auto cloud = state_->shared.with([](const Shared& s) { return s.scan.cloud; });
+  const auto cloud = state_->scan_in_use().cloud;
   if (!cloud) return nothing_open();
   std::vector<std::string> names;
   for (const ViewGuess& guess : rank_views(*cloud)) names.emplace_back(guess.name);
@@ -337,9 +365,13 @@ Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::
   if (view->rotation != model->surface().view.rotation)
     return std::unexpected(
         Error{ErrorKind::option, "view", {}, "expected the view that is shown; it is still being prepared"});
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  if ((settle(*mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
+    return std::unexpected(Error{ErrorKind::option, "mode", {}, "expected auto, as the model was prepared"});
   const Result<MadeRelief> made = make_relief(*model, options);
   if (!made) return std::unexpected(made.error());
-  return file_of(made->solid, format, heightmap_px);
+  return export_file(made->solid, format, heightmap_px);
 }
 
 }  // namespace relievo::studio

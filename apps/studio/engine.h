@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "export_file.h"
 #include "project.h"
 #include "relievo/make_relief.h"
 #include "relievo/render.h"
@@ -49,10 +50,6 @@ struct PictureAnswer {
   bool is_height_met = true;
   FrameTimes times;
   double drawing_s = 0;
-};
-
-struct ExportedFile {
-  std::string bytes, type;
 };
 
 // Every method may be called from any thread. Those that draw take turns.

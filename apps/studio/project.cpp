@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "files.h"
+#include "inputs.h"
 #include "relievo/io.h"
 #include "relievo/sample.h"
 #include "relievo/text.h"
@@ -128,8 +129,12 @@ std::string hash_of(std::string_view bytes) {
   return "fnv1a64:" + text;
 }
 
-Result<Cloud> load_input(Input& input, const std::string& folder) {
-  if (!input.sample.empty()) return make_sample(input.sample);
+Result<CloudFile> load_input(Input& input, const std::string& folder) {
+  if (!input.sample.empty()) {
+    Result<Cloud> sample = make_sample(input.sample);
+    if (!sample) return std::unexpected(sample.error());
+    return CloudFile{std::move(*sample), "sample"};
+  }
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = cli::read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
@@ -137,13 +142,9 @@ Result<Cloud> load_input(Input& input, const std::string& folder) {
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
-  Result<CloudFile> file = read_cloud(*bytes, path);
-  if (!file) return std::unexpected(file.error());
-  // The corners of a coarse mesh are too few to show it.
-  constexpr std::size_t enough_points = 200000;
-  if (!file->mesh.empty() && file->cloud.size() < enough_points)
-    return scatter(file->mesh, 2 * enough_points);
-  return std::move(file->cloud);
+  Result<cli::Input> read = cli::parse_input(*bytes, path, {}, ReliefOptions{}.points, nullptr);
+  if (!read) return std::unexpected(read.error());
+  return std::move(read->file);
 }
 
 }  // namespace relievo::studio

@@ -1,10 +1,8 @@
 #include "server.h"
 
 #include <httplib.h>
-#include <sys/random.h>
 #include <sys/socket.h>
 
-#include <array>
 #include <atomic>
 #include <map>
 #include <mutex>
@@ -12,6 +10,7 @@
 #include <thread>
 
 #include "files.h"
+#include "guard.h"
 #include "page_files.h"
 #include "relievo/sample.h"
 #include "relievo/text.h"
@@ -26,37 +25,13 @@ using httplib::Request;
 using httplib::Response;
 using namespace std::chrono_literals;
 
-constexpr std::size_t most_path = 512, most_json = 4U << 20, most_scan = std::size_t{4} << 30;
+constexpr std::size_t most_json = 4U << 20, most_scan = std::size_t{4} << 30;
 constexpr int most_waiting = 32, most_pages = 8;
 constexpr std::size_t threads = 64;  // each open connection holds one while it is kept alive
-
-std::string random_token() {
-  std::array<unsigned char, 16> bytes{};
-  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) std::abort();
-  std::string text;
-  for (const unsigned char byte : bytes) {
-    text += "0123456789abcdef"[byte >> 4];
-    text += "0123456789abcdef"[byte & 15];
-  }
-  return text;
-}
-
-// In a time that does not tell how much of them is equal.
-bool is_equal(std::string_view a, std::string_view b) {
-  unsigned different = a.size() == b.size() ? 0 : 1;
-  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
-    different |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
-  return different == 0;
-}
 
 void answer(Response& response, const Json& json, int status = 200) {
   response.status = status;
   response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
-}
-
-void refuse(Response& response, int status, const std::string& text) {
-  answer(response, {{"error", {{"kind", "request"}, {"text", text}}}}, status);
-  response.set_header("Connection", "close");  // what else the request holds is not read
 }
 
 int status_of(ErrorKind kind) {
@@ -110,8 +85,7 @@ struct Server::State {
   const Store& store;
   ServerOptions options;
   std::mutex storing;
-  std::string token = random_token();
-  int port = 0;
+  Guard guard;
   std::atomic<int> pages = 0, waiting = 0;
   std::atomic<bool> had_page = false, is_stopping = false;
   PatientServer http;
@@ -263,35 +237,9 @@ struct Server::State {
 
   // ------------------------------------------------------------------------------------------------- guards
 
-  bool is_here(const std::string& host) const {
-    return host == cat("127.0.0.1:", port) || host == cat("localhost:", port);
-  }
-
-  // Refuses what does not come from the page; returns the path below the token, or nothing.
-  std::optional<std::string> admit(const Request& request, Response& response) const {
-    const auto say = [&](int status, const char* text) -> std::optional<std::string> {
-      refuse(response, status, text);
-      return std::nullopt;
-    };
-    if (request.path.size() > most_path) return say(414, "the address is too long");
-    if (request.get_header_value_count("Host") != 1 || !is_here(request.get_header_value("Host")))
-      return say(403, "this server answers for this machine only");
-    const std::string origin = request.get_header_value("Origin");
-    if (request.has_header("Origin") && (!origin.starts_with("http://") || !is_here(origin.substr(7))))
-      return say(403, "this server answers its own page only");
-    const std::size_t slash = request.path.find('/', 1);
-    const std::string_view given = std::string_view(request.path).substr(0, slash);
-    if (!is_equal(given, "/" + token)) return say(403, "open the address that `relievo studio` printed");
-    if (slash == std::string::npos) {
-      response.set_redirect("/" + token + "/", 308);
-      return std::nullopt;
-    }
-    return request.path.substr(slash + 1);
-  }
-
   httplib::Server::HandlerResponse before(const Request& request, Response& response) {
     using enum httplib::Server::HandlerResponse;
-    const std::optional<std::string> name = admit(request, response);
+    const std::optional<std::string> name = guard.admit(request, response);
     if (!name) return Handled;
     if (request.method == "POST") return Unhandled;
     if (request.method != "GET" && request.method != "HEAD") {
@@ -326,7 +274,7 @@ struct Server::State {
   }
 
   void post(const Request& request, Response& response, const httplib::ContentReader& read) {
-    const std::string name = request.path.substr(token.size() + 2);
+    const std::string name = request.path.substr(guard.token().size() + 2);
     if (name == "api/upload") return upload(request, response, read);
     const auto action = actions.find(std::string_view(name).substr(std::min<std::size_t>(name.size(), 4)));
     if (!name.starts_with("api/") || action == actions.end()) return refuse(response, 404, "no such action");
@@ -395,15 +343,16 @@ Server::~Server() = default;
 
 Result<std::string> Server::bind() {
   const std::string host = "127.0.0.1";
-  if (state_->options.port == 0) {
-    state_->port = state_->http.bind_to_any_port(host);
-  } else if (state_->http.bind_to_port(host, state_->options.port)) {
-    state_->port = state_->options.port;
-  }
-  if (state_->port <= 0)
+  int port = state_->options.port;
+  if (port == 0)
+    port = state_->http.bind_to_any_port(host);
+  else if (!state_->http.bind_to_port(host, port))
+    port = -1;
+  if (port <= 0)
     return std::unexpected(Error{ErrorKind::option, "--port", {}, "expected a port that is free"});
   state_->http.widen_queue();
-  return cat("http://127.0.0.1:", state_->port, "/", state_->token, "/");
+  state_->guard.set_port(port);
+  return state_->guard.address();
 }
 
 void Server::run() {

@@ -46,7 +46,10 @@ export class Slider {
   listen() {
     this.range.oninput = () => this.moved(this.spread.from(this.range.value / STEPS, this.min, this.max));
     this.range.onchange = () => this.onEnd();
+    this.number.oninput = () => (this.isTyping = true);
+    this.number.onblur = () => (this.isTyping = false);
     this.number.onchange = () => {
+      this.isTyping = false;
       const value = Number.parseFloat(this.number.value);
       if (Number.isFinite(value)) this.moved(clamp(value, this.min, this.max));
       else this.show(this.value);
@@ -64,7 +67,7 @@ export class Slider {
   }
 
   wheel(event) {
-    if (this.range.disabled || event.ctrlKey || document.activeElement !== this.range && !event.target.closest(".slider")) return;
+    if (this.range.disabled || event.ctrlKey) return;
     event.preventDefault();
     const step = -Math.sign(event.deltaY) * (event.shiftKey ? 1 : 8);
     this.moved(this.spread.from(clamp(this.position() + step, 0, STEPS) / STEPS, this.min, this.max));
@@ -98,7 +101,7 @@ export class Slider {
     this.range.value = this.position();
     this.range.style.setProperty("--filled", `${this.position() / STEPS * 100}%`);
     this.range.setAttribute("aria-valuetext", `${text} ${this.unitName ?? this.unit ?? ""}`.trim());
-    if (document.activeElement !== this.number || Number(this.number.value) !== Number(text)) this.number.value = text;
+    if (!this.isTyping) this.number.value = text;
   }
 
   set disabled(is) {

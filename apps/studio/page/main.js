@@ -1,14 +1,16 @@
 // The studio's page: puts its parts together.
 
-import {$, Slider, clamp, count, download, make, spread} from "./controls.js";
+import {$, Slider, clamp, download, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./document.js";
 import {NativeEngine} from "./engine.js";
 import {ExportDialog} from "./export.js";
+import {FIELDS, MATERIALS} from "./fields.js";
+import {engineBack, engineLost, showProgress, toast} from "./messages.js";
+import {showNumbers, showSection} from "./readouts.js";
 import {Stage, TABLE_LIGHTS} from "./stage.js";
 import {ViewDialog, viewName} from "./views.js";
 
-const MATERIALS = {plaster: "Plaster", silver: "Struck silver", bronze: "Bronze", walnut: "Walnut", porcelain: "Porcelain, lit from behind"};
 const KEEP_MS = 400;
 
 const engine = new NativeEngine();
@@ -22,7 +24,7 @@ let facts = null;
 let status = {busy: false, model: 0};
 let last = null; // what came with the newest picture
 let shownView = null; // of the model that is shown
-let times = []; // of the newest pictures
+let fallback = null; // the document before the scan that is being opened
 
 // ------------------------------------------------------------------------------------------------- sliders
 
@@ -32,21 +34,9 @@ const lock = make("button", {
 });
 lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11" width="14" height="9" rx="2"/><path class="shackle" d="M8 11V8a4 4 0 0 1 8 0v3"/></svg>';
 
-const FIELDS = {
-  height: {label: "Height", unit: "mm", unitName: "mm", min: 0.1, max: 40, decimals: 2, spread: spread.log, extra: lock, place: "#shape",
-    help: "Lowest to highest point of the front, met exactly"},
-  saturation: {label: "Saturation", min: 0, max: 4, decimals: 3, spread: spread.root, place: "#shape", help: "beta: 0 is even, more favours what is strongly curved"},
-  detail: {label: "Detail", min: 0, max: 0.5, decimals: 3, spread: spread.root, place: "#shape", help: "gamma: raises ridges, lowers grooves"},
-  boundary: {label: "Soft rim", unit: "×", unitName: "sampling distances", min: 0.5, max: 60, decimals: 1, spread: spread.log, place: "#shape", help: "Width of (7), in sampling distances rho"},
-  steepest: {label: "Steepest wall", unit: "°", unitName: "degrees", min: 5, max: 85, decimals: 0, spread: spread.linear, place: "#shape", help: "No slope is steeper than this"},
-  width: {label: "Width", unit: "mm", unitName: "mm", min: 5, max: 1000, decimals: 1, spread: spread.log, place: "#plate", help: "Longer side of the relief, without margin"},
-  margin: {label: "Margin", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Flat ground around the relief"},
-  thickness: {label: "Thickness", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Smallest thickness of the plate"},
-};
-
 const sliders = {};
 for (const [name, field] of Object.entries(FIELDS)) {
-  const slider = new Slider({...field, otherwise: FIRST.options[name]}, (value) => slide(name, value), () => doc.endStroke());
+  const slider = new Slider({...field, extra: name === "height" ? lock : null, otherwise: FIRST.options[name]}, (value) => slide(name, value), () => doc.endStroke());
   sliders[name] = slider;
   $(field.place).append(slider.element);
 }
@@ -85,7 +75,7 @@ function showDocument() {
   $("#redo").disabled = !doc.canRedo;
   $("#view-name").textContent = viewName(options.view);
   for (const swatch of $("#materials").children) check(swatch, swatch.dataset.material === material);
-  $("#title").textContent = input?.name ?? "";
+  $("#title").textContent = input?.sample ? sampleName(input.sample) : input?.name ?? "";
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
 }
 
@@ -115,10 +105,6 @@ const baseName = () => (doc.now.input?.name ?? "relief").replace(/\.[a-z0-9]+$/i
 
 function pictured(about, ms, isFine) {
   last = about;
-  if (!isFine) {
-    const now = performance.now();
-    times = [...times.filter((time) => now - time < 1000), now];
-  }
   if (!doc.now.isHeightLocked && !status.busy) {
     const height = Math.round(about.height_mm * 1e4) / 1e4;
     doc.note({u: about.u, options: {height: clamp(height, 1e-3, 1e5)}});
@@ -129,41 +115,22 @@ function pictured(about, ms, isFine) {
   $("#reach").textContent = about.is_height_met ? "" : `This view reaches ${about.height_mm.toFixed(2)} mm at most.`;
   const paper = `alpha ${number(about.alpha)}, beta ${number(about.beta)}, gamma ${number(doc.now.options.detail)}, u ${number(about.u)}`;
   sliders.height.name.title = `${FIELDS.height.help}. In the paper's words: ${paper}`;
-  showNumbers(about, ms, isFine);
+  showNumbers({about, ms, isFine, facts, height: shownHeight(about)});
   stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about, ms, isFine}}));
 }
 
 const number = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString());
 
-let frames = "";
-function showNumbers(about, ms, isFine) {
-  if (!isFine && times.length > 5) frames = `${times.length} frames/s`;
-  const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
-    `height ${about.height_mm.toFixed(3)} mm`, frames, !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
-  $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
-  $("#numbers").title = `heights ${about.heights_ms.toFixed(1)} ms in ${about.solves} solves, detail ${about.detail_ms.toFixed(1)} ms, normals ${about.normals_ms.toFixed(1)} ms, picture ${about.drawing_ms.toFixed(1)} ms`;
-}
-
-function showSection(heights, from, to) {
-  const svg = $("#section-chart"), {width, height} = svg.getBoundingClientRect();
-  if (!width) return;
-  const low = Math.min(0, ...heights), high = Math.max(0.01, ...heights), length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const x = (i) => i / (heights.length - 1) * width, y = (z) => height - 4 - (z - low) / (high - low) * (height - 8);
-  const points = heights.map((z, i) => `${x(i).toFixed(1)} ${y(z).toFixed(1)}`).join("L");
-  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
-  svg.replaceChildren(
-    make("path", {class: "area", d: `M0 ${y(low)}L${points}L${width} ${y(low)}Z`}),
-    make("path", {class: "ground", d: `M0 ${y(0)}H${width}`}), make("path", {class: "line", d: `M${points}`}));
-  $("#section-text").textContent = `Section, ${length.toFixed(1)} mm long, from ${low.toFixed(2)} to ${high.toFixed(2)} mm`;
-}
+// A frame meets a locked height to a part in a thousand, the finished relief exactly.
+const shownHeight = ({height_mm, is_height_met}) => (doc.now.isHeightLocked && is_height_met ? doc.now.options.height : height_mm);
 
 // ----------------------------------------------------------------------------------------------------- status
 
 function followed(next) {
   const before = status;
   status = next;
-  if (lostToast) hideToast();
-  showProgress();
+  engineBack();
+  showProgress(status, status.model === 0);
   if (next.error && JSON.stringify(next.error) !== JSON.stringify(before.error)) complain(next);
   if (next.model !== before.model && next.model > 0) arrived();
 }
@@ -175,6 +142,8 @@ async function arrived() {
     return failed(error);
   }
   shownView = {view: status.view, up: status.up};
+  fallback = null;
+  if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
   stage.isReady = true;
   stage.model = status.model;
   stage.share = 1;
@@ -186,38 +155,14 @@ async function arrived() {
 function complain({error, model}) {
   if (error.kind !== "cancelled") toast(error.text);
   if (model === 0) return showStart(true);
+  if (fallback && doc.restore(fallback)) {
+    fallback = null; // the old relief is still there: go on with it
+    showDocument();
+    keepSoon();
+    return;
+  }
   const {view, up} = doc.now.options;
   if (shownView && (view !== shownView.view || up !== shownView.up)) doc.change({options: shownView});
-}
-
-function showProgress() {
-  const box = $("#progress");
-  box.hidden = !status.busy;
-  box.classList.toggle("alone", status.model === 0);
-  const percent = Math.round((status.fraction ?? 0) * 100);
-  box.setAttribute("aria-valuenow", percent);
-  box.setAttribute("aria-valuetext", `${stageName(status.stage)}, ${percent} percent`);
-  $(".fill", box).style.width = `${Math.max(4, percent)}%`;
-  $("#stage-name").textContent = `${stageName(status.stage)} …`;
-}
-
-const STAGES = {
-  waiting: "Getting ready", read: "Reading the scan", view: "Turning the model", spacing: "Measuring the spacing", normals: "Looking at normals",
-  visible: "Finding what is seen", curvature: "Measuring curvature", triangulation: "Connecting the points", boundary: "Finding the rim",
-  factorisation: "Preparing live work",
-};
-const stageName = (stage) => STAGES[stage] ?? "Preparing";
-
-let toastTimer = 0, lostToast = false;
-function toast(text, isLasting = false) {
-  $("#toast").textContent = text;
-  $("#toast").hidden = false;
-  clearTimeout(toastTimer);
-  if (!isLasting) toastTimer = setTimeout(hideToast, 8000);
-}
-function hideToast() {
-  $("#toast").hidden = true;
-  lostToast = false;
 }
 
 function failed(error) {
@@ -225,15 +170,11 @@ function failed(error) {
   toast(error.message);
 }
 
-function lost() {
-  lostToast = true;
-  toast("The engine has stopped. Start relievo studio again: your work is kept.", true);
-}
-
 // ------------------------------------------------------------------------------------------------ open and save
 
 async function openInput(input, step = {...FIRST, input}) {
   showStart(false);
+  fallback = status.model > 0 ? doc.keep() : null;
   doc.begin({...step, input});
   try {
     await engine.open(input, viewOf(step));
@@ -245,12 +186,25 @@ async function openInput(input, step = {...FIRST, input}) {
 async function openFile(file) {
   if (!file) return;
   try {
-    if (!file.name.endsWith(".relievo")) return await openInput(await engine.upload(file));
+    if (!file.name.endsWith(".relievo")) return await openInput(await takeIn(file));
     const text = await file.text(), checked = await engine.readProject(file.name, text);
     const step = stepOfProject(text, checked);
     await openInput(step.input, step);
   } catch (error) {
     failed(error);
+  }
+}
+
+// The engine gets the file's bytes; for large scans that takes a moment.
+async function takeIn(file) {
+  showStart(false);
+  showProgress({busy: true, stage: "take in"}, status.model === 0);
+  try {
+    return await engine.upload(file);
+  } catch (error) {
+    showProgress(status, status.model === 0);
+    showStart(status.model === 0);
+    throw error;
   }
 }
 
@@ -379,6 +333,7 @@ function key(event) {
   if (event.key === "?") return $("#help-dialog").showModal();
   if ($("#studio").hidden || !facts) return;
   if (event.key === "b" && !event.repeat) return stage.hold(true);
+  if (event.key === "Escape") return setTable(false);
   const material = Object.keys(MATERIALS)[Number(event.key) - 1];
   if (material) return doc.change({material});
   KEYS[event.key]?.();
@@ -389,11 +344,13 @@ function key(event) {
 function fillStart(about) {
   $("#samples").append(...about.samples.map(({name, description}) => make("li", {}, make("button", {onclick: () => openInput({sample: name, name})},
     make("img", {src: `sample-${name}.jpg`, alt: "", width: 320, height: 200}),
-    make("span", {}, make("b", {}, name.replaceAll("-", " ").replaceAll("_", " ")), make("small", {}, description))))));
+    make("span", {}, make("b", {}, sampleName(name)), make("small", {}, description))))));
   const recent = about.recent.filter(({sample}) => !sample);
   $("#recent-shelf").hidden = recent.length === 0;
   $("#recent").append(...recent.map((input) => make("li", {}, make("button", {title: input.path, onclick: () => openInput(input)}, input.name))));
 }
+
+const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
 
 const isSame = (a, b) => a && b && (a.sample ?? "") === (b.sample ?? "") && (a.path ?? "") === (b.path ?? "");
 
@@ -424,7 +381,7 @@ async function start() {
     failed(error);
     showStart(true);
   }
-  engine.follow(followed, lost);
+  engine.follow(followed, engineLost);
 }
 
 start();

@@ -9,8 +9,8 @@ const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewe
 export const TABLE_LIGHTS = [
   {name: "Upper left", light: [-1, 1, 1]},
   {name: "Upper right", light: [1, 1, 1]},
-  {name: "Raking from the left", light: [-1, 0.12, 0.3]},
-  {name: "Raking from above", light: [0.1, 1, 0.3]},
+  {name: "Raking, left", light: [-1, 0.12, 0.3]},
+  {name: "Raking, above", light: [0.1, 1, 0.3]},
 ];
 
 const degrees = (radians) => radians * 180 / Math.PI;

@@ -80,7 +80,8 @@ function difference(a, b) {
 const assertSame = (a, b) => assert.ok(difference(a, b) < 0.05, `pictures differ by ${difference(a, b)}`);
 const assertOther = (a, b) => assert.ok(difference(a, b) > 0.2, `pictures differ by ${difference(a, b)} only`);
 
-const heightShown = async () => Number((await numbers().innerText()).match(/height ([\d.]+) mm/)?.[1]);
+// Of the newest frame, not what was asked for.
+const heightShown = async () => Number((await numbers().getByTitle(/height reached/).getAttribute("title")).match(/reached ([\d.]+)/)[1]);
 
 async function untilHeight(wanted, tolerance) {
   for (let i = 0; i < 100; ++i) {
@@ -137,6 +138,18 @@ test("drags the height: number and picture change", {skip}, async () => {
   assert.ok((await value("Height in mm")) > start);
   await untilHeight(await value("Height in mm"), 0.01);
   assertOther(await picture(), first);
+});
+
+test("moves sliders by wheel and double click, too", {skip}, async () => {
+  const height = await value("Height in mm");
+  await slider("Steepest wall").hover();
+  await page.mouse.wheel(0, 200);
+  assert.ok((await value("Steepest wall in degrees")) < 76);
+  await slider("Steepest wall").dblclick();
+  assert.equal(await value("Steepest wall in degrees"), 76);
+  await field("Height in mm").fill("nonsense".replace(/\D/g, ""));
+  await field("Height in mm").press("Enter");
+  assert.equal(await value("Height in mm"), height);
 });
 
 test("keeps a locked height while saturation moves", {skip}, async () => {
@@ -206,7 +219,7 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   await page.getByRole("slider", {name: "Divider between model and relief"}).press("ArrowRight");
   await button("Compare").click();
   await button("Light table").click();
-  await change(() => page.getByRole("button", {name: "Light from: Raking from above"}).click());
+  await change(() => page.getByRole("button", {name: "Light from: Raking, above"}).click());
 });
 
 test("chooses another view in the background", {skip}, async () => {
@@ -298,6 +311,8 @@ test("cancels", {skip}, async () => {
   await page.getByRole("button", {name: /still life/i}).first().click();
   await button("Cancel").click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
+  await page.getByText("scan.ply", {exact: true}).first().waitFor();  // what was there before
+  assert.equal(await value("Height in mm"), 2.5);
 });
 
 test("helps at the press of a key, and names all it has", {skip}, async () => {
