@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "relievo/mesh.h"
-#include "relievo/relief.h"
+#include "relievo/method.h"
 #include "relievo/text.h"
 #include "relievo/view.h"
 
@@ -18,7 +18,8 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
   const Result<Shape> shape = shape_of(options);
   if (!shape) return std::unexpected(shape.error());
   if (!options.height_mm) return model.make(*shape);
-  return model.make_at_height(*options.height_mm / mm_per_unit, *shape, mm_per_unit, progress);
+  return make_by_method(*parse_method(options.effective_method()), model, *options.height_mm / mm_per_unit,
+                        *shape, mm_per_unit, progress);
 }
 
 Box visible_box(const Surface& surface) {
@@ -52,6 +53,7 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   report.beta = compression.beta;
   report.u = compression.u;
   report.gamma = relief.shape.gamma;
+  report.method = options.effective_method();
   report.height_requested_mm = options.height_mm;
   if (options.alpha && compression.beta == 0)
     report.remarks.push_back("alpha has no effect at saturation 0; a height sets how flat the relief is");

@@ -1,5 +1,6 @@
 #include "relievo/options.h"
 
+#include "relievo/method.h"
 #include "relievo/text.h"
 
 namespace relievo {
@@ -23,6 +24,23 @@ struct RangeCheck {
   void operator()(const OptionField&, const std::string&) {}
 };
 
+std::unexpected<Error> contradiction(std::string option, std::string expected) {
+  return std::unexpected(Error{ErrorKind::option, std::move(option), {}, std::move(expected)});
+}
+
+Result<void> check_method(const ReliefOptions& options) {
+  const std::optional<Method> method = parse_method(options.effective_method());
+  if (!method)
+    return contradiction("--method", cat("expected a method, see --help, found '", options.method, "'"));
+  if (*method != Method::paper && !options.height_mm)
+    return contradiction("--method", cat("expected --height with method ", name_of(*method)));
+  const bool is_shaped = options.saturation || options.detail;
+  if (is_shaped && !has_shape(*method))
+    return contradiction("--method",
+                         cat("expected neither --saturation nor --detail with method ", name_of(*method)));
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const ReliefOptions& options) {
@@ -30,9 +48,8 @@ Result<void> check(const ReliefOptions& options) {
   visit(options, ranges);
   if (ranges.error) return std::unexpected(*ranges.error);
   if (options.height_mm && options.alpha)
-    return std::unexpected(
-        Error{ErrorKind::option, "--alpha", {}, "expected either --height or --alpha, found both"});
-  return {};
+    return contradiction("--alpha", "expected either --height or --alpha, found both");
+  return check_method(options);
 }
 
 }  // namespace relievo

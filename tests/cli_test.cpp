@@ -148,6 +148,26 @@ TEST_F(Cli, GeneratesSamplesThatItCanRead) {
   EXPECT_NE(run("info s.ply").out.find("5000"), std::string::npos);
 }
 
+TEST_F(Cli, MakesReliefsByEveryMethod) {
+  for (const std::string method : {"ours", "paper", "linear", "equalise", "gradient", "detail"}) {
+    const Outcome outcome = run("make torus.ply -o t.stl --height 2 --method " + method + " --report r.json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(read_all(folder_ / "r.json").find("\"method\": \"" + method + '"'), std::string::npos);
+  }
+  expect_refusal("make torus.ply -o u.stl --method linear", "--height");
+}
+
+TEST_F(Cli, ComparesMethods) {
+  const Outcome outcome = run("compare torus.ply -o s.png --height 0.02,0.05 --methods ours,linear --json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\"shading\""), std::string::npos);
+  EXPECT_EQ(read_all(folder_ / "s.png").substr(1, 3), "PNG");
+  EXPECT_NE(run("compare torus.ply --height 0.05").out.find("gradient"), std::string::npos);
+  expect_refusal("compare torus.ply -o c.png --methods carving", "carving");
+  expect_refusal("compare torus.ply -o c.jpg", "c.jpg");
+  expect_refusal("compare torus.ply -o c.png --height 0", "--height");
+}
+
 TEST_F(Cli, HelpTellsRangesAndDefaults) {
   const std::string help = run("make --help").out;
   for (const char* part :

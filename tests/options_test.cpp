@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include <limits>
+#include <set>
 
 namespace relievo {
 namespace {
@@ -52,6 +51,26 @@ TEST(Options, HeightAndAlphaContradict) {
   options.height_mm = 3;
   options.alpha = 4;
   EXPECT_NE(complaint(options).find("found both"), std::string::npos);
+}
+
+TEST(Options, MethodsAreKnownAndHaveWhatTheyNeed) {
+  ReliefOptions options;
+  options.method = "carving";
+  EXPECT_NE(complaint(options).find("'carving'"), std::string::npos);
+  options.method = "gradient";
+  EXPECT_NE(complaint(options).find("--height"), std::string::npos);
+  options.height_mm = 3;
+  EXPECT_EQ(complaint(options), "");
+  options.detail = .1;
+  EXPECT_NE(complaint(options).find("--detail"), std::string::npos);
+}
+
+TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
+  ReliefOptions options;
+  options.height_mm = 3;
+  options.method = "paper";
+  EXPECT_EQ(options.effective_saturation(), .01);
+  EXPECT_EQ(options.effective_detail(), .02);
 }
 
 TEST(Options, EachFieldHasANameOfItsOwnAndHelp) {

@@ -85,6 +85,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
           {"visible_points", report.visible_points},
           {"rho", report.rho},
           {"diagonal", report.diagonal},
+          {"method", report.method},
           {"alpha", number_or_null(report.alpha)},
           {"beta", report.beta},
           {"gamma", report.gamma},

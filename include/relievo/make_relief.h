@@ -19,6 +19,7 @@ struct ReliefReport {
   std::size_t input_points = 0, visible_points = 0;
   double rho = 0;       // sampling distance, in the cloud's units
   double diagonal = 0;  // L_d: diagonal of the cloud's box, in its units
+  std::string method;   // its name, see method.h; alpha, beta, gamma and u mean nothing for the rivals
   double alpha = 0;     // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
   double beta = 0, gamma = 0;
   double u = 0;  // alpha^-beta, see Compression

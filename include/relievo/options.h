@@ -16,6 +16,7 @@ struct ReliefOptions {
   std::optional<double> alpha;       // the paper's height coefficient, 4 if neither it nor a height is given
   std::optional<double> saturation;  // the paper's beta: 0.01, or 0 with a height
   std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
+  std::string method;                // see method.h; ours with a height, else the paper's
   std::optional<double> steepest_deg;  // steepest slope of the front, 76 without it
   double boundary_width = 2;           // of (7), in sampling distances
   std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
@@ -30,9 +31,10 @@ struct ReliefOptions {
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
   // model.
+  std::string effective_method() const { return !method.empty() ? method : height_mm ? "ours" : "paper"; }
   double effective_alpha() const { return alpha.value_or(4); }
-  double effective_saturation() const { return saturation.value_or(height_mm ? 0 : .01); }
-  double effective_detail() const { return detail.value_or(height_mm ? .04 : .02); }
+  double effective_saturation() const { return saturation.value_or(effective_method() == "paper" ? .01 : 0); }
+  double effective_detail() const { return detail.value_or(effective_method() == "paper" ? .02 : .04); }
 };
 
 struct OptionField {
@@ -57,6 +59,9 @@ void visit(Options& o, F&& f) {
   f(OptionField{"saturation", "B", "saturation coefficient, 0 is even; default 0.01, with height 0", 0, 100},
     o.saturation);
   f(OptionField{"detail", "G", "detail coefficient; default 0.02, with height 0.04", 0, 1}, o.detail);
+  f(OptionField{"method", "NAME",
+                "ours, paper, linear, equalise, gradient or detail; default ours with a height, else paper"},
+    o.method);
   f(OptionField{"steepest", "DEG", "steepest slope of the front; default 76", 1, 89}, o.steepest_deg);
   f(OptionField{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100}, o.boundary_width);
   f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
@@ -81,7 +86,9 @@ void visit(Options& o, F&& f) {
     o.tolerance_mm);
 }
 
-// Checks every range, and that not both height and alpha are given. Errors: kind option, naming the option.
+// Checks every range, that the method exists, and that options do not contradict each other: height and
+// alpha; a method other than the paper's without a height; saturation or detail for a method that has none.
+// Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

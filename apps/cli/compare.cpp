@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "files.h"
+#include "relievo/io.h"
+#include "relievo/measures.h"
+#include "relievo/method.h"
+#include "relievo/parallel.h"
+#include "relievo/text.h"
+#include "relievo/view.h"
+#include "sheet.h"
+#include "terminal.h"
+
+namespace relievo::cli {
+namespace {
+
+struct CompareArguments {
+  std::string input, output, view = "front", up;
+  std::vector<double> heights{.0125, .025, .05};  // of the width
+  std::vector<std::string> methods;
+  int threads = 0;
+  bool is_json = false, is_quiet = false;
+};
+
+struct Entry {
+  Method method;
+  double height = 0;  // of the width
+  Measures measures;
+  Image8 picture;
+};
+
+struct Comparison {
+  std::size_t visible_points = 0, measured_pixels = 0;
+  Image8 model;
+  std::vector<Entry> entries;  // by height, then by method
+};
+
+constexpr float light_x = -1, light_y = 1, light_z = 1;
+
+Result<std::vector<Method>> parse_methods(const std::vector<std::string>& names) {
+  std::vector<Method> chosen;
+  if (names.empty())
+    for (const MethodInfo& info : methods) chosen.push_back(info.method);
+  for (const std::string& name : names) {
+    const std::optional<Method> method = parse_method(name);
+    if (!method)
+      return std::unexpected(Error{ErrorKind::option, "--methods", {}, cat("found no method '", name, "'")});
+    chosen.push_back(*method);
+  }
+  return chosen;
+}
+
+double longer_side(const Surface& surface) {
+  Box box;
+  for (const Vec3& p : surface.points) box.extend(p);
+  return std::max(box.size().x(), box.size().y());
+}
+
+Result<ReliefModel> prepare(const CompareArguments& arguments, Progress& progress) {
+  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
+  if (!bytes) return std::unexpected(bytes.error());
+  const Result<CloudFile> file = read_cloud(*bytes, arguments.input);
+  if (!file) return std::unexpected(file.error());
+  const Result<View> view = parse_view(arguments.view, arguments.up);
+  if (!view) return std::unexpected(view.error());
+  const std::vector<Index> strays = far_points(file->cloud);
+  Result<Surface> surface =
+      find_surface(strays.empty() ? file->cloud : without(file->cloud, strays), *view, {}, &progress);
+  if (!surface) return std::unexpected(surface.error());
+  return ReliefModel::prepare(std::move(*surface), &progress);
+}
+
+Result<Comparison> compare_all(const CompareArguments& arguments, const std::vector<Method>& chosen,
+                               Progress& progress) {
+  const Result<ReliefModel> model = prepare(arguments, progress);
+  if (!model) return std::unexpected(model.error());
+  if (auto go = progress.stage("comparison", .85); !go) return std::unexpected(go.error());
+  const Vec3f light(light_x, light_y, light_z);
+  const Judge judge(model->surface());
+  Comparison result{model->surface().visible_points, judge.pixels(), judge.shade_model(light), {}};
+  const double width = longer_side(model->surface());
+  for (const double share : arguments.heights)
+    for (const Method method : chosen) {
+      Result<Relief> relief = make_by_method(method, *model, share * width, default_shape(method), 1 / width);
+      if (!relief) return std::unexpected(relief.error());
+      result.entries.push_back(
+          {method, share, judge.measure(relief->heights), judge.shade(relief->heights, light)});
+    }
+  return result;
+}
+
+std::string fixed(double value, int digits) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::fixed, digits);
+  return {text, end.ptr};
+}
+
+std::string percent(double share) {
+  return cat(100 * share, " %");
+}
+
+std::vector<std::string> lines_of(const Entry& e) {
+  const Measures& m = e.measures;
+  return {cat(name_of(e.method), ", ", percent(e.height)),
+          cat("shading ", fixed(m.shading, 3), "  angle ", fixed(m.angle_deg, 1)),
+          cat("detail ", fixed(m.detail[0], 3), " ", fixed(m.detail[1], 3), " ", fixed(m.detail[2], 3)),
+          cat("order ", fixed(m.order, 3), "  used ", fixed(m.height_used, 2))};
+}
+
+std::vector<std::byte> sheet_of(const Comparison& comparison, std::size_t methods_per_height) {
+  std::vector<std::vector<SheetCell>> rows;
+  for (std::size_t i = 0; i < comparison.entries.size(); ++i) {
+    if (i % methods_per_height == 0)
+      rows.push_back({{comparison.model, {"the model", cat(comparison.visible_points, " points")}}});
+    rows.back().push_back({comparison.entries[i].picture, lines_of(comparison.entries[i])});
+  }
+  return write_png(make_sheet(rows));
+}
+
+void print_table(const Comparison& comparison) {
+  std::printf("%zu visible points, %zu pixels measured\n\n", comparison.visible_points,
+              comparison.measured_pixels);
+  std::printf("height  method    shading  angle  detail 1, 2, 4 px    order   halo  steep  used  jump\n");
+  for (const Entry& e : comparison.entries) {
+    const Measures& m = e.measures;
+    std::printf("%5.4g%%  %-8s  %7.4f  %5.2f  %5.3f %5.3f %5.3f   %6.3f  %5.3f  %5.3f  %4.2f  %4.2f\n",
+                100 * e.height, std::string(name_of(e.method)).c_str(), m.shading, m.angle_deg, m.detail[0],
+                m.detail[1], m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step);
+  }
+}
+
+void print_json(const Comparison& comparison) {
+  nlohmann::json entries = nlohmann::json::array();
+  for (const Entry& e : comparison.entries) {
+    const Measures& m = e.measures;
+    entries.push_back({{"method", name_of(e.method)},
+                       {"height", e.height},
+                       {"shading", m.shading},
+                       {"angle_deg", m.angle_deg},
+                       {"detail", m.detail},
+                       {"order", m.order},
+                       {"halo", m.halo},
+                       {"steep_share", m.steep_share},
+                       {"height_used", m.height_used},
+                       {"jump_step", m.jump_step}});
+  }
+  const nlohmann::json json{{"visible_points", comparison.visible_points},
+                            {"measured_pixels", comparison.measured_pixels},
+                            {"reliefs", entries}};
+  std::printf("%s\n", json.dump(2).c_str());
+}
+
+Result<void> check_arguments(const CompareArguments& arguments) {
+  if (arguments.output.empty()) return {};
+  if (ending_of(arguments.output) != "png")
+    return std::unexpected(Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .png"});
+  if (is_same_file(arguments.output, arguments.input))
+    return std::unexpected(
+        Error{ErrorKind::option, arguments.output, {}, "expected different files for input and outputs"});
+  return check_writable(arguments.output);
+}
+
+Result<void> compare(const CompareArguments& arguments) {
+  if (auto ok = check_arguments(arguments); !ok) return ok;
+  const Result<std::vector<Method>> chosen = parse_methods(arguments.methods);
+  if (!chosen) return std::unexpected(chosen.error());
+  set_thread_count(arguments.threads);
+  Progress progress(progress_bar(arguments.is_quiet));
+  Result<Comparison> comparison = compare_all(arguments, *chosen, progress);
+  progress.finish();
+  if (!comparison) {
+    if (comparison.error().input.empty()) comparison.error().input = arguments.input;
+    return std::unexpected(comparison.error());
+  }
+  if (!arguments.output.empty()) {
+    const OutputFile file{arguments.output, sheet_of(*comparison, chosen->size())};
+    if (auto ok = write_files({&file, 1}); !ok) return ok;
+  }
+  arguments.is_json ? print_json(*comparison) : print_table(*comparison);
+  return {};
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, Result<void>& result) {
+  const auto arguments = std::make_shared<CompareArguments>();
+  CLI::App& command = *program.add_subcommand("compare", "Measure reliefs of one scan by several methods");
+  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS")
+      ->required()
+      ->type_name("INPUT");
+  command.add_option("-o,--output", arguments->output, "contact sheet with the measures beneath")
+      ->type_name("SHEET.png");
+  command
+      .add_option("--height", arguments->heights,
+                  "heights, as fractions of the width [0.0001 to 1]; default 0.0125,0.025,0.05")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-4, 1.0).description(""))
+      ->type_name("FRACTION,...");
+  std::string names;
+  for (const MethodInfo& info : methods) names += cat(names.empty() ? "" : ", ", info.name);
+  command.add_option("--methods", arguments->methods, cat("of ", names, "; default all"))
+      ->delimiter(',')
+      ->type_name("NAME,...");
+  command.add_option("--view", arguments->view, "as for make")->type_name("SIDE")->capture_default_str();
+  command.add_option("--up", arguments->up, "as for make")->type_name("X,Y,Z");
+  command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
+      ->check(CLI::Range(0, 256).description(""))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_flag("--json", arguments->is_json, "print JSON instead of a table");
+  command.add_flag("--quiet", arguments->is_quiet, "no progress bar");
+  command.callback([arguments, &result] { result = compare(*arguments); });
+}
+
+}  // namespace relievo::cli

@@ -1,0 +1,343 @@
+#include "relievo/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "jumps.h"
+#include "picture.h"
+#include "relievo/parallel.h"
+
+namespace relievo {
+namespace {
+
+constexpr int lights = 16;
+constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
+constexpr int safe_distance_px = 5;  // the reach of SSIM's window, too
+constexpr std::size_t pairs = 200000;
+
+// Azimuths of 45 degrees, first at 30, then at 55 degrees above the plane.
+Vec3f light_direction(int i) {
+  const double azimuth = i % 8 * std::numbers::pi / 4;
+  const double elevation = (i < 8 ? 30 : 55) * std::numbers::pi / 180;
+  return Vec3(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+              std::sin(elevation))
+      .cast<float>();
+}
+
+// SplitMix64, for pairs of pixels that are the same everywhere.
+struct Random {
+  std::uint64_t state = 1;
+  std::size_t below(std::size_t n) {
+    std::uint64_t z = state += 0x9E3779B97F4A7C15U;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBU;
+    return static_cast<std::size_t>((z ^ z >> 31) % n);
+  }
+};
+
+struct NormalPicture {
+  Plane x, y, z;
+};
+
+Plane lambert(const NormalPicture& n, const Vec3f& light) {
+  Plane out(n.x.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::max(0.F, n.x[i] * light.x() + n.y[i] * light.y() + n.z[i] * light.z());
+  return out;
+}
+
+Plane product(const Plane& a, const Plane& b) {
+  Plane out(a.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] * b[i];
+  return out;
+}
+
+double correlation(const Plane& a, const Plane& b, const std::vector<Index>& at) {
+  double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
+  for (const Index i : at) ma += static_cast<double>(a[i]), mb += static_cast<double>(b[i]);
+  const auto n = static_cast<double>(at.size());
+  ma /= n, mb /= n;
+  for (const Index i : at) {
+    const double da = static_cast<double>(a[i]) - ma, db = static_cast<double>(b[i]) - mb;
+    aa += da * da, bb += db * db, ab += da * db;
+  }
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
+}
+
+Image8 to_grey(const Plane& light, int width) {
+  Image8 image{width, width > 0 ? static_cast<int>(light.size()) / width : 0, 1,
+               std::vector<std::uint8_t>(light.size())};
+  for (std::size_t i = 0; i < light.size(); ++i)
+    image.pixels[i] =
+        static_cast<std::uint8_t>(std::pow(std::clamp(light[i], 0.F, 1.F), 1 / 2.2F) * 255 + .5F);
+  return image;
+}
+
+std::vector<Index> where(const std::vector<std::uint8_t>& mask) {
+  std::vector<Index> places;
+  for (Index i = 0; i < mask.size(); ++i)
+    if (mask[i]) places.push_back(i);
+  return places;
+}
+
+}  // namespace
+
+struct Judge::Truth {
+  // The model's shading under a light, with what SSIM needs of it.
+  struct Shading {
+    Plane mean, variance, light;
+  };
+  struct Edge {
+    Index a, b;
+  };
+
+  std::vector<Vec3> points;
+  Triangulation triangulation;
+  PictureGrid grid;
+  std::vector<std::uint8_t> is_inside;  // per pixel: on the relief
+  std::vector<std::uint8_t> is_smooth;  // the differences of normals across it stay on one surface
+  std::vector<Index> measured;          // pixels
+  NormalPicture normals;
+  Plane depth;
+  std::vector<Shading> shadings;
+  std::array<Plane, 3> curvature;      // smoothed
+  std::array<Plane, 3> smooth_weight;  // what of a Gaussian lies on smooth pixels
+  std::vector<Edge> jumps;
+  GaussianFilter window{1.5, 5};
+
+  explicit Truth(const Surface& surface)
+      : grid(surface.points, surface.triangulation, longer_side_px, margin_px) {
+    if (grid.pixels() == 0) return;
+    classify(surface);
+    draw(surface);
+    shadings.resize(lights);
+    parallel_for(
+        lights, [&](std::size_t i) { shadings[i] = shading_of(normals, static_cast<int>(i)); }, 1);
+    set_smooth_weights();
+    curvature = smoothed_curvature(normals);
+    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+      for (int corner = 0; corner < 3; ++corner) {
+        const Index a = surface.triangulation.triangles[t][corner],
+                    b = surface.triangulation.triangles[t][(corner + 1) % 3];
+        if (surface.boundary.is_inside[t] && a < b && is_jump(surface, a, b)) jumps.push_back({a, b});
+      }
+  }
+
+  int width() const { return grid.width(); }
+
+  void classify(const Surface& surface) {
+    const std::vector<std::uint8_t> is_jumping = jump_triangles(surface);
+    std::vector<std::uint8_t> is_outside(grid.pixels()), is_broken(grid.pixels());
+    for (std::size_t i = 0; i < grid.pixels(); ++i) {
+      const Index t = grid.triangle(i);
+      is_outside[i] = t == no_index || !surface.boundary.is_inside[t];
+      is_broken[i] = is_outside[i] || is_jumping[t];
+    }
+    is_inside.resize(grid.pixels());
+    is_smooth = widened(is_broken, width(), 1);
+    std::vector<std::uint8_t> is_safe = widened(is_broken, width(), safe_distance_px);
+    for (std::size_t i = 0; i < grid.pixels(); ++i) {
+      is_inside[i] = !is_outside[i];
+      is_smooth[i] = !is_smooth[i];
+      is_safe[i] = !is_safe[i];
+    }
+    measured = where(is_safe);
+  }
+
+  // Normals and depths of the scan; level outside.
+  void draw(const Surface& surface) {
+    const std::size_t n = grid.pixels();
+    normals = {Plane(n), Plane(n), Plane(n)};
+    depth.resize(n);
+    parallel_for(n, [&](std::size_t i) {
+      depth[i] = grid.at(
+          i, [&](Index p) { return static_cast<float>(surface.points[p].z()); }, 0);
+      Vec3f normal = Vec3f::UnitZ();
+      if (is_inside[i])
+        for (int axis = 0; axis < 3; ++axis)
+          normal[axis] = grid.at(
+              i, [&](Index p) { return surface.normals[p][axis]; }, 0);
+      normal.normalize();
+      normals.x[i] = normal.x(), normals.y[i] = normal.y(), normals.z[i] = normal.z();
+    });
+  }
+
+  Shading shading_of(const NormalPicture& n, int light) const {
+    Shading s;
+    s.light = lambert(n, light_direction(light));
+    s.mean = s.light;
+    window.apply(s.mean, width());
+    s.variance = product(s.light, s.light);
+    window.apply(s.variance, width());
+    for (std::size_t i = 0; i < s.variance.size(); ++i) s.variance[i] -= s.mean[i] * s.mean[i];
+    return s;
+  }
+
+  // Structural similarity, Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and window.
+  double similarity(const Shading& a, const Shading& b) const {
+    constexpr double c1 = .01 * .01, c2 = .03 * .03;
+    Plane ab = product(a.light, b.light);
+    window.apply(ab, width());
+    double sum = 0;
+    for (const Index i : measured) {
+      const double ma = static_cast<double>(a.mean[i]), mb = static_cast<double>(b.mean[i]);
+      const double va = static_cast<double>(a.variance[i]), vb = static_cast<double>(b.variance[i]);
+      const double cov = static_cast<double>(ab[i]) - ma * mb;
+      sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
+    }
+    return sum / static_cast<double>(measured.size());
+  }
+
+  double shading(const NormalPicture& n) const {
+    std::array<double, lights> parts{};
+    parallel_for(
+        lights,
+        [&](std::size_t i) { parts[i] = similarity(shadings[i], shading_of(n, static_cast<int>(i))); }, 1);
+    double sum = 0;
+    for (const double part : parts) sum += part;
+    return sum / lights;
+  }
+
+  double angle_deg(const NormalPicture& n) const {
+    double sum = 0;
+    for (const Index i : measured) {
+      const double cosine =
+          static_cast<double>(n.x[i] * normals.x[i] + n.y[i] * normals.y[i] + n.z[i] * normals.z[i]);
+      sum += std::acos(std::clamp(cosine, -1.0, 1.0));
+    }
+    return sum / static_cast<double>(measured.size()) * 180 / std::numbers::pi;
+  }
+
+  void set_smooth_weights() {
+    for (std::size_t s = 0; s < detail_scales_px.size(); ++s) {
+      smooth_weight[s].assign(is_smooth.begin(), is_smooth.end());
+      GaussianFilter(detail_scales_px[s], 3 * detail_scales_px[s]).apply(smooth_weight[s], width());
+    }
+  }
+
+  // div n, averaged over smooth pixels alone.
+  std::array<Plane, 3> smoothed_curvature(const NormalPicture& n) const {
+    Plane divergence(n.x.size(), 0.F);
+    const auto w = static_cast<std::size_t>(width());
+    for (std::size_t i = w; i + w < divergence.size(); ++i)
+      if (is_smooth[i]) divergence[i] = (n.x[i + 1] - n.x[i - 1] + n.y[i - w] - n.y[i + w]) / 2;
+    std::array<Plane, 3> smoothed;
+    parallel_for(
+        smoothed.size(),
+        [&](std::size_t s) {
+          smoothed[s] = divergence;
+          GaussianFilter(detail_scales_px[s], 3 * detail_scales_px[s]).apply(smoothed[s], width());
+          for (const Index i : measured) smoothed[s][i] /= smooth_weight[s][i];
+        },
+        1);
+    return smoothed;
+  }
+
+  double order(const Plane& z) const {
+    const auto [low, high] = std::minmax_element(measured.begin(), measured.end(),
+                                                 [&](Index a, Index b) { return depth[a] < depth[b]; });
+    const float least = .01F * (depth[*high] - depth[*low]);
+    Random random;
+    std::size_t counted = 0, kept = 0;
+    for (std::size_t pair = 0; pair < pairs; ++pair) {
+      const Index a = measured[random.below(measured.size())], b = measured[random.below(measured.size())];
+      if (!(std::abs(depth[a] - depth[b]) > least)) continue;
+      ++counted;
+      kept += (depth[a] > depth[b]) == (z[a] > z[b]) && z[a] != z[b];
+    }
+    return counted > 0 ? static_cast<double>(kept) / static_cast<double>(counted) : 0;
+  }
+
+  Plane heights_in_pixels(std::span<const double> heights) const {
+    Plane z(grid.pixels());
+    const double scale = 1 / grid.units_per_pixel();
+    parallel_for(z.size(), [&](std::size_t i) {
+      z[i] = grid.at(
+          i, [&](Index p) { return static_cast<float>(heights[p] * scale); }, 0);
+    });
+    return z;
+  }
+
+  // By central differences, level at the picture's rim.
+  NormalPicture normals_of(const Plane& z) const {
+    NormalPicture n{Plane(z.size(), 0.F), Plane(z.size(), 0.F), Plane(z.size(), 1.F)};
+    const int w = width(), h = grid.height();
+    for (int row = 1; row + 1 < h; ++row)
+      for (int column = 1; column + 1 < w; ++column) {
+        const std::size_t i =
+            static_cast<std::size_t>(row) * static_cast<std::size_t>(w) + static_cast<std::size_t>(column);
+        const float dx = (z[i + 1] - z[i - 1]) / 2,
+                    dy = (z[i - static_cast<std::size_t>(w)] - z[i + static_cast<std::size_t>(w)]) / 2;
+        const float scale = 1 / std::sqrt(1 + dx * dx + dy * dy);
+        n.x[i] = -dx * scale, n.y[i] = -dy * scale, n.z[i] = scale;
+      }
+    return n;
+  }
+
+  // What the relief does where the measures do not look.
+  void guard(const Plane& z, const NormalPicture& n, std::span<const double> heights, Measures& m) const {
+    const double height_px = m.height / grid.units_per_pixel();
+    const float steep = static_cast<float>(std::cos(80 * std::numbers::pi / 180));
+    std::vector<float> inside;
+    double background = 0, sum = 0, sum_sq = 0, steep_pixels = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (is_inside[i]) {
+        inside.push_back(z[i]);
+        steep_pixels += n.z[i] < steep;
+        continue;
+      }
+      const auto value = static_cast<double>(z[i]);
+      ++background, sum += value, sum_sq += value * value;
+    }
+    const double mean = background > 0 ? sum / background : 0;
+    if (background > 0) m.halo = std::sqrt(std::max(0.0, sum_sq / background - mean * mean)) / height_px;
+    const auto percentile = [&](double share) {
+      const auto at =
+          inside.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(inside.size() - 1));
+      std::nth_element(inside.begin(), at, inside.end());
+      return static_cast<double>(*at);
+    };
+    m.steep_share = steep_pixels / static_cast<double>(inside.size());
+    m.height_used = (percentile(.99) - percentile(.01)) / height_px;
+    for (const auto& [a, b] : jumps)
+      m.jump_step = std::max(m.jump_step, std::abs(heights[a] - heights[b]) / m.height);
+  }
+};
+
+Judge::Judge(const Surface& surface) : truth_(std::make_unique<Truth>(surface)) {}
+Judge::Judge(Judge&&) noexcept = default;
+Judge::~Judge() = default;
+
+std::size_t Judge::pixels() const {
+  return truth_->measured.size();
+}
+
+Measures Judge::measure(std::span<const double> heights) const {
+  Measures m;
+  if (pixels() == 0) return m;
+  const auto [low, high] = std::ranges::minmax(heights);
+  m.height = std::max(high, 0.0) - std::min(low, 0.0);
+  if (!(m.height > 0)) return m;
+  const Plane z = truth_->heights_in_pixels(heights);
+  const NormalPicture n = truth_->normals_of(z);
+  m.shading = truth_->shading(n);
+  m.angle_deg = truth_->angle_deg(n);
+  const std::array<Plane, 3> curvature = truth_->smoothed_curvature(n);
+  for (std::size_t s = 0; s < curvature.size(); ++s)
+    m.detail[s] = correlation(curvature[s], truth_->curvature[s], truth_->measured);
+  m.order = truth_->order(z);
+  truth_->guard(z, n, heights, m);
+  return m;
+}
+
+Image8 Judge::shade(std::span<const double> heights, const Vec3f& light) const {
+  const NormalPicture n = truth_->normals_of(truth_->heights_in_pixels(heights));
+  return to_grey(lambert(n, light.normalized()), truth_->width());
+}
+
+Image8 Judge::shade_model(const Vec3f& light) const {
+  return to_grey(lambert(truth_->normals, light.normalized()), truth_->width());
+}
+
+}  // namespace relievo

@@ -1,0 +1,40 @@
+#include "relievo/method.h"
+
+#include <algorithm>
+
+#include "relievo/rivals.h"
+
+namespace relievo {
+
+std::optional<Method> parse_method(std::string_view name) {
+  const auto found = std::ranges::find(methods, name, &MethodInfo::name);
+  return found == methods.end() ? std::nullopt : std::optional(found->method);
+}
+
+std::string_view name_of(Method method) {
+  return std::ranges::find(methods, method, &MethodInfo::method)->name;
+}
+
+Shape default_shape(Method method) {
+  return method == Method::ours ? Shape{{1, 0}, .04} : Shape{{1, .01}, .02};
+}
+
+Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
+                              double unit_mm, Progress* progress) {
+  switch (method) {
+    case Method::linear:
+      return linear_relief(model.surface(), height);
+    case Method::equalise:
+      return equalised_relief(model.surface(), height);
+    case Method::gradient:
+      return gradient_relief(model, height);
+    case Method::detail:
+      return base_and_detail_relief(model, height);
+    case Method::ours:
+    case Method::paper:
+      break;
+  }
+  return model.make_at_height(height, shape, unit_mm, progress);
+}
+
+}  // namespace relievo
