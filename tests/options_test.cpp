@@ -81,7 +81,7 @@ TEST(Options, EachFieldHasANameAndHelp) {
     EXPECT_FALSE(field.help.empty());
     EXPECT_LT(field.min, field.max);
   });
-  EXPECT_EQ(fields, 13);
+  EXPECT_EQ(fields, 14);
 }
 
 }  // namespace
