@@ -11,7 +11,7 @@
 #include "relievo/triangulation.h"
 
 #if defined(RELIEVO_BENCH_CHOLMOD)
-#include <cholmod.h>
+#include "cholmod_system.h"
 #endif
 
 namespace relievo {
@@ -112,52 +112,14 @@ void cholesky_solve_double(benchmark::State& state) {
 }
 
 #if defined(RELIEVO_BENCH_CHOLMOD)
-// One ordering tried, as given by the benchmark's second argument.
-struct Cholmod {
-  cholmod_common common;
-  cholmod_sparse A{};
-
-  Cholmod(const Sparse& matrix, int ordering) {
-    cholmod_start(&common);
-    common.nmethods = 1;
-    common.method[0].ordering = ordering;
-    auto& source = const_cast<Sparse&>(matrix);
-    A.nrow = A.ncol = static_cast<std::size_t>(source.cols());
-    A.nzmax = static_cast<std::size_t>(source.nonZeros());
-    A.p = source.outerIndexPtr();
-    A.i = source.innerIndexPtr();
-    A.x = source.valuePtr();
-    A.stype = -1;
-    A.itype = CHOLMOD_INT;
-    A.xtype = CHOLMOD_REAL;
-    A.dtype = CHOLMOD_DOUBLE;
-    A.sorted = A.packed = 1;
-  }
-  ~Cholmod() { cholmod_finish(&common); }
-
-  cholmod_factor* factor() {
-    cholmod_factor* L = cholmod_analyze(&A, &common);
-    cholmod_factorize(&A, L, &common);
-    return L;
-  }
-};
-
 void cholmod_factor_all(benchmark::State& state) {
-  Cholmod cholmod(system_of(state).A, static_cast<int>(state.range(1)));
-  for (auto _ : state) {
-    cholmod_factor* L = cholmod.factor();
-    cholmod_free_factor(&L, &cholmod.common);
-  }
+  for (auto _ : state) CholmodSystem(system_of(state).A, static_cast<int>(state.range(1)));
 }
 
 void cholmod_solve_again(benchmark::State& state) {
-  Cholmod cholmod(system_of(state).A, static_cast<int>(state.range(1)));
-  cholmod_factor* L = cholmod.factor();
-  cholmod_dense* b = cholmod_ones(cholmod.A.nrow, 1, CHOLMOD_REAL, &cholmod.common);
-  cholmod_dense *x = nullptr, *Y = nullptr, *E = nullptr;
-  for (auto _ : state) cholmod_solve2(CHOLMOD_A, L, b, nullptr, &x, nullptr, &Y, &E, &cholmod.common);
-  for (cholmod_dense** dense : {&b, &x, &Y, &E}) cholmod_free_dense(dense, &cholmod.common);
-  cholmod_free_factor(&L, &cholmod.common);
+  CholmodSystem cholmod(system_of(state).A, static_cast<int>(state.range(1)));
+  std::vector<double> b(static_cast<std::size_t>(system_of(state).A.cols()), 1.0);
+  for (auto _ : state) benchmark::DoNotOptimize(cholmod.solve(b));
 }
 #endif
 

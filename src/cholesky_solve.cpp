@@ -19,6 +19,12 @@ Cholesky::Workspace::Workspace(Workspace&&) noexcept = default;
 Cholesky::Workspace& Cholesky::Workspace::operator=(Workspace&&) noexcept = default;
 Cholesky::Workspace::~Workspace() = default;
 
+std::size_t Cholesky::Workspace::memory() const {
+  const auto& [segments, done, solution, residual, largest] = *storage_;
+  return segments.size() * sizeof(float) +
+         (solution.size() + residual.size() + largest.size()) * sizeof(double);
+}
+
 namespace {
 
 using Factor = Cholesky::Factor;

@@ -56,6 +56,7 @@ Cloud without(const Cloud& cloud, std::span<const Index> left_out) {
     }
     kept.points.push_back(cloud.points[i]);
     if (cloud.has_normals()) kept.normals.push_back(cloud.normals[i]);
+    if (cloud.has_colours()) kept.colours.push_back(cloud.colours[i]);
   }
   return kept;
 }

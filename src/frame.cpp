@@ -66,7 +66,8 @@ Span span_of(std::span<const float> heights) {
 struct FrameMaker::Packed {
   const ReliefModel& model;
   const Surface& surface = model.surface();
-  PointLinks normal_links = vertex_normal_links(in_plane(surface), surface.triangulation, surface.boundary);
+  PointLinks normal_links = vertex_normal_links(in_plane(surface), surface.triangulation, surface.boundary,
+                                                model.system() ? &model.system()->links() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
@@ -213,7 +214,9 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
 }
 
 std::size_t FrameMaker::memory() const {
-  return packed_->normal_links.memory() + packed_->size() * (sizeof(Vec2f) + 2 * sizeof(float));
+  const std::size_t workspace = std::visit([](const auto& w) { return w.memory(); }, packed_->workspace);
+  return packed_->normal_links.memory() + workspace + packed_->slopes.size() * sizeof(Vec2f) +
+         packed_->boundary_weight.size() * sizeof(float);
 }
 
 }  // namespace relievo

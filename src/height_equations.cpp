@@ -42,28 +42,27 @@ std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulati
   return edges;
 }
 
-// The edges leaving each free point, the two halves of an edge added up.
+// The edges leaving each point in ascending order, the two halves of an edge added up.
 struct Adjacency {
   std::vector<Index> begin;
   std::vector<HalfEdge> edges;
 };
 
-Adjacency gather(const std::vector<HalfEdge>& all, std::span<const Index> unknown, std::size_t unknowns) {
-  std::vector<std::size_t> begin(unknowns + 1, 0);
-  for (const HalfEdge& e : all)
-    if (unknown[e.from] != no_index) ++begin[unknown[e.from] + 1];
-  for (std::size_t f = 0; f < unknowns; ++f) begin[f + 1] += begin[f];
+Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points) {
+  std::vector<std::size_t> begin(points + 1, 0);
+  for (const HalfEdge& e : all) ++begin[e.from + 1];
+  for (std::size_t i = 0; i < points; ++i) begin[i + 1] += begin[i];
   std::vector<HalfEdge> sorted(begin.back());
   std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const HalfEdge& e : all)
-    if (unknown[e.from] != no_index) sorted[next[unknown[e.from]]++] = e;
+  for (const HalfEdge& e : all) sorted[next[e.from]++] = e;
 
   Adjacency result;
-  result.begin.reserve(unknowns + 1);
-  for (std::size_t f = 0; f < unknowns; ++f) {
+  result.begin.reserve(points + 1);
+  result.edges.reserve(all.size() / 2 + points);
+  for (std::size_t i = 0; i < points; ++i) {
     result.begin.push_back(static_cast<Index>(result.edges.size()));
-    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[f]);
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[f + 1]);
+    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i]);
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]);
     std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.to < b.to; });
     for (auto e = first; e != last; ++e) {
       if (e != first && e->to == result.edges.back().to)
@@ -77,13 +76,15 @@ Adjacency gather(const std::vector<HalfEdge>& all, std::span<const Index> unknow
   return result;
 }
 
-Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown) {
-  const std::size_t n = adjacency.begin.size() - 1;
+Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
+                                      std::span<const Index> free_points) {
+  const std::size_t n = free_points.size();
   std::vector<Eigen::Triplet<double, int>> entries;
   entries.reserve(n + adjacency.edges.size() / 2);
   for (std::size_t f = 0; f < n; ++f) {
+    const Index i = free_points[f];
     double diagonal = 0;
-    for (Index e = adjacency.begin[f]; e < adjacency.begin[f + 1]; ++e) {
+    for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
       const HalfEdge& edge = adjacency.edges[e];
       const auto weight = static_cast<double>(edge.cotangent);
       diagonal += weight;
@@ -98,6 +99,25 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
+void add_pulls(std::span<const Vec2> points, const Adjacency& adjacency, std::span<const Index> unknown,
+               HeightEquations& equations) {
+  equations.begin.reserve(points.size() + 1);
+  equations.edges.reserve(adjacency.edges.size());
+  for (Index i = 0; i < points.size(); ++i) {
+    const bool is_free = unknown[i] != no_index;
+    bool has_itself = is_free;
+    for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
+      const Index other = adjacency.edges[e].to;
+      if (!has_itself && other > i) equations.edges.push_back({i}), has_itself = true;
+      const double half = is_free ? .5 * static_cast<double>(adjacency.edges[e].cotangent) : 0;
+      const Vec2 pull = half * (points[i] - points[other]);
+      equations.edges.push_back({other, pull.cast<float>()});
+    }
+    if (!has_itself) equations.edges.push_back({i});
+    equations.begin.push_back(static_cast<Index>(equations.edges.size()));
+  }
+}
+
 }  // namespace
 
 HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
@@ -109,18 +129,9 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
     unknown[i] = static_cast<Index>(equations.free_points.size());
     equations.free_points.push_back(i);
   }
-  const Adjacency adjacency =
-      gather(half_edges(points, triangulation, boundary), unknown, equations.free_points.size());
-  equations.A = laplacian(adjacency, unknown);
-
-  equations.begin.reserve(points.size() + 1);
-  for (const Index f : unknown)
-    equations.begin.push_back(f == no_index ? equations.begin.back() : adjacency.begin[f + 1]);
-  equations.edges.reserve(adjacency.edges.size());
-  for (const HalfEdge& e : adjacency.edges) {
-    const Vec2 pull = .5 * static_cast<double>(e.cotangent) * (points[e.from] - points[e.to]);
-    equations.edges.push_back({e.to, pull.cast<float>()});
-  }
+  const Adjacency adjacency = gather(half_edges(points, triangulation, boundary), points.size());
+  equations.A = laplacian(adjacency, unknown, equations.free_points);
+  add_pulls(points, adjacency, unknown, equations);
   return equations;
 }
 

@@ -17,13 +17,16 @@ class LightMap {
   // `to_lamp` has length 1. The map's longer side has `longer_side_px` pixels; an empty front gives a map of
   // ones.
   LightMap(const Solid& solid, const Vec3& to_lamp, int longer_side_px);
+  LightMap(HeightField field, const Vec3& to_lamp);
 
   // At a point of the front, between pixels interpolated.
-  Light at(const Vec3& point) const;
+  Light at(const Vec3f& point) const;
 
  private:
   HeightField field_;
   std::vector<Light> light_;
+  Vec2f origin_ = Vec2f::Zero();  // pixel of the place (0, 0)
+  float pixels_per_mm_ = 1;
 };
 
 }  // namespace relievo

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "relievo/mesh.h"
 #include "relievo/method.h"
 #include "relievo/text.h"
 #include "relievo/view.h"
@@ -34,6 +35,7 @@ Front front_in_mm(const Surface& surface, const Relief& relief, double mm_per_un
     const Vec3& p = surface.points[i];
     front.points[i] = mm_per_unit * Vec3(p.x(), p.y(), relief.heights[i]);
   }
+  front.colours = surface.colours;
   return front;
 }
 
@@ -132,6 +134,20 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
   Result<MadeRelief> made = make_relief(*model, options, progress);
   if (made && !strays.empty())
     made->report.remarks.push_back(cat("left out ", strays.size(), " points far from all others"));
+  return made;
+}
+
+Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options, Progress* progress) {
+  if (file.mesh.empty()) return make_relief(file.cloud, options, progress);
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<View> view = parse_view(options.view, options.up);
+  if (!view) return std::unexpected(view.error());
+  const Result<Cloud> seen = sample_mesh(file.mesh, *view, {options.points}, progress);
+  if (!seen) return std::unexpected(seen.error());
+  Result<MadeRelief> made = make_relief(*seen, options, progress);
+  if (made)
+    made->report.remarks.push_back(
+        cat("the mesh has ", file.mesh.triangles.size(), " triangles: ", seen->size(), " points taken"));
   return made;
 }
 

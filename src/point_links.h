@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -22,12 +23,15 @@ class PointLinks {
   // Copies the links of point i, which are links[begin[i]] up to links[begin[i + 1]].
   PointLinks(std::span<const Index> begin, std::span<const PointLink> links);
 
-  // Number of points.
-  std::size_t size() const { return size_; }
+  // The same, but shares the pattern of `like` if that has all these links, in this order: its others pull
+  // nothing.
+  PointLinks(std::span<const Index> begin, std::span<const PointLink> links, const PointLinks& like);
 
-  std::size_t memory() const {
-    return slots_.size() * sizeof(Slot) + (begin_.size() + points_.size()) * sizeof(Index);
-  }
+  // Number of points.
+  std::size_t size() const { return pattern_->size; }
+
+  // Bytes held, the pattern included unless it is that of `like`.
+  std::size_t memory() const;
 
   // sums[i] = sum of (slopes[i] + slopes[other]) . pull: the right-hand side of equation (9).
   void divergence(std::span<const Vec2f> slopes, std::span<float> sums) const;
@@ -42,20 +46,29 @@ class PointLinks {
   void normals(std::span<const float> heights, const Vec3f& light, const Shaded& out) const;
 
   static constexpr std::size_t lanes = 8;
+  static constexpr std::size_t window = 256;  // points
 
-  struct Slot {
-    std::array<Index, lanes> other;
-    std::array<float, 2 * lanes> pull;  // x and y of one lane after the other
+  using Others = std::array<Index, lanes>;
+  using Pulls = std::array<float, 2 * lanes>;  // x and y of one lane after the other
+
+  struct Pattern {
+    std::size_t size = 0;
+    std::vector<std::uint8_t> points;  // of the lanes, in their window; lanes left over repeat the last point
+    std::vector<Index> begin;          // slots of slice s: others[begin[s]] up to others[begin[s + 1]]
+    std::vector<Others> others;
+
+    Index point(std::size_t place) const {
+      return static_cast<Index>(place / window * window + points[place]);
+    }
   };
 
  private:
   template <typename F>
   void for_runs(F&& f) const;
 
-  std::size_t size_ = 0;
-  std::vector<Index> points_;  // in the order of the lanes; lanes left over repeat the last point
-  std::vector<Index> begin_;   // slots of slice s: slots_[begin_[s]] up to slots_[begin_[s + 1]]
-  std::vector<Slot> slots_;
+  std::shared_ptr<const Pattern> pattern_;
+  std::vector<Pulls> pulls_;  // by slot
+  bool owns_pattern_ = true;
 };
 
 }  // namespace relievo

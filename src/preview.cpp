@@ -88,7 +88,7 @@ Light light_at(const Model& model, const Scene& scene, Index t, const Vec2& plac
     point += weights[i] * model.solid.points[corners[i]];
   }
   if (is_level(model.solid, corners)) normal = Vec3f::UnitZ();
-  const Light facing = model.facing(normal.normalized()), reaching = model.light_map.at(point);
+  const Light facing = model.facing(normal.normalized()), reaching = model.light_map.at(point.cast<float>());
   return {facing.lamp * reaching.lamp, facing.sky * reaching.sky};
 }
 

@@ -8,8 +8,8 @@
 
 namespace relievo {
 
-// What is to be drawn. Points are in pixels: x to the right, y down, within half a pixel of
-// [0, width] x [0, height]; z grows towards the viewer. The centre of the first pixel is at (0.5, 0.5).
+// What is to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. They may lie
+// outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5, 0.5).
 struct Scene {
   static constexpr int most_pixels = 32768;  // of width and height: keeps the coverage test exact
 

@@ -25,9 +25,7 @@ Mode settle(Mode mode, const Surface& surface) {
 }
 
 ReliefModel::ReliefModel(Surface surface, Solver solver)
-    : surface_(std::move(surface)),
-      solver_(std::move(solver)),
-      boundary_weight_(boundary_weights(surface_.boundary.distance, surface_.rho)) {}
+    : surface_(std::move(surface)), solver_(std::move(solver)) {}
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
   if (settle(mode, surface) == Mode::subspace) {
@@ -45,7 +43,7 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
 
 std::size_t ReliefModel::memory() const {
   const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, solver_);
-  return solver + surface_.memory() + boundary_weight_.size() * sizeof(float);
+  return solver + surface_.memory();
 }
 
 std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const float> boundary_weight) const {
@@ -78,10 +76,8 @@ void round_tails(std::vector<double>& heights) {
 }  // namespace
 
 Relief ReliefModel::make(const Shape& shape) const {
-  std::vector<float> own_weight;
-  if (shape.boundary_width != Shape{}.boundary_width)  // (7) has 2 rho
-    own_weight = boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);
-  const std::vector<float>& boundary_weight = own_weight.empty() ? boundary_weight_ : own_weight;
+  const std::vector<float> boundary_weight =
+      boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);  // (7) has 2 rho
   Relief relief{heights(shape, boundary_weight), 0, shape};
   if (shape.style == Style::layered)
     round_tails(relief.heights);

@@ -15,6 +15,8 @@ namespace {
 // Below a micrometre the files' single precision could no longer tell the ring or the walls from a line.
 constexpr double least_size_mm = 1e-3;
 
+constexpr Colour plate_colour = {200, 200, 200};  // of the ground, walls and bottom of a coloured relief
+
 std::unexpected<Error> fail(ErrorKind kind, std::string input, std::string expected) {
   return std::unexpected(Error{kind, std::move(input), {}, std::move(expected)});
 }
@@ -37,6 +39,8 @@ Result<void> check_front(const Front& front) {
     return fail(ErrorKind::geometry, "front", "expected triangles and a hull around them, found none");
   if (std::ranges::any_of(front.triangles, has_bad_corner) || std::ranges::any_of(front.hull, is_bad))
     return fail(ErrorKind::geometry, "front", "expected corners that are finite points of the front");
+  if (!front.colours.empty() && front.colours.size() != front.points.size())
+    return fail(ErrorKind::geometry, "front", "expected a colour for each point of the front, or none");
   return {};
 }
 
@@ -243,6 +247,8 @@ Result<Solid> make_plate(const Front& front, const PlateOptions& options) {
   add_walls(solid, top, bottom);
   add_bottom(solid, bottom);
   separate_twins(solid, (options.thickness_mm + size.z()) / 2);
+  solid.colours = front.colours;
+  if (!front.colours.empty()) solid.colours.resize(solid.points.size(), plate_colour);
   return solid;
 }
 

@@ -81,6 +81,10 @@ SubspaceModel::Workspace::Workspace(Workspace&&) noexcept = default;
 SubspaceModel::Workspace& SubspaceModel::Workspace::operator=(Workspace&&) noexcept = default;
 SubspaceModel::Workspace::~Workspace() = default;
 
+std::size_t SubspaceModel::Workspace::memory() const {
+  return storage_->system.memory() + bytes(storage_->pair) + bytes(storage_->slopes);
+}
+
 SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
     : system_(std::move(system)), samples_(std::move(samples)), delta_(delta) {}
 

@@ -49,13 +49,18 @@ Result<void> check_extent(const Cloud& cloud) {
   return {};
 }
 
+// A scan from the viewer's side, say a depth image of a room: turned, its normals would all face away.
+bool all_face_viewer(const Cloud& viewed) {
+  return std::ranges::all_of(viewed.normals, [](const Vec3f& n) { return n.z() > 0; });
+}
+
 void settle_normals(Cloud& viewed, const Spacing& spacing, const Cloud& cloud, Surface& surface) {
   surface.has_estimated_normals = !viewed.has_normals();
   if (surface.has_estimated_normals) {
     estimate_normals(viewed);
     turn_to_viewer(viewed);
     turn_to_viewer(viewed, spacing, visible_points(viewed, spacing));
-  } else if (normals_point_inward(cloud)) {
+  } else if (!all_face_viewer(viewed) && normals_point_inward(cloud)) {
     surface.has_flipped_normals = true;
     flip_normals(viewed);
   }
@@ -93,7 +98,8 @@ Result<Viewed> look_at(const Cloud& cloud, Surface& surface, Progress* progress)
   if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
   Viewed viewed{in_view(cloud, surface.view), {}};
   const std::vector<Index> order = space_curve_order(viewed.cloud.points);
-  viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order)};
+  viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order),
+                  pick(viewed.cloud.colours, order)};
 
   if (auto go = begin_stage(progress, "spacing", .05); !go) return std::unexpected(go.error());
   viewed.spacing = measure_spacing(viewed.cloud);
@@ -125,6 +131,7 @@ Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& op
   const std::vector<Index> shown = along_the_plane(cloud, merged(visible, fillers));
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
+  surface.colours = pick(cloud.colours, shown);
   return pick(k, shown);
 }
 

@@ -27,7 +27,7 @@ double twice_area(std::span<const Vec2> points, const Triangle& t) {
 }  // namespace
 
 PointLinks vertex_normal_links(std::span<const Vec2> points, const Triangulation& triangulation,
-                               const Boundary& boundary) {
+                               const Boundary& boundary, const PointLinks* like) {
   std::vector<double> z(points.size(), 0.0);  // of the sum of cross products: it does not change
   std::vector<Index> count(points.size() + 1, 0);
   std::vector<Term> terms;
@@ -66,7 +66,7 @@ PointLinks vertex_normal_links(std::span<const Vec2> points, const Triangulation
     }
   }
   begin.push_back(static_cast<Index>(links.size()));
-  return PointLinks(begin, links);
+  return like ? PointLinks(begin, links, *like) : PointLinks(begin, links);
 }
 
 }  // namespace relievo

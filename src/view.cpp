@@ -97,6 +97,7 @@ Cloud in_view(const Cloud& cloud, const View& view) {
   Cloud out;
   out.points.resize(cloud.size());
   out.normals.resize(cloud.normals.size());
+  out.colours = cloud.colours;
   parallel_for(cloud.size(),
                [&](std::size_t i) { out.points[i] = view.rotation * (cloud.points[i] - centre); });
   parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });

@@ -87,6 +87,37 @@ TEST_F(Cli, MakesEverythingAskedFor) {
     EXPECT_NE(report.find('"' + std::string(key) + '"'), std::string::npos) << key;
 }
 
+TEST_F(Cli, MakesProjects) {
+  write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "torus.ply"}, "studio": {"any": 1},
+    "options": {"height": 3, "width": 50, "tone": "0,0.2;1,0.8", "view": "1,0.5,2", "up": "0,1,0"}})");
+  const std::string flags = " --height 3 --width 50 --tone '0,0.2;1,0.8' --view 1,0.5,2 --up 0,1,0";
+  EXPECT_EQ(run("make p.relievo -o p.stl").exit_code, 0);
+  EXPECT_EQ(run("make torus.ply -o t.stl" + flags).exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
+  EXPECT_EQ(run("make p.relievo -o p.stl --height 2").exit_code, 0);
+  EXPECT_EQ(
+      run("make torus.ply -o t.stl --height 2" + flags.substr(std::string(" --height 3").size())).exit_code,
+      0);
+  EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
+}
+
+TEST_F(Cli, RefusesWrongProjects) {
+  const auto refuse = [&](const std::string& project, const std::string& part) {
+    write_all(folder_ / "p.relievo", project);
+    expect_refusal("make p.relievo -o p.stl", part);
+  };
+  refuse("not json", "p.relievo: expected a project in JSON");
+  refuse(R"({"relievo": 2})", "p.relievo, relievo: expected a project of version 1");
+  refuse(R"({"relievo": 1, "options": {}})", "p.relievo, input: expected an object");
+  refuse(R"({"relievo": 1, "input": {}, "options": {}})", "expected either a path or a sample");
+  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"heigth": 1}})", "found 'heigth'");
+  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": "1"}})", "options.height");
+  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": -1}})", "--height");
+  refuse(R"({"relievo": 1, "input": {"path": "torus.ply", "hash": "fnv1a64:0"}, "options": {}})",
+         "expected the file as it was");
+  refuse(R"({"relievo": 1, "input": {"path": "gone.ply"}, "options": {}})", "gone.ply");
+}
+
 TEST_F(Cli, WritesPlyAndObjToo) {
   EXPECT_EQ(run("make torus.ply -o t.ply --quiet").exit_code, 0);
   EXPECT_EQ(run("make torus.ply -o t.OBJ --quiet").exit_code, 0);

@@ -55,6 +55,17 @@ inline std::string check_answer(const Result<CloudFile>& answer, std::string_vie
   for (const Vec3f& n : cloud.normals) {
     if (!(std::abs(n.norm() - 1) < 1e-6F)) return "normal is not unit";
   }
+  if (cloud.has_colours() && cloud.colours.size() != cloud.size()) return "not one colour per point";
+  const Mesh& mesh = answer->mesh;
+  for (const Triangle& t : mesh.triangles) {
+    for (const Index i : t) {
+      if (i >= mesh.points.size() || !mesh.points[i].allFinite()) return "triangle without a finite corner";
+    }
+  }
+  const bool has_normals = !mesh.corner_normals.empty(), has_colours = !mesh.colours.empty();
+  if (has_normals && mesh.corner_normals.size() != mesh.triangles.size())
+    return "not three normals per triangle";
+  if (has_colours && mesh.colours.size() != mesh.points.size()) return "not one colour per point of the mesh";
   return answer->format.empty() ? "no format" : "";
 }
 

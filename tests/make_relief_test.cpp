@@ -89,10 +89,10 @@ TEST(MakeRelief, RefusesAHeightOutOfReach) {
 TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
   ReliefOptions options;
   options.view = "sideways";
-  EXPECT_EQ(make_relief({}, options).error().kind, ErrorKind::option);
+  EXPECT_EQ(make_relief(Cloud{}, options).error().kind, ErrorKind::option);
   options = {};
   options.margin_mm = -1;
-  EXPECT_EQ(make_relief({}, options).error().kind, ErrorKind::option);
+  EXPECT_EQ(make_relief(Cloud{}, options).error().kind, ErrorKind::option);
 }
 
 TEST(MakeRelief, FromAPreparedModelIsTheSame) {

@@ -289,10 +289,12 @@ TEST(PlyBinary, ListInTheLastVertexThatEndsEarlyIsNamed) {
                 ": expected property z, found the end of the file");
 }
 
-TEST(PlyBinary, CutOffFacesDoNotMatter) {
+TEST(PlyBinary, CutOffFacesAreAnError) {
   const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}}, {{3, 0, 1, 2}}};
   const std::string whole = encode_ply({{"vertex", xyz, three_rows}, faces}, PlyEncoding::little_endian);
-  EXPECT_EQ(points_of(whole.substr(0, whole.size() - 5)), three_points);
+  EXPECT_EQ(message_of(whole.substr(0, whole.size() - 5), "scan.ply"),
+            "scan.ply, byte " + std::to_string(whole.size() - 13) +
+                ": expected the length of the list vertex_indices, found 3, and there is room for 1");
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ TEST(ToneCurve, StaysBetweenNeighbouringPoints) {
 
 TEST(ToneCurve, WrongTextsAreNamed) {
   for (const char* text :
-       {"1", "a,b", "0,0;", "0;0", "0,0,0", "0,1.5", "-1,0", "0,nan", "0.5,0;0.5,1", "1,0;0,1", ""})
+       {"1", "a,b", "0;0", "0,0,0", "0,1.5", "-1,0", "0,nan", "0.5,0;0.5,1", "1,0;0,1", ""})
     EXPECT_NE(complaint(text).find("--tone: expected"), std::string::npos) << text;
   std::string many;
   for (int i = 0; i < 17; ++i) many += cat(i > 0 ? ";" : "", i / 20.0, ",0");

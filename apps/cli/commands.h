@@ -11,6 +11,7 @@ void add_make(CLI::App& program, Result<void>& result);
 void add_info(CLI::App& program, Result<void>& result);
 void add_sample(CLI::App& program, Result<void>& result);
 void add_bench(CLI::App& program, Result<void>& result);
+void add_studio(CLI::App& program, Result<void>& result);
 void add_compare(CLI::App& program, Result<void>& result);
 
 }  // namespace relievo::cli

@@ -42,6 +42,7 @@ Result<void> info(const std::string& input) {
   line("format", file->format);
   line("points", cat(file->cloud.size(),
                      file->dropped_points ? cat(" (and ", file->dropped_points, " not finite)") : ""));
+  if (!file->mesh.empty()) line("triangles", cat(file->mesh.triangles.size()));
   line("normals", normals_text(file->cloud));
   line("from", vector_text(box.min));
   line("to", vector_text(box.max));
@@ -56,7 +57,10 @@ Result<void> info(const std::string& input) {
 void add_info(CLI::App& program, Result<void>& result) {
   const auto input = std::make_shared<std::string>();
   CLI::App& command = *program.add_subcommand("info", "Tell what is in a scan");
-  command.add_option("input", *input, "point cloud: PLY, OBJ, XYZ, PTS")->required()->type_name("INPUT");
+  command
+      .add_option("input", *input, "point cloud (PLY, PCD, LAS, XYZ, PTS) or mesh (PLY, STL, OBJ, OFF, GLB)")
+      ->required()
+      ->type_name("INPUT");
   command.callback([input, &result] { result = info(*input); });
 }
 

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   relievo::cli::add_info(program, result);
   relievo::cli::add_sample(program, result);
   relievo::cli::add_bench(program, result);
+  relievo::cli::add_studio(program, result);
   relievo::cli::add_compare(program, result);
   program.footer(
       "Examples:\n"
@@ -25,9 +26,10 @@ int main(int argc, char** argv) {
       "  relievo info scan.ply");
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == argv[1]; };
   if (argc > 1 && argv[1][0] != '-' && program.get_subcommands(is_asked_for).empty()) {
-    std::fprintf(stderr,
-                 "relievo: expected make, info, sample, bench or compare, found '%s'; see relievo --help\n",
-                 argv[1]);
+    std::fprintf(
+        stderr,
+        "relievo: expected make, studio, info, sample, bench or compare, found '%s'; see relievo --help\n",
+        argv[1]);
     return 2;
   }
   relievo::cli::remove_temporary_files_on_signals();

@@ -1,12 +1,15 @@
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
 #include "files.h"
-#include "relievo/io.h"
+#include "flags.h"
+#include "inputs.h"
+#include "project.h"
 #include "relievo/make_relief.h"
 #include "relievo/parallel.h"
 #include "relievo/preview.h"
@@ -23,6 +26,8 @@ struct MakeArguments {
   int threads = 0;
   bool is_quiet = false;
   ReliefOptions relief;
+  std::optional<studio::Input> scan;  // of a project
+  InputArguments in;
 };
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
@@ -102,23 +107,13 @@ std::vector<std::byte> text_bytes(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-Result<CloudFile> load(const std::string& input, Progress& progress) {
+Result<Input> load(const MakeArguments& arguments, Progress& progress) {
+  if (!arguments.scan) return read_input(arguments.input, arguments.in, arguments.relief.points, &progress);
   if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
-  const Result<std::vector<std::byte>> bytes = read_file(input);
-  if (!bytes) return std::unexpected(bytes.error());
-  return read_cloud(*bytes, input);
-}
-
-// What was left out of a file, in a line for each, or nothing.
-std::vector<std::string> remarks_on(const CloudFile& file, const std::string& input) {
-  std::vector<std::string> lines;
-  if (file.dropped_points > 0)
-    lines.push_back(
-        cat(input, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
-  if (file.dropped_normals > 0)
-    lines.push_back(cat(input, ": left out ", file.dropped_normals,
-                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
-  return lines;
+  studio::Input scan = *arguments.scan;
+  Result<CloudFile> file = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
+  if (!file) return std::unexpected(file.error());
+  return Input{std::move(*file), {}};
 }
 
 std::vector<OutputFile> finished_files(const MakeArguments& arguments, const MadeRelief& made,
@@ -142,10 +137,10 @@ struct Finished {
 };
 
 Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
-  const Result<CloudFile> file = load(arguments.input, progress);
-  if (!file) return std::unexpected(file.error());
-  Finished finished{{}, remarks_on(*file, arguments.input)};
-  Result<MadeRelief> made = make_relief(file->cloud, arguments.relief, &progress);
+  const Result<Input> input = load(arguments, progress);
+  if (!input) return std::unexpected(input.error());
+  Finished finished{{}, input->remarks};
+  Result<MadeRelief> made = make_relief(input->file, arguments.relief, &progress);
   if (!made) {
     if (made.error().input.empty()) made.error().input = arguments.input;
     return std::unexpected(made.error());
@@ -162,6 +157,7 @@ Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
 
 Result<void> make(const MakeArguments& arguments) {
   if (auto ok = check(arguments.relief); !ok) return ok;
+  if (auto ok = check(arguments.in.depth); !ok) return ok;
   if (auto ok = check_outputs(arguments); !ok) return ok;
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
@@ -174,36 +170,36 @@ Result<void> make(const MakeArguments& arguments) {
   return {};
 }
 
-// Adds one flag for each field of ReliefOptions.
-struct FlagAdder {
-  CLI::App& command;
-
-  void operator()(const OptionField& field, double& value) {
-    describe(command.add_option(flag(field), value, help(field)), field)->capture_default_str();
-  }
-  void operator()(const OptionField& field, std::optional<double>& value) {
-    describe(command.add_option(flag(field), value, help(field)), field);
-  }
-  void operator()(const OptionField& field, std::string& value) {
-    CLI::Option* option = command.add_option(flag(field), value, std::string(field.help));
-    describe(option, field)->capture_default_str();
-  }
-
-  static std::string flag(const OptionField& field) { return cat("--", field.name); }
-  static std::string help(const OptionField& field) {
-    return cat(field.help, " [", field.min, " to ", field.max, "]");
-  }
-  static CLI::Option* describe(CLI::Option* option, const OptionField& field) {
-    return option->type_name(std::string(field.unit));
-  }
-};
+// Takes what a project says, but for the flags that were given.
+Result<void> take_project(MakeArguments& arguments, const CLI::App& command) {
+  if (ending_of(arguments.input) != "relievo") return {};
+  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
+  if (!bytes) return std::unexpected(bytes.error());
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  Result<studio::Project> project = studio::read_project(text, arguments.input);
+  if (!project) return std::unexpected(project.error());
+  visit(project->options, [&](const OptionField& field, auto& value) {
+    if (command.count(FlagAdder::flag(field)) == 0) return;
+    if (field.name == "alpha") project->options.height_mm = std::nullopt;
+    visit(arguments.relief, [&](const OptionField& other, auto& given) {
+      if constexpr (std::is_same_v<decltype(value), decltype(given)>)
+        if (other.name == field.name) value = given;
+    });
+  });
+  arguments.relief = project->options;
+  arguments.scan = project->input;
+  return {};
+}
 
 }  // namespace
 
 void add_make(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<MakeArguments>();
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
-  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS")
+  command
+      .add_option("input", arguments->input,
+                  "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB), "
+                  "depth image (PNG, TIFF) or a studio's project")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .ply or .obj, in millimetres")
@@ -216,15 +212,18 @@ void add_make(CLI::App& program, Result<void>& result) {
       ->check(CLI::Range(16, 16384).description(""))
       ->type_name("PX")
       ->capture_default_str();
-  FlagAdder adder{command};
-  visit(arguments->relief, adder);
+  add_flags(command, arguments->relief);
+  add_input_flags(command, arguments->in);
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
       ->check(CLI::Range(0, 256).description(""))
       ->type_name("N")
       ->capture_default_str();
   command.add_option("--report", arguments->report, "what was made and how, as JSON")->type_name("R.json");
   command.add_flag("--quiet", arguments->is_quiet, "print errors only");
-  command.callback([arguments, &result] { result = make(*arguments); });
+  command.callback([arguments, &command, &result] {
+    result = take_project(*arguments, command);
+    if (result) result = make(*arguments);
+  });
 }
 
 }  // namespace relievo::cli

@@ -25,6 +25,9 @@ class Cholesky {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
+    // Bytes held.
+    std::size_t memory() const;
+
     struct Storage;
 
    private:

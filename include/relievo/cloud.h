@@ -10,13 +10,16 @@
 namespace relievo {
 
 // Points in the units of their source, in double precision, so that geo-referenced coordinates (1e6 and more)
-// keep all their digits. `normals` is empty or has one unit vector per point.
+// keep all their digits. `normals` is empty or has one unit vector per point, `colours` is empty or has one
+// colour per point.
 struct Cloud {
   std::vector<Vec3> points;
   std::vector<Vec3f> normals;
+  std::vector<Colour> colours = {};
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }
+  bool has_colours() const { return !colours.empty(); }
 };
 
 // Box of all points; empty for an empty cloud.

@@ -39,6 +39,9 @@ class HeightSystem {
 
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
+  // Between neighbours and from boundary points to themselves, for others that link the same points.
+  const PointLinks& links() const { return *edges_; }
+
   // Writes the height of every point above the base to `heights`; boundary points get 0. Exact: the residual
   // is at the level of rounding.
   void solve(std::span<const Vec2> slopes, std::span<double> heights) const;
@@ -50,7 +53,7 @@ class HeightSystem {
   HeightSystem(Cholesky factor, PointLinks edges);
 
   Cholesky factor_;
-  // From free points. Pull: half the cotangent weight times the step from the other point.
+  // Pull: half the cotangent weight times the step from the other point; 0 at boundary points.
   std::unique_ptr<const PointLinks> edges_;
 };
 

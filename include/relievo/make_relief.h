@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "relievo/cloud.h"
+#include "relievo/io.h"
 #include "relievo/options.h"
 #include "relievo/progress.h"
 #include "relievo/relief.h"
@@ -44,6 +45,10 @@ struct MadeRelief {
 // the last one. Errors: those of check(), parse_view(), find_surface() and ReliefModel::make_at_height();
 // kind cancelled.
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
+                               Progress* progress = nullptr);
+
+// The same for what a file holds: of a mesh the points that the viewer sees of it, see sample_mesh().
+Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
 // The same, bit for bit, in a fraction of the time: from a model that was prepared from the cloud without its

@@ -25,6 +25,9 @@ struct ReliefOptions {
   std::string up;
   double margin_mm = 5;
   double thickness_mm = 3;
+  double points = 3e5;                 // visible points to take from a mesh
+  std::string form = "relief";         // or "mirror", "die", "lithophane": see forms.h
+  std::optional<double> tolerance_mm;  // largest error of a mesh made simpler; without it all points stay
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
   // model.
@@ -78,6 +81,14 @@ void visit(Options& o, F&& f) {
   f(OptionField{"up", "X,Y,Z", "direction shown upright; default +Y, for top -Z, for bottom +Z"}, o.up);
   f(OptionField{"margin", "MM", "flat ground around the relief", .01, 1e5}, o.margin_mm);
   f(OptionField{"thickness", "MM", "smallest thickness of the plate", .01, 1e5}, o.thickness_mm);
+  f(OptionField{"points", "N", "visible points to take from a mesh", 1000, 1e7}, o.points);
+  f(OptionField{"form", "FORM",
+                "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "
+                "lithophane: thick where the model is dark"},
+    o.form);
+  f(OptionField{"tolerance", "MM",
+                "fewer triangles, at most so far from the full relief; default: all of them", 1e-4, 100},
+    o.tolerance_mm);
 }
 
 // Checks every range, that the method exists, and that options do not contradict each other: height and

@@ -68,7 +68,6 @@ class ReliefModel {
 
   Surface surface_;
   Solver solver_;
-  std::vector<float> boundary_weight_;  // for the default width
 };
 
 }  // namespace relievo

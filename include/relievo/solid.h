@@ -18,7 +18,8 @@ struct Front {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::vector<Index> hull;
-  double ground_mm = 0;  // height of the flat background
+  double ground_mm = 0;              // height of the flat background
+  std::vector<Colour> colours = {};  // of the points, or empty
 };
 
 struct PlateOptions {
@@ -32,6 +33,7 @@ struct Solid {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::size_t front_triangles = 0;
+  std::vector<Colour> colours = {};  // of the points, or empty
 };
 
 // Returns the plate: front, flat ground out to a rectangle, walls, bottom. Moved so that its box starts at
@@ -53,7 +55,7 @@ std::string check_solid(const Solid& solid);
 double volume_mm3(const Solid& solid);
 
 // The solid as a file: binary STL; binary little-endian PLY; OBJ. Coordinates are in millimetres, single
-// precision. The solid's corners must exist, as check_solid() tells.
+// precision. Of colours only PLY tells. The solid's corners must exist, as check_solid() tells.
 std::vector<std::byte> write_stl(const Solid& solid);
 std::vector<std::byte> write_ply(const Solid& solid);
 std::vector<std::byte> write_obj(const Solid& solid);

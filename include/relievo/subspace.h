@@ -36,6 +36,9 @@ class SubspaceModel {
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
+    // Bytes held, up to a little.
+    std::size_t memory() const;
+
    private:
     friend class SubspaceModel;
     struct Storage;

@@ -20,8 +20,9 @@ struct SurfaceOptions {
 // The visible points and the fillers between them, in view coordinates, along a space-filling curve:
 // neighbours in space are neighbours in memory, and the order of the cloud does not matter.
 struct Surface {
-  std::vector<Vec3> points;    // relative to `centre`, rotated
-  std::vector<Vec3f> normals;  // unit length, z > 0; (0, 0, 1) at fillers
+  std::vector<Vec3> points;     // relative to `centre`, rotated
+  std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at fillers
+  std::vector<Colour> colours;  // of the points; empty if the cloud has none
   NormalisedCurvature curvature;
   std::vector<PointLayers> layers;
   Triangulation triangulation;  // its `neighbours` are not kept

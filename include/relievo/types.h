@@ -22,6 +22,9 @@ inline constexpr Index no_index = ~Index{0};
 // Three vertices, counter-clockwise as seen from +Z (from outside, for a solid).
 using Triangle = std::array<Index, 3>;
 
+// Red, green, blue.
+using Colour = std::array<std::uint8_t, 3>;
+
 // An axis-aligned box. Empty until the first extend(): then min is above max.
 struct Box {
   Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());

@@ -2,13 +2,14 @@
 #include <array>
 #include <vector>
 
+#include "io/faces.h"
 #include "io/readers.h"
 #include "io/text.h"
 
 namespace relievo::io {
 namespace {
 
-// A corner of a face that names a normal.
+// A corner of a face; its normal is no_index if it names none.
 struct Corner {
   Index vertex, normal;
 };
@@ -24,7 +25,7 @@ class ObjReader {
   explicit ObjReader(const Source& source)
       : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
 
-  Result<Cloud> read() {
+  Result<RawCloud> read() {
     while (next_line()) {
       Words words(line_.substr(0, line_.find('#')));
       const std::string_view keyword = words.next();
@@ -45,7 +46,9 @@ class ObjReader {
       return std::unexpected(checked.error());
     }
     std::vector<Vec3f> normals = point_normals();
-    return Cloud{std::move(points_), std::move(normals)};
+    RawCloud raw{Cloud{std::move(points_), std::move(normals)}, "OBJ"};
+    add_mesh(raw);
+    return raw;
   }
 
  private:
@@ -79,16 +82,22 @@ class ObjReader {
   }
 
   Result<void> take_face(Words& words) {
+    const std::size_t first = corners_.size();
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       const std::size_t slash = std::min(word.find('/'), word.size());
       const auto vertex = resolve(word.substr(0, slash), points_.size(), highest_vertex_);
       if (!vertex) return fail("expected the number of a vertex, found " + in_quotes(word));
       const std::size_t second = word.find('/', slash + 1);
-      if (second == std::string_view::npos) continue;
+      if (second == std::string_view::npos) {
+        corners_.push_back({*vertex, no_index});
+        continue;
+      }
       const auto normal = resolve(word.substr(second + 1), normals_.size(), highest_normal_);
       if (!normal) return fail("expected the number of a normal, found " + in_quotes(word));
       corners_.push_back({*vertex, *normal});
     }
+    for (std::size_t i = first + 2; i < corners_.size(); ++i)
+      fans_.push_back({static_cast<Index>(first), static_cast<Index>(i - 1), static_cast<Index>(i)});
     return {};
   }
 
@@ -110,12 +119,36 @@ class ObjReader {
 
   // One normal a point, or none at all. Normals of the corners of a vertex are averaged.
   std::vector<Vec3f> point_normals() const {
-    std::vector<Vec3> sums(corners_.empty() ? 0 : points_.size(), Vec3::Zero());
-    for (const Corner& c : corners_) sums[c.vertex] += unit_normal(normals_[c.normal]).cast<double>();
-    if (corners_.empty() && normals_.size() == points_.size()) sums = normals_;
+    const bool has_named =
+        std::ranges::any_of(corners_, [](const Corner& c) { return c.normal != no_index; });
+    std::vector<Vec3> sums(has_named ? points_.size() : 0, Vec3::Zero());
+    for (const Corner& c : corners_)
+      if (c.normal != no_index) sums[c.vertex] += unit_normal(normals_[c.normal]).cast<double>();
+    if (!has_named && normals_.size() == points_.size()) sums = normals_;
     std::vector<Vec3f> units(sums.size());
     std::transform(sums.begin(), sums.end(), units.begin(), unit_normal);
     return units;
+  }
+
+  // The triangles of the faces. What a corner does not name is left to whoever needs a normal there.
+  void add_mesh(RawCloud& raw) const {
+    const auto normal_of = [&](const Corner& c) -> Vec3f {
+      if (c.normal != no_index) return unit_normal(normals_[c.normal]);
+      return raw.cloud.has_normals() ? raw.cloud.normals[c.vertex] : Vec3f(Vec3f::Zero());
+    };
+    for (const auto& [a, b, c] : fans_) {
+      const Corner &p = corners_[a], &q = corners_[b], &r = corners_[c];
+      const bool is_finite = raw.cloud.points[p.vertex].allFinite() &&
+                             raw.cloud.points[q.vertex].allFinite() && raw.cloud.points[r.vertex].allFinite();
+      if (!is_finite || p.vertex == q.vertex || q.vertex == r.vertex || r.vertex == p.vertex) continue;
+      raw.mesh.triangles.push_back({p.vertex, q.vertex, r.vertex});
+      if (raw.cloud.has_normals())
+        raw.mesh.corner_normals.push_back({normal_of(p), normal_of(q), normal_of(r)});
+    }
+    if (raw.mesh.triangles.empty()) return;
+    raw.mesh.points = raw.cloud.points;
+    for (Vec3& point : raw.mesh.points)
+      if (!point.allFinite()) point = Vec3::Zero();  // no triangle uses it
   }
 
   Result<void> fail(std::string expected) const {
@@ -129,6 +162,7 @@ class ObjReader {
   std::size_t first_line_ = 0;  // where line_ begins
   std::vector<Vec3> points_, normals_;
   std::vector<Corner> corners_;
+  std::vector<Triangle> fans_;  // numbers of corners
   Highest highest_vertex_, highest_normal_;
 };
 
@@ -146,9 +180,7 @@ bool looks_like_obj(std::string_view text) {
 }
 
 Result<RawCloud> read_obj(const Source& source) {
-  auto cloud = ObjReader(source).read();
-  if (!cloud) return std::unexpected(std::move(cloud.error()));
-  return RawCloud{std::move(*cloud), "OBJ"};
+  return ObjReader(source).read();
 }
 
 }  // namespace relievo::io

@@ -8,7 +8,8 @@
 namespace relievo::io {
 namespace {
 
-constexpr std::array<std::string_view, VertexColumns::most> column_names = {"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::array<std::string_view, VertexColumns::most> column_names = {"x",  "y",   "z",     "nx",  "ny",
+                                                                            "nz", "red", "green", "blue"};
 
 // Number of the property with that name; the number of properties if there is none.
 std::size_t find_property(const PlyElement& element, std::string_view name) {
@@ -27,20 +28,24 @@ std::string names_of(const PlyElement& element) {
   return names.empty() ? "none" : names;
 }
 
+// Normals and colours are there as a whole or not at all.
 Result<VertexColumns> find_columns(const Source& source, const PlyElement& vertex) {
   VertexColumns columns;
-  std::size_t found = 0;
-  for (; found < VertexColumns::most; ++found) {
-    const std::size_t i = find_property(vertex, column_names[found]);
-    if (i == vertex.properties.size() || vertex.properties[i].is_list()) break;
-    columns.property[found] = i;
+  for (std::size_t c = 0; c < VertexColumns::most; ++c) {
+    columns.property[c] = find_property(vertex, column_names[c]);
+    columns.is_there[c] =
+        columns.property[c] < vertex.properties.size() && !vertex.properties[columns.property[c]].is_list();
+    if (c < 3 && !columns.is_there[c]) {
+      return source.error_in_line(vertex.line, "expected element vertex to have a numeric property " +
+                                                   std::string(column_names[c]) + ", found " +
+                                                   names_of(vertex));
+    }
   }
-  if (found < 3) {
-    return source.error_in_line(vertex.line, "expected element vertex to have a numeric property " +
-                                                 std::string(column_names[found]) + ", found " +
-                                                 names_of(vertex));
+  for (std::size_t first = 3; first < VertexColumns::most; first += 3) {
+    auto& there = columns.is_there;
+    const bool is_whole = there[first] && there[first + 1] && there[first + 2];
+    there[first] = there[first + 1] = there[first + 2] = is_whole;
   }
-  columns.count = found == VertexColumns::most ? VertexColumns::most : 3;
   return columns;
 }
 
@@ -61,8 +66,25 @@ std::string format_name(PlyFormat format) {
 Cloud sized_cloud(std::size_t points, const VertexColumns& columns) {
   Cloud cloud;
   cloud.points.resize(points);
-  if (columns.count == VertexColumns::most) cloud.normals.resize(points);
+  if (columns.has_normals()) cloud.normals.resize(points);
+  if (columns.has_colours()) cloud.colours.resize(points);
   return cloud;
+}
+
+double colour_scale(NumberType type) {
+  if (type == NumberType::float32 || type == NumberType::float64) return 255;
+  return type == NumberType::uint16 ? 1 / 257.0 : 1;
+}
+
+std::optional<FaceList> find_face_list(const PlyElement& element) {
+  const bool is_strip = element.name == "tristrips";
+  if (element.name != "face" && !is_strip) return std::nullopt;
+  for (const std::string_view name : {"vertex_indices", "vertex_index"}) {
+    const std::size_t i = find_property(element, name);
+    if (i < element.properties.size() && element.properties[i].is_list())
+      return FaceList{i, is_strip ? FaceKind::strip : FaceKind::polygon};
+  }
+  return std::nullopt;
 }
 
 Result<RawCloud> read_ply(const Source& source) {
@@ -80,10 +102,12 @@ Result<RawCloud> read_ply(const Source& source) {
   }
   const auto columns = find_columns(source, *vertex);
   if (!columns) return std::unexpected(columns.error());
-  const PlyBody body{source, *header, {elements.begin(), vertex}, *vertex, *columns};
-  auto cloud = header->format == PlyFormat::ascii ? read_ascii_body(body) : read_binary_body(body);
-  if (!cloud) return std::unexpected(std::move(cloud.error()));
-  return RawCloud{std::move(*cloud), format_name(header->format)};
+  const PlyBody body{source,  *header, {elements.begin(), vertex}, *vertex, {vertex + 1, elements.end()},
+                     *columns};
+  auto content = header->format == PlyFormat::ascii ? read_ascii_body(body) : read_binary_body(body);
+  if (!content) return std::unexpected(std::move(content.error()));
+  Mesh mesh = mesh_over(content->cloud, std::move(content->triangles));
+  return RawCloud{std::move(content->cloud), format_name(header->format), std::move(mesh)};
 }
 
 }  // namespace relievo::io

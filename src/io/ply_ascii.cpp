@@ -12,16 +12,17 @@ class AsciiRows {
   AsciiRows(const Source& source, const PlyHeader& header)
       : source_(source), lines_(source.bytes, header.data_offset, header.lines) {}
 
-  // Calls use(property number, word) for each single value of the next row; use returns false to refuse a
-  // word.
-  template <typename Use>
-  Result<void> read_row(const PlyElement& element, Use&& use) {
+  // Calls use(property number, word) for each single value of the next row and use_item(property number,
+  // word) for each value of its lists; they return false to refuse a word.
+  template <typename Use, typename UseItem>
+  Result<void> read_row(const PlyElement& element, Use&& use, UseItem&& use_item) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       const std::string_view word = next_word();
       if (word.empty()) return fail_at_end(element);
       if (property.is_list()) {
-        if (const auto skipped = skip_list(element, property, word); !skipped) return skipped;
+        const auto use_word = [&](std::string_view item) { return use_item(i, item); };
+        if (const auto read = read_list(element, property, word, use_word); !read) return read;
       } else if (!use(i, word)) {
         return fail("expected a number for " + printable(property.name) + ", found " + in_quotes(word));
       }
@@ -35,10 +36,19 @@ class AsciiRows {
     rows_ = 0;
     if (element.properties.empty()) return {};
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      if (const auto read = read_row(element, [](auto...) { return true; }); !read) return read;
+      const auto ignore = [](auto...) { return true; };
+      if (const auto read = read_row(element, ignore, ignore); !read) return read;
     }
     rows_ = 0;
     return {};
+  }
+
+  // The rows from here on are those of another element.
+  void begin_element() { rows_ = 0; }
+
+  // Fails at the line that was read last.
+  Result<void> fail(std::string expected) const {
+    return source_.error_in_line(lines_.number(), std::move(expected));
   }
 
  private:
@@ -54,13 +64,17 @@ class AsciiRows {
     return word;
   }
 
-  Result<void> skip_list(const PlyElement& element, const PlyProperty& list, std::string_view word) {
+  template <typename UseItem>
+  Result<void> read_list(const PlyElement& element, const PlyProperty& list, std::string_view word,
+                         UseItem&& use_item) {
     const auto length = parse_integer(word);
     if (!length || *length < 0) {
       return fail("expected the length of the list " + printable(list.name) + ", found " + in_quotes(word));
     }
     for (std::int64_t i = 0; i < *length; ++i) {
-      if (next_word().empty()) return fail_at_end(element);
+      const std::string_view item = next_word();
+      if (item.empty()) return fail_at_end(element);
+      if (!use_item(item)) return fail_in_list(list, item);
     }
     return {};
   }
@@ -75,8 +89,8 @@ class AsciiRows {
                 printable(element.properties.back().name) + ", found " + in_quotes(word));
   }
 
-  Result<void> fail(std::string expected) const {
-    return source_.error_in_line(lines_.number(), std::move(expected));
+  Result<void> fail_in_list(const PlyProperty& list, std::string_view word) const {
+    return fail("expected whole numbers in the list " + printable(list.name) + ", found " + in_quotes(word));
   }
 
   const Source& source_;
@@ -90,32 +104,71 @@ bool can_hold(std::size_t bytes, const PlyElement& element) {
   return element.count <= (bytes + 1) / (2 * element.properties.size());
 }
 
-}  // namespace
-
-Result<Cloud> read_ascii_body(const PlyBody& body) {
-  AsciiRows rows(body.source, body.header);
-  for (const PlyElement& element : body.before) {
-    if (const auto skipped = rows.skip(element); !skipped) return std::unexpected(skipped.error());
-  }
-  const std::size_t left = body.source.bytes.size() - body.header.data_offset;
-  // A promise that cannot be kept leads to an error below; only the memory for it is saved.
-  Cloud cloud = sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns);
+Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
   std::vector<std::size_t> column_of(body.vertex.properties.size(), VertexColumns::most);
-  for (std::size_t c = 0; c < body.columns.count; ++c) column_of[body.columns.property[c]] = c;
-
+  for (std::size_t c = 0; c < VertexColumns::most; ++c)
+    if (body.columns.is_there[c]) column_of[body.columns.property[c]] = c;
+  const double scale =
+      body.columns.has_colours() ? colour_scale(body.vertex.properties[body.columns.property[6]].type) : 1;
   std::array<double, VertexColumns::most + 1> values = {};  // the last one takes what nobody wants
   const auto take = [&](std::size_t property, std::string_view word) {
     const auto value = parse_number(word);
     if (value) values[column_of[property]] = *value;
     return value.has_value();
   };
+  const auto byte = [&](double v) {
+    return v > 0 ? static_cast<std::uint8_t>(std::min(255.0, scale * v + .5)) : std::uint8_t{0};
+  };
   for (std::size_t i = 0; i < body.vertex.count; ++i) {
-    if (const auto read = rows.read_row(body.vertex, take); !read) return std::unexpected(read.error());
+    if (const auto read = rows.read_row(body.vertex, take, [](auto...) { return true; }); !read) return read;
     if (i >= cloud.size()) continue;
     cloud.points[i] = Vec3(values[0], values[1], values[2]);
     if (cloud.has_normals()) cloud.normals[i] = unit_normal(Vec3(values[3], values[4], values[5]));
+    if (cloud.has_colours()) cloud.colours[i] = {byte(values[6]), byte(values[7]), byte(values[8])};
   }
-  return cloud;
+  return {};
+}
+
+Result<void> read_faces(const PlyElement& element, const FaceList& list, AsciiRows& rows,
+                        PlyContent& content) {
+  std::vector<std::int64_t> corners;
+  rows.begin_element();
+  const auto take = [&](std::size_t property, std::string_view word) {
+    const auto corner = parse_integer(word);
+    if (property == list.property && corner) corners.push_back(*corner);
+    return property != list.property || corner.has_value();
+  };
+  for (std::uint64_t row = 0; row < element.count; ++row) {
+    corners.clear();
+    if (const auto read = rows.read_row(
+            element, [](auto...) { return true; }, take);
+        !read)
+      return read;
+    if (!add_face(corners, list.kind, content.cloud.size(), content.triangles))
+      return rows.fail("expected numbers of vertices below " + std::to_string(content.cloud.size()) +
+                       ", found others in row " + std::to_string(row) + " of element " +
+                       printable(element.name));
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<PlyContent> read_ascii_body(const PlyBody& body) {
+  AsciiRows rows(body.source, body.header);
+  for (const PlyElement& element : body.before) {
+    if (const auto skipped = rows.skip(element); !skipped) return std::unexpected(skipped.error());
+  }
+  const std::size_t left = body.source.bytes.size() - body.header.data_offset;
+  // A promise that cannot be kept leads to an error below; only the memory for it is saved.
+  PlyContent content{sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns), {}};
+  if (const auto read = read_vertices(body, rows, content.cloud); !read) return std::unexpected(read.error());
+  for (const PlyElement& element : body.after) {
+    const auto list = find_face_list(element);
+    const auto read = list ? read_faces(element, *list, rows, content) : rows.skip(element);
+    if (!read) return std::unexpected(read.error());
+  }
+  return content;
 }
 
 }  // namespace relievo::io

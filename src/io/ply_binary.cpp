@@ -1,58 +1,9 @@
-#include <bit>
-#include <cstring>
-
 #include "io/ply.h"
+#include "io/records.h"
 #include "io/text.h"
-#include "relievo/parallel.h"
 
 namespace relievo::io {
 namespace {
-
-// Decodes one column: `rows` values, `stride` bytes apart.
-using Decode = void (*)(const char* first, std::size_t stride, std::size_t rows, double* values);
-
-template <std::size_t bytes>
-struct BitsOf;
-template <>
-struct BitsOf<1> {
-  using type = std::uint8_t;
-};
-template <>
-struct BitsOf<2> {
-  using type = std::uint16_t;
-};
-template <>
-struct BitsOf<4> {
-  using type = std::uint32_t;
-};
-template <>
-struct BitsOf<8> {
-  using type = std::uint64_t;
-};
-
-template <typename T, bool is_swapped>
-void decode(const char* first, std::size_t stride, std::size_t rows, double* values) {
-  for (std::size_t i = 0; i < rows; ++i) {
-    typename BitsOf<sizeof(T)>::type bits;
-    std::memcpy(&bits, first + i * stride, sizeof(T));
-    if constexpr (is_swapped) bits = std::byteswap(bits);
-    values[i] = static_cast<double>(std::bit_cast<T>(bits));
-  }
-}
-
-template <bool is_swapped>
-Decode decoder(PlyType type) {
-  constexpr std::array<Decode, 8> all = {decode<std::int8_t, is_swapped>,  decode<std::uint8_t, is_swapped>,
-                                         decode<std::int16_t, is_swapped>, decode<std::uint16_t, is_swapped>,
-                                         decode<std::int32_t, is_swapped>, decode<std::uint32_t, is_swapped>,
-                                         decode<float, is_swapped>,        decode<double, is_swapped>};
-  return all[static_cast<std::size_t>(type)];
-}
-
-Decode decoder(PlyType type, PlyFormat format) {
-  const bool is_native = (format == PlyFormat::big_endian) == (std::endian::native == std::endian::big);
-  return is_native ? decoder<false>(type) : decoder<true>(type);
-}
 
 // Walks over the bytes of the body, row by row where rows have lists.
 class BinaryRows {
@@ -79,18 +30,29 @@ class BinaryRows {
       return {};
     }
     for (std::uint64_t row = 0; row < element.count; ++row) {
-      if (const auto walked = walk_row(element, [](auto...) {}); !walked) return walked;
+      const auto ignore = [](auto...) {};
+      if (const auto walked = walk_row(element, ignore, ignore); !walked) return walked;
     }
     return {};
   }
 
-  // Calls use(property number, its first byte) for each single value of the next row.
-  template <typename Use>
-  Result<void> walk_row(const PlyElement& element, Use&& use) {
+  // Fails behind the row that was walked last.
+  Result<void> fail(std::string expected) const { return source_.error_at_byte(at_, std::move(expected)); }
+
+  bool is_big_endian() const { return format_ == PlyFormat::big_endian; }
+
+  // Calls use(property number, its first byte) for each single value of the next row, and use_list(property
+  // number, first byte, length) for each list.
+  template <typename Use, typename UseList>
+  Result<void> walk_row(const PlyElement& element, Use&& use, UseList&& use_list) {
     for (std::size_t i = 0; i < element.properties.size(); ++i) {
       const PlyProperty& property = element.properties[i];
       if (property.is_list()) {
-        if (const auto skipped = skip_list(property); !skipped) return skipped;
+        const auto length = list_length(property);
+        if (!length) return std::unexpected(length.error());
+        at_ += size_in_bytes(*property.count_type);
+        use_list(i, source_.bytes.data() + at_, *length);
+        at_ += *length * size_in_bytes(property.type);
       } else {
         if (left() < size_in_bytes(property.type)) return fail_at_end(property);
         use(i, source_.bytes.data() + at_);
@@ -103,10 +65,11 @@ class BinaryRows {
  private:
   std::size_t left() const { return source_.bytes.size() - at_; }
 
-  Result<void> skip_list(const PlyProperty& list) {
-    if (left() < size_in_bytes(*list.count_type)) return fail_at_end(list);
+  // Of the list that begins here, if that many values can follow.
+  Result<std::size_t> list_length(const PlyProperty& list) {
+    if (left() < size_in_bytes(*list.count_type)) return std::unexpected(fail_at_end(list).error());
     double length = 0;
-    decoder(*list.count_type, format_)(source_.bytes.data() + at_, 0, 1, &length);
+    decoder(*list.count_type, is_big_endian())(source_.bytes.data() + at_, 0, 1, &length);
     const std::size_t begin = at_ + size_in_bytes(*list.count_type);
     const double most = static_cast<double>((source_.bytes.size() - begin) / size_in_bytes(list.type));
     if (length < 0 || length > most) {
@@ -115,8 +78,7 @@ class BinaryRows {
                                             ", found " + number + ", and there is room for " +
                                             std::to_string(static_cast<std::int64_t>(most)));
     }
-    at_ = begin + static_cast<std::size_t>(length) * size_in_bytes(list.type);
-    return {};
+    return static_cast<std::size_t>(length);
   }
 
   Result<void> fail_at_end(const PlyProperty& property) const {
@@ -129,68 +91,105 @@ class BinaryRows {
   std::size_t at_;
 };
 
-using Columns = std::array<std::array<double, 1024>, VertexColumns::most>;
-
-void store(const Columns& columns, std::size_t begin, std::size_t end, Cloud& cloud) {
-  for (std::size_t i = begin; i < end; ++i) {
-    const auto vector = [&, k = i - begin](std::size_t c) {
-      return Vec3(columns[c][k], columns[c + 1][k], columns[c + 2][k]);
-    };
-    cloud.points[i] = vector(0);
-    if (cloud.has_normals()) cloud.normals[i] = unit_normal(vector(3));
-  }
-}
-
-// Rows of equal size: any block of them can be decoded by itself.
-void read_equal_rows(const PlyBody& body, const char* first, Cloud& cloud) {
-  const std::size_t stride = least_row_size(body.vertex);
-  std::array<std::size_t, VertexColumns::most> offsets = {};
-  std::array<Decode, VertexColumns::most> decoders = {};
-  for (std::size_t c = 0; c < body.columns.count; ++c) {
+// Rows of vertices as records, apart from where they begin.
+Records vertex_records(const PlyBody& body) {
+  Records records;
+  records.count = body.vertex.count;
+  records.stride = least_row_size(body.vertex);
+  records.is_big_endian = body.header.format == PlyFormat::big_endian;
+  const auto column = [&](std::size_t c) {
     const auto& properties = body.vertex.properties;
-    decoders[c] = decoder(properties[body.columns.property[c]].type, body.header.format);
-    for (std::size_t i = 0; i < body.columns.property[c]; ++i)
-      offsets[c] += size_in_bytes(properties[i].type);
-  }
-  parallel_ranges(cloud.size(), Columns::value_type().size(), [&](std::size_t begin, std::size_t end) {
-    Columns columns;
-    for (std::size_t c = 0; c < body.columns.count; ++c) {
-      decoders[c](first + begin * stride + offsets[c], stride, end - begin, columns[c].data());
-    }
-    store(columns, begin, end, cloud);
-  });
+    RecordColumn found{properties[body.columns.property[c]].type, 0};
+    for (std::size_t i = 0; i < body.columns.property[c]; ++i) found.at += size_in_bytes(properties[i].type);
+    if (c >= 6) found.scale = colour_scale(found.type);
+    return found;
+  };
+  const auto columns = [&](std::size_t c) { return std::array{column(c), column(c + 1), column(c + 2)}; };
+  records.position = columns(0);
+  if (body.columns.has_normals()) records.normal = columns(3);
+  if (body.columns.has_colours()) records.colour = columns(6);
+  return records;
 }
 
+// Rows with lists differ in size: each is copied without its lists, then decoded as all others.
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
-  Columns columns;
+  PlyElement plain = body.vertex;
+  PlyBody plain_body{body.source, body.header, {}, plain, {}, body.columns};
+  std::vector<char> bytes;
+  std::vector<std::size_t> place(plain.properties.size());  // of each property in the copy
+  for (std::size_t i = 0; i < plain.properties.size(); ++i) {
+    place[i] = bytes.size();
+    if (!plain.properties[i].is_list()) bytes.resize(bytes.size() + size_in_bytes(plain.properties[i].type));
+  }
+  Records records = vertex_records(plain_body);
+  const auto move_columns = [&](std::array<RecordColumn, 3>& columns, std::size_t c) {
+    for (std::size_t i = 0; i < 3; ++i) columns[i].at = place[body.columns.property[c + i]];
+  };
+  move_columns(records.position, 0);
+  if (records.normal) move_columns(*records.normal, 3);
+  if (records.colour) move_columns(*records.colour, 6);
   const auto take = [&](std::size_t property, const char* first) {
-    for (std::size_t c = 0; c < body.columns.count; ++c) {
-      if (body.columns.property[c] != property) continue;
-      decoder(body.vertex.properties[property].type, body.header.format)(first, 0, 1, columns[c].data());
-    }
+    std::memcpy(bytes.data() + place[property], first, size_in_bytes(plain.properties[property].type));
   };
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (const auto walked = rows.walk_row(body.vertex, take); !walked) return walked;
-    store(columns, i, i + 1, cloud);
+    if (const auto walked = rows.walk_row(body.vertex, take, [](auto...) {}); !walked) return walked;
+    decode_rows(records, bytes.data(), 1, cloud, i);
+  }
+  return {};
+}
+
+Result<void> read_faces(const PlyElement& element, const FaceList& list, BinaryRows& rows,
+                        PlyContent& content) {
+  if (const auto room = rows.check_room(element); !room) return room;
+  const NumberType type = element.properties[list.property].type;
+  std::vector<double> values;
+  std::vector<std::int64_t> corners;
+  const auto take = [&](std::size_t property, const char* first, std::size_t length) {
+    if (property != list.property) return;
+    values.resize(length);
+    decoder(type, rows.is_big_endian())(first, size_in_bytes(type), length, values.data());
+    corners.clear();
+    for (const double v : values) {
+      const bool is_number = v >= -1 && v <= static_cast<double>(no_index);  // a NaN is none
+      corners.push_back(is_number ? static_cast<std::int64_t>(v) : -2);
+    }
+  };
+  for (std::uint64_t row = 0; row < element.count; ++row) {
+    if (const auto walked = rows.walk_row(
+            element, [](auto...) {}, take);
+        !walked)
+      return walked;
+    if (!add_face(corners, list.kind, content.cloud.size(), content.triangles))
+      return rows.fail("expected numbers of vertices below " + std::to_string(content.cloud.size()) +
+                       ", found others in row " + std::to_string(row) + " of element " +
+                       printable(element.name));
   }
   return {};
 }
 
 }  // namespace
 
-Result<Cloud> read_binary_body(const PlyBody& body) {
+Result<PlyContent> read_binary_body(const PlyBody& body) {
   BinaryRows rows(body.source, body.header);
   for (const PlyElement& element : body.before) {
     if (const auto skipped = rows.skip(element); !skipped) return std::unexpected(skipped.error());
   }
   if (const auto room = rows.check_room(body.vertex); !room) return std::unexpected(room.error());
-  Cloud cloud = sized_cloud(body.vertex.count, body.columns);
+  PlyContent content;
   if (!has_lists(body.vertex)) {
-    read_equal_rows(body, body.source.bytes.data() + rows.offset(), cloud);
-  } else if (const auto read = read_rows_with_lists(body, rows, cloud); !read) {
-    return std::unexpected(read.error());
+    content.cloud = decode_all(vertex_records(body), body.source.bytes.data() + rows.offset());
+    if (const auto skipped = rows.skip(body.vertex); !skipped) return std::unexpected(skipped.error());
+  } else {
+    content.cloud = sized_cloud(body.vertex.count, body.columns);
+    if (const auto read = read_rows_with_lists(body, rows, content.cloud); !read)
+      return std::unexpected(read.error());
   }
-  return cloud;
+  for (const PlyElement& element : body.after) {
+    const auto list = find_face_list(element);
+    const auto read = list ? read_faces(element, *list, rows, content) : rows.skip(element);
+    if (!read) return std::unexpected(read.error());
+  }
+  return content;
 }
 
 }  // namespace relievo::io

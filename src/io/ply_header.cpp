@@ -9,24 +9,24 @@
 namespace relievo::io {
 namespace {
 
-using enum PlyType;
+using enum NumberType;
 
-constexpr std::array<std::pair<std::string_view, PlyType>, 16> type_names = {{{"char", int8},
-                                                                              {"int8", int8},
-                                                                              {"uchar", uint8},
-                                                                              {"uint8", uint8},
-                                                                              {"short", int16},
-                                                                              {"int16", int16},
-                                                                              {"ushort", uint16},
-                                                                              {"uint16", uint16},
-                                                                              {"int", int32},
-                                                                              {"int32", int32},
-                                                                              {"uint", uint32},
-                                                                              {"uint32", uint32},
-                                                                              {"float", float32},
-                                                                              {"float32", float32},
-                                                                              {"double", float64},
-                                                                              {"float64", float64}}};
+constexpr std::array<std::pair<std::string_view, NumberType>, 16> type_names = {{{"char", int8},
+                                                                                 {"int8", int8},
+                                                                                 {"uchar", uint8},
+                                                                                 {"uint8", uint8},
+                                                                                 {"short", int16},
+                                                                                 {"int16", int16},
+                                                                                 {"ushort", uint16},
+                                                                                 {"uint16", uint16},
+                                                                                 {"int", int32},
+                                                                                 {"int32", int32},
+                                                                                 {"uint", uint32},
+                                                                                 {"uint32", uint32},
+                                                                                 {"float", float32},
+                                                                                 {"float32", float32},
+                                                                                 {"double", float64},
+                                                                                 {"float64", float64}}};
 
 constexpr std::array<std::pair<std::string_view, PlyFormat>, 3> format_names = {
     {{"ascii", PlyFormat::ascii},
@@ -92,7 +92,7 @@ class HeaderReader {
   Result<void> take_property(Words& words) {
     if (header_.elements.empty()) return fail("expected an element before its first property");
     std::string_view word = words.next();
-    std::optional<PlyType> count_type;
+    std::optional<NumberType> count_type;
     if (word == "list") {
       word = words.next();
       count_type = find_by_name(type_names, word);
@@ -133,11 +133,6 @@ class HeaderReader {
 };
 
 }  // namespace
-
-std::size_t size_in_bytes(PlyType type) {
-  constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
-  return sizes[static_cast<std::size_t>(type)];
-}
 
 std::size_t least_row_size(const PlyElement& element) {
   std::size_t size = 0;

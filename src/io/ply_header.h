@@ -7,18 +7,15 @@
 #include <string_view>
 #include <vector>
 
+#include "io/numbers.h"
 #include "io/readers.h"
 
 namespace relievo::io {
 
-enum class PlyType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
-
-std::size_t size_in_bytes(PlyType type);
-
 struct PlyProperty {
   std::string_view name;
-  PlyType type;                       // of the value, or of each value of the list
-  std::optional<PlyType> count_type;  // an integer type, for lists only
+  NumberType type;                       // of the value, or of each value of the list
+  std::optional<NumberType> count_type;  // an integer type, for lists only
 
   bool is_list() const { return count_type.has_value(); }
 };

@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 
 #include "io/readers.h"
@@ -26,11 +27,25 @@ bool is_ply(std::string_view text) {
          std::string_view(" \t\r\n").find(text[magic.size()]) != std::string_view::npos;
 }
 
+struct Format {
+  bool (*is_format)(const io::Source&);
+  Result<io::RawCloud> (*read)(const io::Source&);
+};
+
+constexpr std::array<Format, 5> formats = {{{io::is_pcd, io::read_pcd},
+                                            {io::is_las, io::read_las},
+                                            {io::is_gltf, io::read_gltf},
+                                            {io::is_off, io::read_off},
+                                            {io::is_stl, io::read_stl}}};
+
 Result<io::RawCloud> read_by_format(const io::Source& source) {
   const std::string_view text = source.bytes.substr(io::byte_order_mark_size(source.bytes));
-  const std::string readable = "expected a PLY, OBJ, XYZ or PTS file, found ";
+  const std::string readable =
+      "expected a point cloud (PLY, PCD, LAS, XYZ, PTS) or a mesh (PLY, STL, OBJ, OFF, glTF), found ";
   if (text.empty()) return source.error({}, readable + "an empty file");
   if (is_ply(text)) return io::read_ply(source);
+  for (const auto& [is_format, read] : formats)
+    if (is_format(source)) return read(source);
   if (const std::string what = io::foreign_format(source); !what.empty())
     return source.error({}, readable + what);
   if (io::has_ending(source.name, ".obj") || io::looks_like_obj(text)) return io::read_obj(source);
@@ -55,10 +70,12 @@ void remove_points(Cloud& cloud, const IsBad& is_bad) {
     if (is_bad(i)) continue;
     cloud.points[kept] = cloud.points[i];
     if (cloud.has_normals()) cloud.normals[kept] = cloud.normals[i];
+    if (cloud.has_colours()) cloud.colours[kept] = cloud.colours[i];
     ++kept;
   }
   cloud.points.resize(kept);
   if (cloud.has_normals()) cloud.normals.resize(kept);
+  if (cloud.has_colours()) cloud.colours.resize(kept);
 }
 
 // A few points without a normal are not worth losing all normals, nor a few normals losing all other points.
@@ -81,7 +98,7 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
   const io::Source source{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name};
   auto raw = read_by_format(source);
   if (!raw) return std::unexpected(std::move(raw.error()));
-  CloudFile file{std::move(raw->cloud), std::move(raw->format)};
+  CloudFile file{std::move(raw->cloud), std::move(raw->format), 0, 0, std::move(raw->mesh)};
   const std::size_t points = file.cloud.size();
   drop_unusable(file);
   if (file.cloud.points.empty()) {

@@ -27,12 +27,18 @@ struct Source {
 struct RawCloud {
   Cloud cloud;  // coordinates may be NaN or infinite; each normal is as unit_normal() returns it
   std::string format;
+  Mesh mesh = {};  // of the same points, which it holds once more; corners are numbers of them
 };
 
 // Readers of one format each; what they return has as many points as the file.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_obj(const Source& source);
 Result<RawCloud> read_text(const Source& source);
+Result<RawCloud> read_pcd(const Source& source);
+Result<RawCloud> read_las(const Source& source);
+Result<RawCloud> read_stl(const Source& source);
+Result<RawCloud> read_off(const Source& source);
+Result<RawCloud> read_gltf(const Source& source);
 
 // Returns n with unit length, or zero if it has no direction (zero or not finite). A vector that is unit up
 // to float rounding is returned as it is, so that writing and reading again changes no bit.
@@ -41,6 +47,16 @@ Vec3f unit_normal(const Vec3& n);
 // Returns what the file is, "a PCD file", if it is a known format that is not read, or binary data; else
 // empty.
 std::string foreign_format(const Source& source);
+
+// True for the content, or else the name, of the format.
+bool is_pcd(const Source& source);
+bool is_las(const Source& source);
+bool is_stl(const Source& source);
+bool is_off(const Source& source);
+bool is_gltf(const Source& source);
+
+// True if a few kilobytes hold bytes that no text has.
+bool has_control_bytes(std::string_view bytes);
 
 // True if the first word of the content is one with which lines of OBJ begin.
 bool looks_like_obj(std::string_view text);

@@ -1,0 +1,90 @@
+#include "inputs.h"
+
+#include <filesystem>
+
+#include "files.h"
+#include "flags.h"
+#include "relievo/text.h"
+
+namespace relievo::cli {
+namespace {
+
+// What was left out of a file.
+std::vector<std::string> remarks_on(const CloudFile& file, const std::string& path) {
+  std::vector<std::string> lines;
+  if (file.dropped_points > 0)
+    lines.push_back(
+        cat(path, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
+  if (file.dropped_normals > 0)
+    lines.push_back(cat(path, ": left out ", file.dropped_normals,
+                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
+  return lines;
+}
+
+Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
+  if (camera.empty()) return std::nullopt;
+  std::error_code ignored;
+  std::string text = camera;
+  if (std::filesystem::exists(camera, ignored)) {
+    const auto bytes = read_file(camera);
+    if (!bytes) return std::unexpected(bytes.error());
+    text.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  }
+  const auto parsed = parse_camera(text);
+  if (!parsed) return std::unexpected(parsed.error());
+  return *parsed;
+}
+
+std::string remark_on(const DepthImage& image, const DepthCloud& made) {
+  std::string line = cat(image.width, " x ", image.height, " depths, ", made.missing, " missing");
+  if (made.background > 0) line += cat(", ", made.background, " points of background taken out");
+  if (made.cut > 0) line += cat(", ", made.cut, " on ramps cut");
+  return line + cat(", smoothed within ", made.noise, " pixels");
+}
+
+Result<Input> read_depths(std::span<const std::byte> bytes, const std::string& path, DepthOptions options,
+                          const std::string& camera, Progress* progress) {
+  const auto image = read_depth_image(bytes, path);
+  if (!image) return std::unexpected(image.error());
+  const auto parsed = read_camera(camera);
+  if (!parsed) return std::unexpected(parsed.error());
+  options.camera = *parsed;
+  auto made = depth_cloud(*image, options, progress);
+  if (!made) return std::unexpected(made.error());
+  Input input;
+  input.remarks.push_back(cat(path, ": ", remark_on(*image, *made)));
+  input.file.cloud = std::move(made->cloud);
+  input.file.format = image->format;
+  return input;
+}
+
+}  // namespace
+
+void add_input_flags(CLI::App& command, InputArguments& arguments) {
+  add_flags(command, arguments.depth);
+  command
+      .add_option("--camera", arguments.camera,
+                  "of a depth image: focal lengths and centre, or a file with them")
+      ->type_name("FX,FY,CX,CY");
+}
+
+Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
+                          const InputArguments& arguments, double points, Progress* progress) {
+  DepthOptions depth = arguments.depth;
+  depth.points = points;
+  if (is_picture(bytes)) return read_depths(bytes, path, depth, arguments.camera, progress);
+  auto file = read_cloud(bytes, path);
+  if (!file) return std::unexpected(file.error());
+  std::vector<std::string> remarks = remarks_on(*file, path);
+  return Input{std::move(*file), std::move(remarks)};
+}
+
+Result<Input> read_input(const std::string& path, const InputArguments& arguments, double points,
+                         Progress* progress) {
+  if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
+  const auto bytes = read_file(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  return parse_input(*bytes, path, arguments, points, progress);
+}
+
+}  // namespace relievo::cli

@@ -1,0 +1,36 @@
+// What the commands read: clouds, meshes and depth images, with the flags that depth images need.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "relievo/depth_image.h"
+#include "relievo/io.h"
+
+namespace relievo::cli {
+
+struct InputArguments {
+  DepthOptions depth;
+  std::string camera;  // of a depth image: numbers, or a file with them
+};
+
+// What was read, and what the user should know of it, in a line for each.
+struct Input {
+  CloudFile file;
+  std::vector<std::string> remarks;
+};
+
+// Adds the flags of InputArguments.
+void add_input_flags(CLI::App& command, InputArguments& arguments);
+
+// Makes of a file's bytes what read_input() makes of the file.
+Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
+                          const InputArguments& arguments, double points, Progress* progress);
+
+// Reads the file of that path. `points` is the number to reduce a depth image to. Errors: those of
+// read_file(), read_cloud(), parse_camera(), depth_cloud().
+Result<Input> read_input(const std::string& path, const InputArguments& arguments, double points,
+                         Progress* progress);
+
+}  // namespace relievo::cli

@@ -1,0 +1,73 @@
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "commands.h"
+#include "engine.h"
+#include "files.h"
+#include "server.h"
+#include "store.h"
+
+namespace relievo::cli {
+namespace {
+
+struct StudioArguments {
+  std::string input, page, state;
+  int port = 0, linger_s = 15;
+  bool is_browser_wanted = true;
+};
+
+// Asks the desktop to show the page; without a desktop the printed address must do.
+void show(const std::string& address) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return;
+  std::thread([command = "xdg-open '" + address + "' >/dev/null 2>&1"] {
+    (void)!std::system(command.c_str());
+  }).detach();
+}
+
+Result<void> studio(const StudioArguments& arguments) {
+  studio::Engine engine;
+  const studio::Store store(arguments.state.empty() ? studio::Store::default_folder() : arguments.state);
+  if (!arguments.input.empty()) {
+    if (const auto bytes = read_file(arguments.input); !bytes) return std::unexpected(bytes.error());
+    const std::string path = std::filesystem::absolute(arguments.input).string();
+    const studio::Input input{{}, path, std::filesystem::path(path).filename().string(), {}};
+    engine.open(input, "front", "");
+    if (auto kept = store.remember(input); !kept) return kept;
+  }
+  studio::Server server(engine, store,
+                        {arguments.port, arguments.page, std::chrono::seconds(arguments.linger_s)});
+  const Result<std::string> address = server.bind();
+  if (!address) return std::unexpected(address.error());
+  std::printf("Relievo studio: %s\nCtrl-C ends it; so does closing the page.\n", address->c_str());
+  std::fflush(stdout);
+  if (arguments.is_browser_wanted) show(*address);
+  server.run();
+  return {};
+}
+
+}  // namespace
+
+void add_studio(CLI::App& program, Result<void>& result) {
+  const auto arguments = std::make_shared<StudioArguments>();
+  CLI::App& command = *program.add_subcommand("studio", "Shape a relief by hand, live, in the browser");
+  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS")->type_name("INPUT");
+  command.add_option("--port", arguments->port, "0 for a free one [0 to 65535]")
+      ->check(CLI::Range(0, 65535).description(""))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_flag("!--no-browser", arguments->is_browser_wanted, "print the address only");
+  command.add_option("--state", arguments->state, "folder for what is kept between runs")->type_name("DIR");
+  command
+      .add_option("--linger", arguments->linger_s, "seconds to go on after the page has gone [0 to 86400]")
+      ->check(CLI::Range(0, 86400).description(""))
+      ->type_name("S")
+      ->capture_default_str();
+  command.add_option("--page", arguments->page, "read the page's files from a folder, to work on them")
+      ->type_name("DIR");
+  command.callback([arguments, &result] { result = studio(*arguments); });
+}
+
+}  // namespace relievo::cli

@@ -1,0 +1,38 @@
+// Takes the README's pictures of the studio: node apps/studio/bench/screenshots.mjs
+import {EngineProcess, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
+
+const found = await findBrowser();
+if (found.missing) throw new Error(found.missing);
+const browser = await found.launch(), state = temporaryFolder();
+const engine = await new EngineProcess(state, "--linger", "600").ready();
+
+async function open(colorScheme) {
+  const page = await (await browser.newContext({viewport: {width: 1280, height: 800}, colorScheme})).newPage();
+  await page.goto(engine.address);
+  return page;
+}
+
+const take = async (page, name) => {
+  await page.waitForTimeout(3000);
+  await page.screenshot({path: `docs/pictures/studio-${name}.jpg`, type: "jpeg", quality: 90});
+};
+
+const page = await open("light");
+await take(page, "start");
+await page.getByRole("button", {name: /green man/i}).click();
+await page.getByText(/points.*height/).waitFor({timeout: 60000});
+await page.getByRole("spinbutton", {name: "Height in mm"}).fill("6");
+await page.keyboard.press("Enter");
+await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Smooth skin, crisp folds");
+await page.getByRole("radio", {name: "Bronze"}).click();
+await take(page, "main");
+await page.close();
+
+const dark = await open("dark");
+await dark.getByText(/points.*height/).waitFor({timeout: 60000});
+await dark.getByRole("radio", {name: "Plaster"}).click();
+await dark.getByRole("button", {name: "Light table"}).click();
+await take(dark, "light-table");
+await browser.close();
+await engine.stop();
+removeFolder(state);

@@ -1,0 +1,119 @@
+// What is being made, and everything that was done to it: plain data, so that it can be kept, undone and saved.
+
+export const FIRST = Object.freeze({
+  input: null,
+  options: Object.freeze({
+    width: 100, height: 4, saturation: 0, detail: 0.04, steepest: 76, boundary: 2, tone: "",
+    view: "front", up: "", margin: 5, thickness: 3, mode: "auto",
+  }),
+  isHeightLocked: true,
+  u: null, // of the compression, while the height is not locked
+  material: "plaster",
+  light: [-1, 1, 1],
+});
+
+const MOST_STEPS = 200;
+
+export class Document {
+  constructor(onChange) {
+    this.onChange = onChange;
+    this.steps = [FIRST];
+    this.at = 0;
+  }
+
+  get now() {
+    return this.steps[this.at];
+  }
+
+  // A new document begins; nothing of the old one can be undone any more.
+  begin(step) {
+    this.steps = [step];
+    this.at = 0;
+    this.stroke = null;
+    this.onChange(null);
+  }
+
+  // Changes the document. Changes of one stroke, such as a drag, are undone together.
+  change(part, stroke = null) {
+    const next = {...this.now, ...part, options: {...this.now.options, ...part.options}};
+    if (JSON.stringify(next) === JSON.stringify(this.now)) return;
+    const before = this.now;
+    if (stroke !== null && stroke === this.stroke) {
+      this.steps[this.at] = next;
+    } else {
+      this.steps = [...this.steps.slice(Math.max(0, this.at + 2 - MOST_STEPS), this.at + 1), next];
+      this.at = this.steps.length - 1;
+    }
+    this.stroke = stroke;
+    this.onChange(before);
+  }
+
+  // What the engine found out; no step of its own.
+  note(part) {
+    this.steps[this.at] = {...this.now, ...part, options: {...this.now.options, ...part.options}};
+  }
+
+  endStroke() {
+    this.stroke = null;
+  }
+
+  get canUndo() {
+    return this.at > 0;
+  }
+  get canRedo() {
+    return this.at + 1 < this.steps.length;
+  }
+
+  undo() {
+    if (this.canUndo) this.move(-1);
+  }
+  redo() {
+    if (this.canRedo) this.move(1);
+  }
+  move(by) {
+    const before = this.now;
+    this.at += by;
+    this.stroke = null;
+    this.onChange(before);
+  }
+
+  keep() {
+    return {version: 1, steps: this.steps, at: this.at};
+  }
+
+  // Returns whether the kept state could be used.
+  restore(kept) {
+    if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
+    this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
+    this.at = kept.at;
+    return true;
+  }
+}
+
+// The options as the engine and `relievo make` take them.
+export function engineOptions(step) {
+  const {steepest, tone, up, ...rest} = step.options;
+  const options = {...rest, height: Math.round(rest.height * 1e4) / 1e4};
+  if (steepest !== FIRST.options.steepest) options.steepest = steepest; // without it the paper's bound rules
+  if (tone) options.tone = tone;
+  if (up) options.up = up;
+  return options;
+}
+
+// The text of a project file.
+export function projectText(step) {
+  const {input, isHeightLocked, u, material, light} = step;
+  const project = {relievo: 1, input, options: engineOptions(step), studio: {isHeightLocked, u, material, light}};
+  return JSON.stringify(project, null, 1) + "\n";
+}
+
+// The step that a project file describes; `checked` is what the engine made of it.
+export function stepOfProject(text, checked) {
+  const {studio = {}} = JSON.parse(text);
+  const step = {...FIRST, input: checked.input, options: {...FIRST.options, ...checked.options}};
+  if (typeof studio.isHeightLocked === "boolean") step.isHeightLocked = studio.isHeightLocked;
+  if (typeof studio.u === "number") step.u = studio.u;
+  if (typeof studio.material === "string") step.material = studio.material;
+  if (Array.isArray(studio.light) && studio.light.length === 3) step.light = studio.light;
+  return step;
+}

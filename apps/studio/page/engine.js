@@ -1,0 +1,115 @@
+// The engine as the page sees it. Everything that knows HTTP is in this file, so that an engine in WebAssembly
+// can take its place.
+//
+// An Engine has
+//   about()                     -> version, options, samples, recent, status, state (what keepState() was given)
+//   follow(onStatus, onLost)       calls back with each new status; onLost when the engine has gone
+//   open(input, view)              starts to read and prepare; upload(file) -> input for a file of the browser
+//   chooseView(view), cancel()     view is {view, up}, as the command line has them
+//   facts(), suggestViews()     -> what is known of the model; names of sides, the best first
+//   frame(request), scan(request)-> {image: ImageData, about}
+//   profile(request)            -> heights in mm
+//   exportFile(request)         -> Blob
+//   readProject(name, text)     -> {input, options}
+//   keepState(state)
+// and throws EngineError with a text for people.
+
+export class EngineError extends Error {
+  constructor(kind, text) {
+    super(text);
+    this.kind = kind;
+  }
+}
+
+async function complain(response) {
+  let error = {kind: "request", text: `The engine answered ${response.status}.`};
+  try {
+    error = (await response.json()).error ?? error;
+  } catch {
+    // not JSON: the status must do
+  }
+  throw new EngineError(error.kind, error.text);
+}
+
+async function send(path, options) {
+  let response;
+  try {
+    response = await fetch(path, options);
+  } catch {
+    throw new EngineError("lost", "The engine does not answer. Start relievo studio again.");
+  }
+  if (!response.ok) await complain(response);
+  return response;
+}
+
+const post = (path, body, options = {}) =>
+  send(`api/${path}`, {method: "POST", body: JSON.stringify(body), ...options});
+
+async function picture(path, request) {
+  const response = await post(path, request);
+  const about = JSON.parse(response.headers.get("X-Relievo"));
+  const pixels = new Uint8ClampedArray(await response.arrayBuffer());
+  return {image: new ImageData(pixels, about.width, about.height), about};
+}
+
+export class NativeEngine {
+  async about() {
+    return (await send("api/about")).json();
+  }
+
+  follow(onStatus, onLost) {
+    const source = new EventSource("api/events");
+    source.onmessage = (event) => onStatus(JSON.parse(event.data));
+    source.onerror = () => onLost(source.readyState === EventSource.CLOSED);
+  }
+
+  async upload(file) {
+    const answer = await send(`api/upload?name=${encodeURIComponent(file.name)}`, {method: "POST", body: file});
+    return (await answer.json()).input;
+  }
+
+  async open(input, view) {
+    await post("open", {input, ...view});
+  }
+
+  async chooseView(view) {
+    await post("view", view);
+  }
+
+  async cancel() {
+    await post("cancel", {});
+  }
+
+  async facts() {
+    return (await send("api/facts")).json();
+  }
+
+  async suggestViews() {
+    return (await (await send("api/views")).json()).views;
+  }
+
+  frame(request) {
+    return picture("frame", request);
+  }
+
+  scan(request) {
+    return picture("scan", request);
+  }
+
+  async profile(request) {
+    return (await (await post("profile", request)).json()).heights_mm;
+  }
+
+  async exportFile(request) {
+    return (await post("export", request)).blob();
+  }
+
+  async readProject(name, text) {
+    return (await post("project", {name, text})).json();
+  }
+
+  // `isLast` when the page goes: then the request outlives it.
+  async keepState(state, isLast = false) {
+    await post("state", state, {keepalive: isLast});
+  }
+}

@@ -1,0 +1,75 @@
+// Files of the finished relief, through the browser's download.
+
+import {$, download, fileSize, make} from "./controls.js";
+
+const FORMATS = [
+  {id: "stl", name: "STL", ending: ".stl", use: "printing and milling, in millimetres"},
+  {id: "ply", name: "PLY", ending: ".ply", use: "the same, with shared corners"},
+  {id: "obj", name: "OBJ", ending: ".obj", use: "as text, for 3D programs"},
+  {id: "heightmap", name: "Height map", ending: "-heights.png", use: "16-bit PNG for CNC and engraving"},
+  {id: "preview", name: "Picture", ending: ".png", use: "front and oblique view"},
+];
+
+// Bytes of each file; exact for STL, near for the rest.
+function sizes(facts, options, pixels) {
+  const triangles = facts.triangles + facts.hull + 14, points = facts.points + 8;
+  const [longer, shorter] = [Math.max(...facts.size), Math.min(...facts.size)];
+  const share = (shorter / longer * options.width + 2 * options.margin) / (options.width + 2 * options.margin);
+  return {
+    stl: 84 + 50 * triangles, ply: 230 + 12 * points + 13 * triangles, obj: 31 * points + 23 * triangles,
+    heightmap: pixels * pixels * share * 0.9, preview: 600000,
+  };
+}
+
+export class ExportDialog {
+  // `current` returns {facts, options, name}.
+  constructor(engine, current) {
+    Object.assign(this, {engine, current});
+    this.dialog = $("#export-dialog");
+    $("#formats").append(...FORMATS.map(({id, name, use}) => make("label", {},
+      make("input", {type: "radio", name: "format", value: id, checked: id === "stl"}),
+      make("span", {}, name, make("small", {}, use)), make("span", {class: "muted", id: `size-${id}`}))));
+    this.dialog.oninput = () => this.show();
+    $("#export-go").onclick = (event) => {
+      event.preventDefault();
+      this.go();
+    };
+  }
+
+  get format() {
+    return FORMATS.find(({id}) => id === $("#formats :checked").value);
+  }
+
+  open() {
+    $("#export-note").textContent = "";
+    this.show();
+    this.dialog.showModal();
+  }
+
+  show() {
+    const {facts, options} = this.current();
+    const scale = options.width / Math.max(...facts.size), size = facts.size.map((x) => x * scale + 2 * options.margin);
+    $("#export-size").textContent =
+      `${size[0].toFixed(1)} × ${size[1].toFixed(1)} × ${(options.thickness + options.height).toFixed(2)} mm, relief ${options.height.toFixed(2)} mm high`;
+    const all = sizes(facts, options, this.pixels);
+    for (const {id} of FORMATS) $(`#size-${id}`).textContent = `${id === "stl" ? "" : "about "}${fileSize(all[id])}`;
+    $("#pixels-row").hidden = this.format.id !== "heightmap";
+  }
+
+  get pixels() {
+    return Math.min(16384, Math.max(16, Number.parseInt($("#pixels").value) || 2048));
+  }
+
+  async go() {
+    const {options, name} = this.current(), {id, ending} = this.format, button = $("#export-go");
+    button.disabled = true;
+    $("#export-note").textContent = "Making the file …";
+    try {
+      download(await this.engine.exportFile({options, format: id, pixels: this.pixels}), name + ending);
+      this.dialog.close("export");
+    } catch (error) {
+      $("#export-note").textContent = error.message;
+    }
+    button.disabled = false;
+  }
+}

@@ -1,0 +1,327 @@
+// The relief in the middle of the page: pictures from the engine, and what the mouse and the keys do to them.
+
+import {$, clamp, make} from "./controls.js";
+import {engineOptions} from "./document.js";
+
+const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
+const REST_MS = 160; // without changes until the fine picture is asked for
+const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
+export const TABLE_LIGHTS = [
+  {name: "Upper left", light: [-1, 1, 1]},
+  {name: "Upper right", light: [1, 1, 1]},
+  {name: "Raking, left", light: [-1, 0.12, 0.3]},
+  {name: "Raking, above", light: [0.1, 1, 0.3]},
+];
+
+const degrees = (radians) => radians * 180 / Math.PI;
+const radians = (angle) => angle * Math.PI / 180;
+
+// From azimuth and elevation in degrees to a direction, and back.
+const direction = (azimuth, elevation) => {
+  const flat = Math.cos(radians(elevation));
+  return [flat * Math.cos(radians(azimuth)), flat * Math.sin(radians(azimuth)), Math.sin(radians(elevation))];
+};
+const angles = ([x, y, z]) => ({azimuth: degrees(Math.atan2(y, x)), elevation: degrees(Math.atan2(z, Math.hypot(x, y)))});
+
+export function paint(canvas, image) {
+  if (canvas.width !== image.width) canvas.width = image.width;
+  if (canvas.height !== image.height) canvas.height = image.height;
+  canvas.getContext("2d").putImageData(image, 0, 0);
+}
+
+export class Stage {
+  // `on` has picture(about, ms), section(heights, from, to), failed(error).
+  constructor(engine, doc, on) {
+    Object.assign(this, {engine, doc, on});
+    this.element = $("#stage");
+    this.picture = $("#picture");
+    this.before = $("#before");
+    this.overlay = $("#overlay");
+    this.camera = {...FRONT};
+    this.tool = "light";
+    this.share = 1; // of the pixels of a side, while things move
+    this.wanted = this.shown = this.fine = 0;
+    this.isReady = false;
+    this.pixelsPerMm = 1;
+    this.listen();
+  }
+
+  // ------------------------------------------------------------------ pictures
+
+  get size() {
+    return {width: Math.max(1, this.element.clientWidth), height: Math.max(1, this.element.clientHeight)};
+  }
+
+  request(extra = {}) {
+    const step = this.doc.now;
+    const request = {options: engineOptions(step), material: step.material, light: step.light, camera: this.camera, ...extra};
+    if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
+    return request;
+  }
+
+  invalidate() {
+    ++this.wanted;
+    this.changedAt = performance.now();
+    this.pump();
+  }
+
+  // One picture at a time; the newest wish wins.
+  async pump() {
+    if (this.isBusy || !this.isReady) return;
+    if (this.shown !== this.wanted) return this.draw(false);
+    if (this.fine === this.wanted) return;
+    const rest = this.changedAt + REST_MS - performance.now();
+    clearTimeout(this.timer);
+    if (rest > 0) this.timer = setTimeout(() => this.pump(), rest);
+    else this.draw(true);
+  }
+
+  async draw(isFine) {
+    this.isBusy = true;
+    const number = this.wanted, start = performance.now(), changedAt = this.changedAt;
+    try {
+      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, changedAt));
+      if (isFine) this.fine = number;
+      else this.adapt(performance.now() - start);
+      this.shown = number;
+    } catch (error) {
+      this.shown = this.fine = number;
+      this.on.failed(error);
+    }
+    this.isBusy = false;
+    this.pump();
+  }
+
+  pixels(isFine) {
+    const scale = isFine ? Math.min(window.devicePixelRatio, 2) : this.share;
+    return {width: Math.round(this.size.width * scale), height: Math.round(this.size.height * scale)};
+  }
+
+  async drawRelief(isFine, changedAt) {
+    const {image, about} = await this.engine.frame(this.request({...this.pixels(isFine), fine: isFine}));
+    paint(this.picture, image);
+    this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
+    this.drawOverlay();
+    this.on.picture(about, performance.now() - changedAt, isFine);
+    if (this.isComparing || this.isHolding) await this.drawBefore(isFine);
+    if (this.tool === "section") await this.cut();
+  }
+
+  async drawBefore(isFine) {
+    const request = this.request({...this.pixels(isFine), fine: isFine, original: true});
+    const {height, saturation, detail, tone, ...lasting} = request.options;
+    const key = JSON.stringify({...request, options: lasting, model: this.model});
+    if (key === this.beforeKey) return;
+    paint(this.before, (await this.engine.frame(request)).image);
+    this.beforeKey = key;
+  }
+
+  async drawTable(isFine) {
+    const half = (n) => Math.max(1, Math.round(n / 2));
+    const {width, height} = this.pixels(isFine);
+    for (const [i, {light}] of TABLE_LIGHTS.entries()) {
+      const cell = $(`#table [data-cell="${i}"] canvas`);
+      const {image, about} = await this.engine.frame(
+        this.request({width: half(width), height: half(height), fine: isFine, light}));
+      paint(cell, image);
+      if (i === 0) this.on.picture(about, 0, isFine);
+    }
+  }
+
+  adapt(ms) {
+    this.mean = this.mean ? 0.7 * this.mean + 0.3 * ms : ms;
+    if (this.mean > SLOW_MS && this.share > 0.5) this.share = Math.max(0.5, this.share - 0.25);
+    else if (this.mean < FAST_MS && this.share < 1) this.share = Math.min(1, this.share + 0.25);
+    else return;
+    this.mean = 0;
+  }
+
+  // ---------------------------------------------------------------------- modes
+
+  setTool(tool) {
+    this.tool = tool;
+    this.element.dataset.tool = tool;
+    const does = {light: "move the light", turn: "turn the relief", pan: "move the picture", section: "move the section"};
+    this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
+    if (tool === "section") {
+      this.camera = {...this.camera, yaw: 0, pitch: 0};
+      this.line ??= this.middleLine();
+    }
+    this.drawOverlay();
+    this.invalidate();
+  }
+
+  setTable(isTable) {
+    this.isTable = isTable;
+    this.invalidate();
+  }
+
+  setComparing(isComparing) {
+    this.isComparing = isComparing;
+    this.before.hidden = !(this.isComparing || this.isHolding);
+    this.setSplit(this.split ?? 0.5);
+    this.invalidate();
+  }
+
+  hold(isHolding) {
+    this.isHolding = isHolding;
+    this.before.hidden = !(this.isComparing || this.isHolding);
+    this.setSplit(this.split ?? 0.5);
+    this.invalidate();
+  }
+
+  setSplit(share) {
+    this.split = share;
+    this.before.style.clipPath = this.isHolding ? "none" : `inset(0 ${(1 - share) * 100}% 0 0)`;
+    this.picture.style.clipPath = this.isHolding ? "inset(100%)" : this.isComparing ? `inset(0 0 0 ${share * 100}%)` : "none";
+    this.drawOverlay();
+  }
+
+  fit() {
+    this.camera = {...FRONT};
+    this.invalidate();
+  }
+
+  // --------------------------------------------------------------------- section
+
+  middleLine() {
+    const half = this.doc.now.options.width / 2;
+    return {from: [-half, 0], to: [half, 0]};
+  }
+
+  async cut() {
+    const {from, to} = this.line;
+    this.on.section(await this.engine.profile(this.request({from, to})), from, to);
+  }
+
+  // ------------------------------------------------------------------- positions
+
+  toPlace(x, y) {
+    const {width, height} = this.size;
+    return [(x - width / 2) / this.pixelsPerMm + this.camera.x, (height / 2 - y) / this.pixelsPerMm + this.camera.y];
+  }
+
+  toPixels([x, y]) {
+    const {width, height} = this.size;
+    return [width / 2 + (x - this.camera.x) * this.pixelsPerMm, height / 2 - (y - this.camera.y) * this.pixelsPerMm];
+  }
+
+  drawOverlay() {
+    const {width, height} = this.size, marks = [];
+    this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    if (this.isComparing && !this.isHolding) {
+      const x = this.split * width;
+      marks.push(make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height}));
+    }
+    if (this.tool === "section" && this.line) {
+      const [x1, y1] = this.toPixels(this.line.from), [x2, y2] = this.toPixels(this.line.to);
+      marks.push(make("line", {class: "cut", x1, y1, x2, y2}), make("circle", {class: "end", cx: x1, cy: y1, r: 5}),
+        make("circle", {class: "end", cx: x2, cy: y2, r: 5}));
+    }
+    if (this.sun) {
+      const [x, y] = this.sun;
+      marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}), make("circle", {class: "sun", cx: x, cy: y, r: 9}));
+    }
+    this.overlay.replaceChildren(...marks);
+  }
+
+  // ----------------------------------------------------------------------- input
+
+  listen() {
+    const stage = this.element;
+    stage.onpointerdown = (event) => this.press(event);
+    stage.onpointermove = (event) => this.drag && this.move(event);
+    stage.onpointerup = stage.onpointercancel = () => this.release();
+    stage.ondblclick = () => this.fit();
+    stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
+    stage.onkeydown = (event) => this.key(event);
+    new ResizeObserver(() => this.invalidate()).observe(stage);
+  }
+
+  press(event) {
+    if (event.target.id === "split" || event.button > 1) return;
+    this.element.setPointerCapture(event.pointerId);
+    this.element.classList.add("dragging");
+    const tool = event.button === 1 ? "pan" : this.tool;
+    this.drag = {tool, x: event.offsetX, y: event.offsetY, from: this.toPlace(event.offsetX, event.offsetY)};
+    if (tool === "light") this.move(event);
+  }
+
+  move(event) {
+    const {tool, x, y, from} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
+    if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
+    if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
+    if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
+    if (tool === "section" && Math.hypot(dx, dy) > 3) this.setLine(from, this.toPlace(event.offsetX, event.offsetY));
+    if (tool === "turn" || tool === "pan") Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+  }
+
+  release() {
+    this.drag = null;
+    this.sun = null;
+    this.element.classList.remove("dragging");
+    this.doc.endStroke();
+    this.drawOverlay();
+  }
+
+  // Above the middle the light comes from the viewer; towards the rim it rakes.
+  lightFrom(x, y) {
+    const {width, height} = this.size, radius = Math.min(width, height) / 2;
+    const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;
+    this.sun = [x, y];
+    this.setLight(degrees(Math.atan2(dy, dx)), 82 - 72 * Math.min(1, Math.hypot(dx, dy)));
+    this.drawOverlay();
+  }
+
+  setLight(azimuth, elevation) {
+    const light = direction(azimuth, clamp(elevation, 8, 88)).map((x) => Math.round(x * 1e4) / 1e4);
+    this.doc.change({light}, "light");
+  }
+
+  turn(yaw, pitch) {
+    const {camera} = this;
+    this.camera = {...camera, yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)};
+    this.invalidate();
+  }
+
+  shift(x, y) {
+    this.camera = {...this.camera, x: this.camera.x + x, y: this.camera.y + y};
+    this.invalidate();
+  }
+
+  setLine(from, to) {
+    this.line = {from, to};
+    this.drawOverlay();
+    this.invalidate();
+  }
+
+  zoom(event) {
+    event.preventDefault();
+    const zoom = clamp(this.camera.zoom * Math.exp(-event.deltaY * 0.0015), 0.3, 40);
+    const [x, y] = this.toPlace(event.offsetX, event.offsetY), rest = 1 - this.camera.zoom / zoom;
+    this.camera = {...this.camera, zoom, x: this.camera.x + rest * (x - this.camera.x), y: this.camera.y + rest * (y - this.camera.y)};
+    if (zoom <= 1) this.camera = {...this.camera, x: 0, y: 0};
+    this.invalidate();
+  }
+
+  key(event) {
+    const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+    if (event.key === "+" || event.key === "-") {
+      this.camera = {...this.camera, zoom: clamp(this.camera.zoom * (event.key === "+" ? 1.2 : 1 / 1.2), 0.3, 40)};
+      return this.invalidate();
+    }
+    if (!step || event.target !== this.element) return;
+    event.preventDefault();
+    const [x, y] = step, size = event.shiftKey ? 0.2 : 1;
+    if (this.tool === "light") {
+      const {azimuth, elevation} = angles(this.doc.now.light);
+      this.setLight(azimuth - x * 10 * size, elevation + y * 5 * size);
+    }
+    if (this.tool === "turn") this.turn(x * 5 * size, -y * 5 * size);
+    if (this.tool === "pan") this.shift(x * 20 * size / this.pixelsPerMm, y * 20 * size / this.pixelsPerMm);
+    if (this.tool === "section") {
+      const moved = ([px, py]) => [px + x * size, py + y * size];
+      this.setLine(moved(this.line.from), moved(this.line.to));
+    }
+  }
+}

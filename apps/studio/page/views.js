@@ -1,0 +1,143 @@
+// Choosing the view: the model turned in space, and the six sides.
+
+import {$, make} from "./controls.js";
+import {paint} from "./stage.js";
+
+const SIDES = ["front", "back", "left", "right", "top", "bottom"];
+const TOWARDS = {
+  front: [[0, 0, 1], [0, 1, 0]], back: [[0, 0, -1], [0, 1, 0]], left: [[-1, 0, 0], [0, 1, 0]],
+  right: [[1, 0, 0], [0, 1, 0]], top: [[0, 1, 0], [0, 0, -1]], bottom: [[0, -1, 0], [0, 0, 1]],
+};
+
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const unit = (a) => a.map((x) => x / Math.hypot(...a));
+// a turned about a unit axis
+const turned = (a, axis, angle) => {
+  const c = Math.cos(angle), s = Math.sin(angle), side = cross(axis, a), along = dot(axis, a) * (1 - c);
+  return a.map((x, i) => x * c + side[i] * s + axis[i] * along);
+};
+const text = (a) => a.map((x) => Number(x.toFixed(4))).join(",");
+const triple = (t) => t.split(",").map(Number);
+
+// "front", or "turned by hand"
+export const viewName = (view) => (SIDES.includes(view) ? view[0].toUpperCase() + view.slice(1) : "Turned by hand");
+
+export class ViewDialog {
+  constructor(engine, onApply, onFailed) {
+    Object.assign(this, {engine, onApply, onFailed});
+    this.dialog = $("#view-dialog");
+    this.model = $("#model");
+    this.canvas = $("canvas", this.model);
+    $("#sides").append(...SIDES.map((side) => make("button", {type: "button", "data-side": side, onclick: () => this.face(side)}, viewName(side))));
+    $("#suggest").onclick = () => this.suggest();
+    this.dialog.onclose = () => this.dialog.returnValue === "apply" && this.onApply(this.result());
+    this.listen();
+  }
+
+  show(options) {
+    this.dialog.returnValue = "cancel";
+    $("#suggestion").textContent = "";
+    if (TOWARDS[options.view] && !options.up) this.face(options.view);
+    else {
+      this.side = null;
+      this.towards = unit(TOWARDS[options.view]?.[0] ?? triple(options.view));
+      this.up = options.up ? triple(options.up) : [0, 1, 0];
+      this.straighten();
+    }
+    this.dialog.showModal();
+    this.draw();
+  }
+
+  // Up at a right angle to the view.
+  straighten() {
+    let right = cross(this.up, this.towards);
+    if (Math.hypot(...right) < 1e-6) right = cross(Math.abs(this.towards[2]) < 0.9 ? [0, 0, 1] : [0, 1, 0], this.towards);
+    this.right = unit(right);
+    this.up = cross(this.towards, this.right);
+    this.mark();
+  }
+
+  face(side) {
+    [this.towards, this.up] = TOWARDS[side];
+    this.side = side;
+    this.straighten();
+    this.draw();
+  }
+
+  mark() {
+    for (const button of $("#sides").children) button.setAttribute("aria-pressed", button.dataset.side === this.side);
+  }
+
+  // The model follows the hand: the viewer turns the other way.
+  turn(dx, dy, roll = 0) {
+    const {up, right} = this;
+    for (const [axis, angle] of [[up, -dx], [right, -dy], [this.towards, -roll]]) {
+      this.towards = unit(turned(this.towards, axis, angle));
+      this.up = unit(turned(this.up, axis, angle));
+    }
+    this.side = null;
+    this.straighten();
+    this.draw();
+  }
+
+  result() {
+    return this.side ? {view: this.side, up: ""} : {view: text(this.towards), up: text(this.up)};
+  }
+
+  async draw() {
+    this.isWanted = true;
+    if (this.isBusy || !this.dialog.open) return;
+    this.isBusy = true;
+    while (this.isWanted && this.dialog.open) {
+      this.isWanted = false;
+      clearTimeout(this.timer);
+      try {
+        await this.drawAt(1);
+      } catch (error) {
+        this.onFailed(error);
+      }
+    }
+    this.isBusy = false;
+    this.timer = setTimeout(() => !this.isBusy && this.dialog.open && this.drawAt(2).catch(this.onFailed), 200);
+  }
+
+  async drawAt(scale) {
+    const width = this.model.clientWidth * scale, height = this.model.clientHeight * scale, before = this.towards;
+    const {image} = await this.engine.scan({towards: this.towards, up: this.up, width, height});
+    if (scale === 1 || before === this.towards) paint(this.canvas, image);
+  }
+
+  async suggest() {
+    $("#suggestion").textContent = "Looking at all six sides …";
+    try {
+      const [best, second] = await this.engine.suggestViews();
+      this.face(best);
+      $("#suggestion").textContent = `The ${best} shows most, then the ${second}.`;
+    } catch (error) {
+      this.onFailed(error);
+    }
+  }
+
+  listen() {
+    const {model} = this;
+    model.onpointerdown = (event) => {
+      model.setPointerCapture(event.pointerId);
+      this.last = [event.clientX, event.clientY];
+    };
+    model.onpointermove = (event) => {
+      if (!this.last) return;
+      const dx = (event.clientX - this.last[0]) * 0.008, dy = (event.clientY - this.last[1]) * 0.008;
+      this.last = [event.clientX, event.clientY];
+      event.shiftKey ? this.turn(0, 0, -dx) : this.turn(dx, dy);
+    };
+    model.onpointerup = model.onpointercancel = () => (this.last = null);
+    model.onkeydown = (event) => {
+      const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
+      if (!step) return;
+      event.preventDefault();
+      const size = 5 * Math.PI / 180;
+      event.shiftKey ? this.turn(0, 0, -step[0] * size) : this.turn(step[0] * size, step[1] * size);
+    };
+  }
+}

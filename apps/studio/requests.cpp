@@ -1,0 +1,189 @@
+#include "requests.h"
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "relievo/text.h"
+
+namespace relievo::studio {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::array material_names{"plaster", "silver", "bronze", "walnut", "porcelain"};
+constexpr double most_pixels = 8e6, most_fine_pixels = 2.5e6;
+
+std::unexpected<Error> wrong(std::string field, std::string expected) {
+  return std::unexpected(Error{ErrorKind::input, std::move(field), {}, std::move(expected)});
+}
+
+struct Range {
+  double min, max, otherwise;
+};
+
+// A number of the object; `otherwise` if it is missing, nothing if it is no number in the range.
+std::optional<double> number(const Json& json, const char* key, const Range& range) {
+  const auto found = json.find(key);
+  if (found == json.end()) return range.otherwise;
+  if (!found->is_number()) return std::nullopt;
+  const double value = found->get<double>();
+  if (!(value >= range.min && value <= range.max)) return std::nullopt;
+  return value;
+}
+
+bool flag(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_boolean() && found->get<bool>();
+}
+
+std::optional<Vec3> triple(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  if (found == json.end() || !found->is_array() || found->size() != 3) return std::nullopt;
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) {
+    const Json& entry = (*found)[static_cast<std::size_t>(i)];
+    if (!entry.is_number()) return std::nullopt;
+    v[i] = entry.get<double>();
+  }
+  return v.allFinite() && v.norm() > 1e-9 ? std::optional(v) : std::nullopt;
+}
+
+Result<Camera> camera_from(const Json& json) {
+  if (!json.is_object()) return wrong("camera", "expected an object");
+  const auto yaw = number(json, "yaw", {-360, 360, 0}), pitch = number(json, "pitch", {-90, 90, 0});
+  const auto zoom = number(json, "zoom", {.05, 100, 1});
+  const auto x = number(json, "x", {-1e6, 1e6, 0}), y = number(json, "y", {-1e6, 1e6, 0});
+  if (!yaw || !pitch || !zoom || !x || !y)
+    return wrong("camera", "expected yaw, pitch, zoom, x and y in range");
+  return Camera{*yaw, *pitch, *zoom, {*x, *y}};
+}
+
+Result<RenderOptions> render_from(const Json& json) {
+  const auto width = number(json, "width", {1, 8192, 800}), height = number(json, "height", {1, 8192, 600});
+  if (!width || !height || *width * *height > most_pixels)
+    return wrong("width", "expected a picture of at most eight million pixels");
+  RenderOptions render;
+  render.width = static_cast<int>(*width);
+  render.height = static_cast<int>(*height);
+  render.is_fine = flag(json, "fine") && *width * *height <= most_fine_pixels;
+  if (const auto light = triple(json, "light")) render.light = light->cast<float>();
+  const std::string material = json.value("material", Json("plaster")).is_string()
+                                   ? json.value("material", Json("plaster")).get<std::string>()
+                                   : "";
+  bool is_known = false;
+  for (std::size_t i = 0; i < material_names.size(); ++i) {
+    if (material != material_names[i]) continue;
+    render.material = static_cast<Material>(i);
+    is_known = true;
+  }
+  if (!is_known) return wrong("material", cat("expected a known material, found '", material, "'"));
+  const Result<Camera> camera = camera_from(json.value("camera", Json::object()));
+  if (!camera) return std::unexpected(camera.error());
+  render.camera = *camera;
+  return render;
+}
+
+Json number_or_null(double x) {
+  return std::isfinite(x) ? Json(x) : Json();
+}
+
+}  // namespace
+
+Result<Json> parse_body(std::string_view body) {
+  Json json = Json::parse(body, nullptr, false);
+  if (!json.is_object()) return wrong("body", "expected an object in JSON");
+  return json;
+}
+
+Result<PictureRequest> picture_request(const Json& json) {
+  Result<ReliefOptions> options = options_from_json(json.value("options", Json::object()), "options");
+  if (!options) return std::unexpected(options.error());
+  Result<RenderOptions> render = render_from(json);
+  if (!render) return std::unexpected(render.error());
+  PictureRequest request{std::move(*options), std::nullopt, flag(json, "original"), *render};
+  if (json.contains("u")) {
+    request.u = number(json, "u", {0, 1e12, 1});
+    if (!request.u) return wrong("u", "expected a number that is not negative");
+  }
+  return request;
+}
+
+Result<Vec2> place_from(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  const bool is_pair = found != json.end() && found->is_array() && found->size() == 2 &&
+                       (*found)[0].is_number() && (*found)[1].is_number();
+  if (!is_pair) return wrong(key, "expected two numbers");
+  const Vec2 place((*found)[0].get<double>(), (*found)[1].get<double>());
+  if (!place.allFinite() || place.cwiseAbs().maxCoeff() > 1e6)
+    return wrong(key, "expected a place on the plate");
+  return place;
+}
+
+Result<View> view_from(const Json& json) {
+  const auto towards = triple(json, "towards"), up = triple(json, "up");
+  if (!towards || !up) return wrong("towards", "expected directions as three numbers");
+  return view_towards(*towards, *up);
+}
+
+Json to_json(const EngineStatus& status) {
+  Json json{{"busy", status.is_busy}, {"stage", status.stage}, {"fraction", status.fraction},
+            {"model", status.model},  {"error", nullptr},      {"input", nullptr},
+            {"wanted", nullptr},      {"view", status.view},   {"up", status.up}};
+  if (status.error) json["error"] = error_json(*status.error);
+  if (!status.wanted.name.empty()) json["wanted"] = to_json(status.wanted);
+  if (status.model > 0) json["input"] = to_json(status.input);
+  return json;
+}
+
+Json to_json(const ModelFacts& facts) {
+  std::vector<double> rotation;
+  for (int i = 0; i < 9; ++i) rotation.push_back(facts.rotation(i / 3, i % 3));
+  return {{"input_points", facts.input_points},
+          {"visible_points", facts.visible_points},
+          {"points", facts.points},
+          {"triangles", facts.triangles},
+          {"hull", facts.hull},
+          {"size", {facts.size.x(), facts.size.y()}},
+          {"rho", facts.rho},
+          {"delta", facts.delta},
+          {"rotation", rotation},
+          {"remarks", facts.remarks},
+          {"histogram", facts.histogram}};
+}
+
+Json to_json(const PictureAnswer& answer) {
+  return {{"width", answer.picture.width},
+          {"height", answer.picture.height},
+          {"pixels_per_mm", answer.picture.pixels_per_mm},
+          {"height_mm", answer.height_mm},
+          {"is_height_met", answer.is_height_met},
+          {"u", number_or_null(answer.compression.u)},
+          {"beta", answer.compression.beta},
+          {"alpha", answer.compression.curve ? Json() : number_or_null(answer.compression.alpha())},
+          {"solves", answer.times.solves},
+          {"heights_ms", answer.times.heights_s * 1e3},
+          {"detail_ms", answer.times.detail_s * 1e3},
+          {"normals_ms", answer.times.normals_s * 1e3},
+          {"drawing_ms", answer.drawing_s * 1e3}};
+}
+
+Json option_list() {
+  const ReliefOptions defaults;
+  Json list = Json::array();
+  visit(defaults, [&]<typename T>(const OptionField& field, const T& value) {
+    Json entry{{"name", field.name}, {"unit", field.unit}, {"help", field.help}};
+    if constexpr (!std::is_same_v<T, std::string>) entry.update({{"min", field.min}, {"max", field.max}});
+    if constexpr (!std::is_same_v<T, std::optional<double>>) entry["default"] = value;
+    list.push_back(entry);
+  });
+  return list;
+}
+
+Json error_json(const Error& error) {
+  constexpr std::array kinds{"input", "option", "geometry", "cancelled", "output"};
+  return {{"kind", kinds[static_cast<std::size_t>(error.kind)]}, {"text", error.message()}};
+}
+
+}  // namespace relievo::studio

@@ -1,0 +1,365 @@
+#include "server.h"
+
+#include <httplib.h>
+#include <sys/socket.h>
+
+#include <atomic>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "files.h"
+#include "guard.h"
+#include "page_files.h"
+#include "relievo/sample.h"
+#include "relievo/text.h"
+#include "relievo/version.h"
+#include "requests.h"
+
+namespace relievo::studio {
+namespace {
+
+using Json = nlohmann::json;
+using httplib::Request;
+using httplib::Response;
+using namespace std::chrono_literals;
+
+constexpr std::size_t most_json = 4U << 20, most_scan = std::size_t{4} << 30;
+constexpr int most_waiting = 32, most_pages = 8;
+constexpr std::size_t threads = 64;  // each open connection holds one while it is kept alive
+
+void answer(Response& response, const Json& json, int status = 200) {
+  response.status = status;
+  response.set_content(json.dump(-1, ' ', false, Json::error_handler_t::replace), "application/json");
+}
+
+int status_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::input:
+      return 400;
+    case ErrorKind::option:
+      return 422;
+    case ErrorKind::output:
+      return 500;
+    default:
+      return 409;
+  }
+}
+
+void answer(Response& response, const Error& error) {
+  answer(response, {{"error", error_json(error)}}, status_of(error.kind));
+}
+
+void answer(Response& response, const Picture& picture, const Json& about) {
+  response.status = 200;
+  response.set_header("X-Relievo", about.dump());
+  response.set_content(reinterpret_cast<const char*>(picture.rgba.data()), picture.rgba.size(),
+                       "application/octet-stream");
+}
+
+// A server that lets more than five connections wait to be accepted.
+class PatientServer : public httplib::Server {
+ public:
+  void widen_queue() { ::listen(svr_sock_, 1024); }
+};
+
+// Counts what is under way, for the time it lives.
+class Turn {
+ public:
+  explicit Turn(std::atomic<int>& count) : count_(count), number_(++count) {}
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+  ~Turn() { --count_; }
+  int number() const { return number_; }
+
+ private:
+  std::atomic<int>& count_;
+  int number_;
+};
+
+}  // namespace
+
+struct Server::State {
+  Engine& engine;
+  const Store& store;
+  ServerOptions options;
+  std::mutex storing;
+  Guard guard;
+  std::atomic<int> pages = 0, waiting = 0;
+  std::atomic<bool> had_page = false, is_stopping = false;
+  PatientServer http;
+
+  State(Engine& e, const Store& s, const ServerOptions& o) : engine(e), store(s), options(o) { set_up(); }
+
+  using Action = void (State::*)(const Json&, Response&);
+  const std::map<std::string, Action, std::less<>> actions{
+      {"open", &State::open},        {"view", &State::choose_view}, {"cancel", &State::cancel},
+      {"frame", &State::frame},      {"scan", &State::scan},        {"profile", &State::profile},
+      {"export", &State::make_file}, {"state", &State::keep_state}, {"project", &State::check_project}};
+
+  // ------------------------------------------------------------------------------------------------ actions
+
+  void open(const Json& json, Response& response) {
+    Result<Input> input = input_from_json(json.value("input", Json()), "input");
+    if (!input) return answer(response, input.error());
+    engine.open(*input, json.value("view", "front"), json.value("up", ""));
+    const std::lock_guard turn(storing);
+    if (auto kept = store.remember(*input); !kept) return answer(response, kept.error());
+    answer(response, Json::object());
+  }
+
+  void choose_view(const Json& json, Response& response) {
+    const auto ok = engine.choose_view(json.value("view", "front"), json.value("up", ""));
+    ok ? answer(response, Json::object()) : answer(response, ok.error());
+  }
+
+  void cancel(const Json&, Response& response) {
+    engine.cancel();
+    answer(response, Json::object());
+  }
+
+  void frame(const Json& json, Response& response) {
+    const Result<PictureRequest> request = picture_request(json);
+    if (!request) return answer(response, request.error());
+    const Result<PictureAnswer> made = engine.picture(*request);
+    if (!made) return answer(response, made.error());
+    answer(response, made->picture, to_json(*made));
+  }
+
+  void scan(const Json& json, Response& response) {
+    const Result<View> view = view_from(json);
+    const Result<PictureRequest> size = picture_request(json);
+    if (!view || !size) return answer(response, view ? size.error() : view.error());
+    const Result<Picture> picture = engine.scan_picture(*view, size->render.width, size->render.height);
+    if (!picture) return answer(response, picture.error());
+    answer(response, *picture, {{"width", picture->width}, {"height", picture->height}});
+  }
+
+  void profile(const Json& json, Response& response) {
+    const Result<PictureRequest> request = picture_request(json);
+    const Result<Vec2> from = place_from(json, "from"), to = place_from(json, "to");
+    if (!request) return answer(response, request.error());
+    if (!from || !to) return answer(response, from ? to.error() : from.error());
+    const auto heights = engine.profile(*request, *from, *to, 400);
+    if (!heights) return answer(response, heights.error());
+    answer(response, {{"heights_mm", *heights}});
+  }
+
+  void make_file(const Json& json, Response& response) {
+    const Result<ReliefOptions> wanted = options_from_json(json.value("options", Json()), "options");
+    if (!wanted) return answer(response, wanted.error());
+    const int pixels = std::clamp(json.value("pixels", 2048), 16, 16384);
+    Result<ExportedFile> file = engine.make_file(*wanted, json.value("format", ""), pixels);
+    if (!file) return answer(response, file.error());
+    response.status = 200;
+    response.body = std::move(file->bytes);
+    response.set_header("Content-Type", file->type);
+  }
+
+  void keep_state(const Json& json, Response& response) {
+    const std::lock_guard turn(storing);
+    const auto ok = store.keep_state(json.dump());
+    ok ? answer(response, Json::object()) : answer(response, ok.error());
+  }
+
+  void check_project(const Json& json, Response& response) {
+    const std::string name = json.value("name", "project");
+    const Result<Project> project = read_project(json.value("text", ""), name);
+    if (!project) return answer(response, project.error());
+    answer(response, {{"input", to_json(project->input)}, {"options", to_json(project->options)}});
+  }
+
+  // -------------------------------------------------------------------------------------------------- reads
+
+  Json about() {
+    Json samples = Json::array();
+    for (const SampleInfo& sample : relievo::samples())
+      samples.push_back({{"name", sample.name}, {"description", sample.description}});
+    Json recent = Json::array();
+    const std::lock_guard turn(storing);
+    for (const Input& input : store.recent()) recent.push_back(to_json(input));
+    const Json state = Json::parse(store.state(), nullptr, false);
+    return {{"version", version},
+            {"options", option_list()},
+            {"samples", samples},
+            {"recent", recent},
+            {"status", to_json(engine.status())},
+            {"state", state.is_object() ? state : Json()}};
+  }
+
+  void get(const std::string& name, Response& response) {
+    if (name == "api/about") return answer(response, about());
+    if (name == "api/events") return follow(response);
+    if (name == "api/facts") {
+      const Result<ModelFacts> facts = engine.facts();
+      return facts ? answer(response, to_json(*facts)) : answer(response, facts.error());
+    }
+    if (name == "api/views") {
+      const auto views = engine.suggest_views();
+      return views ? answer(response, Json{{"views", *views}}) : answer(response, views.error());
+    }
+    send_file(name.empty() ? "index.html" : name, response);
+  }
+
+  void send_file(const std::string& name, Response& response) {
+    const PageFile* const file = find_page_file(name);
+    if (!file) return refuse(response, 404, "no such page");
+    response.status = 200;
+    if (options.page_folder.empty())
+      return response.set_content(file->bytes.data(), file->bytes.size(), std::string(file->type));
+    const auto bytes = cli::read_file(options.page_folder + "/" + name);
+    if (!bytes) return refuse(response, 404, "no such file in the page's folder");
+    response.set_content(reinterpret_cast<const char*>(bytes->data()), bytes->size(),
+                         std::string(file->type));
+  }
+
+  // A stream of the engine's status as it changes. The page holds it open for as long as it lives.
+  void follow(Response& response) {
+    if (pages >= most_pages) return refuse(response, 503, "too many pages are open");
+    auto turn = std::make_shared<Turn>(pages);
+    had_page = true;
+    auto last = std::make_shared<std::string>();
+    response.status = 200;
+    response.set_chunked_content_provider(
+        "text/event-stream", [this, turn, last](std::size_t, httplib::DataSink& sink) {
+          if (is_stopping) return false;
+          const std::string text = to_json(engine.status()).dump();
+          const std::string event =
+              text == *last ? ":\n"
+                            : "data: " + text + "\n\n";  // a comment tells whether the page is still there
+          *last = text;
+          const bool is_sent = sink.write(event.data(), event.size());
+          std::this_thread::sleep_for(80ms);
+          return is_sent;
+        });
+  }
+
+  // ------------------------------------------------------------------------------------------------- guards
+
+  httplib::Server::HandlerResponse before(const Request& request, Response& response) {
+    using enum httplib::Server::HandlerResponse;
+    const std::optional<std::string> name = guard.admit(request, response);
+    if (!name) return Handled;
+    if (request.method == "POST") return Unhandled;
+    if (request.method != "GET" && request.method != "HEAD") {
+      refuse(response, 405, "expected GET or POST");
+      return Handled;
+    }
+    get(*name, response);
+    return Handled;
+  }
+
+  // Returns the body, or nothing when the request was refused.
+  std::optional<std::string> body_of(const Request& request, Response& response, std::size_t limit,
+                                     const httplib::ContentReader& read) const {
+    const auto refused = [&]() -> std::optional<std::string> {
+      refuse(response, 413, cat("expected at most ", limit >> 20, " MiB"));
+      return std::nullopt;
+    };
+    if (request.get_header_value<std::uint64_t>("Content-Length") > limit) return refused();
+    if (request.is_multipart_form_data()) {
+      refuse(response, 415, "expected plain bytes or JSON");
+      return std::nullopt;
+    }
+    std::string body;
+    const bool is_whole = read([&](const char* data, std::size_t size) {
+      if (body.size() + size > limit) return false;
+      body.append(data, size);
+      return true;
+    });
+    if (is_whole) return body;
+    return body.size() > limit / 2 ? refused()
+                                   : (refuse(response, 400, "the request ended early"), std::nullopt);
+  }
+
+  void post(const Request& request, Response& response, const httplib::ContentReader& read) {
+    const std::string name = request.path.substr(guard.token().size() + 2);
+    if (name == "api/upload") return upload(request, response, read);
+    const auto action = actions.find(std::string_view(name).substr(std::min<std::size_t>(name.size(), 4)));
+    if (!name.starts_with("api/") || action == actions.end()) return refuse(response, 404, "no such action");
+    const std::optional<std::string> body = body_of(request, response, most_json, read);
+    if (!body) return;
+    const Turn turn(waiting);
+    if (turn.number() > most_waiting) return refuse(response, 503, "too much at once");
+    const Result<Json> json = parse_body(*body);
+    if (!json) return answer(response, json.error());
+    (this->*action->second)(*json, response);
+  }
+
+  void upload(const Request& request, Response& response, const httplib::ContentReader& read) {
+    const std::optional<std::string> body = body_of(request, response, most_scan, read);
+    if (!body) return;
+    const std::lock_guard turn(storing);
+    const Result<Input> input = store.keep_scan(*body, request.get_param_value("name"));
+    if (!input) return answer(response, input.error());
+    answer(response, {{"input", to_json(*input)}});
+  }
+
+  void set_up() {
+    http.new_task_queue = [] { return new httplib::ThreadPool(threads); };
+    http.set_keep_alive_max_count(100000);
+    http.set_keep_alive_timeout(1);
+    http.set_read_timeout(10);
+    http.set_write_timeout(10);
+    http.set_tcp_nodelay(true);
+    http.set_payload_max_length(most_scan);
+    http.set_default_headers({{"Cache-Control", "no-store"},
+                              {"Content-Security-Policy",
+                               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' "
+                               "data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+                               "frame-ancestors 'none'"},
+                              {"Referrer-Policy", "no-referrer"},
+                              {"Cross-Origin-Resource-Policy", "same-origin"},
+                              {"X-Content-Type-Options", "nosniff"}});
+    http.set_pre_routing_handler([this](const Request& q, Response& s) { return before(q, s); });
+    http.Post(".*",
+              [this](const Request& q, Response& s, const httplib::ContentReader& r) { post(q, s, r); });
+    // JSON of a wrong type where a text or number belongs ends up here.
+    http.set_exception_handler([](const Request&, Response& s, std::exception_ptr) {
+      refuse(s, 400, "expected fields of their types");
+    });
+  }
+
+  // Stops the server when no page was there for a while.
+  void watch() {
+    auto last_seen = std::chrono::steady_clock::now();
+    while (!is_stopping) {
+      const auto now = std::chrono::steady_clock::now();
+      if (pages > 0 || !had_page) last_seen = now;
+      if (now - last_seen > options.linger) {
+        is_stopping = true;
+        http.stop();
+        return;
+      }
+      std::this_thread::sleep_for(100ms);
+    }
+  }
+};
+
+Server::Server(Engine& engine, const Store& store, const ServerOptions& options)
+    : state_(std::make_unique<State>(engine, store, options)) {}
+Server::~Server() = default;
+
+Result<std::string> Server::bind() {
+  const std::string host = "127.0.0.1";
+  int port = state_->options.port;
+  if (port == 0)
+    port = state_->http.bind_to_any_port(host);
+  else if (!state_->http.bind_to_port(host, port))
+    port = -1;
+  if (port <= 0)
+    return std::unexpected(Error{ErrorKind::option, "--port", {}, "expected a port that is free"});
+  state_->http.widen_queue();
+  state_->guard.set_port(port);
+  return state_->guard.address();
+}
+
+void Server::run() {
+  std::thread watcher([this] { state_->watch(); });
+  state_->http.listen_after_bind();
+  state_->is_stopping = true;
+  watcher.join();
+}
+
+}  // namespace relievo::studio

@@ -1,0 +1,327 @@
+// The studio as its users work in it, in Chromium: found by role and label.
+import assert from "node:assert/strict";
+import {spawnSync} from "node:child_process";
+import {readFileSync, writeFileSync} from "node:fs";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {EngineProcess, PROGRAM, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+
+const found = await findBrowser();
+const skip = found.missing ? `${found.missing}: the page is not tested` : false;
+if (skip) console.log(`SKIPPED: ${skip}`);
+
+const folder = temporaryFolder(), state = path.join(folder, "state"), scan = path.join(folder, "scan.ply");
+let browser, engine, page;
+const complaints = [];
+
+before(async () => {
+  if (skip) return;
+  const made = spawnSync(PROGRAM, ["sample", "still_life", "-o", scan, "--points", "30000"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  browser = await found.launch();
+  page = await (await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true})).newPage();
+  page.setDefaultTimeout(60000);
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+  await start();
+});
+
+after(async () => {
+  await browser?.close();
+  await engine?.stop();
+  removeFolder(folder);
+});
+
+async function start(...args) {
+  engine = await new EngineProcess(state, ...args).ready();
+  await page.goto(engine.address);
+}
+
+const button = (name) => page.getByRole("button", {name, exact: true});
+const slider = (name) => page.getByRole("slider", {name, exact: true});
+const field = (name) => page.getByRole("spinbutton", {name, exact: true});
+const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
+const value = async (name) => Number(await field(name).inputValue());
+
+async function set(name, number) {
+  await field(name).fill(String(number));
+  await field(name).press("Enter");
+}
+
+async function press(locator, key, times) {
+  for (let i = 0; i < times; ++i) await locator.press(key);
+}
+
+// What the relief looks like, once it stands still: the bytes of its picture.
+async function picture() {
+  const read = () => page.getByRole("application", {name: /^Relief/}).locator("canvas").first().evaluate((canvas) => {
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let text = "";
+    for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i]);
+    return btoa(text);
+  });
+  for (let last = null, i = 0; i < 60; ++i) {
+    const next = await read();
+    if (next === last) return Buffer.from(next, "base64");
+    last = next;
+    await page.waitForTimeout(400);
+  }
+  throw new Error("the picture does not come to rest");
+}
+
+// Mean difference of two pictures' reds, of 255. A locked height is met to a part in a thousand, not to the bit.
+function difference(a, b) {
+  if (a.length !== b.length) return 255;
+  let sum = 0;
+  for (let i = 0; i < a.length; ++i) sum += Math.abs(a[i] - b[i]);
+  return sum / a.length;
+}
+
+const assertSame = (a, b) => assert.ok(difference(a, b) < 0.05, `pictures differ by ${difference(a, b)}`);
+const assertOther = (a, b) => assert.ok(difference(a, b) > 0.2, `pictures differ by ${difference(a, b)} only`);
+
+// Of the newest frame, not what was asked for.
+const heightShown = async () => Number((await numbers().getByTitle(/height reached/).getAttribute("title")).match(/reached ([\d.]+)/)[1]);
+
+async function untilHeight(wanted, tolerance) {
+  for (let i = 0; i < 100; ++i) {
+    if (Math.abs((await heightShown()) - wanted) <= tolerance) return;
+    await page.waitForTimeout(100);
+  }
+  assert.fail(`the height stays at ${await heightShown()} instead of ${wanted}`);
+}
+
+async function openFile(file) {
+  const chooser = page.waitForEvent("filechooser");
+  await button("Open").click();
+  await (await chooser).setFiles(file);
+}
+
+async function untilReady() {
+  await page.getByText(/points.*height/).waitFor();
+  await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
+}
+
+async function saveAs(trigger, file) {
+  const download = page.waitForEvent("download");
+  await trigger();
+  await (await download).saveAs(file);
+  return readFileSync(file);
+}
+
+async function choose(side) {
+  await button("Choose view").click();
+  await page.getByRole("group", {name: "Sides"}).getByRole("button", {name: side, exact: true}).click();
+  await button("Use this view").click();
+  await page.getByText(side, {exact: true}).first().waitFor();
+  await page.waitForTimeout(300);
+  await untilReady();
+}
+
+test("opens a sample and shows its progress", {skip}, async () => {
+  await page.getByRole("list", {name: "Try a sample"}).getByRole("button", {name: /green man/i}).click();
+  await page.getByRole("progressbar", {name: "Preparing"}).waitFor();
+  await untilReady();
+  assert.match(await numbers().innerText(), /[\d,]+ of 300,000 points/);
+});
+
+test("opens a scan of the browser", {skip}, async () => {
+  await openFile(scan);
+  await page.getByText("scan.ply", {exact: true}).waitFor();
+  await page.getByText("of 30,000 points").waitFor();
+  await untilReady();
+});
+
+test("drags the height: number and picture change", {skip}, async () => {
+  const start = await value("Height in mm"), first = await picture();
+  await press(slider("Height"), "ArrowRight", 10);
+  assert.ok((await value("Height in mm")) > start);
+  await untilHeight(await value("Height in mm"), 0.01);
+  assertOther(await picture(), first);
+});
+
+test("moves sliders by wheel and double click, too", {skip}, async () => {
+  const height = await value("Height in mm");
+  await slider("Steepest wall").hover();
+  await page.mouse.wheel(0, 200);
+  assert.ok((await value("Steepest wall in degrees")) < 76);
+  await slider("Steepest wall").dblclick();
+  assert.equal(await value("Steepest wall in degrees"), 76);
+  await field("Height in mm").fill("nonsense".replace(/\D/g, ""));
+  await field("Height in mm").press("Enter");
+  assert.equal(await value("Height in mm"), height);
+});
+
+test("keeps a locked height while saturation moves", {skip}, async () => {
+  await set("Height in mm", 3);
+  await untilHeight(3, 0.01);
+  const first = await picture();
+  assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
+  await press(slider("Saturation"), "ArrowRight", 30);
+  assert.ok((await value("Saturation value")) > 0.1);
+  assertOther(await picture(), first);
+  await untilHeight(3, 0.01);
+});
+
+test("lets the height follow when it is not locked", {skip}, async () => {
+  await button("Lock the height").click();
+  await set("Detail value", 0.3);
+  await picture();
+  assert.ok(Math.abs((await heightShown()) - 3) > 0.05);
+  assert.ok(Math.abs((await value("Height in mm")) - (await heightShown())) < 0.01);
+});
+
+test("undoes and redoes, step by step", {skip}, async () => {
+  const last = await picture();
+  await page.keyboard.press("Escape");
+  await button("Undo").click();
+  await button("Undo").click();
+  assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
+  await untilHeight(3, 0.01);
+  const before = await picture();
+  assertOther(before, last);
+  await button("Undo").click();
+  assert.equal(await value("Saturation value"), 0);
+  await button("Redo").click();
+  assertSame(await picture(), before);
+});
+
+test("shapes the tone curve with presets and keys", {skip}, async () => {
+  const first = await picture();
+  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
+  assertOther(await picture(), first);
+  assert.ok(await slider("Saturation").isDisabled());
+  const point = page.getByRole("slider", {name: /Curve point 2 of/});
+  await press(point, "ArrowUp", 5);
+  await page.getByRole("combobox", {name: "Tone curve preset"}).waitFor();
+  assert.match(await point.getAttribute("aria-valuetext"), /keeps 35 percent/);
+  await point.press("Delete");
+  await page.getByRole("slider", {name: "Curve point 3 of 3"}).waitFor();
+  await untilHeight(3, 0.01);
+});
+
+test("turns, lights, cuts and compares", {skip}, async () => {
+  const stage = page.getByRole("application", {name: /^Relief/});
+  const change = async (act) => {
+    const before = await picture();
+    await act();
+    assertOther(await picture(), before);
+  };
+  await change(() => press(stage, "ArrowLeft", 3));
+  await change(() => page.getByRole("radio", {name: "Struck silver"}).click());
+  await page.getByRole("radio", {name: "Orbit"}).click();
+  await change(() => press(stage, "ArrowLeft", 5));
+  await button("Fit").click();
+  await page.getByRole("radio", {name: "Section"}).click();
+  await page.getByText(/Section, 100\.0 mm long, from -?[\d.]+ to [\d.]+ mm/).waitFor();
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await button("Compare").click();
+  await page.getByRole("slider", {name: "Divider between model and relief"}).press("ArrowRight");
+  await button("Compare").click();
+  await button("Light table").click();
+  await change(() => page.getByRole("button", {name: "Light from: Raking, above"}).click());
+});
+
+test("chooses another view in the background", {skip}, async () => {
+  const first = await picture();
+  await choose("Left");
+  assertOther(await picture(), first);
+  await button("Choose view").click();
+  await button("Suggest a view").click();
+  await page.getByText(/The \w+ shows most, then the \w+/).waitFor();
+  await page.getByRole("application", {name: /^Model/}).press("ArrowRight");
+  await button("Use this view").click();
+  await page.getByText("Turned by hand").waitFor();
+  await page.waitForTimeout(300);
+  await untilReady();
+});
+
+test("saves a project, opens it again, and makes the same bytes of it", {skip}, async () => {
+  await set("Height in mm", 2.5);
+  await untilHeight(2.5, 0.01);
+  const shown = await picture(), file = path.join(folder, "work.relievo");
+  const saved = JSON.parse(await saveAs(() => button("Save project").click(), file));
+  assert.equal(saved.options.height, 2.5);
+  await set("Height in mm", 5);
+  await choose("Front");
+  await openFile(file);
+  await page.getByText("Turned by hand").waitFor();
+  await untilReady();
+  assert.equal(await value("Height in mm"), 2.5);
+  await untilHeight(2.5, 0.01);
+  assertSame(await picture(), shown);
+
+  await button("Export").click();
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByRole("radio", {name: /^STL/}).check();
+  const stl = await saveAs(() => dialog.getByRole("button", {name: "Export"}).click(), path.join(folder, "studio.stl"));
+  const made = spawnSync(PROGRAM, ["make", file, "-o", path.join(folder, "make.stl")]);
+  assert.equal(made.status, 0, String(made.stderr));
+  assert.ok(stl.equals(readFileSync(path.join(folder, "make.stl"))));
+  const {isClosed, size, count} = readStl(stl);
+  assert.ok(isClosed);
+  assert.ok(Math.abs(size[2] - (2.5 + saved.options.thickness)) < 0.01, `${size}`);
+  assert.ok(count > 10000);
+});
+
+test("tells the size of the file beforehand", {skip}, async () => {
+  await button("Export").click();
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  const told = (await dialog.getByText(/^STL/).locator("xpath=ancestor::label").innerText())
+    .match(/([\d.]+) (kB|MB)/);
+  const bytes = readFileSync(path.join(folder, "studio.stl")).length, unit = told[2] === "MB" ? 1e6 : 1e3;
+  assert.ok(Math.abs(Number(told[1]) * unit - bytes) <= 0.51 * unit, `${told[0]} for ${bytes} bytes`);
+  await dialog.getByRole("button", {name: "Cancel"}).click();
+});
+
+test("goes on after a reload and after a new start of the engine", {skip}, async () => {
+  await set("Margin in mm", 7);
+  const shown = await picture();
+  await page.reload();
+  await untilReady();
+  assert.equal(await value("Margin in mm"), 7);
+  assertSame(await picture(), shown);
+  await page.waitForTimeout(500);
+  complaints.length = 0;
+  await engine.stop();
+  await page.getByRole("alert").getByText(/engine has stopped/).waitFor();
+  await start();
+  complaints.length = 0;  // of the time without an engine
+  await untilReady();
+  assert.equal(await value("Margin in mm"), 7);
+  assertSame(await picture(), shown);
+  await button("Undo").click();
+  assert.equal(await value("Margin in mm"), 5);
+});
+
+test("says in plain words what is wrong with a file", {skip}, async () => {
+  const wrong = path.join(folder, "wrong.ply");
+  writeFileSync(wrong, "ply\nformat ascii 1.0\nelement vertex 3\n");
+  await openFile(wrong);
+  await page.getByRole("alert").getByText(/wrong\.ply.*expected/).waitFor();
+  const project = path.join(folder, "wrong.relievo");
+  writeFileSync(project, "{}");
+  await openFile(project);
+  await page.getByRole("alert").getByText(/expected a project/).waitFor();
+  complaints.length = 0;
+});
+
+test("cancels", {skip}, async () => {
+  await button("Start page").click();
+  await page.getByRole("button", {name: /still life/i}).first().click();
+  await button("Cancel").click();
+  await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
+  await page.getByText("scan.ply", {exact: true}).first().waitFor();  // what was there before
+  assert.equal(await value("Height in mm"), 2.5);
+});
+
+test("helps at the press of a key, and names all it has", {skip}, async () => {
+  await page.keyboard.press("?");
+  await page.getByRole("dialog", {name: "Help"}).waitFor();
+  await page.keyboard.press("Escape");
+  const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [role=slider], [role=application], dialog")]
+    .filter((e) => !(e.ariaLabel || e.getAttribute("aria-labelledby") || e.textContent.trim() || e.closest("label"))).map((e) => e.outerHTML.slice(0, 80)));
+  assert.deepEqual(nameless, []);
+});
+
+test("complains about nothing", {skip}, () => assert.deepEqual(complaints, []));

@@ -1,0 +1,198 @@
+// What the server does with requests that do not come from its page, are broken, or are too many.
+import assert from "node:assert/strict";
+import {spawnSync} from "node:child_process";
+import {existsSync, readFileSync, writeFileSync} from "node:fs";
+import net from "node:net";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {EngineProcess, PROGRAM, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+
+const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
+let engine;
+
+const OPTIONS = {width: 60, height: 2, view: "front"};
+const FRAME = {options: OPTIONS, width: 200, height: 150};
+
+before(async () => {
+  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "20000"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
+  await engine.open({path: scan});
+});
+
+after(async () => {
+  await engine.stop();
+  removeFolder(folder);
+});
+
+const status = async (answer) => (await answer).status;
+const stillWorks = async () => assert.equal(await status(engine.post("frame", FRAME)), 200);
+
+test("serves the page and nothing else", async () => {
+  const page = await engine.get("");
+  assert.equal(page.status, 200);
+  assert.match(page.headers["content-security-policy"], /default-src 'none'/);
+  assert.equal(await status(engine.get("main.js")), 200);
+  for (const name of ["gone.js", "../main.js", "../../etc/passwd", "%2e%2e/%2e%2e/etc/passwd", "..%2f..%2fetc%2fpasswd", "/etc/passwd", "main.js%00.css", "api/", "api/gone"])
+    assert.notEqual(await status(engine.get(name)), 200, name);
+});
+
+test("wants its token", async () => {
+  const token = engine.url.pathname.slice(1, -1), wrong = token.replace(/.$/, (c) => (c === "0" ? "1" : "0"));
+  for (const target of ["/", "/main.js", `/${wrong}/`, `/${token.slice(0, -1)}/`, `/${token}x/`, "/api/about", `/x/${token}/`, "//", "*"])
+    assert.ok([400, 403].includes(await status(engine.request(target))), target);
+  assert.equal(await status(engine.request(`/${wrong}/api/frame`, {method: "POST", body: "{}"})), 403);
+  assert.equal(await status(engine.request(`/${token}`)), 308);
+});
+
+test("refuses other hosts and origins", async () => {
+  const {pathname, port} = engine.url;
+  for (const Host of ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1:${+port + 1}`])
+    assert.ok([400, 403].includes(await status(engine.request(pathname, {headers: {Host}}))), Host);
+  for (const Origin of ["http://evil.example", "null", `https://127.0.0.1:${port}`, `http://127.0.0.1:${+port + 1}`, `http://127.0.0.1:${port}.evil.example`])
+    assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin}})), 403, Origin);
+  assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin: `http://127.0.0.1:${port}`}})), 200);
+  assert.equal(await status(engine.request(pathname, {headers: {Host: `localhost:${port}`}})), 200);
+  const foreign = await engine.request(pathname, {headers: {Host: "evil.example"}});
+  assert.ok(!foreign.body.toString().includes(pathname), "the token must not leak");
+});
+
+test("is not reached from other machines", async () => {
+  const addresses = readFileSync("/proc/net/tcp", "utf8").split("\n").map((line) => line.trim().split(/\s+/)[1]);
+  const port = Number(engine.url.port).toString(16).toUpperCase().padStart(4, "0");
+  assert.ok(addresses.includes(`0100007F:${port}`));
+  assert.ok(!addresses.includes(`00000000:${port}`));
+});
+
+test("refuses what is too large", async () => {
+  const huge = {method: "POST", headers: {"Content-Length": String(5 * 2 ** 30)}};
+  for (const action of ["frame", "upload"]) assert.equal(await rawStatus(action, huge.headers, ""), 413, action);
+  assert.equal(await rawStatus("frame", {"Content-Length": String(5 * 2 ** 20)}, ""), 413);
+  assert.ok([400, 413].includes(await rawStatus("frame", {"Transfer-Encoding": "chunked"}, chunks(5 * 2 ** 20))));
+  assert.equal(await status(engine.request(engine.url.pathname + "x".repeat(600))), 414);
+  assert.ok((await status(engine.request(engine.url.pathname + "x".repeat(20000)))) >= 400);
+  assert.equal(await status(engine.post("frame", {...FRAME, width: 8192, height: 8192})), 400);
+  await stillWorks();
+});
+
+test("refuses malformed requests and says what was expected", async () => {
+  const bodies = ["", "{", "[]", "null", "\"x\"", "{\"options\":", "\xff\xfe", "[".repeat(100000), "{\"options\": 3}"];
+  for (const body of bodies)
+    for (const action of ["frame", "export", "open", "state", "project", "profile", "scan"]) {
+      const answer = await engine.post(action, Buffer.from(body, "latin1"));
+      const isFine = action === "state" && body.startsWith("{\"options\": 3");
+      assert.ok(isFine || (answer.status >= 400 && answer.status < 500), `${action} ${body.slice(0, 20)} ${answer.status}`);
+      if (!isFine) assert.ok(JSON.parse(answer.body).error.text.length > 5);
+    }
+  const wrong = [{width: "wide"}, {width: -1}, {width: 1e9}, {material: "cheese"}, {material: 3}, {camera: []}, {camera: {zoom: 0}},
+    {options: {heigth: 2}}, {options: {height: "2"}}, {options: {height: -1}}, {options: {tone: "x"}}, {options: {view: 3}}, {u: -1}];
+  for (const part of wrong) {
+    const answer = await status(engine.post("frame", {...FRAME, ...part}));
+    assert.ok([400, 422].includes(answer), `${JSON.stringify(part)} ${answer}`);
+  }
+  assert.equal(await status(engine.post("export", {options: OPTIONS, format: "exe"})), 422);
+  assert.equal(await status(engine.post("export", {options: {...OPTIONS, view: "left"}, format: "stl"})), 422);
+  assert.equal(await status(engine.post("view", {view: "sideways"})), 422);
+  assert.equal(await status(engine.request(engine.url.pathname, {method: "DELETE"})), 405);
+  await stillWorks();
+});
+
+test("keeps dropped files inside its folder", async () => {
+  const bytes = readFileSync(scan);
+  const upload = (name) => engine.request(`${engine.url.pathname}api/upload?name=${encodeURIComponent(name)}`, {method: "POST", body: bytes});
+  for (const name of ["../../../escape.ply", "/tmp/escape.ply", "..", "a\\..\\b.ply", "x\u0000y.ply", ""]) {
+    const answer = await upload(name);
+    assert.equal(answer.status, 200, name);
+    assert.ok(JSON.parse(answer.body).input.path.startsWith(path.join(folder, "state", "scans")), name);
+  }
+  assert.ok(!existsSync(path.join(folder, "escape.ply")) && !existsSync("/tmp/escape.ply"));
+});
+
+test("answers a thousand requests at once", async () => {
+  const answers = await Promise.all(Array.from({length: 1000}, (_, i) => status(i % 2 ? engine.post("frame", FRAME) : engine.get("api/about"))));
+  assert.ok(answers.every((answer) => answer === 200 || answer === 503), [...new Set(answers)].join());
+  assert.ok(answers.filter((answer) => answer === 200).length >= 500);
+  await stillWorks();
+});
+
+test("survives a page that closes during an export, and half a request", async () => {
+  for (let i = 0; i < 20; ++i) await cut("export", JSON.stringify({options: OPTIONS, format: "stl"}), i * 15);
+  await cut("upload?name=x.ply", "", 10, 1000);
+  await stillWorks();
+});
+
+test("exports the very bytes that make writes", async () => {
+  const options = {...OPTIONS, saturation: 0.3, detail: 0.05, tone: "0,0.2;0.6,0.5;1,0.9", steepest: 60, boundary: 4, margin: 2, thickness: 1.5};
+  const project = path.join(folder, "p.relievo");
+  writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "scan.ply"}, options}));
+  for (const format of ["stl", "ply", "obj"]) {
+    const file = path.join(folder, `out.${format}`), made = spawnSync(PROGRAM, ["make", project, "-o", file]);
+    assert.equal(made.status, 0, String(made.stderr));
+    const exported = (await engine.post("export", {options, format})).body;
+    assert.ok(exported.equals(readFileSync(file)), format);
+    if (format === "stl") assert.ok(readStl(exported).isClosed);
+  }
+});
+
+test("tells why a scan cannot be opened and keeps the old one", async () => {
+  await engine.post("open", {input: {path: path.join(folder, "gone.ply")}});
+  const deadline = Date.now() + 5000;
+  let about;
+  do about = JSON.parse((await engine.get("api/about")).body); while (!about.status.error && Date.now() < deadline);
+  assert.match(about.status.error.text, /gone\.ply/);
+  await stillWorks();
+});
+
+test("ends when the last page has gone, and not before", async () => {
+  const short = await new EngineProcess(path.join(folder, "short"), "--linger", "1").ready();
+  const page = net.connect(short.url.port, "127.0.0.1");
+  page.write(`GET ${short.url.pathname}api/events HTTP/1.1\r\nHost: ${short.url.host}\r\n\r\n`);
+  await new Promise((resolve) => page.once("data", resolve));
+  await new Promise((resolve) => setTimeout(resolve, 1500));
+  assert.equal(short.child.exitCode, null);
+  page.destroy();
+  assert.deepEqual(await short.ended, {code: 0, signal: null});
+});
+
+test("ends with Ctrl-C", async () => {
+  const other = await new EngineProcess(path.join(folder, "other")).ready();
+  assert.deepEqual(await other.stop("SIGINT"), {code: null, signal: "SIGINT"});
+});
+
+function chunks(size) {
+  const part = "x".repeat(65536);
+  return `${part.length.toString(16)}\r\n${part}\r\n`.repeat(size / part.length + 1) + "0\r\n\r\n";
+}
+
+// The status of a request whose headers Node would not send.
+function rawStatus(action, headers, body) {
+  return new Promise((resolve, reject) => {
+    const socket = net.connect(engine.url.port, "127.0.0.1");
+    const lines = Object.entries(headers).map(([name, value]) => `${name}: ${value}\r\n`).join("");
+    socket.write(`POST ${engine.url.pathname}api/${action} HTTP/1.1\r\nHost: ${engine.url.host}\r\n${lines}\r\n${body}`);
+    let text = "";
+    socket.on("data", (data) => {
+      text += data;
+      const found = text.match(/^HTTP\/1\.1 (\d+)/);
+      if (found) {
+        resolve(Number(found[1]));
+        socket.destroy();
+      }
+    });
+    socket.on("error", (error) => (text ? null : error.code === "EPIPE" || error.code === "ECONNRESET" ? resolve(400) : reject(error)));
+    socket.on("close", () => resolve(text ? 0 : 400));
+  });
+}
+
+// Sends a request and closes the connection `ms` later.
+function cut(action, body, ms, promised = body.length) {
+  return new Promise((resolve) => {
+    const socket = net.connect(engine.url.port, "127.0.0.1");
+    socket.on("error", resolve);
+    socket.write(`POST ${engine.url.pathname}api/${action} HTTP/1.1\r\nHost: ${engine.url.host}\r\nContent-Length: ${promised}\r\n\r\n${body}`);
+    setTimeout(() => {
+      socket.destroy();
+      resolve();
+    }, ms);
+  });
+}

@@ -1,0 +1,111 @@
+// What the studio's tests share: the engine as a process, its page in Chromium, and the files they leave.
+import {spawn} from "node:child_process";
+import {existsSync, mkdtempSync, rmSync} from "node:fs";
+import http from "node:http";
+import {tmpdir} from "node:os";
+import path from "node:path";
+
+export const PROGRAM = process.env.RELIEVO ?? path.resolve("build/release/apps/cli/relievo");
+const CHROMIUM = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+  "--disable-component-update", "--disable-sync"];
+
+export function temporaryFolder() {
+  return mkdtempSync(path.join(tmpdir(), "relievo-studio-"));
+}
+
+export const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true});
+
+// `relievo studio` with its own state folder.
+export class EngineProcess {
+  constructor(state, ...args) {
+    this.child = spawn(PROGRAM, ["studio", "--no-browser", "--state", state, ...args]);
+    this.errors = "";
+    this.child.stderr.on("data", (data) => (this.errors += data));
+    this.ended = new Promise((resolve) => this.child.on("exit", (code, signal) => resolve({code, signal})));
+  }
+
+  async ready() {
+    let out = "";
+    this.address = await new Promise((resolve, reject) => {
+      this.child.stdout.on("data", (data) => {
+        out += data;
+        const found = out.match(/http:\/\/\S+/);
+        if (found) resolve(found[0]);
+      });
+      this.child.on("exit", () => reject(new Error(`the engine ended: ${this.errors}`)));
+    });
+    this.url = new URL(this.address);
+    return this;
+  }
+
+  // One request; {status, headers, body}. `target` is taken as it is, without tidying dots.
+  request(target, {method = "GET", headers = {}, body} = {}) {
+    return new Promise((resolve, reject) => {
+      const request = http.request({host: "127.0.0.1", port: this.url.port, method, path: target, headers: {Connection: "close", ...headers}}, (response) => {
+        const parts = [];
+        response.on("data", (part) => parts.push(part));
+        response.on("error", reject);
+        response.on("end", () => resolve({status: response.statusCode, headers: response.headers, body: Buffer.concat(parts)}));
+      });
+      request.on("error", reject);
+      request.end(body);
+    });
+  }
+
+  post(action, json, options = {}) {
+    const body = typeof json === "string" || Buffer.isBuffer(json) ? json : JSON.stringify(json);
+    return this.request(`${this.url.pathname}api/${action}`, {method: "POST", body, ...options});
+  }
+
+  get(name) {
+    return this.request(this.url.pathname + name);
+  }
+
+  // Opens an input and waits until its relief can be drawn.
+  async open(input) {
+    await this.post("open", {input});
+    for (let i = 0; i < 600; ++i) {
+      const {status} = JSON.parse((await this.get("api/about")).body);
+      if (status.model > 0 && !status.busy) return status;
+      if (status.error) throw new Error(status.error.text);
+      await new Promise((resolve) => setTimeout(resolve, 50));
+    }
+    throw new Error("the scan was not ready in time");
+  }
+
+  async stop(signal = "SIGINT") {
+    this.child.kill(signal);
+    return this.ended;
+  }
+}
+
+// Chromium's driver and path, or a text that tells what is missing.
+export async function findBrowser() {
+  const executablePath = CHROMIUM.find((candidate) => candidate && existsSync(candidate));
+  if (!executablePath) return {missing: "Chromium is not installed (apt-get install chromium)"};
+  try {
+    const {chromium} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
+    return {launch: () => chromium.launch({executablePath, args: CHROMIUM_FLAGS})};
+  } catch {
+    return {missing: "playwright-core is not installed (npm ci --prefix apps/studio/tests)"};
+  }
+}
+
+// The triangles of a binary STL: their number, their box, and whether every edge has two.
+export function readStl(bytes) {
+  const count = bytes.readUInt32LE(80), box = {min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity]};
+  const edges = new Map(), at = (offset) => [0, 4, 8].map((i) => bytes.readFloatLE(offset + i));
+  const balance = (a, b, by) => edges.set(a + b, (edges.get(a + b) ?? 0) + by);
+  for (let t = 0; t < count; ++t) {
+    const corners = [12, 24, 36].map((offset) => at(84 + 50 * t + offset));
+    for (const corner of corners)
+      for (let i = 0; i < 3; ++i) {
+        box.min[i] = Math.min(box.min[i], corner[i]);
+        box.max[i] = Math.max(box.max[i], corner[i]);
+      }
+    const [a, b, c] = corners.map((corner) => corner.join(","));
+    for (const [p, q] of [[a, b], [b, c], [c, a]]) p < q ? balance(`${p} `, q, 1) : balance(`${q} `, p, -1);
+  }
+  return {count, size: box.max.map((x, i) => x - box.min[i]), isClosed: bytes.length === 84 + 50 * count && [...edges.values()].every((n) => n === 0)};
+}

@@ -1,0 +1,127 @@
+// PNG through libpng. It reports errors by longjmp, so decode() holds nothing that needs a destructor.
+#include <png.h>
+
+#include <algorithm>
+#include <bit>
+#include <csetjmp>
+#include <cstring>
+
+#include "io/pictures.h"
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+// What the callbacks share; owned by the caller of decode().
+struct Job {
+  std::string_view bytes;
+  std::size_t at = 0;
+  png_uint_32 width = 0, height = 0;
+  int channels = 0, bits = 0;
+  char message[96] = {};
+};
+
+void fail(png_structp png, png_const_charp message) {
+  auto& job = *static_cast<Job*>(png_get_error_ptr(png));
+  std::strncpy(job.message, message, sizeof job.message - 1);
+  png_longjmp(png, 1);
+}
+
+void ignore(png_structp, png_const_charp) {}
+
+void take(png_structp png, png_bytep to, png_size_t size) {
+  auto& job = *static_cast<Job*>(png_get_io_ptr(png));
+  if (size > job.bytes.size() - job.at) png_error(png, "the end of the file");
+  std::memcpy(to, job.bytes.data() + job.at, size);
+  job.at += size;
+}
+
+// Grey of any depth becomes 8 or 16 bits; palettes become colours, transparency goes.
+bool read_header(png_structp png, png_infop info, Job& job) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_set_read_fn(png, &job, take);
+  png_read_info(png, info);
+  png_set_expand(png);
+  png_set_strip_alpha(png);
+  if (std::endian::native == std::endian::little) png_set_swap(png);
+  png_set_interlace_handling(png);
+  png_read_update_info(png, info);
+  job.width = png_get_image_width(png, info);
+  job.height = png_get_image_height(png, info);
+  job.channels = png_get_channels(png, info);
+  job.bits = png_get_bit_depth(png, info);
+  return true;
+}
+
+bool read_rows(png_structp png, png_bytepp rows) {
+  if (setjmp(png_jmpbuf(png))) return false;
+  png_read_image(png, rows);
+  png_read_end(png, nullptr);
+  return true;
+}
+
+class Reader {
+ public:
+  explicit Reader(const Source& source) : source_(source) { job_.bytes = source.bytes; }
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+
+  Result<DepthImage> read() {
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job_, fail, ignore);
+    info_ = png_ ? png_create_info_struct(png_) : nullptr;
+    if (!info_) return source_.error({}, "expected memory for the picture, found none");
+    if (!read_header(png_, info_, job_)) return broken();
+    const std::size_t pixels = std::size_t{job_.width} * job_.height;
+    if (pixels > most_pixels)
+      return source_.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
+    const std::size_t row = png_get_rowbytes(png_, info_);
+    std::vector<png_byte> bytes(row * job_.height);
+    std::vector<png_bytep> rows(job_.height);
+    for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = bytes.data() + r * row;
+    if (!read_rows(png_, rows.data())) return broken();
+    return as_depths(bytes);
+  }
+
+ private:
+  std::unexpected<Error> broken() const {
+    return source_.error_at_byte(job_.at,
+                                 "expected the data of a PNG picture, found " + printable(job_.message));
+  }
+
+  // Fails if the channels differ: then the picture is a photograph, or depths were painted in colours.
+  Result<DepthImage> as_depths(const std::vector<png_byte>& bytes) const {
+    DepthImage image{static_cast<int>(job_.width),
+                     static_cast<int>(job_.height),
+                     {},
+                     1,
+                     "PNG, " + std::to_string(job_.bits) + " bits"};
+    const std::size_t value_size = static_cast<std::size_t>(job_.bits / 8);
+    const auto channels = static_cast<std::size_t>(job_.channels);
+    image.values.resize(std::size_t{job_.width} * job_.height);
+    for (std::size_t i = 0; i < image.values.size(); ++i) {
+      const png_byte* pixel = bytes.data() + i * channels * value_size;
+      for (std::size_t c = 1; c < channels; ++c)
+        if (std::memcmp(pixel, pixel + c * value_size, value_size) != 0)
+          return source_.error("pixel " + std::to_string(i),
+                               "expected a grey picture of depths, found colours");
+      std::uint16_t value = *pixel;
+      if (value_size == 2) std::memcpy(&value, pixel, 2);
+      image.values[i] = value;
+    }
+    return image;
+  }
+
+  const Source& source_;
+  Job job_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+};
+
+}  // namespace
+
+Result<DepthImage> read_depth_png(const Source& source) {
+  return Reader(source).read();
+}
+
+}  // namespace relievo::io

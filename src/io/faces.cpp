@@ -1,0 +1,78 @@
+#include "io/faces.h"
+
+#include <algorithm>
+
+#include "weld.h"
+
+namespace relievo::io {
+namespace {
+
+void add_triangle(std::int64_t a, std::int64_t b, std::int64_t c, std::vector<Triangle>& triangles) {
+  if (a == b || b == c || c == a) return;
+  triangles.push_back({static_cast<Index>(a), static_cast<Index>(b), static_cast<Index>(c)});
+}
+
+void add_strip(std::span<const std::int64_t> corners, std::vector<Triangle>& triangles) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (corners[i] < 0) {
+      begin = i + 1;
+    } else if (i >= begin + 2) {
+      const bool is_turned = (i - begin) % 2 == 1;
+      const std::int64_t a = corners[i - 2], b = corners[i - 1];
+      add_triangle(is_turned ? b : a, is_turned ? a : b, corners[i], triangles);
+    }
+  }
+}
+
+}  // namespace
+
+bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::size_t points,
+              std::vector<Triangle>& triangles) {
+  const std::int64_t least = kind == FaceKind::strip ? -1 : 0;
+  const auto is_bad = [&](std::int64_t i) { return i < least || i >= static_cast<std::int64_t>(points); };
+  if (std::ranges::any_of(corners, is_bad)) return false;
+  if (kind == FaceKind::strip) {
+    add_strip(corners, triangles);
+  } else {
+    for (std::size_t i = 2; i < corners.size(); ++i)
+      add_triangle(corners[0], corners[i - 1], corners[i], triangles);
+  }
+  return true;
+}
+
+Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles) {
+  std::erase_if(triangles, [&](const Triangle& t) {
+    return !std::ranges::all_of(t, [&](Index i) { return cloud.points[i].allFinite(); });
+  });
+  if (triangles.empty()) return {};
+  Mesh mesh{cloud.points, std::move(triangles), {}, cloud.colours};
+  for (Vec3& p : mesh.points)
+    if (!p.allFinite()) p = Vec3::Zero();  // no triangle uses it
+  if (!cloud.has_normals()) return mesh;
+  mesh.corner_normals.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    mesh.corner_normals.push_back({cloud.normals[a], cloud.normals[b], cloud.normals[c]});
+  return mesh;
+}
+
+void weld(Mesh& mesh) {
+  const std::vector<Index> place = places(mesh.points);
+  std::vector<Index> number(place.size());
+  Index used = 0;
+  for (Index i = 0; i < place.size(); ++i) {
+    if (place[i] == i) {
+      mesh.points[used] = mesh.points[i];
+      number[i] = used++;
+    } else {
+      number[i] = number[place[i]];
+    }
+  }
+  mesh.points.resize(used);
+  std::vector<Triangle> kept;
+  kept.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles) add_triangle(number[a], number[b], number[c], kept);
+  mesh.triangles = std::move(kept);
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,140 @@
+// LAS 1.0 to 1.4, point formats 0 to 10, not compressed.
+#include "io/las.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+constexpr std::array<std::size_t, 11> least_record_sizes = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+constexpr std::array<std::size_t, 11> colour_places = {0, 0, 20, 28, 0, 28, 0, 30, 30, 0, 30};
+constexpr std::size_t least_header = 227, header_1_4 = 375;
+
+class HeaderReader {
+ public:
+  explicit HeaderReader(const Source& source) : source_(source), bytes_(source.bytes) {}
+
+  Result<Records> read() {
+    if (!bytes_.starts_with("LASF")) return source_.error_at_byte(0, "expected LASF, found other bytes");
+    if (bytes_.size() < least_header)
+      return source_.error_at_byte(bytes_.size(),
+                                   "expected a header of at least 227 bytes, found the end of the file");
+    if (const auto checked = check_version(); !checked) return std::unexpected(checked.error());
+    if (const auto taken = take_layout(); !taken) return std::unexpected(taken.error());
+    if (const auto taken = take_count(); !taken) return std::unexpected(taken.error());
+    if (const auto taken = take_position(); !taken) return std::unexpected(taken.error());
+    take_colours();
+    return records_;
+  }
+
+ private:
+  template <typename T>
+  T at(std::size_t byte) const {
+    return little<T>(bytes_.data() + byte);
+  }
+
+  Result<void> check_version() const {
+    const int major = at<std::uint8_t>(24), minor = at<std::uint8_t>(25);
+    if (major == 1 && minor <= 4) return {};
+    return source_.error_at_byte(
+        24, "expected LAS 1.0 to 1.4, found " + std::to_string(major) + "." + std::to_string(minor));
+  }
+
+  Result<void> take_layout() {
+    const std::size_t header = at<std::uint16_t>(94);
+    if (header < least_header)
+      return source_.error_at_byte(94,
+                                   "expected a header size of at least 227, found " + std::to_string(header));
+    records_.offset = at<std::uint32_t>(96);
+    if (records_.offset < header)
+      return source_.error_at_byte(
+          96, "expected points after the header, found them at byte " + std::to_string(records_.offset));
+    format_ = at<std::uint8_t>(104);
+    if (format_ >= 64)
+      return source_.error_at_byte(104, "expected uncompressed points, found LAZ; unpack it first");
+    if (format_ >= least_record_sizes.size())
+      return source_.error_at_byte(104,
+                                   "expected a point format from 0 to 10, found " + std::to_string(format_));
+    records_.stride = at<std::uint16_t>(105);
+    if (records_.stride < least_record_sizes[format_])
+      return source_.error_at_byte(105, "expected records of at least " +
+                                            std::to_string(least_record_sizes[format_]) + " bytes, found " +
+                                            std::to_string(records_.stride));
+    return {};
+  }
+
+  Result<void> take_count() {
+    records_.count = at<std::uint32_t>(107);
+    const bool has_long_count = at<std::uint8_t>(25) >= 4 && at<std::uint16_t>(94) >= header_1_4;
+    if (has_long_count && bytes_.size() < header_1_4)
+      return source_.error_at_byte(bytes_.size(),
+                                   "expected a header of 375 bytes, found the end of the file");
+    if (has_long_count && at<std::uint64_t>(247) > 0) records_.count = at<std::uint64_t>(247);
+    if (records_.count < no_index) return {};
+    return source_.error_at_byte(has_long_count ? 247 : 107, "expected fewer than 4294967295 points, found " +
+                                                                 std::to_string(records_.count));
+  }
+
+  Result<void> take_position() {
+    for (std::size_t i = 0; i < 3; ++i) {
+      RecordColumn& column = records_.position[i];
+      column = {NumberType::int32, 4 * i, at<double>(131 + 8 * i), at<double>(155 + 8 * i)};
+      if (!std::isfinite(column.scale) || column.scale == 0)
+        return source_.error_at_byte(131 + 8 * i, "expected a scale that is finite and not 0, found another");
+      if (!std::isfinite(column.shift))
+        return source_.error_at_byte(155 + 8 * i, "expected a finite offset, found another");
+    }
+    return {};
+  }
+
+  // Meant to be 16 bits; some programs write 8.
+  void take_colours() {
+    const std::size_t place = colour_places[format_];
+    if (place == 0) return;
+    std::uint16_t highest = 0;
+    const std::size_t enough = 4096;
+    for (std::size_t i = 0; i < std::min<std::uint64_t>(records_.count, enough); ++i) {
+      const std::uint64_t row = records_.offset + i * records_.stride + place;
+      if (row + 6 > bytes_.size()) break;
+      for (std::size_t c = 0; c < 3; ++c) highest = std::max(highest, at<std::uint16_t>(row + 2 * c));
+    }
+    const double scale = highest > 255 ? 1 / 257.0 : 1;
+    records_.colour.emplace();
+    for (std::size_t c = 0; c < 3; ++c) (*records_.colour)[c] = {NumberType::uint16, place + 2 * c, scale};
+  }
+
+  const Source& source_;
+  std::string_view bytes_;
+  std::size_t format_ = 0;
+  Records records_;
+};
+
+}  // namespace
+
+bool is_las(const Source& source) {
+  return source.bytes.starts_with("LASF") || has_ending(source.name, ".las");
+}
+
+Result<Records> read_las_header(const Source& source) {
+  return HeaderReader(source).read();
+}
+
+Result<RawCloud> read_las(const Source& source) {
+  const auto records = read_las_header(source);
+  if (!records) return std::unexpected(records.error());
+  const std::size_t left = source.bytes.size() - std::min<std::size_t>(source.bytes.size(), records->offset);
+  if (records->count > left / records->stride)
+    return source.error_at_byte(records->offset, "expected " + std::to_string(records->count) +
+                                                     " points of " + std::to_string(records->stride) +
+                                                     " bytes, found room for " +
+                                                     std::to_string(left / records->stride));
+  const int minor = little<std::uint8_t>(source.bytes.data() + 25);
+  return RawCloud{decode_all(*records, source.bytes.data() + records->offset),
+                  "LAS 1." + std::to_string(minor)};
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,167 @@
+// OFF: the keyword with prefixes for what a vertex has, three counts, vertices, faces.
+#include <algorithm>
+
+#include "io/faces.h"
+#include "io/readers.h"
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+// [ST][C][N][4]OFF: which numbers follow the position of a vertex.
+struct Kind {
+  bool has_texture = false, has_colours = false, has_normals = false;
+};
+
+std::optional<Kind> parse_keyword(std::string_view word) {
+  Kind kind;
+  const auto take = [&](std::string_view prefix) {
+    const bool is_there = word.starts_with(prefix);
+    if (is_there) word.remove_prefix(prefix.size());
+    return is_there;
+  };
+  kind.has_texture = take("ST");
+  kind.has_colours = take("C");
+  kind.has_normals = take("N");
+  return word == "OFF" ? std::optional(kind) : std::nullopt;
+}
+
+class OffReader {
+ public:
+  explicit OffReader(const Source& source)
+      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+
+  Result<RawCloud> read() {
+    Words words = next_row();
+    const std::string_view keyword = words.next();
+    const auto kind = parse_keyword(keyword);
+    if (!kind) return fail("expected OFF, COFF or NOFF, found " + in_quotes(keyword));
+    kind_ = *kind;
+    if (const auto counted = take_counts(words); !counted) return std::unexpected(counted.error());
+    for (std::int64_t i = 0; i < vertices_; ++i)
+      if (const auto taken = take_vertex(i); !taken) return std::unexpected(taken.error());
+    std::vector<Triangle> triangles;
+    for (std::int64_t i = 0; i < faces_; ++i)
+      if (const auto taken = take_face(i, triangles); !taken) return std::unexpected(taken.error());
+    RawCloud raw{std::move(cloud_), "OFF"};
+    raw.mesh = mesh_over(raw.cloud, std::move(triangles));
+    return raw;
+  }
+
+ private:
+  // The next line with words; without any at the end of the file.
+  Words next_row() {
+    while (const auto line = lines_.next()) {
+      const std::string_view text = trim(line->substr(0, line->find('#')));
+      if (!text.empty()) return Words(text);
+    }
+    is_at_end_ = true;
+    return Words();
+  }
+
+  Result<void> take_counts(Words words) {
+    std::string_view word = words.next();
+    if (word.empty()) words = next_row(), word = words.next();
+    for (std::int64_t* count : {&vertices_, &faces_}) {
+      const auto number = parse_integer(word);
+      if (!number || *number < 0 || *number >= std::int64_t{no_index})
+        return fail("expected the numbers of vertices and faces, found " + in_quotes(word));
+      *count = *number;
+      word = words.next();
+    }
+    return {};
+  }
+
+  Result<void> take_numbers(Words& words, Vec3& to) {
+    for (double& value : to) {
+      const std::string_view word = words.next();
+      const auto number = parse_number(word);
+      if (!number)
+        return fail("expected a number, found " + (word.empty() ? "the end of the line" : in_quotes(word)));
+      value = *number;
+    }
+    return {};
+  }
+
+  Result<void> take_vertex(std::int64_t i) {
+    Words words = next_row();
+    if (is_at_end_) return fail_at_end("vertices", vertices_, i);
+    Vec3 point, normal;
+    if (const auto taken = take_numbers(words, point); !taken) return taken;
+    cloud_.points.push_back(point);
+    if (kind_.has_normals) {
+      if (const auto taken = take_numbers(words, normal); !taken) return taken;
+      cloud_.normals.push_back(unit_normal(normal));
+    }
+    return kind_.has_colours ? take_colour(words) : Result<void>{};
+  }
+
+  // Whole numbers up to 255, or fractions of 1.
+  Result<void> take_colour(Words words) {
+    Colour colour;
+    for (std::uint8_t& value : colour) {
+      const std::string_view word = words.next();
+      const auto number = parse_number(word);
+      if (!number) return fail("expected three numbers for the colour, found " + in_quotes(word));
+      const double scale = word.find('.') == std::string_view::npos ? 1 : 255;
+      const double byte = scale * *number;
+      value = byte > 0 ? static_cast<std::uint8_t>(std::min(255.0, byte + .5)) : std::uint8_t{0};
+    }
+    cloud_.colours.push_back(colour);
+    return {};
+  }
+
+  Result<void> take_face(std::int64_t i, std::vector<Triangle>& triangles) {
+    Words words = next_row();
+    if (is_at_end_) return fail_at_end("faces", faces_, i);
+    const std::string_view first = words.next();
+    const auto length = parse_integer(first);
+    if (!length || *length < 0) return fail("expected the number of corners, found " + in_quotes(first));
+    corners_.clear();
+    for (std::int64_t c = 0; c < *length; ++c) {
+      const std::string_view word = words.next();
+      const auto corner = parse_integer(word);
+      if (!corner)
+        return fail("expected " + std::to_string(*length) + " numbers of vertices, found " +
+                    (word.empty() ? "the end of the line" : in_quotes(word)));
+      corners_.push_back(*corner);
+    }
+    if (add_face(corners_, FaceKind::polygon, cloud_.size(), triangles)) return {};
+    return fail("expected numbers of vertices from 0 to " + std::to_string(vertices_ - 1) + ", found others");
+  }
+
+  Result<void> fail_at_end(std::string_view what, std::int64_t promised, std::int64_t found) const {
+    return source_.error_in_line(lines_.number() + 1,
+                                 "expected " + std::to_string(promised) + " " + std::string(what) +
+                                     ", found the end of the file after " + std::to_string(found));
+  }
+  std::unexpected<Error> fail(std::string expected) const {
+    return source_.error_in_line(lines_.number(), std::move(expected));
+  }
+
+  const Source& source_;
+  Lines lines_;
+  Kind kind_;
+  bool is_at_end_ = false;
+  std::int64_t vertices_ = 0, faces_ = 0;
+  std::vector<std::int64_t> corners_;
+  Cloud cloud_;
+};
+
+}  // namespace
+
+bool is_off(const Source& source) {
+  if (has_control_bytes(source.bytes)) return has_ending(source.name, ".off");
+  Lines lines(source.bytes, byte_order_mark_size(source.bytes));
+  while (const auto line = lines.next()) {
+    const std::string_view word = Words(line->substr(0, line->find('#'))).next();
+    if (!word.empty()) return parse_keyword(word).has_value() || has_ending(source.name, ".off");
+  }
+  return false;
+}
+
+Result<RawCloud> read_off(const Source& source) {
+  return OffReader(source).read();
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,315 @@
+// PCD 0.7 and its forerunners: ascii, binary, and binary_compressed (LZF, one field after the other).
+#include "io/pcd.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+struct Field {
+  std::string_view name;
+  std::size_t size = 4, count = 1;  // bytes of a value; values of a point
+  char type = 'F';
+  std::size_t at = 0;      // byte within a row
+  std::size_t column = 0;  // number of its first value within a row
+};
+
+class HeaderReader {
+ public:
+  explicit HeaderReader(const Source& source)
+      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+
+  Result<PcdHeader> read() {
+    while (const auto line = lines_.next()) {
+      Words words(*line);
+      const std::string_view keyword = words.next();
+      if (keyword.empty() || keyword.starts_with('#')) continue;
+      if (const auto taken = take(keyword, words); !taken) return std::unexpected(taken.error());
+      if (keyword == "DATA") return finish();
+    }
+    return source_.error_in_line(lines_.number() + 1, "expected a line DATA, found the end of the file");
+  }
+
+ private:
+  Result<void> take(std::string_view keyword, Words& words) {
+    if (keyword == "VERSION" || keyword == "VIEWPOINT") return {};
+    if (keyword == "FIELDS" || keyword == "COLUMNS") return take_fields(words);
+    if (keyword == "SIZE")
+      return take_numbers(words, [](Field& f, std::int64_t n) {
+        f.size = static_cast<std::size_t>(n);
+        return n == 1 || n == 2 || n == 4 || n == 8;
+      });
+    if (keyword == "COUNT")
+      return take_numbers(words, [](Field& f, std::int64_t n) {
+        f.count = static_cast<std::size_t>(n);
+        return n >= 1 && n <= 65536;
+      });
+    if (keyword == "TYPE") return take_types(words);
+    if (keyword == "WIDTH") return take_count(words, width_);
+    if (keyword == "HEIGHT") return take_count(words, height_);
+    if (keyword == "POINTS") return take_count(words, points_);
+    if (keyword == "DATA") return take_data(words.next());
+    return fail("expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found " +
+                in_quotes(keyword));
+  }
+
+  Result<void> take_fields(Words& words) {
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) fields_.push_back({word});
+    return fields_.empty() ? fail("expected the names of the fields, found none") : Result<void>{};
+  }
+
+  template <typename Set>
+  Result<void> take_numbers(Words& words, Set&& set) {
+    for (Field& field : fields_) {
+      const std::string_view word = words.next();
+      const auto number = parse_integer(word);
+      if (!number || !set(field, *number))
+        return fail("expected a size of 1, 2, 4 or 8 or a count for field " + printable(field.name) +
+                    ", found " + in_quotes(word));
+    }
+    return {};
+  }
+
+  Result<void> take_types(Words& words) {
+    for (Field& field : fields_) {
+      const std::string_view word = words.next();
+      if (word != "F" && word != "I" && word != "U")
+        return fail("expected type F, I or U for field " + printable(field.name) + ", found " +
+                    in_quotes(word));
+      field.type = word[0];
+    }
+    return {};
+  }
+
+  Result<void> take_count(Words& words, std::int64_t& to) {
+    const std::string_view word = words.next();
+    const auto number = parse_integer(word);
+    if (!number || *number < 0 || *number >= std::int64_t{no_index})
+      return fail("expected a number of points, found " + in_quotes(word));
+    to = *number;
+    return {};
+  }
+
+  Result<void> take_data(std::string_view word) {
+    constexpr std::array<std::string_view, 3> names = {"ascii", "binary", "binary_compressed"};
+    const auto found = std::ranges::find(names, word);
+    if (found == names.end())
+      return fail("expected ascii, binary or binary_compressed, found " + in_quotes(word));
+    header_.data = static_cast<PcdData>(found - names.begin());
+    return {};
+  }
+
+  Result<PcdHeader> finish() {
+    if (points_ < 0) points_ = width_ * height_;
+    if (points_ < 0 || points_ >= std::int64_t{no_index})
+      return fail("expected the number of points before DATA, found none that fits");
+    Records& records = header_.records;
+    records.count = static_cast<std::uint64_t>(points_);
+    records.offset = lines_.offset();
+    header_.lines = lines_.number();
+    for (Field& f : fields_) {
+      f.at = records.stride, f.column = header_.columns;
+      records.stride += f.size * f.count;
+      header_.columns += f.count;
+      header_.field_sizes.push_back(f.size * f.count);
+    }
+    if (const auto placed = place_columns(); !placed) return std::unexpected(placed.error());
+    return std::move(header_);
+  }
+
+  const Field* find(std::string_view name) const {
+    const auto found = std::ranges::find(fields_, name, &Field::name);
+    return found == fields_.end() ? nullptr : &*found;
+  }
+
+  // The type of a field's numbers; nothing for integers of 64 bits and other odd ones.
+  static std::optional<NumberType> type_of(const Field& f) {
+    using enum NumberType;
+    if (f.type == 'F')
+      return f.size == 4 ? std::optional(float32) : f.size == 8 ? std::optional(float64) : std::nullopt;
+    if (f.size == 8) return std::nullopt;
+    const bool is_signed = f.type == 'I';
+    if (f.size == 1) return is_signed ? int8 : uint8;
+    if (f.size == 2) return is_signed ? int16 : uint16;
+    return is_signed ? int32 : uint32;
+  }
+
+  // The columns of three fields, if all are there.
+  bool place(const std::array<std::string_view, 3>& names, std::array<RecordColumn, 3>& to,
+             std::array<std::size_t, 3>& ascii) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Field* field = find(names[i]);
+      const auto type = field ? type_of(*field) : std::nullopt;
+      if (!type) return false;
+      to[i] = {*type, field->at};
+      ascii[i] = field->column;
+    }
+    return true;
+  }
+
+  Result<void> place_columns() {
+    Records& records = header_.records;
+    if (!place({"x", "y", "z"}, records.position, header_.position_columns))
+      return fail("expected fields x, y and z of a numeric type, found others");
+    std::array<RecordColumn, 3> columns;
+    std::array<std::size_t, 3> ascii;
+    if (place({"normal_x", "normal_y", "normal_z"}, columns, ascii) ||
+        place({"nx", "ny", "nz"}, columns, ascii)) {
+      records.normal = columns;
+      header_.normal_columns = ascii;
+    }
+    const Field* colour = find("rgb") ? find("rgb") : find("rgba");
+    if (!colour || colour->size != 4) return {};
+    // One number of 32 bits holds them, 0x00RRGGBB, even where it is called a float.
+    using enum NumberType;
+    records.colour = {{{uint8, colour->at + 2}, {uint8, colour->at + 1}, {uint8, colour->at}}};
+    header_.colour_column = colour->column;
+    header_.is_colour_float = colour->type == 'F';
+    return {};
+  }
+
+  std::unexpected<Error> fail(std::string expected) const {
+    return source_.error_in_line(lines_.number(), std::move(expected));
+  }
+
+  const Source& source_;
+  Lines lines_;
+  std::vector<Field> fields_;
+  std::int64_t width_ = -1, height_ = 1, points_ = -1;
+  PcdHeader header_;
+};
+
+Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
+  Lines lines(source.bytes, header.records.offset, header.lines);
+  Cloud cloud;
+  std::vector<double> values(header.columns);
+  const auto vector = [&](const std::array<std::size_t, 3>& c) {
+    return Vec3(values[c[0]], values[c[1]], values[c[2]]);
+  };
+  while (cloud.size() < header.records.count) {
+    const auto line = lines.next();
+    if (!line)
+      return source.error_in_line(lines.number() + 1, "expected " + std::to_string(header.records.count) +
+                                                          " points, found the end of the file after " +
+                                                          std::to_string(cloud.size()));
+    if (trim(*line).empty()) continue;
+    Words words(*line);
+    for (double& value : values) {
+      const std::string_view word = words.next();
+      const auto number = parse_number(word);
+      if (!number)
+        return source.error_in_line(lines.number(), "expected " + std::to_string(values.size()) +
+                                                        " numbers, found " + in_quotes(word));
+      value = *number;
+    }
+    cloud.points.push_back(vector(header.position_columns));
+    if (header.records.normal) cloud.normals.push_back(unit_normal(vector(header.normal_columns)));
+    if (!header.records.colour) continue;
+    const double packed = values[header.colour_column];
+    const bool is_whole = packed >= 0 && packed < 4294967296.0;
+    std::uint32_t bits = is_whole ? static_cast<std::uint32_t>(packed) : 0;
+    if (header.is_colour_float) {
+      const auto as_float = static_cast<float>(packed);
+      std::memcpy(&bits, &as_float, sizeof bits);
+    }
+    cloud.colours.push_back({static_cast<std::uint8_t>(bits >> 16), static_cast<std::uint8_t>(bits >> 8),
+                             static_cast<std::uint8_t>(bits)});
+  }
+  return cloud;
+}
+
+// LZF: literal runs, and copies of up to 264 bytes from up to 8 kB back. Returns false for bytes that are
+// none.
+bool unpack_lzf(std::string_view in, std::vector<char>& out) {
+  std::size_t at = 0, filled = 0;
+  const auto next = [&] { return static_cast<unsigned char>(in[at++]); };
+  while (at < in.size()) {
+    const std::size_t control = next();
+    if (control < 32) {
+      const std::size_t run = control + 1;
+      if (in.size() - at < run || out.size() - filled < run) return false;
+      std::memcpy(out.data() + filled, in.data() + at, run);
+      at += run, filled += run;
+      continue;
+    }
+    std::size_t length = control >> 5;
+    if (length == 7) {
+      if (at == in.size()) return false;
+      length += next();
+    }
+    if (at == in.size()) return false;
+    const std::size_t back = ((control & 31) << 8) + next() + 1;
+    length += 2;
+    if (back > filled || out.size() - filled < length) return false;
+    for (std::size_t i = 0; i < length; ++i, ++filled) out[filled] = out[filled - back];
+  }
+  return filled == out.size();
+}
+
+Result<Cloud> read_compressed(const Source& source, const PcdHeader& header) {
+  const Records& records = header.records;
+  const std::string_view data = source.bytes.substr(records.offset);
+  if (data.size() < 8)
+    return source.error_at_byte(records.offset,
+                                "expected the sizes of the compressed points, found the end of the file");
+  const std::size_t packed = little<std::uint32_t>(data.data()),
+                    size = little<std::uint32_t>(data.data() + 4);
+  if (packed > data.size() - 8)
+    return source.error_at_byte(
+        records.offset,
+        "expected " + std::to_string(packed) + " compressed bytes, found " + std::to_string(data.size() - 8));
+  const std::size_t most_growth = 264;  // no compressed byte can stand for more
+  if (size != records.count * records.stride || size / most_growth > packed)
+    return source.error_at_byte(records.offset + 4, "expected " +
+                                                        std::to_string(records.count * records.stride) +
+                                                        " bytes of points, found " + std::to_string(size));
+  std::vector<char> fields(size), rows(size);
+  if (!unpack_lzf(data.substr(8, packed), fields))
+    return source.error_at_byte(records.offset + 8, "expected LZF-compressed points, found other bytes");
+  std::size_t from = 0, at = 0;
+  for (const std::size_t width : header.field_sizes) {
+    for (std::size_t i = 0; i < records.count; ++i, from += width)
+      std::memcpy(rows.data() + i * records.stride + at, fields.data() + from, width);
+    at += width;
+  }
+  return decode_all(records, rows.data());
+}
+
+Result<Cloud> read_binary(const Source& source, const PcdHeader& header) {
+  const Records& records = header.records;
+  const std::size_t room = (source.bytes.size() - records.offset) / records.stride;
+  if (records.count > room)
+    return source.error_at_byte(records.offset, "expected " + std::to_string(records.count) + " points of " +
+                                                    std::to_string(records.stride) +
+                                                    " bytes, found room for " + std::to_string(room));
+  return decode_all(records, source.bytes.data() + records.offset);
+}
+
+}  // namespace
+
+bool is_pcd(const Source& source) {
+  if (has_ending(source.name, ".pcd")) return true;
+  const std::string_view text = source.bytes.substr(byte_order_mark_size(source.bytes));
+  return text.starts_with("# .PCD") || text.starts_with("VERSION 0.7") || text.starts_with("VERSION .7");
+}
+
+Result<PcdHeader> read_pcd_header(const Source& source) {
+  return HeaderReader(source).read();
+}
+
+Result<RawCloud> read_pcd(const Source& source) {
+  const auto header = read_pcd_header(source);
+  if (!header) return std::unexpected(header.error());
+  constexpr std::array readers = {read_ascii, read_binary, read_compressed};
+  constexpr std::array<std::string_view, 3> names = {"PCD ascii", "PCD binary", "PCD binary compressed"};
+  const auto kind = static_cast<std::size_t>(header->data);
+  auto cloud = readers[kind](source, *header);
+  if (!cloud) return std::unexpected(std::move(cloud.error()));
+  return RawCloud{std::move(*cloud), std::string(names[kind])};
+}
+
+}  // namespace relievo::io

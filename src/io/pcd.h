@@ -1,0 +1,29 @@
+// The header of a PCD file: where the numbers of a point are.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "io/readers.h"
+#include "io/records.h"
+
+namespace relievo::io {
+
+enum class PcdData { ascii, binary, compressed };
+
+struct PcdHeader {
+  PcdData data = PcdData::ascii;
+  Records records;                       // of the points, where they are binary; count for all
+  std::vector<std::size_t> field_sizes;  // bytes of each field of a point
+  std::size_t lines = 0;                 // of the header
+  // Numbers of the words of an ascii row, and how many there are.
+  std::size_t columns = 0;
+  std::array<std::size_t, 3> position_columns = {}, normal_columns = {};
+  std::size_t colour_column = 0;
+  bool is_colour_float = false;  // its bits are the colour, rather than its value
+};
+
+// Returns the header. Errors name the line.
+Result<PcdHeader> read_pcd_header(const Source& source);
+
+}  // namespace relievo::io

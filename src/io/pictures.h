@@ -1,0 +1,14 @@
+// Readers of single pictures.
+#pragma once
+
+#include "io/readers.h"
+#include "relievo/depth_image.h"
+
+namespace relievo::io {
+
+inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
+
+Result<DepthImage> read_depth_png(const Source& source);
+Result<DepthImage> read_depth_tiff(const Source& source);
+
+}  // namespace relievo::io

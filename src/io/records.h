@@ -1,0 +1,40 @@
+// Points in rows of equal size, as binary PLY, PCD and LAS have them: any block can be decoded by itself.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "io/numbers.h"
+#include "relievo/cloud.h"
+
+namespace relievo::io {
+
+struct RecordColumn {
+  NumberType type = NumberType::float32;
+  std::size_t at = 0;           // byte within a row
+  double scale = 1, shift = 0;  // the value is scale * number + shift
+};
+
+struct Records {
+  std::uint64_t offset = 0;  // of the first row in the file
+  std::uint64_t count = 0;   // of rows
+  std::size_t stride = 0;    // bytes from row to row
+  bool is_big_endian = false;
+  std::array<RecordColumn, 3> position;
+  std::optional<std::array<RecordColumn, 3>> normal, colour;  // colours scaled to [0, 255]
+};
+
+// Returns an empty cloud of `points` points, with room for what the records have.
+Cloud sized_cloud(const Records& records, std::size_t points);
+
+// Decodes `rows` rows from `first` on into the cloud from point `begin` on. Normals are as unit_normal()
+// returns them.
+void decode_rows(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
+                 std::size_t begin);
+
+// Decodes all rows, concurrently, from `first` on.
+Cloud decode_all(const Records& records, const char* first);
+
+}  // namespace relievo::io

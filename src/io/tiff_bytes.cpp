@@ -1,0 +1,77 @@
+#include "io/tiff_bytes.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+namespace relievo::io {
+
+TiffBytes::TiffBytes(std::string_view bytes) : bytes_(bytes) {
+  open("rm");
+}
+
+TiffBytes::TiffBytes(std::vector<std::byte>& out) : out_(&out) {
+  open("wlm");
+}
+
+void TiffBytes::open(const char* mode) {
+  TIFFOpenOptions* options = TIFFOpenOptionsAlloc();
+  if (!options) return;
+  TIFFOpenOptionsSetErrorHandlerExtR(options, keep_message, this);
+  TIFFOpenOptionsSetWarningHandlerExtR(
+      options, [](TIFF*, void*, const char*, const char*, va_list) { return 1; }, nullptr);
+  const tmsize_t most_memory = tmsize_t{1} << 31;
+  TIFFOpenOptionsSetMaxSingleMemAlloc(options, most_memory);
+  tiff_ = TIFFClientOpenExt(
+      "picture", mode, this, read, write, seek, [](thandle_t) { return 0; }, size,
+      [](thandle_t, void**, toff_t*) { return 0; }, [](thandle_t, void*, toff_t) {}, options);
+  TIFFOpenOptionsFree(options);
+}
+
+void TiffBytes::close() {
+  if (tiff_) TIFFClose(tiff_);
+  tiff_ = nullptr;
+}
+
+int TiffBytes::keep_message(TIFF*, void* self, const char*, const char* format, va_list arguments) {
+  auto& message = static_cast<TiffBytes*>(self)->message_;
+  if (!message.empty()) return 1;
+  char text[160];
+  std::vsnprintf(text, sizeof text, format, arguments);
+  message = text;
+  return 1;
+}
+
+tmsize_t TiffBytes::read(thandle_t self, void* to, tmsize_t wanted) {
+  auto& it = *static_cast<TiffBytes*>(self);
+  const std::size_t left = it.bytes_.size() - std::min(it.bytes_.size(), it.at_);
+  const std::size_t got = std::min(left, static_cast<std::size_t>(wanted));
+  std::memcpy(to, it.bytes_.data() + it.bytes_.size() - left, got);
+  it.at_ += got;
+  return static_cast<tmsize_t>(got);
+}
+
+tmsize_t TiffBytes::write(thandle_t self, void* from, tmsize_t wanted) {
+  auto& it = *static_cast<TiffBytes*>(self);
+  if (!it.out_) return 0;
+  const std::size_t end = it.at_ + static_cast<std::size_t>(wanted);
+  if (end > it.out_->size()) it.out_->resize(end);
+  std::memcpy(it.out_->data() + it.at_, from, static_cast<std::size_t>(wanted));
+  it.at_ = end;
+  return wanted;
+}
+
+toff_t TiffBytes::seek(thandle_t self, toff_t offset, int from) {
+  auto& it = *static_cast<TiffBytes*>(self);
+  if (from == SEEK_SET) it.at_ = offset;
+  if (from == SEEK_CUR) it.at_ += offset;
+  if (from == SEEK_END) it.at_ = size(self) + offset;
+  return it.at_;
+}
+
+toff_t TiffBytes::size(thandle_t self) {
+  const auto& it = *static_cast<TiffBytes*>(self);
+  return it.out_ ? it.out_->size() : it.bytes_.size();
+}
+
+}  // namespace relievo::io
