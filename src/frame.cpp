@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "frame_slopes.h"
+#include "height_tails.h"
 #include "relievo/parallel.h"
 #include "root.h"
 #include "vertex_normals.h"
@@ -90,15 +91,25 @@ struct FrameMaker::Packed {
     });
   }
 
+  void find_slopes(const Shape& shape) {
+    const SlopeInput input{surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta,
+                           surface.layers};
+    const bool is_layered = shape.style == Style::layered;
+    weight.fill(surface.curvature.delta,
+                is_layered ? saturation_alone(shape.compression) : shape.compression);
+    if (is_layered)
+      frame_layered_slopes(input, weight, shape, slopes);
+    else
+      frame_slopes(input, weight, shape.max_slope, slopes);
+  }
+
   // Heights before detail: weights by table, slopes, right-hand side and solve; or those of the control
   // points and their way to all.
   void find_heights(Frame& frame) {
     const Shape& shape = frame.options.shape;
     const Stopwatch watch;
     if (const HeightSystem* system = model.system()) {
-      weight.fill(surface.curvature.delta, shape.compression);
-      frame_slopes({surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta}, weight,
-                   shape.max_slope, slopes);
+      find_slopes(shape);
       system->solve(slopes, frame.heights, std::get<HeightSystem::Workspace>(workspace));
       frame.times.heights_s += watch.seconds();
     } else {
@@ -127,16 +138,24 @@ struct FrameMaker::Packed {
     return all.highest - all.lowest;
   }
 
+  float round_tails(Frame& frame) {
+    const HeightTails<float> tails(frame.heights);
+    return pass(frame.heights, [&](std::size_t, float& z) { z = tails(z); });
+  }
+
+  float add_detail(Frame& frame) {
+    const float h = pass(frame.heights, [](std::size_t, float&) {});
+    const float amount = static_cast<float>(frame.options.shape.gamma) * h;
+    return pass(frame.heights,
+                [&](std::size_t i, float& z) { z += amount * surface.curvature.k[i] * boundary_weight[i]; });
+  }
+
   // Heights and detail for the frame's shape.
   void raise(Frame& frame) {
     find_heights(frame);
     const Stopwatch watch;
-    const float h = pass(frame.heights, [](std::size_t, float&) {});
-    const float amount = static_cast<float>(frame.options.shape.gamma) * h;
-    const float span = pass(frame.heights, [&](std::size_t i, float& z) {
-      z += amount * surface.curvature.k[i] * boundary_weight[i];
-    });
-    frame.height = static_cast<double>(span);
+    const bool is_layered = frame.options.shape.style == Style::layered;
+    frame.height = static_cast<double>(is_layered ? round_tails(frame) : add_detail(frame));
     frame.times.detail_s += watch.seconds();
   }
 

@@ -26,4 +26,16 @@ inline void frame_slopes(const SlopeInput& input, const WeightTable& weight, dou
   });
 }
 
+// layered_slopes() with the saturation's share from the table, which holds saturation_alone().
+inline void frame_layered_slopes(const SlopeInput& input, const WeightTable& saturation, const Shape& shape,
+                                 std::span<Vec2f> slopes) {
+  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma);
+  const auto scale = static_cast<float>(saturation_scale(shape.compression));
+  const auto max_slope = static_cast<float>(shape.max_slope);
+  parallel_for(slopes.size(), [&](std::size_t i) {
+    const float share = scale * saturation(input.k[i]) * input.boundary_weight[i];
+    slopes[i] = layered_slope(input.layers[i], weights, share, max_slope);
+  });
+}
+
 }  // namespace relievo

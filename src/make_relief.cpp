@@ -123,8 +123,9 @@ void place(ReliefReport& report, const Surface& surface, const Vec3& corner, dou
 Result<Shape> shape_of(const ReliefOptions& options) {
   const double beta = options.effective_saturation();
   Shape shape{Compression::from_alpha(options.effective_alpha(), beta), options.effective_detail()};
+  if (options.effective_method() == "ours") shape.style = Style::layered;
   if (options.steepest_deg) shape.max_slope = std::tan(*options.steepest_deg * std::numbers::pi / 180);
-  shape.boundary_width = options.boundary_width;
+  shape.boundary_width = options.effective_boundary_width();
   if (options.tone.empty()) return shape;
   Result<ToneCurve> curve = parse_tone_curve(options.tone);
   if (!curve) return std::unexpected(curve.error());

@@ -16,7 +16,11 @@ std::string_view name_of(Method method) {
 }
 
 Shape default_shape(Method method) {
-  return method == Method::ours ? Shape{{1, 0}, .04} : Shape{{1, .01}, .02};
+  if (method != Method::ours) return {{1, .01}, .02};
+  Shape shape{{1, 0}, .04};
+  shape.style = Style::layered;
+  shape.boundary_width = .5;
+  return shape;
 }
 
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <limits>
 
+#include "height_tails.h"
 #include "relievo/detail.h"
+#include "relievo/parallel.h"
 #include "relievo/text.h"
 #include "root.h"
 
@@ -53,18 +55,34 @@ std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const flo
     return {heights.begin(), heights.end()};
   }
   std::vector<Vec2> slopes(surface_.points.size());
-  compressed_slopes({surface_.normals, surface_.curvature.k, boundary_weight, surface_.curvature.delta},
-                    shape.compression, shape.max_slope, slopes);
+  const SlopeInput input{surface_.normals, surface_.curvature.k, boundary_weight, surface_.curvature.delta,
+                         surface_.layers};
+  if (shape.style == Style::layered)
+    layered_slopes(input, shape, slopes);
+  else
+    compressed_slopes(input, shape.compression, shape.max_slope, slopes);
   std::vector<double> heights(slopes.size());
   system()->solve(slopes, heights);
   return heights;
 }
 
+namespace {
+
+void round_tails(std::vector<double>& heights) {
+  const HeightTails<double> tails(heights);
+  parallel_for(heights.size(), [&](std::size_t i) { heights[i] = tails(heights[i]); });
+}
+
+}  // namespace
+
 Relief ReliefModel::make(const Shape& shape) const {
   const std::vector<float> boundary_weight =
       boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);  // (7) has 2 rho
   Relief relief{heights(shape, boundary_weight), 0, shape};
-  add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
+  if (shape.style == Style::layered)
+    round_tails(relief.heights);
+  else
+    add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
   relief.height = height_span(relief.heights);
   return relief;
 }

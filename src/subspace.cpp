@@ -108,7 +108,8 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
   const std::vector<Index> samples = sample_regions(surface, control, options.normals_per_point);
 
   SubspaceModel model(std::move(*system),
-                      {pick(surface.normals, samples), pick(surface.curvature.k, samples), samples},
+                      {pick(surface.normals, samples), pick(surface.curvature.k, samples),
+                       pick(surface.layers, samples), samples},
                       surface.curvature.delta);
   model.control_ = std::move(control);
   model.reference_.assign(reference.begin(), reference.end());
@@ -119,8 +120,8 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
 
 std::size_t SubspaceModel::memory() const {
   return system_.memory() + ratio_spline_.memory() + offset_spline_.memory() + bytes(control_.points) +
-         bytes(samples_.normals) + bytes(samples_.k) + bytes(samples_.points) + bytes(control_reference_) +
-         bytes(ratio_terms_) + bytes(places_) + bytes(reference_);
+         bytes(samples_.normals) + bytes(samples_.k) + bytes(samples_.layers) + bytes(samples_.points) +
+         bytes(control_reference_) + bytes(ratio_terms_) + bytes(places_) + bytes(reference_);
 }
 
 SubspaceModel::Workspace SubspaceModel::make_workspace() const {
@@ -141,7 +142,10 @@ SubspaceModel::Workspace SubspaceModel::make_workspace() const {
 void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_weight,
                           Workspace& workspace) const {
   Workspace::Storage& storage = *workspace.storage_;
-  storage.weight.fill(delta_, shape.compression);
+  const bool is_layered = shape.style == Style::layered;
+  storage.weight.fill(delta_, is_layered ? saturation_alone(shape.compression) : shape.compression);
+  const LayerWeights layers = LayerWeights::of(shape.compression.u, shape.gamma);
+  const auto scale = static_cast<float>(is_layered ? saturation_scale(shape.compression) : 1);
   const std::size_t per_point = samples_.k.size() / control_.points.size();
   const auto max_slope = static_cast<float>(shape.max_slope);
   parallel_for(
@@ -149,8 +153,9 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
       [&](std::size_t c) {
         Vec2f sum = Vec2f::Zero();
         for (std::size_t i = c * per_point; i < (c + 1) * per_point; ++i) {
-          const float w = storage.weight(samples_.k[i]) * boundary_weight[samples_.points[i]];
-          sum += frame_slope(samples_.normals[i], w, max_slope);
+          const float w = scale * storage.weight(samples_.k[i]) * boundary_weight[samples_.points[i]];
+          sum += is_layered ? layered_slope(samples_.layers[i], layers, w, max_slope)
+                            : frame_slope(samples_.normals[i], w, max_slope);
         }
         storage.slopes[c] = sum / static_cast<float>(per_point);
       },

@@ -143,9 +143,9 @@ std::size_t bytes(const std::vector<T>& v) {
 }  // namespace
 
 std::size_t Surface::memory() const {
-  return bytes(points) + bytes(normals) + bytes(curvature.k) + bytes(triangulation.triangles) +
-         bytes(triangulation.hull) + bytes(boundary.is_inside) + bytes(boundary.is_boundary) +
-         bytes(boundary.distance);
+  return bytes(points) + bytes(normals) + bytes(curvature.k) + bytes(layers) +
+         bytes(triangulation.triangles) + bytes(triangulation.hull) + bytes(boundary.is_inside) +
+         bytes(boundary.is_boundary) + bytes(boundary.distance);
 }
 
 Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
@@ -173,6 +173,8 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
 
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
   surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
+  if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
+  surface.layers = normal_layers(surface.points, surface.normals, surface.triangulation, surface.boundary);
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
 }

@@ -61,6 +61,27 @@ void compressed_slopes(const SlopeInput& input, const Compression& compression, 
   });
 }
 
+Compression saturation_alone(const Compression& compression) {
+  Compression alone = compression;
+  alone.u = 1;
+  return alone;
+}
+
+double saturation_scale(const Compression& compression) {
+  return compression.curve ? 1 : -1 / std::expm1(-1.0);
+}
+
+void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes) {
+  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma);
+  const Compression saturation = saturation_alone(shape.compression);
+  const double scale = saturation_scale(shape.compression);
+  parallel_for(slopes.size(), [&](std::size_t i) {
+    const double share = scale * curvature_weight(static_cast<double>(input.k[i]), input.delta, saturation);
+    slopes[i] = layered_slope(input.layers[i], weights, share * static_cast<double>(input.boundary_weight[i]),
+                              shape.max_slope);
+  });
+}
+
 std::vector<float> boundary_weights(std::span<const float> distance, double rho) {
   std::vector<float> weights(distance.size());
   parallel_for(weights.size(), [&](std::size_t i) {

@@ -75,6 +75,37 @@ TEST(Frame, ShadingIsTheCosineToTheLight) {
     ASSERT_NEAR(frame.shading[i], std::max(0.F, frame.normals[i].dot(options.light.normalized())), 1e-5F);
 }
 
+TEST(Frame, AgreesWithTheExactReliefInLayersToo) {
+  for (const double beta : {0.0, 1.0})
+    for (const double u : {.3, 2.0}) {
+      FrameOptions options;
+      options.shape = {{u, beta}, .04};
+      options.shape.style = Style::layered;
+      const Relief exact = model().make(options.shape);
+      const Frame frame = frame_of(options);
+      double worst = 0;
+      for (std::size_t i = 0; i < exact.heights.size(); ++i)
+        worst = std::max(worst, std::abs(static_cast<double>(frame.heights[i]) - exact.heights[i]));
+      EXPECT_LT(worst, 1e-4 * exact.height) << beta;
+    }
+}
+
+TEST(Frame, KeepsALockedHeightInLayers) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  for (const double share : {.05, .0125, .1}) {
+    options.height = share * model().surface().diagonal;
+    for (const double gamma : {0.0, .02, .04, .08}) {
+      options.shape = {{1, 0}, gamma};
+      options.shape.style = Style::layered;
+      maker.make(options, frame);
+      ASSERT_TRUE(frame.is_height_met) << share << ' ' << gamma;
+      ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << share << ' ' << gamma;
+    }
+  }
+}
+
 TEST(Frame, KeepsALockedHeightWhileOthersMove) {
   FrameMaker maker(model());
   Frame frame;

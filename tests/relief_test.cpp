@@ -176,6 +176,24 @@ TEST(Relief, OfTheSubspaceIsCloseAndAsHighAsAsked) {
   EXPECT_LT(std::sqrt(sum / static_cast<double>(exact.heights.size())), .02 * exact.height);
 }
 
+class LayeredReliefAtHeight : public testing::TestWithParam<std::tuple<double, double>> {};
+
+TEST_P(LayeredReliefAtHeight, IsTheHeightAsked) {
+  static const ReliefModel model = model_of(figure());
+  const auto [share, beta] = GetParam();
+  Shape shape{{1, beta}, .04};
+  shape.style = Style::layered;
+  const double height = share * model.surface().diagonal;
+  const auto relief = model.make_at_height(height, shape, 1);
+  ASSERT_TRUE(relief) << relief.error().message();
+  const auto [lowest, highest] = std::minmax_element(relief->heights.begin(), relief->heights.end());
+  EXPECT_NEAR((std::max(*highest, 0.0) - std::min(*lowest, 0.0)) / height, 1, 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Grid, LayeredReliefAtHeight,
+                         testing::Combine(testing::Values(.1, .05, .025, .0125, 1e-6),
+                                          testing::Values(0, .01, 1)));
+
 TEST(Relief, OfTwoSheetsLosesTheJumpBetweenThem) {
   for (const double distance : {.2, 1.0, 30.0}) {
     const Cloud both = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, distance, 9));

@@ -17,8 +17,8 @@ struct ReliefOptions {
   std::optional<double> saturation;  // the paper's beta: 0.01, or 0 with a height
   std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
   std::string method;                // see method.h; ours with a height, else the paper's
-  std::optional<double> steepest_deg;  // steepest slope of the front, 76 without it
-  double boundary_width = 2;           // of (7), in sampling distances
+  std::optional<double> steepest_deg;    // steepest slope of the front, 76 without it
+  std::optional<double> boundary_width;  // of (7), in sampling distances; 2, with our method 0.5
   std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
   std::string mode = "exact";
   std::string view = "front";
@@ -34,6 +34,9 @@ struct ReliefOptions {
   std::string effective_method() const { return !method.empty() ? method : height_mm ? "ours" : "paper"; }
   double effective_alpha() const { return alpha.value_or(4); }
   double effective_saturation() const { return saturation.value_or(effective_method() == "paper" ? .01 : 0); }
+  double effective_boundary_width() const {
+    return boundary_width.value_or(effective_method() == "ours" ? .5 : 2);
+  }
   double effective_detail() const { return detail.value_or(effective_method() == "paper" ? .02 : .04); }
 };
 
@@ -63,7 +66,9 @@ void visit(Options& o, F&& f) {
                 "ours, paper, linear, equalise, gradient or detail; default ours with a height, else paper"},
     o.method);
   f(OptionField{"steepest", "DEG", "steepest slope of the front; default 76", 1, 89}, o.steepest_deg);
-  f(OptionField{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100}, o.boundary_width);
+  f(OptionField{"boundary", "W",
+                "width of the soft rim, in sampling distances; default 2, with method ours 0.5", .1, 100},
+    o.boundary_width);
   f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
     o.tone);
   f(OptionField{"mode", "MODE", "exact, subspace (from 8,000 control points, close to exact) or auto"},

@@ -17,10 +17,10 @@ Relief linear_relief(const Surface& surface, double height);
 // Martin and Langbein, Bas-relief generation using adaptive histogram equalization, 2009.
 struct EqualiseOptions {
   int picture_px = 512;         // longer side of the picture, [16, 4096]
-  int largest_window_px = 256;  // of the neighbourhoods; each next is half as wide, at most picture_px
-  int windows = 3;              // how many, >= 1
+  int largest_window_px = 128;  // of the neighbourhoods; each next is half as wide, at most picture_px
+  int windows = 2;              // how many, >= 1
   int bins = 256;               // of a histogram, over all depths
-  double clip = 2;              // most that a bin may hold, in means of the bins; what is above is spread
+  double clip = 12;             // most that a bin may hold, in means of the bins; what is above is spread
   double gradient_gain = 5;     // a in log(1 + a |g|) / a, what a pixel with gradient g weighs
 };
 Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options = {});
@@ -32,11 +32,11 @@ Relief equalised_relief(const Surface& surface, double height, const EqualiseOpt
 // The gradients come from the scan's normals, not from differences of a height map: free of its noise, and
 // with nothing to remove across a depth jump.
 struct GradientOptions {
-  double attenuation = 5;   // a, > 0
-  double silhouette = 1e9;  // gradients steeper than this are removed
+  double attenuation = 5;  // a, > 0
+  double silhouette = 10;  // gradients steeper than this are removed
   // Weights of the bands, from the finest: each holds what a Gaussian of twice the last one's width takes
   // away; the last holds the rest.
-  std::vector<double> band_weights{1};
+  std::vector<double> band_weights{1, 1, .8, .6};
   double finest_band = .01;  // the first Gaussian's standard deviation, of the surface's longer side
 };
 Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options = {});
@@ -48,8 +48,8 @@ Vec2 attenuated(const Vec2& gradient, double a);
 // heights that the normals give. After Ji, Sun, Li and Wang, Real-time bas-relief generation from
 // depth-and-normal maps on GPU, 2014.
 struct DetailOptions {
-  double amplification = 5;  // of the detail, against the base
-  double scale = .02;        // the Gaussian's standard deviation, of the surface's longer side
+  double amplification = 10;  // of the detail, against the base
+  double scale = .04;         // the Gaussian's standard deviation, of the surface's longer side
 };
 Relief base_and_detail_relief(const ReliefModel& model, double height, const DetailOptions& options = {});
 

@@ -74,6 +74,7 @@ class SubspaceModel {
   struct Samples {
     std::vector<Vec3f> normals;
     std::vector<float> k;
+    std::vector<PointLayers> layers;
     std::vector<Index> points;  // that they are taken from
   };
   // A control point's ratio is z_c pull + (the ratio of all of them) rest.

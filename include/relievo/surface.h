@@ -3,6 +3,7 @@
 
 #include "relievo/boundary.h"
 #include "relievo/curvature.h"
+#include "relievo/layers.h"
 #include "relievo/progress.h"
 #include "relievo/triangulation.h"
 #include "relievo/view.h"
@@ -23,6 +24,7 @@ struct Surface {
   std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at fillers
   std::vector<Colour> colours;  // of the points; empty if the cloud has none
   NormalisedCurvature curvature;
+  std::vector<PointLayers> layers;
   Triangulation triangulation;  // its `neighbours` are not kept
   Boundary boundary;
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "relievo/layers.h"
 #include "relievo/tone_curve.h"
 #include "relievo/types.h"
 
@@ -28,12 +29,18 @@ struct Compression {
   double alpha() const;
 };
 
+enum class Style {
+  paper,   // equations (5) to (7), and detail added to the heights
+  layered  // ours: fine layers of the normals kept more than coarse ones, and the heights' tails rounded off
+};
+
 // All that shapes a relief.
 struct Shape {
   Compression compression;    // height and saturation
-  double gamma = 0;           // detail coefficient, [0, 1]
+  double gamma = 0;           // detail coefficient, [0, 1]; in layers it holds the coarse ones back
   double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
   double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
+  Style style = Style::paper;
 };
 
 // Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never
@@ -52,12 +59,21 @@ struct SlopeInput {
   std::span<const Vec3f> normals;
   std::span<const float> k;
   std::span<const float> boundary_weight;
-  double delta = 0;  // of k
+  double delta = 0;                          // of k
+  std::span<const PointLayers> layers = {};  // for layered_slopes() alone
 };
 
 // Writes the compressed slope of every point, with w = w_k w_b.
 void compressed_slopes(const SlopeInput& input, const Compression& compression, double max_slope,
                        std::span<Vec2> slopes);
+
+// The same in layers: layered_slope() with LayerWeights::of(u, gamma), times w_b and the saturation's share.
+void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
+
+// The compression whose weight, times saturation_scale(), is the share of a point's slope that saturation or
+// tone curve leave in layers; for saturation 0 it is 1 everywhere.
+Compression saturation_alone(const Compression& compression);
+double saturation_scale(const Compression& compression);
 
 // Returns w_b for distances to the boundary.
 std::vector<float> boundary_weights(std::span<const float> distance, double rho);

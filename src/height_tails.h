@@ -1,0 +1,79 @@
+// Rounds off the highest and the deepest per cent of a relief, so that a few points do not take the height
+// that all others need.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "relievo/parallel.h"
+
+namespace relievo {
+
+// A curve over heights: rising everywhere, 1 : 1 around the base, flatter beyond two limits.
+template <typename Real>
+class HeightTails {
+ public:
+  static constexpr double share = .01;    // of the points beyond each limit
+  static constexpr double flattest = .2;  // the curve's slope at the extremes
+
+  explicit HeightTails(std::span<const Real> heights) {
+    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
+    if (heights.empty() || !(*low < *high)) return;
+    lowest_ = *low, highest_ = *high;
+    const Histogram counts = histogram(heights);
+    const auto wanted = share * static_cast<double>(heights.size());
+    upper_ = std::max(Real(0), highest_ - bins_from_end(counts.rbegin(), counts.rend(), wanted) * bin());
+    lower_ = std::min(Real(0), lowest_ + bins_from_end(counts.begin(), counts.end(), wanted) * bin());
+  }
+
+  Real operator()(Real z) const {
+    if (z > upper_) return upper_ + bent(z - upper_, highest_ - upper_);
+    return z < lower_ ? lower_ - bent(lower_ - z, lower_ - lowest_) : z;
+  }
+
+ private:
+  static constexpr std::size_t bins = 2048;
+  using Histogram = std::array<std::uint32_t, bins>;
+
+  Real bin() const { return (highest_ - lowest_) / static_cast<Real>(bins); }
+
+  // From 0 with slope 1 to the end of the tail with the flattest slope.
+  static Real bent(Real z, Real length) { return z - static_cast<Real>((1 - flattest) / 2) * z * z / length; }
+
+  Histogram histogram(std::span<const Real> heights) const {
+    const Real per_unit = 1 / bin();
+    return parallel_reduce(
+        heights.size(), Histogram{},
+        [&](std::size_t begin, std::size_t end) {
+          Histogram counts{};
+          for (std::size_t i = begin; i < end; ++i) {
+            const auto at = static_cast<std::size_t>((heights[i] - lowest_) * per_unit);
+            ++counts[std::min(at, bins - 1)];
+          }
+          return counts;
+        },
+        [](Histogram sum, const Histogram& counts) {
+          for (std::size_t b = 0; b < bins; ++b) sum[b] += counts[b];
+          return sum;
+        },
+        1 << 16);
+  }
+
+  // How many bins, with a fraction, hold the points wanted.
+  template <typename It>
+  static Real bins_from_end(It begin, It end, double wanted) {
+    double sum = 0;
+    for (It b = begin; b != end; ++b) {
+      if (sum + *b > wanted) return static_cast<Real>(static_cast<double>(b - begin) + (wanted - sum) / *b);
+      sum += *b;
+    }
+    return static_cast<Real>(bins);
+  }
+
+  Real lowest_ = 0, highest_ = 0, lower_ = 0, upper_ = 0;
+};
+
+}  // namespace relievo

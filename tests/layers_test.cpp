@@ -1,0 +1,175 @@
+#include "relievo/layers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "height_tails.h"
+#include "relievo/parallel.h"
+#include "relievo/surface.h"
+#include "relievo/weights.h"
+#include "shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Surface surface_of(const Cloud& cloud) {
+  return find_surface(cloud, {}).value();
+}
+
+// A wave of that length along x, of slope 0.2, on a square of side 2.
+Surface wavy(double length) {
+  const double k = 2 * std::numbers::pi / length, a = .2 / k;
+  return surface_of(test::height_field(
+      60000, 1, [=](double x, double) { return a * std::sin(k * x); },
+      [=](double x, double) { return Vec2(a * k * std::cos(k * x), 0); }));
+}
+
+// Root mean square of a layer, away from the rim.
+template <typename Layer>
+double size_of(const Surface& surface, Layer layer) {
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+    if (surface.points[i].head<2>().cwiseAbs().maxCoeff() < .7)
+      sum += static_cast<double>(layer(surface.layers[i]).squaredNorm()), ++n;
+  return std::sqrt(sum / n);
+}
+
+TEST(Layers, AddUpToTheNormal) {
+  const Surface sphere = surface_of(test::sphere(20000, 1));
+  for (std::size_t i = 0; i < sphere.points.size(); ++i) {
+    if (sphere.normals[i].z() < .6F) continue;
+    const PointLayers& l = sphere.layers[i];
+    ASSERT_LT((l.fine + l.middle + l.coarse + sphere.normals[i].head<2>()).norm(), 1e-5);
+  }
+}
+
+TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
+  std::vector<Vec3> points;
+  std::vector<Vec3f> normals;
+  for (const double slope : {1.0, 12.0, 100.0}) {
+    points.emplace_back(10.0 * static_cast<double>(points.size()), static_cast<double>(points.size() % 2), 0);
+    normals.push_back(Vec3(-slope, 0, 1).normalized().cast<float>());
+  }
+  const auto layers = normal_layers(points, normals, {}, {});
+  const auto kept = [&](std::size_t i) {
+    return -(layers[i].fine + layers[i].middle + layers[i].coarse).x() / normals[i].x();
+  };
+  EXPECT_NEAR(kept(0), 1, 1e-5);
+  EXPECT_NEAR(kept(1), .5, 1e-5);
+  EXPECT_LT(kept(2), 1e-5);
+}
+
+TEST(Layers, HoldWhatTheirSizeSays) {
+  const auto fine = [](const PointLayers& l) { return l.fine; };
+  const auto middle = [](const PointLayers& l) { return l.middle; };
+  const auto coarse = [](const PointLayers& l) { return l.coarse; };
+  const Surface ripples = wavy(.02), waves = wavy(.15), swell = wavy(2);
+  EXPECT_GT(size_of(ripples, fine), 2 * size_of(ripples, middle));
+  EXPECT_GT(size_of(waves, middle), 2 * size_of(waves, fine));
+  EXPECT_GT(size_of(waves, middle), 2 * size_of(waves, coarse));
+  EXPECT_GT(size_of(swell, coarse), 2 * size_of(swell, middle));
+}
+
+// Two sheets: their normals say nothing, their depths go up from the one to the other.
+TEST(Layers, DepthRisesTowardsWhatIsInFront) {
+  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, 3, 9)));
+  double inwards = 0;
+  for (std::size_t i = 0; i < sheets.points.size(); ++i) {
+    const Vec2 place = sheets.points[i].head<2>();
+    EXPECT_EQ(sheets.layers[i].fine.norm() + sheets.layers[i].coarse.norm(), 0);
+    if (std::abs(place.norm() - .5) < .1)
+      inwards -= place.normalized().dot(sheets.layers[i].depth.cast<double>());
+  }
+  EXPECT_GT(inwards, 0);
+}
+
+TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
+  const auto layers = [](int threads) {
+    set_thread_count(threads);
+    const Surface s = surface_of(test::torus(20000, 1, .4));
+    std::vector<Vec2f> all;
+    for (const PointLayers& l : s.layers) all.insert(all.end(), {l.fine, l.middle, l.coarse, l.depth});
+    return all;
+  };
+  EXPECT_EQ(layers(1), layers(3));
+  set_thread_count(0);
+}
+
+TEST(LayerWeights, AreEquationSixLayerByLayer) {
+  for (const double u : {.1, 1.0, 5.0}) {
+    const LayerWeights even = LayerWeights::of(u, 0);
+    EXPECT_FLOAT_EQ(even.fine, static_cast<float>(1 - std::exp(-u)));
+    EXPECT_EQ(even.coarse, even.fine);
+    const LayerWeights held = LayerWeights::of(u, .04);
+    EXPECT_EQ(held.fine, even.fine);
+    EXPECT_LT(held.middle, held.fine);
+    EXPECT_FLOAT_EQ(held.coarse, static_cast<float>(1 - std::exp(-u * std::exp(-1))));
+  }
+  EXPECT_EQ(LayerWeights::of(infinity, .04).coarse, 1);
+  EXPECT_EQ(LayerWeights::of(0, .04).fine, 0);
+  EXPECT_EQ(LayerWeights::of(0, .04).depth, 0);
+}
+
+// Kept in full, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
+TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
+  PointLayers layers;
+  layers.fine = {.3F, 0};
+  layers.coarse = {.3F, -.2F};
+  const Vec2 whole = layered_slope(layers, {1, 1, 1, 0}, 1.0, 100.0);
+  const double nz = std::sqrt(1 - .6 * .6 - .2 * .2);
+  EXPECT_NEAR((whole - Vec2(.6, -.2) / nz).norm(), 0, 1e-6);
+  const Vec2 half = layered_slope(layers, {.5F, 1, .5F, 0}, 1.0, 100.0);
+  EXPECT_NEAR((half - Vec2(.3, -.1) / std::sqrt(1 - .1)).norm(), 0, 1e-6);
+  const Vec2 flat = layered_slope(layers, {1, 1, 1, 0}, 0.0, 100.0);
+  EXPECT_EQ(flat.norm(), 0);
+}
+
+TEST(LayeredSlope, IsNeverSteeperThanAllowed) {
+  PointLayers layers;
+  for (const float x : {.2F, .96F, .9999F, 1.F, 3.F}) {
+    layers.coarse = {0, x};
+    for (const double most : {.1, 1.0, 4.0}) {
+      const Vec2 slope = layered_slope(layers, {1, 1, 1, 1}, 1.0, most);
+      EXPECT_LE(slope.norm(), most * (1 + 1e-12)) << x;
+      EXPECT_GT(slope.y(), 0);
+    }
+  }
+}
+
+TEST(HeightTails, KeepTheMiddleAndRoundTheEnds) {
+  std::vector<double> heights;
+  for (int i = 0; i <= 100000; ++i) heights.push_back(i * 1e-5 - .3);
+  const HeightTails<double> tails{heights};
+  double last = tails(-.3);
+  for (double z = -.285; z < .685; z += .01) EXPECT_EQ(tails(z), z);
+  for (const double z : heights) {
+    EXPECT_GE(tails(z), last);
+    last = tails(z);
+  }
+  // A tail of slope 1 to 0.2 keeps 0.6 of its length.
+  EXPECT_NEAR(tails(.7), .69 + .6 * .01, 1e-4);
+  EXPECT_NEAR(tails(-.3), -.29 - .6 * .01, 1e-4);
+}
+
+TEST(HeightTails, TakeTheHeightOfAFewPoints) {
+  std::vector<float> heights(10000, .5F);
+  heights[7] = 10;
+  const HeightTails<float> tails{heights};
+  EXPECT_EQ(tails(.4F), .4F);
+  EXPECT_LT(tails(10), 6.5F);
+}
+
+TEST(HeightTails, LeaveTheBaseWhereItIs) {
+  for (const std::vector<double>& heights : {std::vector<double>{}, {0, 0}, {1, 2, 3}, {-3, -2}}) {
+    const HeightTails<double> tails{heights};
+    EXPECT_EQ(tails(0), 0);
+  }
+}
+
+}  // namespace
+}  // namespace relievo
