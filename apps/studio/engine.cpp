@@ -398,10 +398,11 @@ Result<std::vector<std::string>> Engine::suggest_views() {
 Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::string& format,
                                        int heightmap_px) {
   if (!is_format(format))
-    return std::unexpected(Error{ErrorKind::option,
-                                 "format",
-                                 {},
-                                 cat("expected stl, ply, obj, heightmap or preview, found '", format, "'")});
+    return std::unexpected(
+        Error{ErrorKind::option,
+              "format",
+              {},
+              cat("expected stl, 3mf, ply, obj, heightmap, tiff or preview, found '", format, "'")});
   const std::shared_ptr<const ReliefModel> model = state_->model();
   if (!model) return nothing_open();
   const Result<View> view = parse_view(options.view, options.up);

@@ -18,7 +18,8 @@ const doc = new Document((before) => changed(before));
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName()}));
+const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName()}),
+  (options) => doc.change({options}));
 
 let facts = null;
 let status = {busy: false, model: 0};
