@@ -51,9 +51,9 @@ Topology topology_of(const Surface& surface) {
 
 PlateScene scene_of(const Topology& topology, const Shown& shown, const RenderOptions& options) {
   const auto [lowest, highest] = std::ranges::minmax(shown.heights);
-  const auto scale = static_cast<float>(options.mm_per_unit);
+  const float scale = static_cast<float>(options.mm_per_unit) * shown.stretch;
   const float low = std::min(0.F, lowest) * scale, high = std::max(0.F, highest) * scale;
-  return {topology, shown, options, low, high - low};
+  return {topology, shown, options, scale, low, high - low};
 }
 
 Placement placement_of(const Topology& topology, const RenderOptions& options, int samples_per_side) {
@@ -80,8 +80,9 @@ Scene raster_scene(const PlateScene& scene, const Placement& placement) {
   raster.height = placement.height;
   raster.points.resize(places.size() + 8);
   parallel_for(places.size(), [&](std::size_t i) {
-    const double z = placement.is_front ? 0 : static_cast<double>(scene.shown.heights[i]);
-    raster.points[i] = placement.to_picture(scale * Vec3(places[i].x(), places[i].y(), z));
+    const float z = placement.is_front ? 0 : scene.z_mm * scene.shown.heights[i];
+    const Vec2 xy = scale * places[i];
+    raster.points[i] = placement.to_picture({xy.x(), xy.y(), static_cast<double>(z)});
   });
   const Vec2 half = half_plate(scene.topology, scene.options);
   const double bottom = static_cast<double>(scene.lowest_mm) - scene.options.thickness_mm;

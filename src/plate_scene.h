@@ -51,6 +51,7 @@ struct PlateScene {
   const Topology& topology;
   const Shown& shown;
   const RenderOptions& options;
+  float z_mm = 1;                    // per unit of the heights
   float lowest_mm = 0, span_mm = 0;  // of the heights, ground included
 };
 

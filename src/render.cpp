@@ -32,11 +32,12 @@ class Painter {
 
   Colour at(const Pixel& pixel, int column, int row) const {
     if (pixel.part == Part::nothing) return {};
-    const float scale = static_cast<float>(scene_.options.mm_per_unit);
     Lit lit{Vec3f::UnitZ(), {1, 1}, placement_.to_place(column + .5, row + .5, static_cast<double>(pixel.z))};
     if (pixel.part == Part::relief) {
-      lit.normal = pixel.mean(scene_.shown.normals.data()).normalized();
-      lit.place.z() = pixel.mean(scene_.shown.heights.data()) * scale;
+      lit.normal = pixel.mean(scene_.shown.normals.data());
+      lit.normal.head<2>() *= scene_.shown.stretch;
+      lit.normal.normalize();
+      lit.place.z() = pixel.mean(scene_.shown.heights.data()) * scene_.z_mm;
     }
     if (pixel.part == Part::wall) return wall(pixel, lit);
     lit.height = scene_.span_mm > 0 ? (lit.place.z() - scene_.lowest_mm) / scene_.span_mm : 0;
@@ -180,7 +181,7 @@ struct FrameRenderer::Scenery {
     parallel_for(map.pixels.size(), [&](std::size_t i) {
       const Pixel& pixel = map.pixels[i];
       const float z = pixel.part == Part::relief ? pixel.mean(scene.shown.heights.data()) : 0;
-      field.z[i] = z * static_cast<float>(scale) - scene.lowest_mm;
+      field.z[i] = z * scene.z_mm - scene.lowest_mm;
     });
     return field;
   }

@@ -127,6 +127,23 @@ TEST(Render, OrbitBeginsAtTheFront) {
   EXPECT_GT(mean_difference(picture(bumps(), small()), picture(bumps(), turned)), 5);
 }
 
+TEST(Render, StretchesHeightsAndNormals) {
+  const Field low = bumps();
+  Field high = low;
+  for (float& z : high.heights) z *= 1.5F;
+  for (Vec3f& n : high.normals) n = Vec3f(1.5F * n.x(), 1.5F * n.y(), n.z()).normalized();
+  Shown stretched = low.shown();
+  stretched.stretch = 1.5F;
+  for (const double yaw : {0.0, 30.0}) {
+    RenderOptions options = small();
+    options.camera.yaw_deg = yaw;
+    Picture made;
+    FrameRenderer(ball()).render(stretched, options, made);
+    EXPECT_LT(mean_difference(made, picture(high, options)), .3);
+    EXPECT_GT(mean_difference(made, picture(low, options)), .5);
+  }
+}
+
 TEST(Render, ZoomsAndPans) {
   RenderOptions near = small();
   near.camera.zoom = 2;

@@ -69,7 +69,8 @@ struct Engine::State {
   std::mutex drawing;  // guards what follows
   std::uint64_t drawn_model = 0;
   std::optional<FrameRenderer> renderer;
-  std::weak_ptr<const Frame> drawn_frame;
+  std::shared_ptr<const Frame> drawn_frame;
+  double elasticity = 1;  // how much ln height changes with ln u, as far as the last two frames tell
   std::optional<FrameOptions> last;  // that were asked for, of this model
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
@@ -145,6 +146,7 @@ struct Engine::State {
     if (!ready || (renderer && drawn_model == number)) return ready;
     renderer.emplace(ready);
     last = std::nullopt;
+    drawn_frame = nullptr;
     drawn_model = number;
     return ready;
   }
@@ -288,7 +290,44 @@ std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& opt
   return frame && frame->heights.size() == points ? frame : nullptr;
 }
 
+// While things move, one solve must do: at the u that the last frame's height suggests. What it leaves, at
+// most 3 %, is stretched away, so that a locked height is shown exactly.
+std::optional<FrameOptions> guess(const FrameOptions& wanted, const std::shared_ptr<const Frame>& last,
+                                  double elasticity) {
+  if (!wanted.height || !last || !last->is_height_met || !(last->height > 0)) return std::nullopt;
+  const double ratio = *wanted.height / last->height, far = 1.5;
+  if (!(ratio < far && ratio > 1 / far)) return std::nullopt;
+  FrameOptions options = wanted;
+  options.height = std::nullopt;
+  options.shape.compression.u = last->options.shape.compression.u * std::pow(ratio, 1 / elasticity);
+  return options;
+}
+
+// What two frames that differ in u alone tell of it; else `before`.
+double elasticity_between(const Frame& a, const Frame& b, double before) {
+  FrameOptions same = a.options;
+  same.shape.compression.u = b.options.shape.compression.u;
+  same.height = b.options.height;
+  const double change = std::log(b.options.shape.compression.u / a.options.shape.compression.u);
+  if (!is_same(same, b.options) || !(std::abs(change) > 1e-4) || !(a.height > 0 && b.height > 0))
+    return before;
+  return std::clamp(std::log(b.height / a.height) / change, .1, 2.0);
+}
+
 }  // namespace
+
+// With `drawing` held.
+Engine::Drawing Engine::frame_to_draw(const FrameOptions& wanted, bool is_quick, std::size_t points) {
+  State& s = *state_;
+  const bool is_known = s.last && is_same(*s.last, wanted);
+  const auto guessed = is_quick && !is_known ? guess(wanted, s.drawn_frame, s.elasticity) : std::nullopt;
+  if (guessed) {
+    const auto frame = frame_for(s.session, *guessed, points, s.last);
+    const double stretch = frame && frame->height > 0 ? *wanted.height / frame->height : 0;
+    if (std::abs(stretch - 1) < .03) return {frame, stretch};
+  }
+  return {frame_for(s.session, wanted, points, s.last), 1};
+}
 
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   const std::lock_guard turn(state_->drawing);
@@ -297,22 +336,27 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   const double scale = mm_per_unit(model->surface(), request.options);
   const Result<FrameOptions> wanted = frame_options(request, scale);
   if (!wanted) return std::unexpected(wanted.error());
-  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size(), state_->last);
+  const auto [frame, stretch] =
+      frame_to_draw(*wanted, !request.render.is_fine, model->surface().points.size());
   if (!frame) return nothing_open();
 
   const auto start = std::chrono::steady_clock::now();
   FrameRenderer& renderer = *state_->renderer;
-  const Shown shown = request.is_original ? renderer.original() : Shown{frame->heights, frame->normals};
+  const Shown shown = request.is_original
+                          ? renderer.original()
+                          : Shown{frame->heights, frame->normals, static_cast<float>(stretch)};
   PictureAnswer answer;
   RenderOptions render = render_options(request, scale);
   render.has_shadows = !request.is_original;  // the model's own depth would bury the ground in them
   renderer.render(shown, render, answer.picture);
   answer.drawing_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   answer.compression = frame->options.shape.compression;
-  answer.height_mm = frame->height * scale;
+  answer.height_mm = frame->height * stretch * scale;
   answer.is_height_met = frame->is_height_met;
   // A frame that was shown before cost nothing now.
-  if (state_->drawn_frame.lock() != frame) answer.times = frame->times;
+  if (state_->drawn_frame != frame) answer.times = frame->times;
+  if (state_->drawn_frame)
+    state_->elasticity = elasticity_between(*state_->drawn_frame, *frame, state_->elasticity);
   state_->drawn_frame = frame;
   return answer;
 }
@@ -354,10 +398,11 @@ Result<std::vector<std::string>> Engine::suggest_views() {
 Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::string& format,
                                        int heightmap_px) {
   if (!is_format(format))
-    return std::unexpected(Error{ErrorKind::option,
-                                 "format",
-                                 {},
-                                 cat("expected stl, ply, obj, heightmap or preview, found '", format, "'")});
+    return std::unexpected(
+        Error{ErrorKind::option,
+              "format",
+              {},
+              cat("expected stl, 3mf, ply, obj, heightmap, tiff or preview, found '", format, "'")});
   const std::shared_ptr<const ReliefModel> model = state_->model();
   if (!model) return nothing_open();
   const Result<View> view = parse_view(options.view, options.up);

@@ -81,12 +81,19 @@ class Engine {
   // The six sides, the one that shows most first.
   Result<std::vector<std::string>> suggest_views();
 
-  // Returns a file of the relief: format stl, ply, obj, heightmap or preview. The same bytes as `relievo
+  // Returns a file of the relief: format as is_format() has them. The same bytes as `relievo
   // make` writes. Errors: those of make_relief(); kind option for another format, or if the view that the
   // options ask for is not the one prepared.
   Result<ExportedFile> make_file(const ReliefOptions& options, const std::string& format, int heightmap_px);
 
  private:
+  // A frame, and how much higher it is to be drawn.
+  struct Drawing {
+    std::shared_ptr<const Frame> frame;
+    double stretch = 1;
+  };
+  Drawing frame_to_draw(const FrameOptions& wanted, bool is_quick, std::size_t points);
+
   struct State;
   std::unique_ptr<State> state_;
 };

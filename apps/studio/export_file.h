@@ -11,7 +11,8 @@ struct ExportedFile {
   std::string bytes, type;
 };
 
-// Whether export_file() knows the format: stl, ply, obj, heightmap or preview.
+// Whether export_file() knows the format: stl, 3mf, ply, obj, heightmap (PNG), tiff (heights) or
+// preview.
 bool is_format(const std::string& format);
 
 // Returns the solid as a file of a known format, the bytes that `relievo make` writes. `heightmap_px` is the

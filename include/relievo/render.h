@@ -43,6 +43,7 @@ struct RenderOptions {
 struct Shown {
   std::span<const float> heights;  // in the model's units, above the ground
   std::span<const Vec3f> normals;  // unit length
+  float stretch = 1;               // shown this much higher, normals and all, > 0
 };
 
 // Draws frames of one model on its plate, on nothing (opacity 0) but the plate's soft shadow. Not for

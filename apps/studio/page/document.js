@@ -5,6 +5,7 @@ export const FIRST = Object.freeze({
   options: Object.freeze({
     width: 100, height: 4, saturation: 0, detail: 0.04, steepest: 76, boundary: 2, tone: "",
     view: "front", up: "", margin: 5, thickness: 3, mode: "auto",
+    form: "relief", tolerance: null,
   }),
   isHeightLocked: true,
   u: null, // of the compression, while the height is not locked
@@ -92,10 +93,12 @@ export class Document {
 
 // The options as the engine and `relievo make` take them.
 export function engineOptions(step) {
-  const {steepest, tone, up, ...rest} = step.options;
+  const {steepest, tone, up, form, tolerance, ...rest} = step.options;
   const options = {...rest, height: Math.round(rest.height * 1e4) / 1e4};
   if (steepest !== FIRST.options.steepest) options.steepest = steepest; // without it the paper's bound rules
   if (tone) options.tone = tone;
+  if (form !== FIRST.options.form) options.form = form;
+  if (tolerance) options.tolerance = tolerance;
   if (up) options.up = up;
   return options;
 }

@@ -4,9 +4,11 @@ import {$, download, fileSize, make} from "./controls.js";
 
 const FORMATS = [
   {id: "stl", name: "STL", ending: ".stl", use: "printing and milling, in millimetres"},
+  {id: "3mf", name: "3MF", ending: ".3mf", use: "printing, with units"},
   {id: "ply", name: "PLY", ending: ".ply", use: "the same, with shared corners"},
   {id: "obj", name: "OBJ", ending: ".obj", use: "as text, for 3D programs"},
   {id: "heightmap", name: "Height map", ending: "-heights.png", use: "16-bit PNG for CNC and engraving"},
+  {id: "tiff", name: "Heights in mm", ending: "-heights.tif", use: "32-bit TIFF"},
   {id: "preview", name: "Picture", ending: ".png", use: "front and oblique view"},
 ];
 
@@ -16,20 +18,28 @@ function sizes(facts, options, pixels) {
   const [longer, shorter] = [Math.max(...facts.size), Math.min(...facts.size)];
   const share = (shorter / longer * options.width + 2 * options.margin) / (options.width + 2 * options.margin);
   return {
-    stl: 84 + 50 * triangles, ply: 230 + 12 * points + 13 * triangles, obj: 31 * points + 23 * triangles,
+    stl: 84 + 50 * triangles, "3mf": 13 * triangles, tiff: pixels * pixels * share * 4, ply: 230 + 12 * points + 13 * triangles, obj: 31 * points + 23 * triangles,
     heightmap: pixels * pixels * share * 0.9, preview: 600000,
   };
 }
 
+// A simpler mesh is smaller, by as much as the relief allows.
+const sizeWord = (id, {tolerance}) => {
+  if (tolerance && ["stl", "3mf", "ply", "obj"].includes(id)) return "less than ";
+  return id === "stl" ? "" : "about ";
+};
+
 export class ExportDialog {
-  // `current` returns {facts, options, name}.
-  constructor(engine, current) {
-    Object.assign(this, {engine, current});
+  // `current` returns {facts, options, name}; `change` takes the options that are chosen here.
+  constructor(engine, current, change) {
+    Object.assign(this, {engine, current, change});
     this.dialog = $("#export-dialog");
     $("#formats").append(...FORMATS.map(({id, name, use}) => make("label", {},
       make("input", {type: "radio", name: "format", value: id, checked: id === "stl"}),
       make("span", {}, name, make("small", {}, use)), make("span", {class: "muted", id: `size-${id}`}))));
     this.dialog.oninput = () => this.show();
+    $("#form").onchange = () => this.choose();
+    $("#tolerance").onchange = () => this.choose();
     $("#export-go").onclick = (event) => {
       event.preventDefault();
       this.go();
@@ -40,7 +50,16 @@ export class ExportDialog {
     return FORMATS.find(({id}) => id === $("#formats :checked").value);
   }
 
+  choose() {
+    const tolerance = Number.parseFloat($("#tolerance").value);
+    this.change({form: $("#form").value, tolerance: tolerance > 0 ? tolerance : null});
+    this.show();
+  }
+
   open() {
+    const {form = "relief", tolerance = ""} = this.current().options;
+    $("#form").value = form;
+    $("#tolerance").value = tolerance;
     $("#export-note").textContent = "";
     this.show();
     this.dialog.showModal();
@@ -52,8 +71,8 @@ export class ExportDialog {
     $("#export-size").textContent =
       `${size[0].toFixed(1)} × ${size[1].toFixed(1)} × ${(options.thickness + options.height).toFixed(2)} mm, relief ${options.height.toFixed(2)} mm high`;
     const all = sizes(facts, options, this.pixels);
-    for (const {id} of FORMATS) $(`#size-${id}`).textContent = `${id === "stl" ? "" : "about "}${fileSize(all[id])}`;
-    $("#pixels-row").hidden = this.format.id !== "heightmap";
+    for (const {id} of FORMATS) $(`#size-${id}`).textContent = `${sizeWord(id, options)}${fileSize(all[id])}`;
+    $("#pixels-row").hidden = !["heightmap", "tiff"].includes(this.format.id);
   }
 
   get pixels() {

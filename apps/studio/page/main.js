@@ -18,7 +18,8 @@ const doc = new Document((before) => changed(before));
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName()}));
+const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName()}),
+  (options) => doc.change({options}));
 
 let facts = null;
 let status = {busy: false, model: 0};
@@ -58,7 +59,10 @@ function changed(before) {
   const {now} = doc;
   showDocument();
   const hasNewView = before && (before.options.view !== now.options.view || before.options.up !== now.options.up);
-  if (hasNewView) engine.chooseView(viewOf(now)).catch(failed);
+  if (hasNewView) {
+    stage.await(true);
+    engine.chooseView(viewOf(now)).catch(failed);
+  }
   stage.invalidate();
   keepSoon();
 }
@@ -146,6 +150,7 @@ async function arrived() {
   if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
   stage.isReady = true;
   stage.model = status.model;
+  stage.await(false);
   stage.share = 1;
   $("#remarks").textContent = facts.remarks.join("  ");
   $("#save").hidden = $("#export").hidden = false;
@@ -153,6 +158,7 @@ async function arrived() {
 }
 
 function complain({error, model}) {
+  stage.await(false);
   if (error.kind !== "cancelled") toast(error.text);
   if (model === 0) return showStart(true);
   if (fallback && doc.restore(fallback)) {
@@ -176,6 +182,7 @@ async function openInput(input, step = {...FIRST, input}) {
   showStart(false);
   fallback = status.model > 0 ? doc.keep() : null;
   doc.begin({...step, input});
+  stage.await(true);
   try {
     await engine.open(input, viewOf(step));
   } catch (error) {

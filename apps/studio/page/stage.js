@@ -62,7 +62,18 @@ export class Stage {
   invalidate() {
     ++this.wanted;
     this.changedAt = performance.now();
+    this.tellBusy();
     this.pump();
+  }
+
+  // Another model is on its way.
+  await(isAwaiting) {
+    this.isAwaiting = isAwaiting;
+    this.tellBusy();
+  }
+
+  tellBusy() {
+    this.element.setAttribute("aria-busy", Boolean(this.isAwaiting || this.fine !== this.wanted));
   }
 
   // One picture at a time; the newest wish wins.
@@ -89,6 +100,7 @@ export class Stage {
       this.on.failed(error);
     }
     this.isBusy = false;
+    this.tellBusy();
     this.pump();
   }
 

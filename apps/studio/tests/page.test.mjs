@@ -60,13 +60,8 @@ async function picture() {
     for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i]);
     return btoa(text);
   });
-  for (let last = null, i = 0; i < 60; ++i) {
-    const next = await read();
-    if (next === last) return Buffer.from(next, "base64");
-    last = next;
-    await page.waitForTimeout(400);
-  }
-  throw new Error("the picture does not come to rest");
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  return Buffer.from(await read(), "base64");
 }
 
 // Mean difference of two pictures' reds, of 255. A locked height is met to a part in a thousand, not to the bit.
@@ -99,7 +94,7 @@ async function openFile(file) {
 
 async function untilReady() {
   await page.getByText(/points.*height/).waitFor();
-  await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
 }
 
 async function saveAs(trigger, file) {
@@ -114,7 +109,6 @@ async function choose(side) {
   await page.getByRole("group", {name: "Sides"}).getByRole("button", {name: side, exact: true}).click();
   await button("Use this view").click();
   await page.getByText(side, {exact: true}).first().waitFor();
-  await page.waitForTimeout(300);
   await untilReady();
 }
 
@@ -232,7 +226,6 @@ test("chooses another view in the background", {skip}, async () => {
   await page.getByRole("application", {name: /^Model/}).press("ArrowRight");
   await button("Use this view").click();
   await page.getByText("Turned by hand").waitFor();
-  await page.waitForTimeout(300);
   await untilReady();
 });
 
