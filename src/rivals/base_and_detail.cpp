@@ -20,7 +20,10 @@ Relief base_and_detail_relief(const ReliefModel& model, double height, const Det
 
   std::vector<Vec2f> smooth(n);
   for (std::size_t i = 0; i < n; ++i) smooth[i] = {static_cast<float>(heights[i]), 0};
-  SurfaceBlur(surface.points, options.scale * longer_side(surface)).apply(smooth);
+  // A blur's cells are as wide as its Gaussian and would show once amplified: four narrow ones instead of
+  // one.
+  const SurfaceBlur blur(surface.points, options.scale * longer_side(surface) / 2);
+  for (int pass = 0; pass < 4; ++pass) blur.apply(smooth);
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < n; ++i)
     z[i] += options.amplification * (heights[i] - static_cast<double>(smooth[i].x()));
