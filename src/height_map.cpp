@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "height_field.h"
+#include "relievo/export.h"
 #include "relievo/preview.h"
 
 namespace relievo {
@@ -14,6 +15,11 @@ HeightMap make_height_map(const Solid& solid, int longer_side_px) {
   std::ranges::transform(field.z, map.image.pixels.begin(),
                          [&](float z) { return static_cast<std::uint16_t>(z * greys_per_mm + 0.5); });
   return map;
+}
+
+HeightsMm make_heights_mm(const Solid& solid, int longer_side_px) {
+  HeightField field = draw_height_field(solid, longer_side_px);
+  return {{field.width, field.height, 1, std::move(field.z)}, field.mm_per_pixel};
 }
 
 }  // namespace relievo

@@ -5,8 +5,10 @@
 #include <limits>
 #include <numbers>
 
+#include "relievo/forms.h"
 #include "relievo/mesh.h"
 #include "relievo/method.h"
+#include "relievo/simplify.h"
 #include "relievo/text.h"
 #include "relievo/view.h"
 
@@ -64,17 +66,56 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   return report;
 }
 
-// Height of the lowest point of the front over the ground: 0 or less.
-double lowest(const Relief& relief) {
-  return std::min(0.0, *std::min_element(relief.heights.begin(), relief.heights.end()));
+// How far the lowest point of the front lies below the ground: 0 or more.
+double depth_below_ground(const Front& front) {
+  double lowest = front.ground_mm;
+  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z());
+  return front.ground_mm - lowest;
+}
+
+bool is_mirrored(Form form) {
+  return form == Form::mirror || form == Form::die;
+}
+
+constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
+
+// A lithophane has no height to reach: its own is exact by construction.
+Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions options, double mm_per_unit,
+                          Progress* progress) {
+  if (form == Form::lithophane) options.height_mm.reset();
+  return shape_relief(model, options, mm_per_unit, progress);
+}
+
+// The front in the form asked for, and as simple as allowed.
+Result<Front> front_for(Form form, const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                        ReliefReport& report, Progress* progress) {
+  const double scale = mm_per_unit(surface, options);
+  const double lithophane_mm = options.height_mm.value_or(default_lithophane_mm);
+  Front front = form == Form::lithophane ? lithophane(surface, scale, lithophane_mm)
+                                         : front_in_mm(surface, relief, scale);
+  report.height_mm = form == Form::lithophane ? lithophane_mm : relief.height * scale;
+  if (form == Form::mirror) front = mirrored(std::move(front));
+  if (form == Form::die) front = as_die(std::move(front));
+  if (!options.tolerance_mm) return front;
+  Result<SimplerFront> simpler = simplify(front, *options.tolerance_mm, progress);
+  if (!simpler) return std::unexpected(simpler.error());
+  report.simplification_error_mm = simpler->error_mm;
+  report.remarks.push_back(cat("the front has ", simpler->front.triangles.size(), " of ",
+                               front.triangles.size(), " triangles and is off by at most ", simpler->error_mm,
+                               " mm"));
+  return std::move(simpler->front);
 }
 
 // Puts the far, lower left corner of the visible points' box at `corner` of the plate, whose box starts at
 // the origin.
-void place(ReliefReport& report, const Surface& surface, const Vec3& corner, double mm_per_unit) {
+void place(ReliefReport& report, const Surface& surface, const Vec3& corner, double mm_per_unit, Form form) {
+  const Box box = visible_box(surface);
+  Vec3 sign = Vec3::Ones(), start = box.min;
+  if (is_mirrored(form)) sign.x() = -1, start.x() = box.max.x();
+  if (form == Form::die) sign.z() = -1;
   report.scale = mm_per_unit;
-  report.rotation = surface.view.rotation;
-  report.offset = corner - mm_per_unit * (visible_box(surface).min + report.rotation * surface.centre);
+  report.rotation = sign.asDiagonal() * surface.view.rotation;
+  report.offset = corner - mm_per_unit * (sign.cwiseProduct(start) + report.rotation * surface.centre);
 }
 
 }  // namespace
@@ -100,21 +141,22 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const double scale = mm_per_unit(model.surface(), options);
+  const Form form = *parse_form(options.form);
   if (auto go = begin_stage(progress, "relief", .85); !go) return std::unexpected(go.error());
-  const Result<Relief> relief = shape_relief(model, options, scale, progress);
+  const Result<Relief> relief = relief_for(form, model, options, scale, progress);
   if (!relief) return std::unexpected(relief.error());
 
   if (auto go = begin_stage(progress, "solid", .95); !go) return std::unexpected(go.error());
   MadeRelief made;
   made.report = report_on(model.surface(), *relief, options);
-  const Front front = front_in_mm(model.surface(), *relief, scale);
-  Result<Solid> solid = make_plate(front, {options.margin_mm, options.thickness_mm});
+  const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
+  if (!front) return std::unexpected(front.error());
+  Result<Solid> solid = make_plate(*front, {options.margin_mm, options.thickness_mm});
   if (!solid) return std::unexpected(solid.error());
   made.solid = std::move(*solid);
-  made.report.height_mm = relief->height * scale;
-  made.report.below_ground_mm = -scale * lowest(*relief);
+  made.report.below_ground_mm = depth_below_ground(*front);
   const double ground_mm = options.thickness_mm + made.report.below_ground_mm;
-  place(made.report, model.surface(), {options.margin_mm, options.margin_mm, ground_mm}, scale);
+  place(made.report, model.surface(), {options.margin_mm, options.margin_mm, ground_mm}, scale, form);
   return made;
 }
 

@@ -261,6 +261,9 @@ Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling
   Box box;
   for (const Vec3& p : mesh.points) box.extend(p);
   const Vec3 centre = box.centre();
+  if (!mesh.empty() && !(box.diagonal() > 1e-100 && box.diagonal() < 1e100))
+    return std::unexpected(Error{
+        ErrorKind::geometry, {}, {}, "expected a mesh between 1e-100 and 1e100 units large, found another"});
   const SeenMesh seen = look_at(mesh, view, centre);
   const std::optional<double> pixel = pixel_for(seen, options.points);
   if (!pixel)

@@ -1,5 +1,6 @@
 #include "relievo/options.h"
 
+#include "relievo/forms.h"
 #include "relievo/method.h"
 #include "relievo/text.h"
 
@@ -49,6 +50,7 @@ Result<void> check(const ReliefOptions& options) {
   if (ranges.error) return std::unexpected(*ranges.error);
   if (options.height_mm && options.alpha)
     return contradiction("--alpha", "expected either --height or --alpha, found both");
+  if (const auto form = parse_form(options.form); !form) return std::unexpected(form.error());
   return check_method(options);
 }
 

@@ -212,8 +212,9 @@ void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Pic
   const Placement placement = placement_of(scenery_->topology, options, samples_per_side);
   picture.pixels_per_mm = placement.pixels_per_mm / samples_per_side;
   const Vec3 to_lamp = options.light.cast<double>().normalized();
+  const int grid_px = std::clamp(std::max(options.width, options.height) / 3, 120, 280);  // shadows are soft
   HeightField field = options.is_fine ? scenery_->height_field(scene, 640, scenery_->fine_grid)
-                                      : scenery_->height_field(scene, 280, scenery_->quick_grid);
+                                      : scenery_->height_field(scene, grid_px, scenery_->quick_grid);
   const LightMap light(std::move(field), options.has_shadows ? to_lamp : Vec3(Vec3::UnitZ()));
   const PixelMap& map =
       scenery_->map_for(scene, placement, options.is_fine ? scenery_->fine : scenery_->quick);

@@ -256,6 +256,22 @@ TEST(Cholesky, HasTheSameBitsWithAndWithoutWideVectors) {
   EXPECT_EQ(narrow, wide);
 }
 
+TEST(Cholesky, FindsItsUnknownsByTheirNumbers) {
+  const PlanarSystem system = jittered_grid(30, 20);
+  auto factor = Cholesky::factor(system.A, system.positions);
+  const std::size_t n = factor->size();
+  std::vector<double> b(n), x(n), wide(2 * n, -1);
+  for (std::size_t i = 0; i < n; ++i) b[i] = std::sin(static_cast<double>(i));
+  factor->solve(b, x);
+  std::vector<Index> numbers(n);
+  for (std::size_t i = 0; i < n; ++i) numbers[i] = static_cast<Index>(2 * n - 1 - 2 * i);
+  for (std::size_t i = 0; i < n; ++i) wide[numbers[i]] = b[i];
+  factor->renumber(numbers);
+  factor->solve(wide, wide);
+  for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(wide[numbers[i]], x[i]);
+  for (std::size_t i = 0; i < 2 * n; i += 2) ASSERT_EQ(wide[i], -1);
+}
+
 TEST(Cholesky, TakesLittleMemory) {
   const PlanarSystem system = jittered_grid(200, 200);
   EXPECT_LT(Cholesky::factor(system.A, system.positions)->memory(), 260U * 40000);

@@ -9,7 +9,9 @@
 #include <iterator>
 #include <string>
 
+#include "format_samples.h"
 #include "relievo/io.h"
+#include "relievo/preview.h"
 #include "shapes.h"
 
 namespace relievo {
@@ -129,6 +131,63 @@ TEST_F(Cli, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(run("make torus.ply -o a.stl --threads 1").exit_code, 0);
   EXPECT_EQ(run("make torus.ply -o b.stl --threads 2").exit_code, 0);
   EXPECT_EQ(read_all(folder_ / "a.stl"), read_all(folder_ / "b.stl"));
+}
+
+TEST_F(Cli, Writes3mfAndTiff) {
+  EXPECT_EQ(
+      run("make torus.ply -o t.3mf --heightmap h.tif --tolerance 0.05 --report r.json --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "t.3mf").substr(0, 4), "PK\3\4");
+  EXPECT_EQ(read_all(folder_ / "h.tif").substr(0, 2), "II");
+  EXPECT_NE(read_all(folder_ / "r.json").find("\"simplification_error_mm\": 0.0"), std::string::npos);
+}
+
+TEST_F(Cli, MakesEveryForm) {
+  for (const std::string form : {"mirror", "die", "lithophane"})
+    EXPECT_EQ(run("make torus.ply --quiet --height 2 --form " + form + " -o " + form + ".stl").exit_code, 0)
+        << form;
+  EXPECT_NE(read_all(folder_ / "mirror.stl"), read_all(folder_ / "die.stl"));
+  expect_refusal("make torus.ply -o t.stl --form coin", "--form");
+}
+
+TEST_F(Cli, ReadsMeshesAndDepthImages) {
+  write_all(folder_ / "t.stl", ascii_stl());
+  EXPECT_NE(run("info t.stl").out.find("triangles"), std::string::npos);
+  EXPECT_EQ(run("make t.stl -o m.stl --points 2000 --view 1,1,1 --quiet").exit_code, 0);
+  Image16 dome{90, 60, 1, {}};
+  for (int i = 0; i < 90 * 60; ++i) {
+    const int x = i % 90 - 45, y = i / 90 - 30;
+    dome.pixels.push_back(static_cast<std::uint16_t>(9000 - 2 * (x * x + y * y)));
+  }
+  const std::vector<std::byte> png = write_png(dome);
+  write_all(folder_ / "d.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+  write_all(folder_ / "camera.txt", "90 0 45\n0 90 30\n0 0 1\n");
+  EXPECT_NE(run("info d.png").out.find("90 x 60"), std::string::npos);
+  EXPECT_EQ(run("make d.png -o a.stl --depth-values height --quiet").exit_code, 0);
+  EXPECT_EQ(run("make d.png -o b.stl --camera camera.txt --quiet").exit_code, 0);
+  expect_refusal("make d.png -o c.stl --camera 1,2", "--camera");
+  expect_refusal("make d.png -o c.stl --depth-values far", "--depth-values");
+  expect_refusal("make d.png -o c.stl --background cut", "--background");
+}
+
+TEST_F(Cli, StreamsLargeFiles) {
+  EXPECT_EQ(run("make torus.ply -o whole.stl --quiet --height 3").exit_code, 0);
+  const Outcome outcome =
+      run("make torus.ply -o t.stl --stream-above 0.1 --points 5000 --height 3 --report r.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("points for the 20000 of the file"), std::string::npos) << outcome.err;
+  EXPECT_NE(read_all(folder_ / "r.json").find("\"means\""), std::string::npos);
+}
+
+TEST_F(Cli, TruncatedFilesOfEveryFormatAreRefused) {
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.stl", binary_stl()}, {"b.stl", ascii_stl()},      {"a.off", off()},
+      {"a.glb", glb()},        {"a.gltf", embedded_gltf()}, {"a.pcd", ascii_pcd()},
+      {"b.pcd", binary_pcd()}, {"c.pcd", compressed_pcd()}, {"a.las", las(2)},
+      {"b.las", las(4)}};
+  for (const auto& [name, text] : files) {
+    write_all(folder_ / name, text.substr(0, text.size() * 2 / 3));
+    expect_refusal("make -o t.stl --preview t.png " + name, name);
+  }
 }
 
 TEST_F(Cli, IsSilentWhenToldTo) {

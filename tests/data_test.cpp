@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "relievo/depth_image.h"
 #include "relievo/io.h"
 #include "relievo/make_relief.h"
 
@@ -19,7 +20,7 @@ std::vector<fs::path> readable_scans() {
   for (const fs::path& folder : {fs::path(RELIEVO_SHARED_DATA), fs::path(RELIEVO_SHARED_DATA) / "original"})
     if (fs::is_directory(folder))
       for (const fs::directory_entry& entry : fs::directory_iterator(folder))
-        for (const char* ending : {".ply", ".obj", ".xyz", ".pts"})
+        for (const char* ending : {".ply", ".obj", ".xyz", ".pts", ".stl", ".pcd"})
           if (entry.path().extension() == ending) scans.push_back(entry.path());
   std::sort(scans.begin(), scans.end());
   return scans;
@@ -45,11 +46,39 @@ TEST(Data, EveryScanBecomesASolidOfTheHeightAsked) {
       options.view = "0,-1,0";
       options.up = "0,0,1";
     }
-    const Result<MadeRelief> made = make_relief(file->cloud, options);
+    if (path.extension() == ".stl") options.view = "top";
+    const Result<MadeRelief> made = make_relief(*file, options);
     ASSERT_TRUE(made) << made.error().message();
     EXPECT_EQ(check_solid(made->solid), "");
     EXPECT_NEAR(made->report.height_mm, 2.5, 2.5e-3);
     EXPECT_GT(made->report.visible_points, .2 * static_cast<double>(file->cloud.size()));
+    if (!file->mesh.empty()) {
+      EXPECT_NEAR(static_cast<double>(made->report.visible_points), options.points, .1 * options.points);
+    }
+  }
+}
+
+TEST(Data, DepthFramesBecomeSolids) {
+  const fs::path folder = fs::path(RELIEVO_SHARED_DATA) / "original";
+  if (!fs::exists(folder / "kinect_kitchen_depth.png"))
+    GTEST_SKIP() << "no depth frames in " RELIEVO_SHARED_DATA;
+  for (const auto& [name, camera] :
+       {std::pair("kinect_kitchen_depth.png", DepthCamera{585, 585, 320, 240}),
+        std::pair("icl_livingroom_depth.png", DepthCamera{481.2, 480, 319.5, 239.5})}) {
+    SCOPED_TRACE(name);
+    const auto image = read_depth_image(bytes_of(folder / name), name);
+    ASSERT_TRUE(image) << image.error().message();
+    DepthOptions depth;
+    depth.camera = camera;
+    const auto cloud = depth_cloud(*image, depth);
+    ASSERT_TRUE(cloud) << cloud.error().message();
+    ReliefOptions options;
+    options.height_mm = 5;
+    const Result<MadeRelief> made = make_relief(cloud->cloud, options);
+    ASSERT_TRUE(made) << made.error().message();
+    EXPECT_EQ(check_solid(made->solid), "");
+    EXPECT_NEAR(made->report.height_mm, 5, 5e-3);
+    EXPECT_GT(made->report.visible_points, .9 * static_cast<double>(cloud->cloud.size()));
   }
 }
 

@@ -21,7 +21,8 @@ std::string raw(T value) {
 // `text` with the number's bytes in place of those at `at`.
 template <typename T>
 std::string patched(std::string text, std::size_t at, T value) {
-  return text.replace(at, sizeof value, raw(value));
+  for (const char byte : raw(value)) text.at(at++) = byte;
+  return text;
 }
 
 // A tetrahedron: four corners, four triangles that look outwards.

@@ -174,6 +174,35 @@ TEST(Frame, ABaseIsAddedToTheHeights) {
   for (std::size_t i = 0; i < base->size(); ++i) ASSERT_EQ(curved.heights[i], plane.heights[i] + (*base)[i]);
 }
 
+const ReliefModel& subspace_model() {
+  static const ReliefModel made = ReliefModel::prepare(model().surface(), nullptr, Mode::subspace).value();
+  return made;
+}
+
+TEST(Frame, OfASubspaceIsItsRelief) {
+  FrameOptions options;
+  options.shape = {{.7, .5}, .04};
+  options.shape.boundary_width = 3;
+  FrameMaker maker(subspace_model());
+  Frame frame;
+  maker.make(options, frame);
+  const Relief relief = subspace_model().make(options.shape);
+  for (std::size_t i = 0; i < relief.heights.size(); ++i)
+    ASSERT_NEAR(static_cast<double>(frame.heights[i]), relief.heights[i], 1e-5 * relief.height);
+}
+
+TEST(Frame, OfASubspaceKeepsALockedHeight) {
+  FrameMaker maker(subspace_model());
+  Frame frame;
+  FrameOptions options;
+  options.height = .05 * model().surface().diagonal;
+  for (const double beta : {0.0, .01, .5}) {
+    options.shape = {{1, beta}, .04};
+    maker.make(options, frame);
+    ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << beta;
+  }
+}
+
 TEST(Frame, HasTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(1);
   const Frame one = frame_of({});

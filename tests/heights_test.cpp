@@ -141,6 +141,51 @@ TEST(Heights, HaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one, three);
 }
 
+// A second disc beside the first: their triangulation with the triangles between them left out.
+struct TwoDiscs {
+  std::vector<Vec2> points;
+  Triangulation mesh;
+  Boundary boundary;
+
+  explicit TwoDiscs(bool is_second_held) {
+    const DiscCase large(2000), small(20, 30);
+    points = large.points;
+    for (const Vec2& p : small.points) points.push_back(.1 * p + Vec2(3, 0));
+    mesh = delaunay(points);
+    boundary.is_boundary = large.boundary.is_boundary;
+    boundary.is_boundary.resize(points.size(), 0);
+    if (is_second_held)
+      std::fill_n(boundary.is_boundary.begin() + static_cast<std::ptrdiff_t>(large.points.size()), 30, 1);
+    for (const Triangle& t : mesh.triangles) {
+      const auto is_first = [&](Index i) { return points[i].x() < 2; };
+      boundary.is_inside.push_back(is_first(t[0]) == is_first(t[1]) && is_first(t[1]) == is_first(t[2]));
+    }
+  }
+};
+
+TEST(Heights, OfAFragmentApartAreExactToo) {
+  const TwoDiscs discs(true);
+  const HeightSystem system = HeightSystem::build(discs.points, discs.mesh, discs.boundary).value();
+  const Vec2 centre(3, 0);
+  const auto slopes = slopes_of(discs.points, [&](const Vec2& p) -> Vec2 {
+    return p.x() > 2 ? Vec2(-2 * (p - centre)) : Vec2(-2 * p);
+  });
+  const std::vector<double> z = heights_of(system, slopes);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const bool is_second = discs.points[i].x() > 2;
+    const double expected =
+        is_second ? .01 - (discs.points[i] - centre).squaredNorm() : 1 - discs.points[i].squaredNorm();
+    ASSERT_NEAR(z[i], expected, 1e-8);
+  }
+}
+
+TEST(Heights, OfAFragmentThatNothingHoldsAreAnError) {
+  const TwoDiscs discs(false);
+  const auto system = HeightSystem::build(discs.points, discs.mesh, discs.boundary);
+  ASSERT_FALSE(system);
+  EXPECT_EQ(system.error().kind, ErrorKind::geometry);
+}
+
 TEST(Heights, OfBoundaryAloneAreZero) {
   DiscCase disc(0, 50);
   const HeightSystem system = disc.system();

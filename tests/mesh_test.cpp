@@ -145,6 +145,20 @@ TEST(SampleMesh, NothingToSeeIsAnError) {
   EXPECT_EQ(sample_mesh(square(0), front, {1000}, &progress).error().kind, ErrorKind::cancelled);
 }
 
+TEST(Scatter, IsEvenByAreaOnAllSides) {
+  const Cloud cloud = scatter(sphere_mesh(40), 20000);
+  EXPECT_EQ(cloud.size(), 20000U);
+  std::array<int, 8> octants = {};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3& p = cloud.points[i];
+    EXPECT_NEAR(p.norm(), 1, 4e-3);
+    EXPECT_GT(cloud.normals[i].dot(p.cast<float>()), .99F);
+    ++octants[static_cast<std::size_t>((p.x() > 0) + 2 * (p.y() > 0) + 4 * (p.z() > 0))];
+  }
+  for (const int n : octants) EXPECT_NEAR(n, 2500, 60);
+  EXPECT_EQ(scatter({}, 100).size(), 0U);
+}
+
 TEST(SmoothNormals, StopAtCreases) {
   // Two squares that meet at a right angle, and two that meet at 20 degrees.
   const auto bent = [](double degrees) {

@@ -141,6 +141,41 @@ TEST(Relief, IsTheHeightAskedOrAnError) {
   }
 }
 
+// A few points that float before and beside the figure must not make its system singular.
+TEST(Relief, OfAFigureWithFloatingFragmentsExists) {
+  Cloud cloud = figure();
+  test::Random random(3);
+  for (const Vec3& place : {Vec3(2.5, 0, 1), Vec3(0, 2.6, -3), Vec3(0, 0, 4)})
+    for (int i = 0; i < 12; ++i)
+      test::add(cloud, place + .03 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), 0), {0, 0, 1});
+  const ReliefModel model = model_of(cloud);
+  const Relief relief = model.make_at_height(.1, {}, 1).value();
+  for (const double z : relief.heights) ASSERT_TRUE(std::isfinite(z));
+  EXPECT_EQ(relief.height, .1);
+}
+
+TEST(Relief, ModesHaveNames) {
+  EXPECT_EQ(parse_mode("exact"), Mode::exact);
+  EXPECT_EQ(parse_mode("subspace"), Mode::subspace);
+  EXPECT_EQ(parse_mode("auto"), Mode::automatic);
+  EXPECT_NE(parse_mode("fast").error().message().find("--mode: expected exact, subspace or auto"),
+            std::string::npos);
+}
+
+TEST(Relief, OfTheSubspaceIsCloseAndAsHighAsAsked) {
+  const Surface surface = find_surface(figure(), {}).value();
+  const auto relief = [&](Mode mode) {
+    return ReliefModel::prepare(surface, nullptr, mode)->make_at_height(.2, {{1, .01}, .04}, 1).value();
+  };
+  const Relief exact = relief(Mode::exact), close = relief(Mode::subspace);
+  EXPECT_EQ(exact.heights, relief(Mode::automatic).heights);
+  EXPECT_EQ(close.height, .2);
+  double sum = 0;
+  for (std::size_t i = 0; i < exact.heights.size(); ++i)
+    sum += (exact.heights[i] - close.heights[i]) * (exact.heights[i] - close.heights[i]);
+  EXPECT_LT(std::sqrt(sum / static_cast<double>(exact.heights.size())), .02 * exact.height);
+}
+
 class LayeredReliefAtHeight : public testing::TestWithParam<std::tuple<double, double>> {};
 
 TEST_P(LayeredReliefAtHeight, IsTheHeightAsked) {

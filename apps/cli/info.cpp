@@ -1,8 +1,12 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 
 #include "commands.h"
 #include "files.h"
+#include "relievo/depth_image.h"
 #include "relievo/io.h"
 #include "relievo/normals.h"
 #include "relievo/spacing.h"
@@ -30,25 +34,43 @@ std::string views_text(const Cloud& cloud) {
   return text;
 }
 
+void print_line(const char* what, const std::string& value) {
+  std::printf("%-10s %s\n", what, value.c_str());
+}
+
+Result<void> depth_info(std::span<const std::byte> bytes, const std::string& input) {
+  const Result<DepthImage> image = read_depth_image(bytes, input);
+  if (!image) return std::unexpected(image.error());
+  std::size_t missing = 0;
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for (const float v : image->values) {
+    missing += !std::isfinite(v) || v == 0;
+    if (std::isfinite(v) && v != 0) low = std::min(low, v), high = std::max(high, v);
+  }
+  print_line("format", cat(image->format, ", taken as a depth image"));
+  print_line("pixels", cat(image->width, " x ", image->height));
+  print_line("values", low <= high ? cat(low, " to ", high) : "none");
+  print_line("missing", cat(missing, " (0 or not finite)"));
+  return {};
+}
+
 Result<void> info(const std::string& input) {
   const Result<std::vector<std::byte>> bytes = read_file(input);
   if (!bytes) return std::unexpected(bytes.error());
+  if (is_picture(*bytes)) return depth_info(*bytes, input);
   const Result<CloudFile> file = read_cloud(*bytes, input);
   if (!file) return std::unexpected(file.error());
   const Box box = bounds(file->cloud);
-  const auto line = [](const char* what, const std::string& value) {
-    std::printf("%-10s %s\n", what, value.c_str());
-  };
-  line("format", file->format);
-  line("points", cat(file->cloud.size(),
-                     file->dropped_points ? cat(" (and ", file->dropped_points, " not finite)") : ""));
-  if (!file->mesh.empty()) line("triangles", cat(file->mesh.triangles.size()));
-  line("normals", normals_text(file->cloud));
-  line("from", vector_text(box.min));
-  line("to", vector_text(box.max));
-  line("size", vector_text(box.size()));
-  line("spacing", cat(measure_spacing(file->cloud).rho));
-  line("best view", views_text(file->cloud));
+  print_line("format", file->format);
+  print_line("points", cat(file->cloud.size(),
+                           file->dropped_points ? cat(" (and ", file->dropped_points, " not finite)") : ""));
+  if (!file->mesh.empty()) print_line("triangles", cat(file->mesh.triangles.size()));
+  print_line("normals", normals_text(file->cloud));
+  print_line("from", vector_text(box.min));
+  print_line("to", vector_text(box.max));
+  print_line("size", vector_text(box.size()));
+  print_line("spacing", cat(measure_spacing(file->cloud).rho));
+  print_line("best view", views_text(file->mesh.empty() ? file->cloud : scatter(file->mesh, 200000)));
   return {};
 }
 
@@ -58,7 +80,9 @@ void add_info(CLI::App& program, Result<void>& result) {
   const auto input = std::make_shared<std::string>();
   CLI::App& command = *program.add_subcommand("info", "Tell what is in a scan");
   command
-      .add_option("input", *input, "point cloud (PLY, PCD, LAS, XYZ, PTS) or mesh (PLY, STL, OBJ, OFF, GLB)")
+      .add_option(
+          "input", *input,
+          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, TIFF)")
       ->required()
       ->type_name("INPUT");
   command.callback([input, &result] { result = info(*input); });

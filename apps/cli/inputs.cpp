@@ -1,10 +1,13 @@
 #include "inputs.h"
 
 #include <filesystem>
+#include <fstream>
 
 #include "files.h"
 #include "flags.h"
+#include "relievo/stream.h"
 #include "relievo/text.h"
+#include "relievo/view.h"
 
 namespace relievo::cli {
 namespace {
@@ -58,6 +61,48 @@ Result<Input> read_depths(std::span<const std::byte> bytes, const std::string& p
   return input;
 }
 
+class FileSource : public ByteSource {
+ public:
+  FileSource(const std::string& path, std::uint64_t size)
+      : path_(path), size_(size), file_(path, std::ios::binary) {}
+
+  std::uint64_t size() const override { return size_; }
+  Result<void> read(std::uint64_t offset, std::span<std::byte> to) override {
+    file_.seekg(static_cast<std::streamoff>(offset));
+    file_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+    if (file_) return {};
+    return std::unexpected(
+        Error{ErrorKind::input, path_, cat("byte ", offset), "expected a file that can be read"});
+  }
+
+ private:
+  const std::string& path_;
+  std::uint64_t size_;
+  std::ifstream file_;
+};
+
+// Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
+Result<std::optional<Input>> read_large(const std::string& path, const InputArguments& arguments,
+                                        const ReliefOptions& relief, Progress* progress) {
+  std::error_code failed;
+  const std::uintmax_t size =
+      std::filesystem::is_regular_file(path, failed) ? std::filesystem::file_size(path, failed) : 0;
+  if (failed || static_cast<double>(size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
+  FileSource source(path, size);
+  std::vector<std::byte> head(std::min<std::uintmax_t>(size, 1 << 20));
+  if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
+  const auto view = parse_view(relief.view, relief.up);
+  if (!view) return std::unexpected(view.error());
+  auto streamed = stream_front(source, path, *view, relief.points, progress);
+  if (!streamed) return std::unexpected(streamed.error());
+  Input input;
+  input.remarks.push_back(
+      cat(path, ": ", streamed->cloud.size(), " points for the ", streamed->input_points, " of the file"));
+  input.file.cloud = std::move(streamed->cloud);
+  input.file.format = streamed->format;
+  return input;
+}
+
 }  // namespace
 
 void add_input_flags(CLI::App& command, InputArguments& arguments) {
@@ -66,6 +111,11 @@ void add_input_flags(CLI::App& command, InputArguments& arguments) {
       .add_option("--camera", arguments.camera,
                   "of a depth image: focal lengths and centre, or a file with them")
       ->type_name("FX,FY,CX,CY");
+  command
+      .add_option("--stream-above", arguments.stream_above_mb,
+                  "size from which binary PLY, PCD and LAS are read piece by piece")
+      ->type_name("MB")
+      ->capture_default_str();
 }
 
 Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
@@ -79,12 +129,15 @@ Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& p
   return Input{std::move(*file), std::move(remarks)};
 }
 
-Result<Input> read_input(const std::string& path, const InputArguments& arguments, double points,
-                         Progress* progress) {
+Result<Input> read_input(const std::string& path, const InputArguments& arguments,
+                         const ReliefOptions& relief, Progress* progress) {
   if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
+  auto large = read_large(path, arguments, relief, progress);
+  if (!large) return std::unexpected(large.error());
+  if (*large) return std::move(**large);
   const auto bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
-  return parse_input(*bytes, path, arguments, points, progress);
+  return parse_input(*bytes, path, arguments, relief.points, progress);
 }
 
 }  // namespace relievo::cli

@@ -7,12 +7,14 @@
 
 #include "relievo/depth_image.h"
 #include "relievo/io.h"
+#include "relievo/options.h"
 
 namespace relievo::cli {
 
 struct InputArguments {
   DepthOptions depth;
-  std::string camera;  // of a depth image: numbers, or a file with them
+  std::string camera;            // of a depth image: numbers, or a file with them
+  double stream_above_mb = 512;  // larger files are read piece by piece where that is possible
 };
 
 // What was read, and what the user should know of it, in a line for each.
@@ -28,9 +30,10 @@ void add_input_flags(CLI::App& command, InputArguments& arguments);
 Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
                           const InputArguments& arguments, double points, Progress* progress);
 
-// Reads the file of that path. `points` is the number to reduce a depth image to. Errors: those of
-// read_file(), read_cloud(), parse_camera(), depth_cloud().
-Result<Input> read_input(const std::string& path, const InputArguments& arguments, double points,
-                         Progress* progress);
+// Reads the file of that path: of a depth image or a very large file what the view and the number of points
+// in `relief` ask for. Errors: those of read_file(), read_cloud(), stream_front(), parse_camera(),
+// depth_cloud().
+Result<Input> read_input(const std::string& path, const InputArguments& arguments,
+                         const ReliefOptions& relief, Progress* progress);
 
 }  // namespace relievo::cli

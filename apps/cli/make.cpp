@@ -10,6 +10,7 @@
 #include "flags.h"
 #include "inputs.h"
 #include "project.h"
+#include "relievo/export.h"
 #include "relievo/make_relief.h"
 #include "relievo/parallel.h"
 #include "relievo/preview.h"
@@ -32,9 +33,15 @@ struct MakeArguments {
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
 
+std::vector<std::byte> as_3mf(const Solid& solid) {
+  const std::pair<std::string, std::string> metadata[] = {{"Title", "Relief"},
+                                                          {"Application", cat("relievo ", version)}};
+  return write_3mf(solid, metadata);
+}
+
 const std::map<std::string, SolidWriter>& solid_writers() {
   static const std::map<std::string, SolidWriter> writers{
-      {"stl", write_stl}, {"ply", write_ply}, {"obj", write_obj}};
+      {"stl", write_stl}, {"ply", write_ply}, {"obj", write_obj}, {"3mf", as_3mf}};
   return writers;
 }
 
@@ -57,14 +64,18 @@ Result<void> check_places(const MakeArguments& arguments) {
 Result<void> check_outputs(const MakeArguments& arguments) {
   if (!solid_writers().contains(ending_of(arguments.output)))
     return std::unexpected(
-        Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .stl, .ply or .obj"});
-  for (const std::string& picture : {arguments.preview, arguments.heightmap})
-    if (!picture.empty() && ending_of(picture) != "png")
-      return std::unexpected(Error{ErrorKind::option, picture, {}, "expected a file ending in .png"});
+        Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .stl, .3mf, .ply or .obj"});
+  if (!arguments.preview.empty() && ending_of(arguments.preview) != "png")
+    return std::unexpected(Error{ErrorKind::option, arguments.preview, {}, "expected a file ending in .png"});
+  const std::string map = ending_of(arguments.heightmap);
+  if (!arguments.heightmap.empty() && map != "png" && map != "tif" && map != "tiff")
+    return std::unexpected(
+        Error{ErrorKind::option, arguments.heightmap, {}, "expected a file ending in .png or .tif"});
   return check_places(arguments);
 }
 
-std::vector<std::byte> height_map_file(const Solid& solid, int longer_side_px) {
+std::vector<std::byte> height_map_file(const Solid& solid, const std::string& path, int longer_side_px) {
+  if (ending_of(path) != "png") return write_tiff(make_heights_mm(solid, longer_side_px));
   const HeightMap map = make_height_map(solid, longer_side_px);
   const std::pair<std::string, std::string> scale[] = {{"mm_per_pixel", cat(map.mm_per_pixel)},
                                                        {"mm_per_grey", cat(map.mm_per_grey)}};
@@ -76,30 +87,34 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
     return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
   };
   nlohmann::json seconds = nlohmann::json::object();
-  for (const StageTime& stage : progress.times()) seconds[stage.name] = stage.seconds;
+  for (const StageTime& stage : progress.times())
+    seconds[stage.name] = seconds.value(stage.name, 0.0) + stage.seconds;
   std::vector<double> rotation;
   for (int i = 0; i < 9; ++i) rotation.push_back(report.rotation(i / 3, i % 3));
-  return {{"version", version},
-          {"threads", thread_count()},
-          {"input_points", report.input_points},
-          {"visible_points", report.visible_points},
-          {"rho", report.rho},
-          {"diagonal", report.diagonal},
-          {"method", report.method},
-          {"alpha", number_or_null(report.alpha)},
-          {"beta", report.beta},
-          {"gamma", report.gamma},
-          {"u", number_or_null(report.u)},
-          {"height_requested_mm",
-           report.height_requested_mm ? nlohmann::json(*report.height_requested_mm) : nlohmann::json()},
-          {"height_mm", report.height_mm},
-          {"below_ground_mm", report.below_ground_mm},
-          {"seconds", seconds},
-          {"model_to_mm",
-           {{"rotation", rotation},
-            {"scale", report.scale},
-            {"offset", {report.offset.x(), report.offset.y(), report.offset.z()}}}},
-          {"remarks", report.remarks}};
+  return {
+      {"version", version},
+      {"threads", thread_count()},
+      {"input_points", report.input_points},
+      {"visible_points", report.visible_points},
+      {"rho", report.rho},
+      {"diagonal", report.diagonal},
+      {"method", report.method},
+      {"alpha", number_or_null(report.alpha)},
+      {"beta", report.beta},
+      {"gamma", report.gamma},
+      {"u", number_or_null(report.u)},
+      {"height_requested_mm",
+       report.height_requested_mm ? nlohmann::json(*report.height_requested_mm) : nlohmann::json()},
+      {"height_mm", report.height_mm},
+      {"below_ground_mm", report.below_ground_mm},
+      {"simplification_error_mm",
+       report.simplification_error_mm ? nlohmann::json(*report.simplification_error_mm) : nlohmann::json()},
+      {"seconds", seconds},
+      {"model_to_mm",
+       {{"rotation", rotation},
+        {"scale", report.scale},
+        {"offset", {report.offset.x(), report.offset.y(), report.offset.z()}}}},
+      {"remarks", report.remarks}};
 }
 
 std::vector<std::byte> text_bytes(const std::string& text) {
@@ -108,7 +123,7 @@ std::vector<std::byte> text_bytes(const std::string& text) {
 }
 
 Result<Input> load(const MakeArguments& arguments, Progress& progress) {
-  if (!arguments.scan) return read_input(arguments.input, arguments.in, arguments.relief.points, &progress);
+  if (!arguments.scan) return read_input(arguments.input, arguments.in, arguments.relief, &progress);
   if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
   studio::Input scan = *arguments.scan;
   Result<CloudFile> file = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
@@ -121,7 +136,8 @@ std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Mad
   std::vector<OutputFile> files;
   files.push_back({arguments.output, solid_writers().at(ending_of(arguments.output))(made.solid)});
   if (!arguments.heightmap.empty())
-    files.push_back({arguments.heightmap, height_map_file(made.solid, arguments.heightmap_px)});
+    files.push_back(
+        {arguments.heightmap, height_map_file(made.solid, arguments.heightmap, arguments.heightmap_px)});
   if (!arguments.preview.empty())
     files.push_back({arguments.preview, write_png(render_preview(made.solid, {}))});
   progress.finish();
@@ -202,11 +218,13 @@ void add_make(CLI::App& program, Result<void>& result) {
                   "depth image (PNG, TIFF) or a studio's project")
       ->required()
       ->type_name("INPUT");
-  command.add_option("-o,--output", arguments->output, "the solid: .stl, .ply or .obj, in millimetres")
+  command.add_option("-o,--output", arguments->output, "the solid: .stl, .3mf, .ply or .obj, in millimetres")
       ->required()
       ->type_name("OUT");
   command.add_option("--preview", arguments->preview, "picture of the relief")->type_name("P.png");
-  command.add_option("--heightmap", arguments->heightmap, "16-bit height map of the front")
+  command
+      .add_option("--heightmap", arguments->heightmap,
+                  "height map of the front: .png of 16 bits, or .tif in millimetres")
       ->type_name("H.png");
   command.add_option("--heightmap-size", arguments->heightmap_px, "its longer side [16 to 16384]")
       ->check(CLI::Range(16, 16384).description(""))

@@ -24,14 +24,19 @@ struct ReliefReport {
   double beta = 0, gamma = 0;
   double u = 0;  // alpha^-beta, see Compression
   std::optional<double> height_requested_mm;
-  double height_mm = 0;        // reached, lowest to highest point of the front
-  double below_ground_mm = 0;  // of it, how deep the lowest point lies below the flat ground
+  double height_mm = 0;  // reached, lowest to highest point of the front
+  double below_ground_mm =
+      0;  // of it, how deep the lowest point lies below the flat ground, which may be all
 
   // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
-  // in z the model keeps its depth and its lowest visible point lies on the ground.
+  // in z the model keeps its depth and its lowest visible point lies on the ground. The rotation of a
+  // mirrored form holds the mirror, too.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
+
+  // Largest difference to the front before it was made simpler, if a tolerance was given.
+  std::optional<double> simplification_error_mm;
 
   std::vector<std::string> remarks;  // what the user should know: normals estimated, or turned
 };

@@ -40,4 +40,9 @@ struct MeshSampling {
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options = {},
                           Progress* progress = nullptr);
 
+// Returns about `points` points all over the mesh, hidden sides included, evenly by area, with interpolated
+// normals and colours: for those who turn it about. For a single view sample_mesh() is finer. Empty for a
+// mesh without an area.
+Cloud scatter(const Mesh& mesh, std::size_t points);
+
 }  // namespace relievo

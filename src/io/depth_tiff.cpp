@@ -84,6 +84,8 @@ Result<DepthImage> read_depth_tiff(const Source& source) {
   const std::size_t pixels = std::size_t{layout.width} * layout.height;
   if (pixels > most_pixels)
     return source.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
+  if (pixels / best_packing > source.bytes.size())
+    return source.error({}, "expected more data for " + std::to_string(pixels) + " pixels");
   if (layout.channels != 1)
     return source.error({}, "expected one channel of depths, found " + std::to_string(layout.channels));
   const auto type = type_of(layout);

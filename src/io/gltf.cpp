@@ -12,6 +12,8 @@ namespace {
 
 using Transform = Eigen::Affine3d;
 
+constexpr std::size_t most_vertices = 100'000'000;  // nodes may repeat a mesh: a small file can ask for more
+
 constexpr std::size_t triangles_mode = 4, strip_mode = 5, fan_mode = 6;
 
 // `n` numbers of a member that is an array; nothing if it is another; `otherwise` where it is missing.
@@ -179,8 +181,8 @@ class GltfReader {
     const auto width = vectors("POSITION", values);
     if (!width) return width;
     const std::size_t count = values.size() / *width;
-    if (points_.size() + count >= no_index)
-      return source_.error(place, "expected fewer than 4294967295 vertices, found more");
+    if (points_.size() + count > most_vertices)
+      return source_.error(place, "expected at most 100000000 vertices, found more");
     for (std::size_t i = 0; i < count; ++i)
       points_.push_back(transform * Vec3(values[i * *width], values[i * *width + 1], values[i * *width + 2]));
     if (attributes.contains("NORMAL")) {

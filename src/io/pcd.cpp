@@ -104,7 +104,8 @@ class HeaderReader {
   }
 
   Result<PcdHeader> finish() {
-    if (points_ < 0) points_ = width_ * height_;
+    const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // their product would, too
+    if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})
       return fail("expected the number of points before DATA, found none that fits");
     Records& records = header_.records;
@@ -117,6 +118,9 @@ class HeaderReader {
       header_.columns += f.count;
       header_.field_sizes.push_back(f.size * f.count);
     }
+    const std::size_t widest = 1 << 20;
+    if (records.stride > widest)
+      return fail("expected at most 1048576 bytes per point, found " + std::to_string(records.stride));
     if (const auto placed = place_columns(); !placed) return std::unexpected(placed.error());
     return std::move(header_);
   }

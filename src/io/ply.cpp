@@ -71,6 +71,31 @@ Cloud sized_cloud(std::size_t points, const VertexColumns& columns) {
   return cloud;
 }
 
+Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& wanted) {
+  Records records;
+  records.count = vertex.count;
+  records.stride = least_row_size(vertex);
+  records.is_big_endian = header.format == PlyFormat::big_endian;
+  const auto column = [&](std::size_t c) {
+    const auto& properties = vertex.properties;
+    RecordColumn found{properties[wanted.property[c]].type, 0};
+    for (std::size_t i = 0; i < wanted.property[c]; ++i) found.at += size_in_bytes(properties[i].type);
+    if (c >= 6) found.scale = colour_scale(found.type);
+    return found;
+  };
+  const auto columns = [&](std::size_t c) { return std::array{column(c), column(c + 1), column(c + 2)}; };
+  records.position = columns(0);
+  if (wanted.has_normals()) records.normal = columns(3);
+  if (wanted.has_colours()) records.colour = columns(6);
+  return records;
+}
+
+Result<Records> ply_vertex_records(const Source& source, const PlyHeader& header, const PlyElement& vertex) {
+  const auto columns = find_columns(source, vertex);
+  if (!columns) return std::unexpected(columns.error());
+  return vertex_records(header, vertex, *columns);
+}
+
 double colour_scale(NumberType type) {
   if (type == NumberType::float32 || type == NumberType::float64) return 255;
   return type == NumberType::uint16 ? 1 / 257.0 : 1;

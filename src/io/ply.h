@@ -8,6 +8,7 @@
 
 #include "io/faces.h"
 #include "io/ply_header.h"
+#include "io/records.h"
 
 namespace relievo::io {
 
@@ -39,6 +40,12 @@ struct PlyContent {
 // that does not exist is an error that names the place; what follows the faces is not looked at.
 Result<PlyContent> read_ascii_body(const PlyBody& body);
 Result<PlyContent> read_binary_body(const PlyBody& body);
+
+// Returns the rows of vertices without lists as records, apart from where they begin.
+Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
+
+// The same for all columns that are wanted. Errors: kind input where there are no x, y and z.
+Result<Records> ply_vertex_records(const Source& source, const PlyHeader& header, const PlyElement& vertex);
 
 // Returns a cloud of that many points, with room for what `columns` has.
 Cloud sized_cloud(std::size_t points, const VertexColumns& columns);

@@ -91,37 +91,16 @@ class BinaryRows {
   std::size_t at_;
 };
 
-// Rows of vertices as records, apart from where they begin.
-Records vertex_records(const PlyBody& body) {
-  Records records;
-  records.count = body.vertex.count;
-  records.stride = least_row_size(body.vertex);
-  records.is_big_endian = body.header.format == PlyFormat::big_endian;
-  const auto column = [&](std::size_t c) {
-    const auto& properties = body.vertex.properties;
-    RecordColumn found{properties[body.columns.property[c]].type, 0};
-    for (std::size_t i = 0; i < body.columns.property[c]; ++i) found.at += size_in_bytes(properties[i].type);
-    if (c >= 6) found.scale = colour_scale(found.type);
-    return found;
-  };
-  const auto columns = [&](std::size_t c) { return std::array{column(c), column(c + 1), column(c + 2)}; };
-  records.position = columns(0);
-  if (body.columns.has_normals()) records.normal = columns(3);
-  if (body.columns.has_colours()) records.colour = columns(6);
-  return records;
-}
-
 // Rows with lists differ in size: each is copied without its lists, then decoded as all others.
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
   PlyElement plain = body.vertex;
-  PlyBody plain_body{body.source, body.header, {}, plain, {}, body.columns};
   std::vector<char> bytes;
   std::vector<std::size_t> place(plain.properties.size());  // of each property in the copy
   for (std::size_t i = 0; i < plain.properties.size(); ++i) {
     place[i] = bytes.size();
     if (!plain.properties[i].is_list()) bytes.resize(bytes.size() + size_in_bytes(plain.properties[i].type));
   }
-  Records records = vertex_records(plain_body);
+  Records records = vertex_records(body.header, plain, body.columns);
   const auto move_columns = [&](std::array<RecordColumn, 3>& columns, std::size_t c) {
     for (std::size_t i = 0; i < 3; ++i) columns[i].at = place[body.columns.property[c + i]];
   };
@@ -177,7 +156,8 @@ Result<PlyContent> read_binary_body(const PlyBody& body) {
   if (const auto room = rows.check_room(body.vertex); !room) return std::unexpected(room.error());
   PlyContent content;
   if (!has_lists(body.vertex)) {
-    content.cloud = decode_all(vertex_records(body), body.source.bytes.data() + rows.offset());
+    content.cloud = decode_all(vertex_records(body.header, body.vertex, body.columns),
+                               body.source.bytes.data() + rows.offset());
     if (const auto skipped = rows.skip(body.vertex); !skipped) return std::unexpected(skipped.error());
   } else {
     content.cloud = sized_cloud(body.vertex.count, body.columns);

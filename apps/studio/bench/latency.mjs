@@ -15,7 +15,7 @@ const MOVEMENTS = {
 const found = await findBrowser();
 if (found.missing) throw new Error(found.missing);
 const browser = await found.launch();
-console.log("| scan, visible points | movement | p50 | p95 | engine: heights | normals | picture | rest | pixels |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+console.log("| scan, visible points | movement | p50 | p95 | engine: heights | normals | picture | wire | page | pixels |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
 for (const scan of process.argv.slice(2)) await measure(scan);
 await browser.close();
 
@@ -33,8 +33,8 @@ async function measure(scan) {
     if (movement.isFree) await page.getByRole("button", {name: "Lock the height"}).click();
     const at = (key, share) => times.map((t) => t[key]).sort((a, b) => a - b)[Math.floor(times.length * share)];
     const ms = (x) => x.toFixed(1), mid = (key) => at(key, 0.5);
-    const rest = mid("all") - mid("heights") - mid("normals") - mid("picture");
-    console.log(`| ${path.basename(scan, path.extname(scan))}, ${points} | ${name} | ${ms(mid("all"))} | ${ms(at("all", 0.95))} | ${ms(mid("heights"))} | ${ms(mid("normals"))} | ${ms(mid("picture"))} | ${ms(rest)} | ${mid("pixels")} |`);
+    const rest = mid("all") - mid("heights") - mid("normals") - mid("picture") - mid("wire");
+    console.log(`| ${path.basename(scan, path.extname(scan))}, ${points} | ${name} | ${ms(mid("all"))} | ${ms(at("all", 0.95))} | ${ms(mid("heights"))} | ${ms(mid("normals"))} | ${ms(mid("picture"))} | ${ms(mid("wire"))} | ${ms(rest)} | ${mid("pixels")} |`);
   }
   await page.close();
   await engine.stop();
@@ -60,7 +60,9 @@ async function run({slider, from, to, light}) {
     const {about} = await Promise.race([drawn, new Promise((_, reject) => setTimeout(() => reject(new Error("no picture came")), 5000))]);
     // The frame after the one that shows the picture begins when that one is on its way to the screen.
     await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
-    times.push({all: performance.now() - start, heights: about.heights_ms + about.detail_ms, normals: about.normals_ms, picture: about.drawing_ms, pixels: about.width * about.height});
+    const [wire] = performance.getEntriesByType("resource").filter(({name}) => name.endsWith("api/frame")).slice(-1);
+    performance.clearResourceTimings();
+    times.push({wire: wire ? wire.duration - about.heights_ms - about.detail_ms - about.normals_ms - about.drawing_ms : NaN, all: performance.now() - start, heights: about.heights_ms + about.detail_ms, normals: about.normals_ms, picture: about.drawing_ms, pixels: about.width * about.height});
   }
   if (light) pointer("pointerup", 0, 0);
   else input.dispatchEvent(new Event("change", {bubbles: true}));

@@ -55,6 +55,12 @@ export class CurveEditor {
     this.preset.onchange = () => this.change(this.preset.value, true);
   }
 
+  get drawnPoints() {
+    if (this.parsedTone !== this.tone) this.parsed = parse(this.tone);
+    this.parsedTone = this.tone;
+    return this.parsed;
+  }
+
   // What rules now: the drawn points, or those of the paper's formula, ready to be drawn anew.
   get points() {
     if (this.tone) return parse(this.tone);
@@ -62,7 +68,7 @@ export class CurveEditor {
   }
 
   share(x) {
-    if (this.tone) return evaluate(parse(this.tone), x);
+    if (this.tone) return evaluate(this.drawnPoints, x);
     return 1 - Math.exp(-(((x * x) / Math.max(this.delta, 1e-9)) ** this.saturation));
   }
 
@@ -76,6 +82,10 @@ export class CurveEditor {
   // Draws all; `part` holds what has changed.
   show(part = {}) {
     Object.assign(this, part);
+    const key = [this.tone, this.saturation, this.delta, this.u.toPrecision(3), this.histogram.length].join(" ");
+    if (key === this.drawnKey && this.histogram === this.drawnHistogram) return; // it is drawn for every picture
+    this.drawnKey = key;
+    this.drawnHistogram = this.histogram;
     const isPreset = PRESETS.some(({tone}) => tone === this.tone);
     this.preset.value = isPreset ? this.tone : "own";
     const path = (f) => {

@@ -134,6 +134,22 @@ test("exports the very bytes that make writes", async () => {
   }
 });
 
+test("opens a mesh and looks at it from where the view is", async () => {
+  const mesh = path.join(folder, "mesh.stl"), project = path.join(folder, "mesh.relievo"), out = path.join(folder, "again.stl");
+  assert.equal(spawnSync(PROGRAM, ["make", scan, "-o", mesh, "--height", "6"]).status, 0);
+  const other = await new EngineProcess(path.join(folder, "mesh")).ready();
+  await other.open({path: mesh});
+  const options = {...OPTIONS, view: "1,0.5,2", height: 1, width: 20, mode: "auto"};
+  await other.post("view", {view: options.view});
+  await other.untilIdle();
+  writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "mesh.stl"}, options}));
+  assert.equal(spawnSync(PROGRAM, ["make", project, "-o", out]).status, 0);
+  const exported = await other.post("export", {options, format: "stl"});
+  assert.equal(exported.status, 200, String(exported.body));
+  assert.ok(exported.body.equals(readFileSync(out)));
+  await other.stop();
+});
+
 test("tells why a scan cannot be opened and keeps the old one", async () => {
   await engine.post("open", {input: {path: path.join(folder, "gone.ply")}});
   const deadline = Date.now() + 5000;

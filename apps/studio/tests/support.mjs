@@ -65,6 +65,10 @@ export class EngineProcess {
   // Opens an input and waits until its relief can be drawn.
   async open(input) {
     await this.post("open", {input});
+    return this.untilIdle();
+  }
+
+  async untilIdle() {
     for (let i = 0; i < 600; ++i) {
       const {status} = JSON.parse((await this.get("api/about")).body);
       if (status.model > 0 && !status.busy) return status;

@@ -1,0 +1,23 @@
+// Fewer triangles for a front, within an error that is kept and told.
+#pragma once
+
+#include "relievo/progress.h"
+#include "relievo/solid.h"
+
+namespace relievo {
+
+struct SimplerFront {
+  Front front;
+  // Largest difference in height between the two surfaces over the whole front, in mm: both are flat between
+  // the corners of their overlay, and it was measured at all of these.
+  double error_mm = 0;
+};
+
+// Returns the front with fewer points, no further from the original than `tolerance_mm` anywhere: the
+// Delaunay triangulation of those of its points, and of its edges, that were off the most, added until none
+// is off by more. The highest and the lowest point stay. Flat ground becomes a few triangles. Errors: kind
+// option for a tolerance that is not positive; kind geometry for a front without triangles, or whose
+// triangles are not Delaunay's up to rounding, so that they do not cover their hull; kind cancelled.
+Result<SimplerFront> simplify(const Front& front, double tolerance_mm, Progress* progress = nullptr);
+
+}  // namespace relievo
