@@ -273,8 +273,8 @@ bool is_same(const FrameOptions& a, const FrameOptions& b) {
   const Compression &p = a.shape.compression, &q = b.shape.compression;
   const bool is_same_curve = p.curve && q.curve ? p.curve->points() == q.curve->points() : p.curve == q.curve;
   return is_same_curve && p.u == q.u && p.beta == q.beta && a.height == b.height &&
-         a.shape.gamma == b.shape.gamma && a.shape.max_slope == b.shape.max_slope &&
-         a.shape.boundary_width == b.shape.boundary_width && a.shape.style == b.shape.style;
+         a.shape.gamma == b.shape.gamma && a.shape.style == b.shape.style &&
+         a.shape.max_slope == b.shape.max_slope && a.shape.boundary_width == b.shape.boundary_width;
 }
 
 // The frame asked for; while another view is prepared, the last one of the old.

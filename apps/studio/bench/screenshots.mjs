@@ -21,7 +21,7 @@ const page = await open("light");
 await take(page, "start");
 await page.getByRole("button", {name: /green man/i}).click();
 await page.getByText(/points.*height/).waitFor({timeout: 60000});
-await page.getByRole("spinbutton", {name: "Height in mm"}).fill("6");
+await page.getByRole("spinbutton", {name: "Height in mm"}).fill("5");
 await page.keyboard.press("Enter");
 await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Smooth skin, crisp folds");
 await page.getByRole("radio", {name: "Bronze"}).click();

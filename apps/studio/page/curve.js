@@ -3,14 +3,15 @@
 
 import {$, clamp, make} from "./controls.js";
 
+const EVEN = 1 - Math.exp(-1); // of (6) where beta is 0
 const WIDTH = 320, HEIGHT = 150, MOST_POINTS = 16, NEAREST = 0.02;
 
 export const PRESETS = [
   {name: "The paper's formula (6)", tone: ""},
-  {name: "Even", tone: "0,0.6;1,0.6"},
-  {name: "Fine detail first", tone: "0,0.85;0.35,0.7;0.7,0.45;1,0.35"},
-  {name: "Bold edges first", tone: "0,0.12;0.35,0.25;0.65,0.6;1,0.95"},
-  {name: "Smooth skin, crisp folds", tone: "0,0.5;0.2,0.22;0.45,0.3;0.75,0.8;1,0.9"},
+  {name: "Even", tone: "0,1;1,1"},
+  {name: "Fine detail first", tone: "0,1;0.35,0.9;0.7,0.6;1,0.5"},
+  {name: "Bold edges first", tone: "0,0.15;0.35,0.3;0.65,0.7;1,1"},
+  {name: "Smooth skin, crisp folds", tone: "0,0.6;0.2,0.35;0.45,0.45;0.75,0.9;1,1"},
 ];
 
 export const parse = (tone) => tone.split(";").map((pair) => pair.split(",").map(Number));
@@ -42,7 +43,7 @@ export function evaluate(points, x) {
 export class CurveEditor {
   // Calls onChange(tone) while a point moves, onEnd() after it.
   constructor(onChange, onEnd) {
-    Object.assign(this, {onChange, onEnd, tone: "", saturation: 0, delta: 0.25, u: 1, histogram: []});
+    Object.assign(this, {onChange, onEnd, tone: "", saturation: 0, method: "ours", delta: 0.25, u: 1, histogram: []});
     this.svg = make("svg", {viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "group", "aria-label": "Tone curve"});
     this.marks = make("g");
     this.handles = make("g");
@@ -69,7 +70,8 @@ export class CurveEditor {
 
   share(x) {
     if (this.tone) return evaluate(this.drawnPoints, x);
-    return 1 - Math.exp(-(((x * x) / Math.max(this.delta, 1e-9)) ** this.saturation));
+    const weight = 1 - Math.exp(-(((x * x) / Math.max(this.delta, 1e-9)) ** this.saturation));
+    return this.method === "paper" ? weight : Math.min(1, weight / EVEN);  // in layers 1 is no change
   }
 
   change(tone, isOver) {
@@ -82,7 +84,7 @@ export class CurveEditor {
   // Draws all; `part` holds what has changed.
   show(part = {}) {
     Object.assign(this, part);
-    const key = [this.tone, this.saturation, this.delta, this.u.toPrecision(3), this.histogram.length].join(" ");
+    const key = [this.method, this.tone, this.saturation, this.delta, this.u.toPrecision(3), this.histogram.length].join(" ");
     if (key === this.drawnKey && this.histogram === this.drawnHistogram) return; // it is drawn for every picture
     this.drawnKey = key;
     this.drawnHistogram = this.histogram;
@@ -93,7 +95,8 @@ export class CurveEditor {
       for (let i = 0; i <= 80; ++i) d += `${i ? "L" : "M"}${(i / 80 * WIDTH).toFixed(1)} ${(HEIGHT * (1 - f(i / 80))).toFixed(1)}`;
       return d;
     };
-    const kept = (x) => 1 - (1 - Math.min(this.share(x), 1 - 1e-9)) ** this.u;
+    // With the paper's method the height moves the weights; layers take the curve as it is.
+    const kept = (x) => this.method !== "paper" ? this.share(x) : 1 - (1 - Math.min(this.share(x), 1 - 1e-9)) ** this.u;
     const grid = [0.25, 0.5, 0.75].map((t) => make("path", {class: "grid", d: `M${t * WIDTH} 0V${HEIGHT}M0 ${t * HEIGHT}H${WIDTH}`}));
     this.marks.replaceChildren(...grid, make("path", {class: "histogram", d: this.histogramPath()}),
       make("path", {class: "kept", d: path(kept)}), make("path", {class: "drawn", d: path((x) => this.share(x))}));

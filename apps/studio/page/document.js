@@ -4,7 +4,7 @@ export const FIRST = Object.freeze({
   input: null,
   options: Object.freeze({
     width: 100, height: 4, saturation: 0, detail: 0.04, steepest: 76, boundary: 0.5, tone: "",
-    view: "front", up: "", margin: 5, thickness: 3, mode: "auto",
+    view: "front", up: "", margin: 5, thickness: 3, mode: "auto", method: "ours",
     form: "relief", tolerance: null,
   }),
   isHeightLocked: true,

@@ -74,7 +74,8 @@ function showDocument() {
   for (const [name, slider] of Object.entries(sliders)) slider.show(options[name]);
   sliders.saturation.disabled = options.tone !== "";
   lock.setAttribute("aria-pressed", isHeightLocked);
-  curve.show({tone: options.tone, saturation: options.saturation});
+  curve.show({tone: options.tone, saturation: options.saturation, method: options.method});
+  $("#method").value = options.method;
   $("#undo").disabled = !doc.canUndo;
   $("#redo").disabled = !doc.canRedo;
   $("#view-name").textContent = viewName(options.view);
@@ -299,6 +300,7 @@ function wire() {
     openFile(event.target.files[0]);
     event.target.value = "";
   };
+  $("#method").onchange = (event) => doc.change({options: {method: event.target.value}});
   $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
   addEventListener("keydown", key);
   addEventListener("keyup", (event) => event.key.toLowerCase() === "b" && stage.hold(false));

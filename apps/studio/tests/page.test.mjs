@@ -188,10 +188,19 @@ test("shapes the tone curve with presets and keys", {skip}, async () => {
   const point = page.getByRole("slider", {name: /Curve point 2 of/});
   await press(point, "ArrowUp", 5);
   await page.getByRole("combobox", {name: "Tone curve preset"}).waitFor();
-  assert.match(await point.getAttribute("aria-valuetext"), /keeps 35 percent/);
+  assert.match(await point.getAttribute("aria-valuetext"), /keeps 40 percent/);
   await point.press("Delete");
   await page.getByRole("slider", {name: "Curve point 3 of 3"}).waitFor();
   await untilHeight(3, 0.01);
+});
+
+test("changes the method", {skip}, async () => {
+  const first = await picture();
+  await page.getByRole("combobox", {name: "Method"}).selectOption("The paper's");
+  assertOther(await picture(), first);
+  await untilHeight(3, 0.01);
+  await button("Undo").click();
+  assertSame(await picture(), first);
 });
 
 test("turns, lights, cuts and compares", {skip}, async () => {
