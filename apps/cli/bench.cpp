@@ -51,6 +51,7 @@ Result<void> measure_mode(const Surface& surface, Mode mode, int frames, BenchRe
   if (most_threads > 1) result.frames.push_back(measure_frames(*model, {1, frames, false}));
   for (const bool is_locked : {false, true})
     result.frames.push_back(measure_frames(*model, {most_threads, frames, is_locked}));
+  result.frames.push_back(measure_frames(*model, {most_threads, frames, false, Style::paper}));
   result.memory.push_back({name, bytes_per_point(*model)});
   return {};
 }

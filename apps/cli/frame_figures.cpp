@@ -19,12 +19,14 @@ FrameFigures measure_frames(const ReliefModel& model, const FrameRun& run) {
   const int threads_before = thread_count();
   set_thread_count(run.threads);
   FrameFigures figures{model.subspace() ? "subspace" : "exact", 0, run.threads, {}, {}, {}, {}, 0};
+  if (run.style == Style::paper) figures.mode += ", the paper's style";
   if (run.is_locked) figures.mode += ", height locked";
   if (model.subspace()) figures.control_points = model.subspace()->control_points().points.size();
   FrameMaker maker(model);
   Frame frame;
   FrameOptions options;
   options.shape = {{.5, .01}, .04};
+  options.shape.style = run.style;
   maker.make(options, frame);
   if (run.is_locked) options.height = .8 * frame.height;
   if (run.is_locked) maker.make(options, frame);

@@ -28,6 +28,7 @@ struct FrameRun {
   int threads = 1;
   int frames = 60;
   bool is_locked = false;  // height locked
+  Style style = Style::layered;
 };
 
 // Makes frames as a user does who drags a slider: the detail, or with a locked height the saturation.
