@@ -111,7 +111,7 @@ std::size_t Cholesky::memory() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(f.order) + bytes(f.tasks) + bytes(f.children) + bytes(f.boundary) + bytes(f.to_parent) +
          bytes(f.nodes) + bytes(f.rows) + f.value_count * sizeof(float) + bytes(f.matrix.diagonal) +
-         bytes(f.matrix.begin) + bytes(f.matrix.to) + bytes(f.matrix.value);
+         bytes(f.matrix.begin) + bytes(f.matrix.to) + bytes(f.matrix.value) + bytes(f.matrix.rest);
 }
 
 }  // namespace relievo

@@ -39,7 +39,12 @@ struct TaskMatrix {
   std::vector<double> diagonal;
   std::vector<Index> begin = {0};
   std::vector<Index> to;
-  std::vector<double> value;
+  std::vector<float> value;  // and what single precision leaves of it; empty if it leaves nothing anywhere
+  std::vector<float> rest;
+
+  double entry(Index e) const {
+    return static_cast<double>(value[e]) + (rest.empty() ? 0 : static_cast<double>(rest[e]));
+  }
 };
 
 struct Cholesky::Factor {

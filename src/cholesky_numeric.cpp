@@ -66,6 +66,9 @@ void Numeric::fill_matrix() {
   for (std::size_t j = 0; j < n; ++j) matrix.begin[j + 1] += matrix.begin[j];
   matrix.to.resize(matrix.begin[n]);
   matrix.value.resize(matrix.begin[n]);
+  const auto rest_of = [](double value) { return value - static_cast<double>(static_cast<float>(value)); };
+  if (std::any_of(A_.weight.begin(), A_.weight.end(), [&](double w) { return rest_of(w) != 0; }))
+    matrix.rest.resize(matrix.begin[n]);
   parallel_for(
       factor_.tasks.size(),
       [&](std::size_t t) {
@@ -73,7 +76,9 @@ void Numeric::fill_matrix() {
         for_each_entry(t, [&](Index j, Index e) {
           if (j != column) column = j, next = matrix.begin[j];
           matrix.to[next] = place_[A_.graph.to[e]];
-          matrix.value[next++] = A_.weight[e];
+          matrix.value[next] = static_cast<float>(A_.weight[e]);
+          if (!matrix.rest.empty()) matrix.rest[next] = static_cast<float>(rest_of(A_.weight[e]));
+          ++next;
         });
       },
       1);
@@ -94,7 +99,7 @@ void Numeric::add_matrix(const Task& task, Index first, Index width, std::span<c
     double* column = front.column(c);
     column[c] += matrix.diagonal[first + c];
     for (Index e = matrix.begin[first + c]; e < matrix.begin[first + c + 1]; ++e)
-      if (matrix.to[e] > first + c) column[slot[place_in(task, matrix.to[e])]] += matrix.value[e];
+      if (matrix.to[e] > first + c) column[slot[place_in(task, matrix.to[e])]] += matrix.entry(e);
   }
 }
 

@@ -115,8 +115,9 @@ void subtract_product(const TaskMatrix& A, const Task& task, std::span<const dou
     double sum = A.diagonal[j] * x[j];
     for (Index e = A.begin[j]; e < A.begin[j + 1]; ++e) {
       const Index i = A.to[e];
-      sum += A.value[e] * x[i];
-      if (i >= task.first_column && i < task.end_column) r[i] -= A.value[e] * x[j];
+      const double entry = A.entry(e);
+      sum += entry * x[i];
+      if (i >= task.first_column && i < task.end_column) r[i] -= entry * x[j];
     }
     r[j] -= sum;
   }

@@ -132,8 +132,10 @@ class Front {
     const Vec3 size = box_.size();
     const double longer = std::max(size.x(), size.y());
     if (!(longer > 0)) return false;
-    const int side = 192;  // squares with some twenty points of the sample each
-    const double coarse = longer / side;
+    // Squares with so many points of the sample that hardly one of the model's is empty.
+    const auto side =
+        static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(sample.size()) / 20), 8.0, 192.0));
+    const double coarse = longer / static_cast<double>(side);
     std::vector<std::uint8_t> is_seen(side * side + 2 * side + 1, 0);
     place(sample);
     for (const Place& p : places_) {

@@ -44,12 +44,12 @@ Relief gradient_relief(const ReliefModel& model, double height, const GradientOp
 // sign(g) log(1 + a |g|) / a along the gradient's direction.
 Vec2 attenuated(const Vec2& gradient, double a);
 
-// A linearly compressed base with the detail amplified: what a Gaussian along the surface takes from the
+// A linearly compressed base with the detail amplified: what a Gaussian in the view plane takes from the
 // heights that the normals give. After Ji, Sun, Li and Wang, Real-time bas-relief generation from
 // depth-and-normal maps on GPU, 2014.
 struct DetailOptions {
   double amplification = 10;  // of the detail, against the base
-  double scale = .04;         // the Gaussian's standard deviation, of the surface's longer side
+  double scale = .08;         // the Gaussian's standard deviation, of the surface's longer side
 };
 Relief base_and_detail_relief(const ReliefModel& model, double height, const DetailOptions& options = {});
 

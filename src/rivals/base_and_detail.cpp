@@ -6,23 +6,40 @@
 #include "surface_blur.h"
 
 namespace relievo {
+namespace {
+
+std::vector<Vec2> moderate_slopes(const Surface& surface) {
+  constexpr double steepest = 4;
+  std::vector<Vec2> slopes(surface.points.size());
+  parallel_for(slopes.size(), [&](std::size_t i) {
+    const Vec2 slope = slope_of(surface.normals[i]);
+    slopes[i] = slope * std::min(1.0, steepest / std::max(slope.norm(), 1e-9));
+  });
+  return slopes;
+}
+
+// Averaged in the view plane, where these heights have no jumps. A blur's cells are as wide as its Gaussian
+// and would show once amplified: sixteen narrow ones instead of one.
+std::vector<Vec2f> smoothed(const std::vector<double>& heights, const Surface& surface, double sigma) {
+  std::vector<Vec3> flat = surface.points;
+  for (Vec3& p : flat) p.z() = 0;
+  const SurfaceBlur blur(flat, sigma / 4);
+  std::vector<Vec2f> smooth(heights.size());
+  for (std::size_t i = 0; i < smooth.size(); ++i) smooth[i] = {static_cast<float>(heights[i]), 0};
+  for (int pass = 0; pass < 16; ++pass) blur.apply(smooth);
+  return smooth;
+}
+
+}  // namespace
 
 Relief base_and_detail_relief(const ReliefModel& model, double height, const DetailOptions& options) {
   const Surface& surface = model.surface();
-  const std::size_t n = surface.points.size();
-  std::vector<Vec2> slopes(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    slopes[i] = slope_of(surface.normals[i]);
-    slopes[i] *= std::min(1.0, 4 / std::max(slopes[i].norm(), 1e-9));
-  }
-  std::vector<double> heights(n);
+  const std::vector<Vec2> slopes = moderate_slopes(surface);
+  std::vector<double> heights(slopes.size());
   model.system()->solve(slopes, heights);
-
-  std::vector<Vec2f> smooth(n);
-  for (std::size_t i = 0; i < n; ++i) smooth[i] = {static_cast<float>(heights[i]), 0};
-  SurfaceBlur(surface.points, options.scale * longer_side(surface)).apply(smooth);
+  const std::vector<Vec2f> smooth = smoothed(heights, surface, options.scale * longer_side(surface));
   std::vector<double> z = depths(surface);
-  for (std::size_t i = 0; i < n; ++i)
+  for (std::size_t i = 0; i < z.size(); ++i)
     z[i] += options.amplification * (heights[i] - static_cast<double>(smooth[i].x()));
   return scaled_relief(std::move(z), surface, height);
 }

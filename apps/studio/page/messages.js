@@ -4,7 +4,7 @@ import {$} from "./controls.js";
 
 const STAGES = {
   "take in": "Taking in the file", waiting: "Getting ready", read: "Reading the scan", view: "Turning the model", spacing: "Measuring the spacing", normals: "Looking at normals",
-  visible: "Finding what is seen", curvature: "Measuring curvature", triangulation: "Connecting the points", boundary: "Finding the rim",
+  visible: "Finding what is seen", curvature: "Measuring curvature", triangulation: "Connecting the points", boundary: "Finding the rim", layers: "Splitting the normals in layers",
   factorisation: "Preparing live work",
 };
 const stageName = (stage) => STAGES[stage] ?? "Preparing";
