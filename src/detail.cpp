@@ -1,18 +1,11 @@
 #include "relievo/detail.h"
 
-#include <algorithm>
-
-#include "relievo/parallel.h"
+#include "height_span.h"
 
 namespace relievo {
 
 double height_span(std::span<const double> heights) {
-  double lowest = 0, highest = 0;
-  for (const double z : heights) {
-    lowest = std::min(lowest, z);
-    highest = std::max(highest, z);
-  }
-  return highest - lowest;
+  return span_of(heights).size();
 }
 
 void add_detail(std::span<double> heights, const DetailInput& input) {

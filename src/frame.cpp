@@ -1,11 +1,11 @@
 #include "relievo/frame.h"
 
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "frame_slopes.h"
+#include "height_span.h"
 #include "height_tails.h"
 #include "relievo/parallel.h"
 #include "root.h"
@@ -36,31 +36,6 @@ std::vector<Vec2> in_plane(const Surface& surface) {
   return xy;
 }
 
-struct Span {
-  float lowest = 0, highest = 0;  // the base is part of it
-  void extend(float z) {
-    lowest = z < lowest ? z : lowest;
-    highest = z > highest ? z : highest;
-  }
-};
-
-// Eight spans side by side, which the compiler turns into vectors.
-Span span_of(std::span<const float> heights) {
-  constexpr std::size_t lanes = 8;
-  std::array<float, lanes> low{}, high{};
-  std::size_t i = 0;
-  for (; i + lanes <= heights.size(); i += lanes) {
-    for (std::size_t l = 0; l < lanes; ++l) {
-      low[l] = heights[i + l] < low[l] ? heights[i + l] : low[l];
-      high[l] = heights[i + l] > high[l] ? heights[i + l] : high[l];
-    }
-  }
-  Span span;
-  for (; i < heights.size(); ++i) span.extend(heights[i]);
-  for (std::size_t l = 0; l < lanes; ++l) span.extend(low[l]), span.extend(high[l]);
-  return span;
-}
-
 }  // namespace
 
 struct FrameMaker::Packed {
@@ -73,7 +48,7 @@ struct FrameMaker::Packed {
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
   double boundary_width = 0;  // that boundary_weight is for
   WeightTable weight;
-  std::vector<Span> spans{(surface.points.size() + default_grain - 1) / default_grain};
+  std::vector<HeightSpan<float>> spans{(surface.points.size() + default_grain - 1) / default_grain};
   // Where the last locked height was found, and by how much ln h changes with ln u there.
   double last_log_u = 0, elasticity = 1;
 
@@ -128,14 +103,11 @@ struct FrameMaker::Packed {
   float pass(std::vector<float>& heights, Change change) {
     parallel_ranges(heights.size(), default_grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) change(i, heights[i]);
-      spans[begin / default_grain] = span_of(std::span(heights).subspan(begin, end - begin));
+      spans[begin / default_grain] = span_of_run(std::span<const float>(heights).subspan(begin, end - begin));
     });
-    Span all;
-    for (const Span& span : spans) {
-      all.extend(span.lowest);
-      all.extend(span.highest);
-    }
-    return all.highest - all.lowest;
+    HeightSpan<float> all;
+    for (const HeightSpan<float>& span : spans) all.extend(span);
+    return all.size();
   }
 
   float round_tails(Frame& frame) {

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "height_span.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
@@ -20,9 +21,9 @@ class HeightTails {
   static constexpr double flattest = .2;  // the curve's slope at the extremes
 
   explicit HeightTails(std::span<const Real> heights) {
-    const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-    if (heights.empty() || !(*low < *high)) return;
-    lowest_ = *low, highest_ = *high;
+    const HeightSpan<Real> span = span_of(heights);
+    if (!(span.size() > 0)) return;
+    lowest_ = span.lowest, highest_ = span.highest;
     const Histogram counts = histogram(heights);
     const auto wanted = share * static_cast<double>(heights.size());
     upper_ = std::max(Real(0), highest_ - bins_from_end(counts.rbegin(), counts.rend(), wanted) * bin());

@@ -65,8 +65,10 @@ RELIEVO_INLINE void evaluate_pairs(const PairInput& input, const MultilevelSplin
     for (int l = 0; l < 4; ++l, node += 2 * input.columns)
       sum += y[2 * l] * *reinterpret_cast<const Float8*>(node);
     sum *= x;
-    values.a[i] = (sum[0] + sum[2]) + (sum[4] + sum[6]);
-    values.b[i] = (sum[1] + sum[3]) + (sum[5] + sum[7]);
+    const Float4 halves =
+        __builtin_shufflevector(sum, sum, 0, 1, 2, 3) + __builtin_shufflevector(sum, sum, 4, 5, 6, 7);
+    values.a[i] = halves[0] + halves[2];
+    values.b[i] = halves[1] + halves[3];
   }
 }
 
