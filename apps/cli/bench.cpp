@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "files.h"
 #include "frame_figures.h"
+#include "inputs.h"
 #include "relievo/io.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
@@ -16,7 +17,8 @@ namespace relievo::cli {
 namespace {
 
 struct BenchArguments {
-  std::string input, view = "front", up, mode = "all";
+  SceneArguments scene;
+  std::string mode = "all";
   int frames = 60;
   bool is_json = false;
 };
@@ -64,18 +66,12 @@ Result<std::vector<Mode>> modes_of(const BenchArguments& arguments, const Surfac
 }
 
 Result<BenchResult> measure(const BenchArguments& arguments) {
-  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
-  if (!bytes) return std::unexpected(bytes.error());
-  const Result<CloudFile> file = read_cloud(*bytes, arguments.input);
-  if (!file) return std::unexpected(file.error());
-  const Result<View> view = parse_view(arguments.view, arguments.up);
-  if (!view) return std::unexpected(view.error());
   Progress progress;
-  const Result<Surface> surface = find_surface(file->cloud, *view, {}, &progress);
+  const Result<Surface> surface = read_surface(arguments.scene, &progress);
   if (!surface) return std::unexpected(surface.error());
   progress.finish();
 
-  BenchResult result{file->cloud.size(), surface->points.size(), progress.times(), {}, {}};
+  BenchResult result{surface->input_points, surface->points.size(), progress.times(), {}, {}};
   const Result<std::vector<Mode>> modes = modes_of(arguments, *surface);
   if (!modes) return std::unexpected(modes.error());
   for (const Mode mode : *modes)
@@ -133,11 +129,7 @@ Result<void> bench(const BenchArguments& arguments) {
 void add_bench(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<BenchArguments>();
   CLI::App& command = *program.add_subcommand("bench", "Time preparation and frames of one scan");
-  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS")
-      ->required()
-      ->type_name("INPUT");
-  command.add_option("--view", arguments->view, "as for make")->type_name("SIDE")->capture_default_str();
-  command.add_option("--up", arguments->up, "as for make")->type_name("X,Y,Z");
+  add_scene_flags(command, arguments->scene);
   command.add_option("--mode", arguments->mode, "exact, subspace, auto or all")
       ->type_name("MODE")
       ->capture_default_str();

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "inputs.h"
 #include "relievo/io.h"
 #include "relievo/measures.h"
 #include "relievo/method.h"
@@ -19,7 +20,8 @@ namespace relievo::cli {
 namespace {
 
 struct CompareArguments {
-  std::string input, output, view = "front", up;
+  SceneArguments scene;
+  std::string output;
   std::vector<double> heights{.0125, .025, .05};  // of the width
   std::vector<std::string> methods;
   int threads = 0;
@@ -61,15 +63,7 @@ double longer_side(const Surface& surface) {
 }
 
 Result<ReliefModel> prepare(const CompareArguments& arguments, Progress& progress) {
-  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
-  if (!bytes) return std::unexpected(bytes.error());
-  const Result<CloudFile> file = read_cloud(*bytes, arguments.input);
-  if (!file) return std::unexpected(file.error());
-  const Result<View> view = parse_view(arguments.view, arguments.up);
-  if (!view) return std::unexpected(view.error());
-  const std::vector<Index> strays = far_points(file->cloud);
-  Result<Surface> surface =
-      find_surface(strays.empty() ? file->cloud : without(file->cloud, strays), *view, {}, &progress);
+  Result<Surface> surface = read_surface(arguments.scene, &progress);
   if (!surface) return std::unexpected(surface.error());
   return ReliefModel::prepare(std::move(*surface), &progress);
 }
@@ -158,7 +152,7 @@ Result<void> check_arguments(const CompareArguments& arguments) {
   if (arguments.output.empty()) return {};
   if (ending_of(arguments.output) != "png")
     return std::unexpected(Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .png"});
-  if (is_same_file(arguments.output, arguments.input))
+  if (is_same_file(arguments.output, arguments.scene.path))
     return std::unexpected(
         Error{ErrorKind::option, arguments.output, {}, "expected different files for input and outputs"});
   return check_writable(arguments.output);
@@ -173,7 +167,7 @@ Result<void> compare(const CompareArguments& arguments) {
   Result<Comparison> comparison = compare_all(arguments, *chosen, progress);
   progress.finish();
   if (!comparison) {
-    if (comparison.error().input.empty()) comparison.error().input = arguments.input;
+    if (comparison.error().input.empty()) comparison.error().input = arguments.scene.path;
     return std::unexpected(comparison.error());
   }
   if (!arguments.output.empty()) {
@@ -189,9 +183,7 @@ Result<void> compare(const CompareArguments& arguments) {
 void add_compare(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<CompareArguments>();
   CLI::App& command = *program.add_subcommand("compare", "Measure reliefs of one scan by several methods");
-  command.add_option("input", arguments->input, "point cloud: PLY, OBJ, XYZ, PTS")
-      ->required()
-      ->type_name("INPUT");
+  add_scene_flags(command, arguments->scene);
   command.add_option("-o,--output", arguments->output, "contact sheet with the measures beneath")
       ->type_name("SHEET.png");
   command
@@ -205,8 +197,6 @@ void add_compare(CLI::App& program, Result<void>& result) {
   command.add_option("--methods", arguments->methods, cat("of ", names, "; default all"))
       ->delimiter(',')
       ->type_name("NAME,...");
-  command.add_option("--view", arguments->view, "as for make")->type_name("SIDE")->capture_default_str();
-  command.add_option("--up", arguments->up, "as for make")->type_name("X,Y,Z");
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
       ->check(CLI::Range(0, 256).description(""))
       ->type_name("N")

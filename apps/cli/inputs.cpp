@@ -129,6 +129,33 @@ Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& p
   return Input{std::move(*file), std::move(remarks)};
 }
 
+void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
+  command.add_option("input", arguments.path, "point cloud, mesh or depth image, as for make")
+      ->required()
+      ->type_name("INPUT");
+  command.add_option("--view", arguments.view, "as for make")->type_name("SIDE")->capture_default_str();
+  command.add_option("--up", arguments.up, "as for make")->type_name("X,Y,Z");
+  add_input_flags(command, arguments.in);
+}
+
+Result<Surface> read_surface(const SceneArguments& arguments, Progress* progress) {
+  ReliefOptions relief;
+  relief.view = arguments.view;
+  relief.up = arguments.up;
+  Result<Input> input = read_input(arguments.path, arguments.in, relief, progress);
+  if (!input) return std::unexpected(input.error());
+  const Result<View> view = parse_view(arguments.view, arguments.up);
+  if (!view) return std::unexpected(view.error());
+  Cloud cloud = std::move(input->file.cloud);
+  if (!input->file.mesh.empty()) {
+    Result<Cloud> seen = sample_mesh(input->file.mesh, *view, {relief.points}, progress);
+    if (!seen) return std::unexpected(seen.error());
+    cloud = std::move(*seen);
+  }
+  const std::vector<Index> strays = far_points(cloud);
+  return find_surface(strays.empty() ? cloud : without(cloud, strays), *view, {}, progress);
+}
+
 Result<Input> read_input(const std::string& path, const InputArguments& arguments,
                          const ReliefOptions& relief, Progress* progress) {
   if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());

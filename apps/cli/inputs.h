@@ -8,6 +8,7 @@
 #include "relievo/depth_image.h"
 #include "relievo/io.h"
 #include "relievo/options.h"
+#include "relievo/surface.h"
 
 namespace relievo::cli {
 
@@ -35,5 +36,18 @@ Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& p
 // depth_cloud().
 Result<Input> read_input(const std::string& path, const InputArguments& arguments,
                          const ReliefOptions& relief, Progress* progress);
+
+// A scan and the side of it that is looked at.
+struct SceneArguments {
+  std::string path, view = "front", up;
+  InputArguments in;
+};
+
+// Adds INPUT, --view, --up and the flags of InputArguments.
+void add_scene_flags(CLI::App& command, SceneArguments& arguments);
+
+// Reads a scan and finds the surface seen in its view, as `make` does. Errors: also those of parse_view(),
+// sample_mesh() and find_surface().
+Result<Surface> read_surface(const SceneArguments& arguments, Progress* progress);
 
 }  // namespace relievo::cli
