@@ -1,5 +1,7 @@
 #include "relievo/method.h"
 
+#include "relievo/text.h"
+
 #include <algorithm>
 
 #include "relievo/rivals.h"
@@ -9,6 +11,12 @@ namespace relievo {
 std::optional<Method> parse_method(std::string_view name) {
   const auto found = std::ranges::find(methods, name, &MethodInfo::name);
   return found == methods.end() ? std::nullopt : std::optional(found->method);
+}
+
+std::string method_names() {
+  std::string names;
+  for (const MethodInfo& info : methods) names += cat(names.empty() ? "" : ", ", info.name);
+  return names;
 }
 
 std::string_view name_of(Method method) {

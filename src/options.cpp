@@ -32,13 +32,16 @@ std::unexpected<Error> contradiction(std::string option, std::string expected) {
 Result<void> check_method(const ReliefOptions& options) {
   const std::optional<Method> method = parse_method(options.effective_method());
   if (!method)
-    return contradiction("--method", cat("expected a method, see --help, found '", options.method, "'"));
+    return contradiction("--method",
+                         cat("expected one of ", method_names(), ", found '", options.method, "'"));
   if (*method != Method::paper && !options.height_mm)
     return contradiction("--method", cat("expected --height with method ", name_of(*method)));
-  const bool is_shaped = options.saturation || options.detail;
+  const bool is_shaped =
+      options.saturation || options.detail || options.steepest_deg || !options.tone.empty();
   if (is_shaped && !has_shape(*method))
-    return contradiction("--method",
-                         cat("expected neither --saturation nor --detail with method ", name_of(*method)));
+    return contradiction(
+        "--method",
+        cat("expected none of --saturation, --detail, --steepest and --tone with method ", name_of(*method)));
   return {};
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -39,6 +40,7 @@ struct Comparison {
   std::size_t visible_points = 0, measured_pixels = 0;
   Image8 model;
   std::vector<Entry> entries;  // by height, then by method
+  std::vector<std::string> remarks;
 };
 
 constexpr float light_x = -1, light_y = 1, light_z = 1;
@@ -50,7 +52,10 @@ Result<std::vector<Method>> parse_methods(const std::vector<std::string>& names)
   for (const std::string& name : names) {
     const std::optional<Method> method = parse_method(name);
     if (!method)
-      return std::unexpected(Error{ErrorKind::option, "--methods", {}, cat("found no method '", name, "'")});
+      return std::unexpected(Error{ErrorKind::option,
+                                   "--methods",
+                                   {},
+                                   cat("expected some of ", method_names(), ", found '", name, "'")});
     chosen.push_back(*method);
   }
   return chosen;
@@ -68,22 +73,45 @@ Result<ReliefModel> prepare(const CompareArguments& arguments, Progress& progres
   return ReliefModel::prepare(std::move(*surface), &progress);
 }
 
+// Reliefs of one height by each method, measured.
+Result<std::vector<Entry>> entries_at(double share, const std::vector<Method>& chosen,
+                                      const ReliefModel& model, const Judge& judge) {
+  const double width = longer_side(model.surface());
+  std::vector<Entry> entries;
+  for (const Method method : chosen) {
+    // A height out of reach is told for a relief of 100 mm.
+    Result<Relief> relief = make_by_method(method, model, share * width, default_shape(method), 100 / width);
+    if (!relief) return std::unexpected(relief.error());
+    entries.push_back({method, share, judge.measure(relief->heights),
+                       judge.shade(relief->heights, Vec3f(light_x, light_y, light_z))});
+  }
+  return entries;
+}
+
 Result<Comparison> compare_all(const CompareArguments& arguments, const std::vector<Method>& chosen,
                                Progress& progress) {
   const Result<ReliefModel> model = prepare(arguments, progress);
   if (!model) return std::unexpected(model.error());
   if (auto go = progress.stage("comparison", .85); !go) return std::unexpected(go.error());
-  const Vec3f light(light_x, light_y, light_z);
   const Judge judge(model->surface());
-  Comparison result{model->surface().visible_points, judge.pixels(), judge.shade_model(light), {}};
-  const double width = longer_side(model->surface());
-  for (const double share : arguments.heights)
-    for (const Method method : chosen) {
-      Result<Relief> relief = make_by_method(method, *model, share * width, default_shape(method), 1 / width);
-      if (!relief) return std::unexpected(relief.error());
-      result.entries.push_back(
-          {method, share, judge.measure(relief->heights), judge.shade(relief->heights, light)});
+  Comparison result{model->surface().visible_points,
+                    judge.pixels(),
+                    judge.shade_model(Vec3f(light_x, light_y, light_z)),
+                    {},
+                    {}};
+  std::optional<Error> out_of_reach;
+  for (const double share : arguments.heights) {
+    Result<std::vector<Entry>> entries = entries_at(share, chosen, *model, judge);
+    if (!entries) {
+      if (entries.error().kind != ErrorKind::geometry) return std::unexpected(entries.error());
+      out_of_reach = entries.error();
+      result.remarks.push_back(
+          cat("left out height ", share, ", at a width of 100 mm: ", out_of_reach->message()));
+      continue;
     }
+    std::move(entries->begin(), entries->end(), std::back_inserter(result.entries));
+  }
+  if (result.entries.empty() && out_of_reach) return std::unexpected(*out_of_reach);
   return result;
 }
 
@@ -174,6 +202,7 @@ Result<void> compare(const CompareArguments& arguments) {
     const OutputFile file{arguments.output, sheet_of(*comparison, chosen->size())};
     if (auto ok = write_files({&file, 1}); !ok) return ok;
   }
+  for (const std::string& remark : comparison->remarks) std::fprintf(stderr, "%s\n", remark.c_str());
   arguments.is_json ? print_json(*comparison) : print_table(*comparison);
   return {};
 }
@@ -192,9 +221,7 @@ void add_compare(CLI::App& program, Result<void>& result) {
       ->delimiter(',')
       ->check(CLI::Range(1e-4, 1.0).description(""))
       ->type_name("FRACTION,...");
-  std::string names;
-  for (const MethodInfo& info : methods) names += cat(names.empty() ? "" : ", ", info.name);
-  command.add_option("--methods", arguments->methods, cat("of ", names, "; default all"))
+  command.add_option("--methods", arguments->methods, cat("of ", method_names(), "; default all"))
       ->delimiter(',')
       ->type_name("NAME,...");
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "relievo/relief.h"
@@ -27,6 +28,9 @@ inline constexpr std::array<MethodInfo, 6> methods{
 
 std::optional<Method> parse_method(std::string_view name);
 std::string_view name_of(Method method);
+
+// All names, for people: "ours, paper, ...".
+std::string method_names();
 
 // Whether the method shapes a relief by Shape; the rivals have options of their own.
 inline bool has_shape(Method method) {

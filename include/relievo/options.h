@@ -65,7 +65,9 @@ void visit(Options& o, F&& f) {
   f(OptionField{"method", "NAME",
                 "ours, paper, linear, equalise, gradient or detail; default ours with a height, else paper"},
     o.method);
-  f(OptionField{"steepest", "DEG", "steepest slope of the front; default 76", 1, 89}, o.steepest_deg);
+  f(OptionField{"steepest", "DEG",
+                "steepest slope asked of the surface, which walls at jumps can exceed; default 76", 1, 89},
+    o.steepest_deg);
   f(OptionField{"boundary", "W",
                 "width of the soft rim, in sampling distances; default 2, with method ours 0.5", .1, 100},
     o.boundary_width);
