@@ -12,6 +12,7 @@
 #include "relievo/parallel.h"
 #include "relievo/text.h"
 #include "relievo/triangulation.h"
+#include "silhouette.h"
 
 namespace relievo {
 namespace {
@@ -146,6 +147,7 @@ class Simplifier {
  public:
   Simplifier(const Front& front, double tolerance_mm)
       : front_(front), tolerance_(tolerance_mm), edges_(edges_of(front)), is_chosen_(front.points.size(), 0) {
+    if (!front.is_relief.empty()) rim_ = rim_of(relief_triangles(front));
     choose_corners();
   }
 
@@ -167,6 +169,7 @@ class Simplifier {
   void choose(const Candidate& candidate) {
     if (candidate.point != no_index && std::exchange(is_chosen_[candidate.point], 1)) return;
     chosen_.push_back(candidate.place);
+    names_.push_back(candidate.point);
     if (!front_.colours.empty()) colours_.push_back(candidate.colour);
   }
 
@@ -174,7 +177,8 @@ class Simplifier {
     return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
   }
 
-  // The hull's points but those on straight, level edges between others; and what tells the height.
+  // The hull's points but those on straight, level edges between others; the relief's rim, if it is to be
+  // kept; and what tells the height.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -183,6 +187,7 @@ class Simplifier {
       if (orient2d(before.head<2>(), here.head<2>(), after.head<2>()) == 0) continue;
       choose(at_point(0, 0, hull[i]));
     }
+    for (const auto& [a, b] : rim_) choose(at_point(0, 0, a));
     const auto [lowest, highest] =
         std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });
     const double ground = front_.points[hull[0]].z();
@@ -267,16 +272,25 @@ class Simplifier {
             front_.colours.empty() ? Colour{} : mixed(front_.colours[edge.a], front_.colours[edge.b], share)};
   }
 
-  SimplerFront finished(const Approximation& now) {
+  // Both ends of the rim's edges were chosen, so these are Delaunay's still, up to rounding.
+  Result<SimplerFront> finished(const Approximation& now) {
     SimplerFront out{{chosen_, now.mesh().triangles, now.mesh().hull, front_.ground_mm, colours_}, error_};
-    return out;
+    if (front_.is_relief.empty()) return out;
+    out.front.is_relief = relief_within(now.mesh(), names_, rim_);
+    if (!out.front.is_relief.empty()) return out;
+    return std::unexpected(Error{ErrorKind::geometry,
+                                 "front",
+                                 {},
+                                 "expected a rim of the relief made of Delaunay's edges, found others"});
   }
 
   const Front& front_;
   double tolerance_, error_ = 0;
   std::vector<Edge> edges_;
   std::vector<std::uint8_t> is_chosen_;  // per point of the original
+  std::vector<RimEdge> rim_;             // to be kept
   std::vector<Vec3> chosen_;
+  std::vector<Index> names_;  // of those that are chosen: their numbers in the original
   std::vector<Colour> colours_;
   std::vector<Index> where_;  // triangle of each point
 };
