@@ -1,9 +1,9 @@
 #include "silhouette.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "disjoint_sets.h"
+#include "relievo/parallel.h"
 
 namespace relievo {
 namespace {
@@ -104,20 +104,26 @@ Front front_of(const Front& front, std::vector<Triangle> triangles) {
   return alone;
 }
 
-// Lets what is known of some triangles reach their neighbours, up to the rim.
-void flood(const Triangulation& mesh, std::vector<std::optional<bool>>& is_inside) {
-  std::vector<Index> todo;
-  for (Index t = 0; t < is_inside.size(); ++t)
-    if (is_inside[t]) todo.push_back(t);
-  while (!todo.empty()) {
-    const Index t = todo.back();
-    todo.pop_back();
-    for (const Index other : mesh.neighbours[t]) {
-      if (other == no_index || is_inside[other]) continue;
-      is_inside[other] = is_inside[t];
-      todo.push_back(other);
-    }
+enum class Kind : std::uint8_t { ground, relief, rim, unknown };
+
+std::vector<Kind> kinds_of(const Front& front, std::span<const RimEdge> rim) {
+  std::vector<Kind> kinds(front.points.size(), Kind::ground);
+  for (const Triangle& t : relief_triangles(front))
+    for (const Index i : t) kinds[i] = Kind::relief;
+  for (const auto& [a, b] : rim) kinds[a] = kinds[b] = Kind::rim;
+  return kinds;
+}
+
+// Does a ray from the place cross the rim an odd number of times?
+bool is_within(const Front& front, std::span<const RimEdge> rim, const Vec2& place) {
+  bool is_inside = false;
+  for (const RimEdge& edge : rim) {
+    const Vec3 &a = front.points[edge[0]], &b = front.points[edge[1]];
+    if ((a.y() > place.y()) == (b.y() > place.y())) continue;
+    const double x = a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+    is_inside ^= x > place.x();
   }
+  return is_inside;
 }
 
 }  // namespace
@@ -142,24 +148,24 @@ std::vector<Triangle> relief_triangles(const Front& front) {
   return triangles;
 }
 
-std::vector<std::uint8_t> relief_within(const Triangulation& mesh, std::span<const Index> names,
-                                        std::span<const RimEdge> rim) {
-  std::vector<std::optional<bool>> is_inside(mesh.triangles.size());
-  std::size_t found = 0;
-  for (std::size_t t = 0; t < is_inside.size(); ++t) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index a = names[mesh.triangles[t][i]], b = names[mesh.triangles[t][(i + 1) % 3]];
-      if (std::ranges::binary_search(rim, RimEdge{a, b}))
-        is_inside[t] = true, ++found;
-      else if (std::ranges::binary_search(rim, RimEdge{b, a}))
-        is_inside[t] = false;
+std::vector<std::uint8_t> relief_within(const Front& front, const Front& simpler,
+                                        std::span<const Index> names) {
+  const std::vector<RimEdge> rim = rim_of(relief_triangles(front));
+  const std::vector<Kind> kinds = kinds_of(front, rim);
+  std::vector<std::uint8_t> is_relief(simpler.triangles.size());
+  parallel_for(is_relief.size(), [&](std::size_t t) {
+    const Triangle& corners = simpler.triangles[t];
+    bool has[4] = {};
+    for (const Index i : corners)
+      has[static_cast<std::size_t>(names[i] == no_index ? Kind::unknown : kinds[names[i]])] = true;
+    if (has[0] != has[1]) {
+      is_relief[t] = has[1];
+      return;
     }
-  }
-  if (found != rim.size()) return {};
-  flood(mesh, is_inside);
-  std::vector<std::uint8_t> out;
-  for (const std::optional<bool>& inside : is_inside) out.push_back(inside.value_or(false));
-  return out;
+    const Vec3 sum = simpler.points[corners[0]] + simpler.points[corners[1]] + simpler.points[corners[2]];
+    is_relief[t] = is_within(front, rim, sum.head<2>() / 3);
+  });
+  return is_relief;
 }
 
 Front relief_alone(const Front& front) {

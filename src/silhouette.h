@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "relievo/solid.h"
-#include "relievo/triangulation.h"
 
 namespace relievo {
 
@@ -18,10 +17,11 @@ std::vector<RimEdge> rim_of(std::span<const Triangle> triangles);
 // Returns the front's triangles that are part of the relief: all, if the front does not tell.
 std::vector<Triangle> relief_triangles(const Front& front);
 
-// Returns, per triangle of `mesh`, whether it lies within the rim. `names` are the points' numbers in the
-// rim. Empty if an edge of the rim is not in the mesh.
-std::vector<std::uint8_t> relief_within(const Triangulation& mesh, std::span<const Index> names,
-                                        std::span<const RimEdge> rim);
+// Returns, per triangle of a simpler front, whether it is relief in the front it was made of. `names` are its
+// points' numbers there, no_index for new ones. It has all points of the rim; where an edge of the rim is
+// not one of its own, the middle of a triangle decides.
+std::vector<std::uint8_t> relief_within(const Front& front, const Front& simpler,
+                                        std::span<const Index> names);
 
 // Returns the relief without its ground: its triangles and points in their order, no hull. What hangs on by a
 // corner only is left out, so that walls meet nowhere; so are pieces below a thousandth of the whole.

@@ -147,7 +147,6 @@ class Simplifier {
  public:
   Simplifier(const Front& front, double tolerance_mm)
       : front_(front), tolerance_(tolerance_mm), edges_(edges_of(front)), is_chosen_(front.points.size(), 0) {
-    if (!front.is_relief.empty()) rim_ = rim_of(relief_triangles(front));
     choose_corners();
   }
 
@@ -187,7 +186,8 @@ class Simplifier {
       if (orient2d(before.head<2>(), here.head<2>(), after.head<2>()) == 0) continue;
       choose(at_point(0, 0, hull[i]));
     }
-    for (const auto& [a, b] : rim_) choose(at_point(0, 0, a));
+    if (!front_.is_relief.empty())
+      for (const auto& [a, b] : rim_of(relief_triangles(front_))) choose(at_point(0, 0, a));
     const auto [lowest, highest] =
         std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });
     const double ground = front_.points[hull[0]].z();
@@ -272,16 +272,10 @@ class Simplifier {
             front_.colours.empty() ? Colour{} : mixed(front_.colours[edge.a], front_.colours[edge.b], share)};
   }
 
-  // Both ends of the rim's edges were chosen, so these are Delaunay's still, up to rounding.
-  Result<SimplerFront> finished(const Approximation& now) {
+  SimplerFront finished(const Approximation& now) {
     SimplerFront out{{chosen_, now.mesh().triangles, now.mesh().hull, front_.ground_mm, colours_}, error_};
-    if (front_.is_relief.empty()) return out;
-    out.front.is_relief = relief_within(now.mesh(), names_, rim_);
-    if (!out.front.is_relief.empty()) return out;
-    return std::unexpected(Error{ErrorKind::geometry,
-                                 "front",
-                                 {},
-                                 "expected a rim of the relief made of Delaunay's edges, found others"});
+    if (!front_.is_relief.empty()) out.front.is_relief = relief_within(front_, out.front, names_);
+    return out;
   }
 
   const Front& front_;

@@ -224,6 +224,25 @@ TEST(Outlines, SimplifyingKeepsTheSilhouette) {
   EXPECT_NEAR(flat_area(simpler->solid), flat_area(full->solid), 1e-6);
 }
 
+// Half cells at the rim: their diagonals need not be Delaunay's choice, for the corners lie on a circle.
+TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
+  const int n = 24;
+  Front front = test::grid_front({24, 24, n, n}, [](double x, double y) { return std::sin(x / 3) * y / 24; });
+  for (const Triangle& t : front.triangles) {
+    const Vec3 middle = (front.points[t[0]] + front.points[t[1]] + front.points[t[2]]) / 3;
+    front.is_relief.push_back((middle.head<2>() - Vec2(12, 12)).norm() < 9);
+  }
+  const auto simpler = simplify(front, .05);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  const auto full = make_plate(front, {5, 2, Outline::none});
+  const auto body = make_plate(simpler->front, {5, 2, Outline::none});
+  ASSERT_TRUE(full && body);
+  EXPECT_EQ(check_solid(*body), "");
+  EXPECT_EQ(pieces(*body), 1U);
+  EXPECT_LT(body->triangles.size(), full->triangles.size());
+  EXPECT_NEAR(flat_area(*body), flat_area(*full), 12);  // of 254
+}
+
 // The transform of the report puts each visible point over its place in the solid, however it is cut out.
 TEST(Outlines, TheReportTellsWhereTheScanLies) {
   const Surface& surface = model().surface();
