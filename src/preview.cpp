@@ -121,8 +121,6 @@ std::array<View, 2> views_of(const Solid& solid, int longer_side_px) {
 Scene scene_of(const Solid& solid, const View& view) {
   Scene scene;
   scene.triangles = solid.triangles;
-  // Edge on, walls would show as specks where places are rounded.
-  if (view.turn.isIdentity()) scene.triangles = scene.triangles.first(solid.front_triangles);
   scene.width = view.width * samples_per_side;
   scene.height = view.height * samples_per_side;
   scene.points.resize(solid.points.size());
