@@ -47,6 +47,7 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   field.width = pixels(size.x());
   field.height = pixels(size.y());
   field.z.resize(static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.height));
+  field.is_beside.resize(field.z.size());
 
   const Scene scene = front_scene(solid, field);
   const int band_rows = 32;
@@ -58,6 +59,8 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px) {
         const Band band = raster.draw(b);
         const auto first = static_cast<std::ptrdiff_t>(band.first_row) * field.width;
         std::ranges::transform(band.samples, field.z.begin() + first, height);
+        std::ranges::transform(band.samples, field.is_beside.begin() + first,
+                               [](const Sample& sample) { return sample.triangle == no_index; });
       },
       1);
   return field;

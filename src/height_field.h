@@ -1,6 +1,7 @@
 // The front of a solid as heights under the centres of a picture's pixels.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "relievo/solid.h"
@@ -12,8 +13,9 @@ namespace relievo {
 struct HeightField {
   int width = 0, height = 0;
   double mm_per_pixel = 0;
-  Box box;               // of the front
-  std::vector<float> z;  // millimetres above the front's lowest point
+  Box box;                                   // of the front
+  std::vector<float> z;                      // millimetres above the front's lowest point; 0 beside the front
+  std::vector<std::uint8_t> is_beside = {};  // per pixel: shows no front; empty if all do
 
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - box.centre()) / mm_per_pixel;

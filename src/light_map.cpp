@@ -67,6 +67,32 @@ void hide_lamp(const HeightField& field, const Vec3& to_lamp, std::vector<Light>
   parallel_for(static_cast<std::size_t>(field.height), hide_row, 8);
 }
 
+// Gives the pixels along the front's edge, but beside it, the mean light of their neighbours on it: between
+// pixels light is interpolated, and the shadow of the plate's edge must not reach onto the plate.
+void light_edge(const HeightField& field, std::vector<Light>& light) {
+  const auto at = [&](int column, int row) {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(field.width) +
+           static_cast<std::size_t>(column);
+  };
+  const auto mean_around = [&](int column, int row) {
+    Light sum;
+    float count = 0;
+    for (int y = std::max(0, row - 1); y <= std::min(field.height - 1, row + 1); ++y)
+      for (int x = std::max(0, column - 1); x <= std::min(field.width - 1, column + 1); ++x) {
+        if (field.is_beside[at(x, y)]) continue;
+        sum.lamp += light[at(x, y)].lamp, sum.sky += light[at(x, y)].sky;
+        ++count;
+      }
+    return count > 0 ? Light{sum.lamp / count, sum.sky / count} : Light{1, 1};
+  };
+  const auto light_row = [&](std::size_t r) {
+    const int row = static_cast<int>(r);
+    for (int column = 0; column < field.width; ++column)
+      if (field.is_beside[at(column, row)]) light[at(column, row)] = mean_around(column, row);
+  };
+  if (!field.is_beside.empty()) parallel_for(static_cast<std::size_t>(field.height), light_row, 8);
+}
+
 }  // namespace
 
 LightMap::LightMap(const Solid& solid, const Vec3& to_lamp, int longer_side_px)
@@ -82,6 +108,7 @@ LightMap::LightMap(HeightField field, const Vec3& to_lamp)
   hide_sky(field_, std::max(1, longer_side_px / 120), light_);
   hide_sky(field_, std::max(1, longer_side_px / 30), light_);
   hide_lamp(field_, to_lamp, light_);
+  light_edge(field_, light_);
 }
 
 Light LightMap::at(const Vec3f& point) const {

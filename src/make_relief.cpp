@@ -11,6 +11,7 @@
 #include "relievo/simplify.h"
 #include "relievo/text.h"
 #include "relievo/view.h"
+#include "silhouette.h"
 
 namespace relievo {
 namespace {
@@ -87,13 +88,14 @@ Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions opt
 }
 
 // The front in the form asked for, and as simple as allowed.
-Result<Front> front_for(Form form, const Surface& surface, const Relief& relief, const ReliefOptions& options,
-                        ReliefReport& report, Progress* progress) {
+Result<Front> formed_front(Form form, const Surface& surface, const Relief& relief,
+                           const ReliefOptions& options, ReliefReport& report, Progress* progress) {
   const double scale = mm_per_unit(surface, options);
   const double lithophane_mm = options.height_mm.value_or(default_lithophane_mm);
   Front front = form == Form::lithophane ? lithophane(surface, scale, lithophane_mm)
                                          : front_in_mm(surface, relief, scale);
   report.height_mm = form == Form::lithophane ? lithophane_mm : relief.height * scale;
+  if (*parse_outline(options.outline) == Outline::none) front.is_relief = surface.boundary.is_inside;
   if (form == Form::mirror) front = mirrored(std::move(front));
   if (form == Form::die) front = as_die(std::move(front));
   if (!options.tolerance_mm) return front;
@@ -106,16 +108,21 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
   return std::move(simpler->front);
 }
 
-// Puts the far, lower left corner of the visible points' box at `corner` of the plate, whose box starts at
-// the origin.
-void place(ReliefReport& report, const Surface& surface, const Vec3& corner, double mm_per_unit, Form form) {
+// The formed front, or what of it is relief where no ground is wanted.
+Result<Front> front_for(Form form, const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                        ReliefReport& report, Progress* progress) {
+  Result<Front> front = formed_front(form, surface, relief, options, report, progress);
+  if (front && !front->is_relief.empty()) return relief_alone(*front);
+  return front;
+}
+
+// Tells where the scan lies, when the plate's making moved the front by `shift`.
+void place(ReliefReport& report, const Surface& surface, const Front& front, const Vec3& shift, Form form) {
   const Box box = visible_box(surface);
-  Vec3 sign = Vec3::Ones(), start = box.min;
-  if (is_mirrored(form)) sign.x() = -1, start.x() = box.max.x();
-  if (form == Form::die) sign.z() = -1;
-  report.scale = mm_per_unit;
+  const Vec3 sign(is_mirrored(form) ? -1 : 1, 1, form == Form::die ? -1 : 1);
   report.rotation = sign.asDiagonal() * surface.view.rotation;
-  report.offset = corner - mm_per_unit * (sign.cwiseProduct(start) + report.rotation * surface.centre);
+  const Vec3 ground(0, 0, front.ground_mm - report.scale * sign.z() * box.min.z());
+  report.offset = shift + ground - report.scale * report.rotation * surface.centre;
 }
 
 }  // namespace
@@ -151,12 +158,13 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   made.report = report_on(model.surface(), *relief, options);
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
-  Result<Solid> solid = make_plate(*front, {options.margin_mm, options.thickness_mm});
+  Result<Solid> solid = make_plate(
+      *front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline), options.corner_mm});
   if (!solid) return std::unexpected(solid.error());
   made.solid = std::move(*solid);
   made.report.below_ground_mm = depth_below_ground(*front);
-  const double ground_mm = options.thickness_mm + made.report.below_ground_mm;
-  place(made.report, model.surface(), {options.margin_mm, options.margin_mm, ground_mm}, scale, form);
+  made.report.scale = scale;
+  place(made.report, model.surface(), *front, made.solid.points[0] - front->points[0], form);
   return made;
 }
 

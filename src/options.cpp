@@ -2,6 +2,7 @@
 
 #include "relievo/forms.h"
 #include "relievo/method.h"
+#include "relievo/outline.h"
 #include "relievo/text.h"
 
 namespace relievo {
@@ -54,6 +55,7 @@ Result<void> check(const ReliefOptions& options) {
   if (options.height_mm && options.alpha)
     return contradiction("--alpha", "expected either --height or --alpha, found both");
   if (const auto form = parse_form(options.form); !form) return std::unexpected(form.error());
+  if (const auto outline = parse_outline(options.outline); !outline) return std::unexpected(outline.error());
   return check_method(options);
 }
 

@@ -12,6 +12,7 @@
 #include "relievo/parallel.h"
 #include "relievo/text.h"
 #include "relievo/triangulation.h"
+#include "silhouette.h"
 
 namespace relievo {
 namespace {
@@ -167,6 +168,7 @@ class Simplifier {
   void choose(const Candidate& candidate) {
     if (candidate.point != no_index && std::exchange(is_chosen_[candidate.point], 1)) return;
     chosen_.push_back(candidate.place);
+    names_.push_back(candidate.point);
     if (!front_.colours.empty()) colours_.push_back(candidate.colour);
   }
 
@@ -174,7 +176,8 @@ class Simplifier {
     return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
   }
 
-  // The hull's points but those on straight, level edges between others; and what tells the height.
+  // The hull's points but those on straight, level edges between others; the relief's rim, if it is to be
+  // kept; and what tells the height.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -183,6 +186,8 @@ class Simplifier {
       if (orient2d(before.head<2>(), here.head<2>(), after.head<2>()) == 0) continue;
       choose(at_point(0, 0, hull[i]));
     }
+    if (!front_.is_relief.empty())
+      for (const auto& [a, b] : rim_of(relief_triangles(front_))) choose(at_point(0, 0, a));
     const auto [lowest, highest] =
         std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });
     const double ground = front_.points[hull[0]].z();
@@ -269,6 +274,7 @@ class Simplifier {
 
   SimplerFront finished(const Approximation& now) {
     SimplerFront out{{chosen_, now.mesh().triangles, now.mesh().hull, front_.ground_mm, colours_}, error_};
+    if (!front_.is_relief.empty()) out.front.is_relief = relief_within(front_, out.front, names_);
     return out;
   }
 
@@ -276,7 +282,9 @@ class Simplifier {
   double tolerance_, error_ = 0;
   std::vector<Edge> edges_;
   std::vector<std::uint8_t> is_chosen_;  // per point of the original
+  std::vector<RimEdge> rim_;             // to be kept
   std::vector<Vec3> chosen_;
+  std::vector<Index> names_;  // of those that are chosen: their numbers in the original
   std::vector<Colour> colours_;
   std::vector<Index> where_;  // triangle of each point
 };

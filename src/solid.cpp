@@ -8,6 +8,7 @@
 
 #include "relievo/parallel.h"
 #include "relievo/text.h"
+#include "silhouette.h"
 
 namespace relievo {
 namespace {
@@ -29,43 +30,73 @@ Result<void> check_options(const PlateOptions& options) {
   if (!is_good(options.margin_mm)) return fail(ErrorKind::option, "margin", wanted(options.margin_mm));
   if (!is_good(options.thickness_mm))
     return fail(ErrorKind::option, "thickness", wanted(options.thickness_mm));
+  if (options.outline == Outline::round && !is_good(options.corner_mm))
+    return fail(ErrorKind::option, "corner", wanted(options.corner_mm));
   return {};
 }
 
-Result<void> check_front(const Front& front) {
+Result<void> check_front(const Front& front, bool has_ground) {
   const auto is_bad = [&](Index i) { return i >= front.points.size() || !front.points[i].allFinite(); };
   const auto has_bad_corner = [&](const Triangle& t) { return std::ranges::any_of(t, is_bad); };
-  if (front.triangles.empty() || front.hull.size() < 3)
+  if (front.triangles.empty() || (has_ground && front.hull.size() < 3))
     return fail(ErrorKind::geometry, "front", "expected triangles and a hull around them, found none");
   if (std::ranges::any_of(front.triangles, has_bad_corner) || std::ranges::any_of(front.hull, is_bad))
     return fail(ErrorKind::geometry, "front", "expected corners that are finite points of the front");
   if (!front.colours.empty() && front.colours.size() != front.points.size())
     return fail(ErrorKind::geometry, "front", "expected a colour for each point of the front, or none");
+  if (!front.is_relief.empty() && front.is_relief.size() != front.triangles.size())
+    return fail(ErrorKind::geometry, "front",
+                "expected to know for each triangle if it is relief, or for none");
   return {};
 }
 
-// Adds the front's points to an empty solid, moved to their place in the plate, and returns the size of the
-// plate.
-Vec3 place_front(const Front& front, const PlateOptions& options, Solid& solid) {
+Box used_box(const Front& front) {
   Box box;
   for (const Triangle& t : front.triangles)
     for (const Index i : t) box.extend(front.points[i]);
-  const Vec3 shift(options.margin_mm, options.margin_mm, options.thickness_mm);
+  return box;
+}
+
+// Adds the front's points to an empty solid, the corner of their box at `corner`.
+void place_front(const Front& front, const Box& box, const Vec3& corner, Solid& solid) {
   solid.points.reserve(front.points.size() + 8);
   // Subtracting before adding keeps the box exact: the lowest point comes to lie at the thickness, bit for
   // bit.
-  for (const Vec3& p : front.points) solid.points.push_back((p - box.min) + shift);
-  return box.size() + shift + Vec3(options.margin_mm, options.margin_mm, 0);
+  for (const Vec3& p : front.points) solid.points.push_back((p - box.min) + corner);
+}
+
+// The outline of a plate with ground, from the far, lower left corner of the plate's box; and where that of
+// the front's box lies in it.
+struct Ground {
+  std::vector<Vec2> outline;
+  Vec2 corner = Vec2::Zero();
+};
+
+Ground ground_around(const Front& front, const Box& box, const PlateOptions& options) {
+  if (options.outline == Outline::rectangle) {
+    const Vec2 corner = Vec2::Constant(options.margin_mm), size = box.size().head<2>() + corner + corner;
+    return {{{0, 0}, {size.x(), 0}, size, {0, size.y()}}, corner};
+  }
+  std::vector<Vec2> hull;
+  for (const Index i : front.hull) hull.push_back((front.points[i] - box.min).head<2>());
+  Ground ground{outline_around(hull, {options.outline, options.corner_mm, options.margin_mm})};
+  Vec2 min = ground.outline[0];
+  for (const Vec2& p : ground.outline) min = min.cwiseMin(p);
+  for (Vec2& p : ground.outline) p -= min;
+  ground.corner = -min;
+  return ground;
 }
 
 // A convex polygon of the solid's points, counter-clockwise seen from +Z.
 using Rim = std::vector<Index>;
 
-Rim add_rectangle(Solid& solid, const Vec3& size, double z) {
-  const auto first = static_cast<Index>(solid.points.size());
-  solid.points.insert(solid.points.end(),
-                      {{0, 0, z}, {size.x(), 0, z}, {size.x(), size.y(), z}, {0, size.y(), z}});
-  return {first, first + 1, first + 2, first + 3};
+Rim add_outline(Solid& solid, const std::vector<Vec2>& outline, double z) {
+  Rim rim;
+  for (const Vec2& p : outline) {
+    rim.push_back(static_cast<Index>(solid.points.size()));
+    solid.points.emplace_back(p.x(), p.y(), z);
+  }
+  return rim;
 }
 
 Vec2 edge(const Solid& solid, const Rim& rim, std::size_t i) {
@@ -120,6 +151,37 @@ void add_walls(Solid& solid, const Rim& top, const Rim& bottom) {
 
 void add_bottom(Solid& solid, const Rim& rim) {
   for (std::size_t i = 1; i + 1 < rim.size(); ++i) solid.triangles.push_back({rim[0], rim[i + 1], rim[i]});
+}
+
+Solid plate_with_ground(const Front& front, const PlateOptions& options) {
+  Solid solid;
+  const Box box = used_box(front);
+  const Ground ground = ground_around(front, box, options);
+  place_front(front, box, {ground.corner.x(), ground.corner.y(), options.thickness_mm}, solid);
+  solid.triangles = front.triangles;
+  const Rim top = add_outline(solid, ground.outline, solid.points[front.hull[0]].z());
+  add_ring(solid, front.hull, top);
+  solid.front_triangles = solid.triangles.size();
+  const Rim bottom = add_outline(solid, ground.outline, 0);
+  add_walls(solid, top, bottom);
+  add_bottom(solid, bottom);
+  return solid;
+}
+
+// The relief's triangles, the same below, and walls between the two along its rim.
+Solid body_without_ground(const Front& alone, double thickness_mm) {
+  Solid solid;
+  place_front(alone, used_box(alone), {0, 0, thickness_mm}, solid);
+  solid.triangles = alone.triangles;
+  solid.front_triangles = alone.triangles.size();
+  const auto n = static_cast<Index>(alone.points.size());
+  for (Index i = 0; i < n; ++i) solid.points.emplace_back(solid.points[i].x(), solid.points[i].y(), 0);
+  for (const auto& [a, b] : rim_of(alone.triangles)) {
+    solid.triangles.push_back({a + n, b + n, b});
+    solid.triangles.push_back({a + n, b, a});
+  }
+  for (const auto& [a, b, c] : alone.triangles) solid.triangles.push_back({a + n, c + n, b + n});
+  return solid;
 }
 
 // A used point as the files hold it.
@@ -236,19 +298,17 @@ std::string wrong_volume(const Solid& solid) {
 
 Result<Solid> make_plate(const Front& front, const PlateOptions& options) {
   if (auto good = check_options(options); !good) return std::unexpected(good.error());
-  if (auto good = check_front(front); !good) return std::unexpected(good.error());
-  Solid solid;
-  const Vec3 size = place_front(front, options, solid);
-  solid.triangles = front.triangles;
-  const Rim top = add_rectangle(solid, size, solid.points[front.hull[0]].z());
-  add_ring(solid, front.hull, top);
-  solid.front_triangles = solid.triangles.size();
-  const Rim bottom = add_rectangle(solid, size, 0);
-  add_walls(solid, top, bottom);
-  add_bottom(solid, bottom);
-  separate_twins(solid, (options.thickness_mm + size.z()) / 2);
-  solid.colours = front.colours;
-  if (!front.colours.empty()) solid.colours.resize(solid.points.size(), plate_colour);
+  const bool has_ground = options.outline != Outline::none;
+  if (auto good = check_front(front, has_ground); !good) return std::unexpected(good.error());
+  const Front alone = has_ground ? Front{} : relief_alone(front);
+  if (!has_ground && alone.triangles.empty())
+    return fail(ErrorKind::geometry, "front", "expected triangles of the relief, found ground only");
+  const Front& shown = has_ground ? front : alone;
+  Solid solid =
+      has_ground ? plate_with_ground(front, options) : body_without_ground(alone, options.thickness_mm);
+  separate_twins(solid, (options.thickness_mm + used_box(shown).size().z() + options.thickness_mm) / 2);
+  solid.colours = shown.colours;
+  if (!shown.colours.empty()) solid.colours.resize(solid.points.size(), plate_colour);
   return solid;
 }
 

@@ -364,7 +364,12 @@ int reported(const std::string& report, const std::string& label) {
 TEST(WriteStl, AdmeshFindsNothingToRepair) {
   if (output_of("command -v admesh").empty()) GTEST_SKIP() << "admesh is not installed";
   const auto path = std::filesystem::temp_directory_path() / "relievo_solid_test.stl";
-  for (const Solid& solid : {bumpy_plate(), plate(pyramid_front(ellipse(101, 30, 20, 0.3), 3), {1, 1})}) {
+  const Front pyramid = pyramid_front(ellipse(101, 30, 20, 0.3), 3);
+  std::vector<Solid> solids = {bumpy_plate()};
+  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
+                                Outline::hexagon, Outline::none})
+    solids.push_back(plate(pyramid, {1, 1, outline}));
+  for (const Solid& solid : solids) {
     const std::vector<std::byte> bytes = write_stl(solid);
     std::ofstream(path, std::ios::binary)
         .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -23,6 +23,8 @@ struct ReliefOptions {
   std::string mode = "exact";
   std::string view = "front";
   std::string up;
+  std::string outline = "rectangle";  // of the plate; or "round", "circle" ...: see outline.h
+  double corner_mm = 5;               // radius of the corners of outline "round"
   double margin_mm = 5;
   double thickness_mm = 3;
   double points = 3e5;                 // visible points to take from a mesh
@@ -81,7 +83,12 @@ void visit(Options& o, F&& f) {
           "side shown: front (+Z), back, left, right, top, bottom or the direction X,Y,Z towards the viewer"},
       o.view);
   f(OptionField{"up", "X,Y,Z", "direction shown upright; default +Y, for top -Z, for bottom +Z"}, o.up);
-  f(OptionField{"margin", "MM", "flat ground around the relief", .01, 1e5}, o.margin_mm);
+  f(OptionField{"outline", "SHAPE",
+                "of the plate: rectangle, round (with round corners), circle, ellipse, hexagon, or none: the "
+                "relief alone"},
+    o.outline);
+  f(OptionField{"corner", "MM", "radius of the corners of outline round", .01, 1e5}, o.corner_mm);
+  f(OptionField{"margin", "MM", "least flat ground around the relief", .01, 1e5}, o.margin_mm);
   f(OptionField{"thickness", "MM", "smallest thickness of the plate", .01, 1e5}, o.thickness_mm);
   f(OptionField{"points", "N", "visible points to take from a mesh", 1000, 1e7}, o.points);
   f(OptionField{"form", "FORM",

@@ -29,7 +29,7 @@ struct HeightMap {
 };
 
 // Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel
-// holds the height under its centre. A flat front gives zeros. No pixels for an empty
+// holds the height under its centre, 0 beside the plate. A flat front gives zeros. No pixels for an empty
 // solid or a side not in [1, 32768].
 HeightMap make_height_map(const Solid& solid, int longer_side_px);
 

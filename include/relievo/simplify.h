@@ -15,8 +15,9 @@ struct SimplerFront {
 
 // Returns the front with fewer points, no further from the original than `tolerance_mm` anywhere: the
 // Delaunay triangulation of those of its points, and of its edges, that were off the most, added until none
-// is off by more. The highest and the lowest point stay. Flat ground becomes a few triangles. Errors: kind
-// option for a tolerance that is not positive; kind geometry for a front without triangles, or whose
+// is off by more. The highest and the lowest point stay. Flat ground becomes a few triangles. A front
+// that tells what is relief keeps all points of the relief's rim, and tells it of its triangles, too. Errors:
+// kind option for a tolerance that is not positive; kind geometry for a front without triangles, or whose
 // triangles are not Delaunay's up to rounding, so that they do not cover their hull; kind cancelled.
 Result<SimplerFront> simplify(const Front& front, double tolerance_mm, Progress* progress = nullptr);
 

@@ -14,7 +14,8 @@ const FORMATS = [
 
 // Bytes of each file; exact for STL, near for the rest.
 function sizes(facts, options, pixels) {
-  const triangles = facts.triangles + facts.hull + 14, points = facts.points + 8;
+  const sides = options.outline === "none" ? 2 : 1; // its bottom is as fine as its front
+  const triangles = sides * (facts.triangles + facts.hull + 14), points = sides * (facts.points + 8);
   const [longer, shorter] = [Math.max(...facts.size), Math.min(...facts.size)];
   const share = (shorter / longer * options.width + 2 * options.margin) / (options.width + 2 * options.margin);
   return {
@@ -24,9 +25,9 @@ function sizes(facts, options, pixels) {
 }
 
 // A simpler mesh is smaller, by as much as the relief allows.
-const sizeWord = (id, {tolerance}) => {
+const sizeWord = (id, {tolerance, outline = "rectangle"}) => {
   if (tolerance && ["stl", "3mf", "ply", "obj"].includes(id)) return "less than ";
-  return id === "stl" ? "" : "about ";
+  return id === "stl" && outline === "rectangle" ? "" : "about ";
 };
 
 export class ExportDialog {
@@ -67,9 +68,12 @@ export class ExportDialog {
 
   show() {
     const {facts, options} = this.current();
-    const scale = options.width / Math.max(...facts.size), size = facts.size.map((x) => x * scale + 2 * options.margin);
-    $("#export-size").textContent =
-      `${size[0].toFixed(1)} × ${size[1].toFixed(1)} × ${(options.thickness + options.height).toFixed(2)} mm, relief ${options.height.toFixed(2)} mm high`;
+    const {width, margin, thickness, height, outline = "rectangle"} = options;
+    const scale = width / Math.max(...facts.size), ground = outline === "rectangle" ? 2 * margin : 0;
+    const [x, y] = facts.size.map((side) => (side * scale + ground).toFixed(1)), depth = (thickness + height).toFixed(2);
+    $("#export-size").textContent = ground || outline === "none"
+      ? `${x} × ${y} × ${depth} mm, relief ${height.toFixed(2)} mm high`
+      : `Relief ${x} × ${y} mm and ${height.toFixed(2)} mm high, plate ${depth} mm in all`;
     const all = sizes(facts, options, this.pixels);
     for (const {id} of FORMATS) $(`#size-${id}`).textContent = `${sizeWord(id, options)}${fileSize(all[id])}`;
     $("#pixels-row").hidden = !["heightmap", "tiff"].includes(this.format.id);

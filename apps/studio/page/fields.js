@@ -10,7 +10,8 @@ export const FIELDS = {
   boundary: {label: "Soft rim", unit: "×", unitName: "sampling distances", min: 0.25, max: 60, decimals: 1, spread: spread.log, place: "#shape", help: "Width of (7), in sampling distances rho"},
   steepest: {label: "Steepest wall", unit: "°", unitName: "degrees", min: 5, max: 85, decimals: 0, spread: spread.linear, place: "#shape", help: "No slope is steeper than this"},
   width: {label: "Width", unit: "mm", unitName: "mm", min: 5, max: 1000, decimals: 1, spread: spread.log, place: "#plate", help: "Longer side of the relief, without margin"},
-  margin: {label: "Margin", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Flat ground around the relief"},
+  margin: {label: "Margin", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Least flat ground around the relief"},
+  corner: {label: "Corner radius", unit: "mm", unitName: "mm", min: 0.1, max: 100, decimals: 1, spread: spread.root, place: "#plate", help: "Of the outline with round corners"},
   thickness: {label: "Thickness", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Smallest thickness of the plate"},
 };
 

@@ -76,6 +76,10 @@ function showDocument() {
   lock.setAttribute("aria-pressed", isHeightLocked);
   curve.show({tone: options.tone, saturation: options.saturation, method: options.method});
   $("#method").value = options.method;
+  $("#outline").value = options.outline;
+  $("#outline-note").textContent = options.outline === "rectangle" ? "" : "The files have this outline; the picture here keeps the rectangle.";
+  sliders.corner.disabled = options.outline !== "round";
+  sliders.margin.disabled = options.outline === "none";
   $("#undo").disabled = !doc.canUndo;
   $("#redo").disabled = !doc.canRedo;
   $("#view-name").textContent = viewName(options.view);
@@ -301,6 +305,7 @@ function wire() {
     event.target.value = "";
   };
   $("#method").onchange = (event) => doc.change({options: {method: event.target.value}});
+  $("#outline").onchange = (event) => doc.change({options: {outline: event.target.value}});
   $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
   addEventListener("keydown", key);
   addEventListener("keyup", (event) => event.key.toLowerCase() === "b" && stage.hold(false));

@@ -276,6 +276,20 @@ test("tells the size of the file beforehand", {skip}, async () => {
   await dialog.getByRole("button", {name: "Cancel"}).click();
 });
 
+test("cuts a round plate", {skip}, async () => {
+  await page.getByRole("combobox", {name: "Outline"}).selectOption("Circle");
+  await page.getByText("The files have this outline").waitFor();
+  await button("Export").click();
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  const stl = await saveAs(() => dialog.getByRole("button", {name: "Export"}).click(), path.join(folder, "round.stl"));
+  const {isClosed, size} = readStl(stl), before = readStl(readFileSync(path.join(folder, "studio.stl")));
+  assert.ok(isClosed);
+  assert.ok(Math.abs(size[0] - size[1]) < 0.01, `${size}`);
+  assert.ok(size[0] > Math.max(...before.size.slice(0, 2)), `${size}, the rectangle ${before.size}`);
+  await button("Undo").click();
+  assert.equal(await page.getByRole("combobox", {name: "Outline"}).inputValue(), "rectangle");
+});
+
 test("goes on after a reload and after a new start of the engine", {skip}, async () => {
   await set("Margin in mm", 7);
   const shown = await picture();
