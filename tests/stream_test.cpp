@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
 
 #include "format_samples.h"
 #include "relievo/io.h"
@@ -22,7 +22,7 @@ class MemorySource : public ByteSource {
     largest_ = std::max(largest_, to.size());
     ++reads_;
     if (reads_ == cancel_at_read_) progress_.cancel();
-    std::memcpy(to.data(), bytes_.data() + offset, to.size());
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(offset), to.size(), to.begin());
     return {};
   }
   std::size_t largest_ = 0, cancel_at_read_ = 0, reads_ = 0;
