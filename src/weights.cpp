@@ -8,6 +8,12 @@
 
 namespace relievo {
 
+bool Compression::operator==(const Compression& other) const {
+  const bool is_same_curve =
+      curve && other.curve ? curve->points() == other.curve->points() : curve == other.curve;
+  return u == other.u && beta == other.beta && is_same_curve;
+}
+
 Compression Compression::from_alpha(double alpha, double beta) {
   if (beta == 0) return {1, 0};
   return {alpha > 0 ? std::exp(-beta * std::log(alpha)) : std::numeric_limits<double>::infinity(), beta};

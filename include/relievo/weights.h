@@ -21,7 +21,8 @@ struct Compression {
   // keeps what the curve says; beta has no effect then.
   std::shared_ptr<const ToneCurve> curve = nullptr;
 
-  bool operator==(const Compression&) const = default;
+  // Curves are alike if they go through the same points.
+  bool operator==(const Compression& other) const;
 
   // From the paper's pair; alpha in [0, infinity).
   static Compression from_alpha(double alpha, double beta);
@@ -41,6 +42,8 @@ struct Shape {
   double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
   double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
   Style style = Style::paper;
+
+  bool operator==(const Shape&) const = default;
 };
 
 // Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never
