@@ -8,7 +8,7 @@ export const FIELDS = {
   saturation: {label: "Saturation", min: 0, max: 4, decimals: 3, spread: spread.root, place: "#shape", help: "beta: 0 is even, more favours what is strongly curved"},
   detail: {label: "Detail", min: 0, max: 0.5, decimals: 3, spread: spread.root, place: "#shape", help: "gamma: holds coarse forms back, so that fine ones show"},
   boundary: {label: "Soft rim", unit: "×", unitName: "sampling distances", min: 0.25, max: 60, decimals: 1, spread: spread.log, place: "#shape", help: "Width of (7), in sampling distances rho"},
-  steepest: {label: "Steepest wall", unit: "°", unitName: "degrees", min: 5, max: 85, decimals: 0, spread: spread.linear, place: "#shape", help: "No slope is steeper than this"},
+  steepest: {label: "Steepest wall", unit: "°", unitName: "degrees", min: 5, max: 85, decimals: 0, spread: spread.linear, place: "#shape", help: "Steepest slope asked of the surface; walls at jumps can exceed it"},
   width: {label: "Width", unit: "mm", unitName: "mm", min: 5, max: 1000, decimals: 1, spread: spread.log, place: "#plate", help: "Longer side of the relief, without margin"},
   margin: {label: "Margin", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Least flat ground around the relief"},
   corner: {label: "Corner radius", unit: "mm", unitName: "mm", min: 0.1, max: 100, decimals: 1, spread: spread.root, place: "#plate", help: "Of the outline with round corners"},
