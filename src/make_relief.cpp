@@ -168,37 +168,62 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   return made;
 }
 
+namespace {
+
+// The plate of points that were seen.
+Result<MadeRelief> make_relief_of(const SeenPoints& seen, const View& view, const ReliefOptions& options,
+                                  Progress* progress) {
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
+  if (!surface) return std::unexpected(surface.error());
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
+  if (!model) return std::unexpected(model.error());
+  Result<MadeRelief> made = make_relief(*model, options, progress);
+  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
+  return made;
+}
+
+// The cloud without its strays, which is not copied if there are none.
+SeenPoints near_points(std::shared_ptr<const Cloud> cloud) {
+  const std::vector<Index> strays = far_points(*cloud);
+  if (strays.empty()) return {std::move(cloud), 0, {}};
+  return {std::make_shared<const Cloud>(without(*cloud, strays)),
+          strays.size(),
+          {cat("left out ", strays.size(), " points far from all others")}};
+}
+
+std::shared_ptr<const Cloud> not_owned(const Cloud& cloud) {
+  return {std::shared_ptr<void>(), &cloud};
+}
+
+}  // namespace
+
+Result<SeenPoints> seen_points(const CloudFile& file, const View& view, double points, Progress* progress) {
+  if (file.mesh.empty()) return near_points(not_owned(file.cloud));
+  Result<Cloud> sampled = sample_mesh(file.mesh, view, {points}, progress);
+  if (!sampled) return std::unexpected(sampled.error());
+  const std::size_t taken = sampled->size();
+  SeenPoints seen = near_points(std::make_shared<const Cloud>(std::move(*sampled)));
+  seen.remarks.push_back(
+      cat("the mesh has ", file.mesh.triangles.size(), " triangles: ", taken, " points taken"));
+  return seen;
+}
+
+Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options, Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<View> view = parse_view(options.view, options.up);
+  if (!view) return std::unexpected(view.error());
+  const Result<SeenPoints> seen = seen_points(file, *view, options.points, progress);
+  if (!seen) return std::unexpected(seen.error());
+  return make_relief_of(*seen, *view, options, progress);
+}
+
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
-
-  const std::vector<Index> strays = far_points(cloud);
-  Result<Surface> surface =
-      find_surface(strays.empty() ? cloud : without(cloud, strays), *view, {}, progress);
-  if (!surface) return std::unexpected(surface.error());
-  const Result<Mode> mode = parse_mode(options.mode);
-  if (!mode) return std::unexpected(mode.error());
-  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
-  if (!model) return std::unexpected(model.error());
-  Result<MadeRelief> made = make_relief(*model, options, progress);
-  if (made && !strays.empty())
-    made->report.remarks.push_back(cat("left out ", strays.size(), " points far from all others"));
-  return made;
-}
-
-Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options, Progress* progress) {
-  if (file.mesh.empty()) return make_relief(file.cloud, options, progress);
-  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
-  const Result<View> view = parse_view(options.view, options.up);
-  if (!view) return std::unexpected(view.error());
-  const Result<Cloud> seen = sample_mesh(file.mesh, *view, {options.points}, progress);
-  if (!seen) return std::unexpected(seen.error());
-  Result<MadeRelief> made = make_relief(*seen, options, progress);
-  if (made)
-    made->report.remarks.push_back(
-        cat("the mesh has ", file.mesh.triangles.size(), " triangles: ", seen->size(), " points taken"));
-  return made;
+  return make_relief_of(near_points(not_owned(cloud)), *view, options, progress);
 }
 
 }  // namespace relievo

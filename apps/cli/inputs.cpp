@@ -5,6 +5,7 @@
 
 #include "files.h"
 #include "flags.h"
+#include "relievo/make_relief.h"
 #include "relievo/stream.h"
 #include "relievo/text.h"
 #include "relievo/view.h"
@@ -142,18 +143,13 @@ Result<Surface> read_surface(const SceneArguments& arguments, Progress* progress
   ReliefOptions relief;
   relief.view = arguments.view;
   relief.up = arguments.up;
-  Result<Input> input = read_input(arguments.path, arguments.in, relief, progress);
+  const Result<Input> input = read_input(arguments.path, arguments.in, relief, progress);
   if (!input) return std::unexpected(input.error());
   const Result<View> view = parse_view(arguments.view, arguments.up);
   if (!view) return std::unexpected(view.error());
-  Cloud cloud = std::move(input->file.cloud);
-  if (!input->file.mesh.empty()) {
-    Result<Cloud> seen = sample_mesh(input->file.mesh, *view, {relief.points}, progress);
-    if (!seen) return std::unexpected(seen.error());
-    cloud = std::move(*seen);
-  }
-  const std::vector<Index> strays = far_points(cloud);
-  return find_surface(strays.empty() ? cloud : without(cloud, strays), *view, {}, progress);
+  const Result<SeenPoints> seen = seen_points(input->file, *view, relief.points, progress);
+  if (!seen) return std::unexpected(seen.error());
+  return find_surface(*seen->cloud, *view, {}, progress);
 }
 
 Result<Input> read_input(const std::string& path, const InputArguments& arguments,

@@ -25,16 +25,27 @@ struct Opening {
 // What is known of the scan that is open.
 struct Scan {
   Input input;
-  std::shared_ptr<const Cloud> cloud;  // of a mesh its corners
-  std::shared_ptr<const Mesh> mesh;    // null for a cloud
+  std::shared_ptr<const CloudFile> file;
+  std::shared_ptr<const Cloud> cloud;  // to look at: without far points; of a mesh its corners
   std::size_t left_out = 0;
+
+  Scan() = default;
+  Scan(Input from, CloudFile what)
+      : input(std::move(from)), file(std::make_shared<const CloudFile>(std::move(what))), cloud(own_cloud()) {
+    if (!file->mesh.empty()) return;
+    const SeenPoints seen = *seen_points(*file, {}, ReliefOptions{}.points);  // a cloud cannot fail
+    left_out = seen.left_out;
+    if (left_out > 0) cloud = seen.cloud;
+  }
+
+  std::shared_ptr<const Cloud> own_cloud() const { return {file, &file->cloud}; }
 
   // What the relief is made of in that view.
   Result<std::shared_ptr<const Cloud>> seen_from(const View& view) const {
-    if (!mesh) return cloud;
-    Result<Cloud> points = sample_mesh(*mesh, view);
-    if (!points) return std::unexpected(points.error());
-    return std::make_shared<const Cloud>(std::move(*points));
+    if (file->mesh.empty()) return cloud;
+    Result<SeenPoints> seen = seen_points(*file, view, ReliefOptions{}.points);
+    if (!seen) return std::unexpected(seen.error());
+    return seen->cloud;
   }
 };
 
@@ -88,21 +99,12 @@ struct Engine::State {
     if (!file)
       done = std::unexpected(file.error());
     else if (file->cloud.size() > 0)
-      done = hand_over(scan_of(std::move(*file), opening->input), opening->view);
+      done = hand_over(Scan(opening->input, std::move(*file)), opening->view);
     shared.with([&](Shared& s) {
       s.is_reading = false;
       if (!done) s.error = done.error();
     });
     return true;
-  }
-
-  static Scan scan_of(CloudFile file, const Input& input) {
-    const std::vector<Index> strays = far_points(file.cloud);
-    Scan scan{input, nullptr, nullptr, strays.size()};
-    scan.cloud =
-        std::make_shared<const Cloud>(strays.empty() ? std::move(file.cloud) : without(file.cloud, strays));
-    if (!file.mesh.empty()) scan.mesh = std::make_shared<const Mesh>(std::move(file.mesh));
-    return scan;
   }
 
   Result<void> hand_over(Scan scan, const View& view) {
@@ -270,11 +272,7 @@ RenderOptions render_options(const PictureRequest& request, double scale) {
 // Whether a frame would come out alike: then only light or camera have changed, and it need not be made
 // again.
 bool is_same(const FrameOptions& a, const FrameOptions& b) {
-  const Compression &p = a.shape.compression, &q = b.shape.compression;
-  const bool is_same_curve = p.curve && q.curve ? p.curve->points() == q.curve->points() : p.curve == q.curve;
-  return is_same_curve && p.u == q.u && p.beta == q.beta && a.height == b.height &&
-         a.shape.gamma == b.shape.gamma && a.shape.style == b.shape.style &&
-         a.shape.max_slope == b.shape.max_slope && a.shape.boundary_width == b.shape.boundary_width;
+  return a.shape == b.shape && a.height == b.height;
 }
 
 // The frame asked for; while another view is prepared, the last one of the old.

@@ -1,6 +1,7 @@
 // One call from a cloud to a body that can be cut: the whole pipeline.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,6 +47,18 @@ struct MadeRelief {
   ReliefReport report;
 };
 
+// What a relief is made of.
+struct SeenPoints {
+  std::shared_ptr<const Cloud> cloud;  // in the model's frame; the file's own where nothing had to be made
+  std::size_t left_out = 0;            // points far from all others, see far_points()
+  std::vector<std::string> remarks;    // on that and on the mesh
+};
+
+// Returns the points of a file: of a mesh those that the viewer sees of it, about as many as wanted; without
+// those far from all others. The file must outlive them. Errors: those of sample_mesh().
+Result<SeenPoints> seen_points(const CloudFile& file, const View& view, double points,
+                               Progress* progress = nullptr);
+
 // Returns the plate with the relief of the cloud. Stages and their times are in `progress`; the caller ends
 // the last one. Errors: those of check(), parse_view(), find_surface() and ReliefModel::make_at_height();
 // kind cancelled.
@@ -56,8 +69,8 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
-// The same, bit for bit, in a fraction of the time: from a model that was prepared from the cloud without its
-// far points in the view asked for. options.view and options.up are not looked at.
+// The same, bit for bit, in a fraction of the time: from a model that was prepared from the
+// seen_points() in the view asked for. options.view and options.up are not looked at.
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
