@@ -63,9 +63,9 @@ class Limiter {
   }
 
  private:
-  Limiter(const ReliefModel& model, const DraftOptions& options) : model_(&model), options_(options) {
+  Limiter(const ReliefModel& model, const DraftOptions& options)
+      : model_(&model), options_(options), plane_(in_plane(model.surface().points)) {
     const Surface& surface = model.surface();
-    for (const Vec3& p : surface.points) plane_.push_back(p.head<2>());
     for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
       if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
   }

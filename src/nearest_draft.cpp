@@ -16,13 +16,6 @@ constexpr float steepest_given = 2;
 constexpr float good_excess = 1.004F;
 constexpr std::size_t good_share = 5000;
 
-std::vector<Vec2> in_plane(const std::vector<Vec3>& points) {
-  std::vector<Vec2> plane;
-  plane.reserve(points.size());
-  for (const Vec3& p : points) plane.push_back(p.head<2>());
-  return plane;
-}
-
 }  // namespace
 
 NearestDraft::NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
