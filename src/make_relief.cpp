@@ -74,11 +74,21 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   return report;
 }
 
+// Lowest and highest point of the front, ground included.
+std::pair<double, double> span_of(const Front& front) {
+  double lowest = front.ground_mm, highest = lowest;
+  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
+  return {lowest, highest};
+}
+
+double height_of(const Front& front) {
+  const auto [lowest, highest] = span_of(front);
+  return highest - lowest;
+}
+
 // How far the lowest point of the front lies below the ground: 0 or more.
 double depth_below_ground(const Front& front) {
-  double lowest = front.ground_mm;
-  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z());
-  return front.ground_mm - lowest;
+  return front.ground_mm - span_of(front).first;
 }
 
 bool is_mirrored(Form form) {
@@ -110,6 +120,12 @@ Result<Front> formed_front(Form form, const Surface& surface, const Relief& reli
   if (*parse_outline(options.outline) == Outline::none) front.is_relief = surface.boundary.is_inside;
   if (form == Form::mirror) front = mirrored(std::move(front));
   if (form == Form::die) front = as_die(std::move(front));
+  if (options.surface == "reachable") {
+    Result<Front> reachable = reachable_front(front, *parse_tool(options.tool));
+    if (!reachable) return reachable;
+    front = std::move(*reachable);
+    report.height_mm = height_of(front);  // what is narrow and deep is filled
+  }
   if (!options.tolerance_mm) return front;
   SimplifyOptions simplest{*options.tolerance_mm};
   if (options.draft_deg) {
@@ -131,6 +147,14 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
   Result<Front> front = formed_front(form, surface, relief, options, report, progress);
   if (front && !front->is_relief.empty()) return relief_alone(*front);
   return front;
+}
+
+void add_reach(MadeRelief& made, const ReliefOptions& options) {
+  const ToolReach& reach = made.report.reach.emplace(measure_reach(made.solid, *parse_tool(options.tool)));
+  made.report.remarks.push_back(cat("the tool ", options.tool, " reaches ", 100 * reach.reached_share,
+                                    " % of the front within ", reach.tolerance_mm, " mm and leaves at most ",
+                                    reach.largest_residual_mm, " mm (sampled every ", reach.mm_per_sample,
+                                    " mm)"));
 }
 
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
@@ -185,6 +209,7 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   }
   made.solid = std::move(*solid);
   made.report.steepest_deg = std::atan(steepest_slope(made.solid)) * 180 / std::numbers::pi;
+  if (!options.tool.empty()) add_reach(made, options);
   made.report.below_ground_mm = depth_below_ground(*front);
   made.report.scale = scale;
   place(made.report, model.surface(), *front, made.solid.points[0] - front->points[0], form);
