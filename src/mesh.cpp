@@ -70,8 +70,8 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
   return seen;
 }
 
-Scene scene_of(const SeenMesh& seen, double pixel) {
-  Scene scene;
+Drawing scene_of(const SeenMesh& seen, double pixel) {
+  Drawing scene;
   scene.triangles = seen.triangles;
   const Vec3 size = seen.box.size() / pixel;
   scene.width = std::max(1, static_cast<int>(std::ceil(size.x())));
@@ -84,7 +84,7 @@ Scene scene_of(const SeenMesh& seen, double pixel) {
   return scene;
 }
 
-std::size_t covered_pixels(const Scene& scene) {
+std::size_t covered_pixels(const Drawing& scene) {
   const Raster raster(scene, band_rows);
   std::vector<std::size_t> covered(raster.bands());
   parallel_for(
@@ -104,7 +104,7 @@ std::size_t covered_pixels(const Scene& scene) {
 std::optional<double> pixel_for(const SeenMesh& seen, double points) {
   const Vec3 size = seen.box.size();
   const double longer = std::max(size.x(), size.y());
-  const double finest = longer / (Scene::most_pixels / 8.0);
+  const double finest = longer / (Drawing::most_pixels / 8.0);
   double pixel = longer / first_side_px;
   if (!(pixel > 0)) return std::nullopt;
   const int tries = 4;  // a wire that the first pixels miss shows in finer ones
@@ -234,7 +234,7 @@ class Sampler {
   const Mesh& mesh_;
   const SeenMesh& seen_;
   double fine_pixel_;
-  Scene scene_;
+  Drawing scene_;
   int columns_, rows_;  // of the pixels
   std::vector<Index> along_rows_, along_columns_;
 };
