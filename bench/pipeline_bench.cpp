@@ -29,7 +29,7 @@ const Prepared& prepared(benchmark::State& state) {
     p.spacing = measure_spacing(p.cloud);
     p.visible = visible_points(p.cloud, p.spacing);
     p.surface = *find_surface(p.cloud, {});
-    for (const Vec3& point : p.surface.points) p.xy.push_back(point.head<2>());
+    p.xy = in_plane(p.surface.points);
   }
   state.counters["visible"] = static_cast<double>(p.visible.size());
   return p;

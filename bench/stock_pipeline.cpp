@@ -25,12 +25,6 @@ class Stopwatch {
 
 const Shape keep_all{{std::numeric_limits<double>::infinity(), 0}};
 
-std::vector<Vec2> in_plane(const Surface& surface) {
-  std::vector<Vec2> xy;
-  for (const Vec3& p : surface.points) xy.push_back(p.head<2>());
-  return xy;
-}
-
 std::vector<Index> all_points(const Surface& surface) {
   std::vector<Index> all(surface.points.size());
   for (Index i = 0; i < all.size(); ++i) all[i] = i;
@@ -38,7 +32,7 @@ std::vector<Index> all_points(const Surface& surface) {
 }
 
 HeightEquations equations_of(const Surface& surface) {
-  return height_equations(in_plane(surface), surface.triangulation, surface.boundary);
+  return height_equations(in_plane(surface.points), surface.triangulation, surface.boundary);
 }
 
 std::array<double, 4> basis(double t) {
@@ -136,7 +130,7 @@ double StockSpline::operator()(const Vec2& place) const {
 
 StockPipeline::StockPipeline(const Surface& surface)
     : surface_(surface),
-      points_(in_plane(surface)),
+      points_(in_plane(surface.points)),
       heights_(std::make_unique<StockHeights>(equations_of(surface), surface, all_points(surface))),
       z_(points_.size()),
       boundary_weight_(boundary_weights(surface.boundary.distance, surface.rho)),

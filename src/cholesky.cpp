@@ -5,6 +5,7 @@
 
 #include "cholesky_factor.h"
 #include "dissection.h"
+#include "memory.h"
 #include "plane_order.h"
 
 namespace relievo {
@@ -108,7 +109,6 @@ void Cholesky::renumber(std::span<const Index> numbers) {
 
 std::size_t Cholesky::memory() const {
   const Factor& f = *factor_;
-  const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(f.order) + bytes(f.tasks) + bytes(f.children) + bytes(f.boundary) + bytes(f.to_parent) +
          bytes(f.nodes) + bytes(f.rows) + f.value_count * sizeof(float) + bytes(f.matrix.diagonal) +
          bytes(f.matrix.begin) + bytes(f.matrix.to) + bytes(f.matrix.value) + bytes(f.matrix.rest);

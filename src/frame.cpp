@@ -30,19 +30,14 @@ SolverWorkspace make_workspace(const ReliefModel& model) {
   return model.subspace()->make_workspace();
 }
 
-std::vector<Vec2> in_plane(const Surface& surface) {
-  std::vector<Vec2> xy(surface.points.size());
-  for (std::size_t i = 0; i < xy.size(); ++i) xy[i] = surface.points[i].head<2>();
-  return xy;
-}
-
 }  // namespace
 
 struct FrameMaker::Packed {
   const ReliefModel& model;
   const Surface& surface = model.surface();
-  PointLinks normal_links = vertex_normal_links(in_plane(surface), surface.triangulation, surface.boundary,
-                                                model.system() ? &model.system()->links() : nullptr);
+  PointLinks normal_links =
+      vertex_normal_links(in_plane(surface.points), surface.triangulation, surface.boundary,
+                          model.system() ? &model.system()->links() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};

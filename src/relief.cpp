@@ -34,9 +34,8 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
     return ReliefModel(std::move(surface), std::move(*subspace));
   }
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
-  std::vector<Vec2> xy(surface.points.size());
-  for (std::size_t i = 0; i < xy.size(); ++i) xy[i] = surface.points[i].head<2>();
-  Result<HeightSystem> system = HeightSystem::build(xy, surface.triangulation, surface.boundary);
+  Result<HeightSystem> system =
+      HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary);
   if (!system) return std::unexpected(system.error());
   return ReliefModel(std::move(surface), std::move(*system));
 }

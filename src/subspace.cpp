@@ -6,6 +6,7 @@
 
 #include "control_mesh.h"
 #include "frame_slopes.h"
+#include "memory.h"
 #include "region_samples.h"
 
 namespace relievo {
@@ -18,17 +19,6 @@ std::vector<T> pick(const std::vector<T>& from, std::span<const Index> which) {
   std::vector<T> out(which.size());
   for (std::size_t i = 0; i < which.size(); ++i) out[i] = from[which[i]];
   return out;
-}
-
-template <typename T>
-std::size_t bytes(const std::vector<T>& v) {
-  return v.size() * sizeof(T);
-}
-
-std::vector<Vec2> in_plane(const Surface& surface) {
-  std::vector<Vec2> xy(surface.points.size());
-  for (std::size_t i = 0; i < xy.size(); ++i) xy[i] = surface.points[i].head<2>();
-  return xy;
 }
 
 // z0: equation (9) with w_k = 1.
@@ -91,7 +81,7 @@ SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
 Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const SubspaceOptions& options,
                                              std::span<const double> reference, Progress* progress) {
   if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
-  const std::vector<Vec2> points = in_plane(surface);
+  const std::vector<Vec2> points = in_plane(surface.points);
   const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
   Result<std::vector<double>> solved;
   if (reference.empty()) {

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "hilbert.h"
+#include "memory.h"
 #include "relievo/normals.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
@@ -76,12 +77,6 @@ std::vector<Index> merged(const std::vector<Index>& a, const std::vector<Index>&
   return both;
 }
 
-std::vector<Vec2> in_plane(std::span<const Vec3> points) {
-  std::vector<Vec2> xy(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) xy[i] = points[i].head<2>();
-  return xy;
-}
-
 // The points in an order in which neighbours in the view plane are neighbours in memory.
 std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>& points) {
   return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
@@ -135,17 +130,18 @@ Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& op
   return pick(k, shown);
 }
 
-template <typename T>
-std::size_t bytes(const std::vector<T>& v) {
-  return v.size() * sizeof(T);
-}
-
 }  // namespace
 
 std::size_t Surface::memory() const {
   return bytes(points) + bytes(normals) + bytes(curvature.k) + bytes(layers) +
          bytes(triangulation.triangles) + bytes(triangulation.hull) + bytes(boundary.is_inside) +
          bytes(boundary.is_boundary) + bytes(boundary.distance);
+}
+
+std::vector<Vec2> in_plane(std::span<const Vec3> points) {
+  std::vector<Vec2> xy(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) xy[i] = points[i].head<2>();
+  return xy;
 }
 
 Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,

@@ -5,13 +5,13 @@
 #include <cmath>
 #include <mutex>
 
+#include "live_frames.h"
+#include "open_scan.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
 
 namespace relievo::studio {
 namespace {
-
-using namespace std::chrono_literals;
 
 std::unexpected<Error> nothing_open() {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
@@ -22,33 +22,6 @@ struct Opening {
   View view;
 };
 
-// What is known of the scan that is open.
-struct Scan {
-  Input input;
-  std::shared_ptr<const CloudFile> file;
-  std::shared_ptr<const Cloud> cloud;  // to look at: without far points; of a mesh its corners
-  std::size_t left_out = 0;
-
-  Scan() = default;
-  Scan(Input from, CloudFile what)
-      : input(std::move(from)), file(std::make_shared<const CloudFile>(std::move(what))), cloud(own_cloud()) {
-    if (!file->mesh.empty()) return;
-    const SeenPoints seen = *seen_points(*file, {}, ReliefOptions{}.points);  // a cloud cannot fail
-    left_out = seen.left_out;
-    if (left_out > 0) cloud = seen.cloud;
-  }
-
-  std::shared_ptr<const Cloud> own_cloud() const { return {file, &file->cloud}; }
-
-  // What the relief is made of in that view.
-  Result<std::shared_ptr<const Cloud>> seen_from(const View& view) const {
-    if (file->mesh.empty()) return cloud;
-    Result<SeenPoints> seen = seen_points(*file, view, ReliefOptions{}.points);
-    if (!seen) return std::unexpected(seen.error());
-    return seen->cloud;
-  }
-};
-
 struct Shared {
   std::optional<Opening> opening;
   Input wanted;
@@ -56,8 +29,8 @@ struct Shared {
   bool is_reading = false;
   bool is_cancelled = false;
   std::optional<Error> error;
-  Scan scan;   // the newest that was read
-  Scan shown;  // of the model that is shown
+  OpenScan scan;   // the newest that was read
+  OpenScan shown;  // of the model that is shown
   std::uint64_t models = 0;
   std::shared_ptr<const ReliefModel> model;
 };
@@ -80,9 +53,7 @@ struct Engine::State {
   std::mutex drawing;  // guards what follows
   std::uint64_t drawn_model = 0;
   std::optional<FrameRenderer> renderer;
-  std::shared_ptr<const Frame> drawn_frame;
-  double elasticity = 1;  // how much ln height changes with ln u, as far as the last two frames tell
-  std::optional<FrameOptions> last;  // that were asked for, of this model
+  LiveFrames frames{session};
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
@@ -99,7 +70,7 @@ struct Engine::State {
     if (!file)
       done = std::unexpected(file.error());
     else if (file->cloud.size() > 0)
-      done = hand_over(Scan(opening->input, std::move(*file)), opening->view);
+      done = hand_over(OpenScan(opening->input, std::move(*file)), opening->view);
     shared.with([&](Shared& s) {
       s.is_reading = false;
       if (!done) s.error = done.error();
@@ -107,7 +78,7 @@ struct Engine::State {
     return true;
   }
 
-  Result<void> hand_over(Scan scan, const View& view) {
+  Result<void> hand_over(OpenScan scan, const View& view) {
     const auto seen = scan.seen_from(view);
     if (!seen) return std::unexpected(seen.error());
     const bool is_wanted = shared.with([&](Shared& s) {
@@ -132,12 +103,12 @@ struct Engine::State {
   }
 
   // The scan that was read last, or the one that is shown if that came to nothing.
-  Scan scan_in_use() {
+  OpenScan scan_in_use() {
     model();
     const SessionStatus status = session.status();
     return shared.with([&](const Shared& s) {
       const bool has_failed = !status.is_preparing && (status.error || s.error);
-      return has_failed && s.shown.cloud ? s.shown : s.scan;
+      return has_failed && s.shown.cloud() ? s.shown : s.scan;
     });
   }
 
@@ -147,8 +118,7 @@ struct Engine::State {
     const std::uint64_t number = shared.with([](const Shared& s) { return s.models; });
     if (!ready || (renderer && drawn_model == number)) return ready;
     renderer.emplace(ready);
-    last = std::nullopt;
-    drawn_frame = nullptr;
+    frames.forget();
     drawn_model = number;
     return ready;
   }
@@ -174,7 +144,7 @@ void Engine::open(const Input& input, const std::string& view, const std::string
 Result<void> Engine::choose_view(const std::string& view, const std::string& up) {
   const Result<View> parsed = parse_view(view, up);
   if (!parsed) return std::unexpected(parsed.error());
-  const Scan scan = state_->scan_in_use();
+  const OpenScan scan = state_->scan_in_use();
   state_->shared.with([&](Shared& s) {
     s.error = std::nullopt;
     s.is_cancelled = false;
@@ -182,7 +152,7 @@ Result<void> Engine::choose_view(const std::string& view, const std::string& up)
     s.up = up;
     s.scan = scan;
   });
-  if (!scan.cloud) return nothing_open();
+  if (!scan.cloud()) return nothing_open();
   const auto seen = scan.seen_from(*parsed);
   if (!seen) return std::unexpected(seen.error());
   state_->session.open(*seen, *parsed);
@@ -205,7 +175,7 @@ EngineStatus Engine::status() const {
                         session.stage,
                         session.fraction,
                         session.error,
-                        s.shown.input,
+                        s.shown.input(),
                         s.wanted,
                         s.view,
                         s.up,
@@ -242,7 +212,7 @@ Result<ModelFacts> Engine::facts() const {
   if (surface.has_estimated_normals) facts.remarks.push_back("The scan has no normals: they were estimated.");
   if (surface.has_flipped_normals)
     facts.remarks.push_back("The scan's normals point inwards: they were turned.");
-  const std::size_t left_out = state_->shared.with([](const Shared& s) { return s.shown.left_out; });
+  const std::size_t left_out = state_->shared.with([](const Shared& s) { return s.shown.left_out(); });
   if (left_out > 0) facts.remarks.push_back(cat("Left out ", left_out, " points far from all others."));
   return facts;
 }
@@ -269,63 +239,7 @@ RenderOptions render_options(const PictureRequest& request, double scale) {
   return render;
 }
 
-// Whether a frame would come out alike: then only light or camera have changed, and it need not be made
-// again.
-bool is_same(const FrameOptions& a, const FrameOptions& b) {
-  return a.shape == b.shape && a.height == b.height;
-}
-
-// The frame asked for; while another view is prepared, the last one of the old.
-std::shared_ptr<const Frame> frame_for(Session& session, const FrameOptions& options, std::size_t points,
-                                       std::optional<FrameOptions>& last) {
-  const bool is_preparing = session.status().is_preparing;
-  if (!is_preparing && !(last && is_same(*last, options))) {
-    last = options;
-    session.request(options);
-    session.wait_until_idle(10s);
-  }
-  std::shared_ptr<const Frame> frame = session.frame();
-  return frame && frame->heights.size() == points ? frame : nullptr;
-}
-
-// While things move, one solve must do: at the u that the last frame's height suggests. What it leaves, at
-// most 3 %, is stretched away, so that a locked height is shown exactly.
-std::optional<FrameOptions> guess(const FrameOptions& wanted, const std::shared_ptr<const Frame>& last,
-                                  double elasticity) {
-  if (!wanted.height || !last || !last->is_height_met || !(last->height > 0)) return std::nullopt;
-  const double ratio = *wanted.height / last->height, far = 1.5;
-  if (!(ratio < far && ratio > 1 / far)) return std::nullopt;
-  FrameOptions options = wanted;
-  options.height = std::nullopt;
-  options.shape.compression.u = last->options.shape.compression.u * std::pow(ratio, 1 / elasticity);
-  return options;
-}
-
-// What two frames that differ in u alone tell of it; else `before`.
-double elasticity_between(const Frame& a, const Frame& b, double before) {
-  FrameOptions same = a.options;
-  same.shape.compression.u = b.options.shape.compression.u;
-  same.height = b.options.height;
-  const double change = std::log(b.options.shape.compression.u / a.options.shape.compression.u);
-  if (!is_same(same, b.options) || !(std::abs(change) > 1e-4) || !(a.height > 0 && b.height > 0))
-    return before;
-  return std::clamp(std::log(b.height / a.height) / change, .1, 2.0);
-}
-
 }  // namespace
-
-// With `drawing` held.
-Engine::Drawing Engine::frame_to_draw(const FrameOptions& wanted, bool is_quick, std::size_t points) {
-  State& s = *state_;
-  const bool is_known = s.last && is_same(*s.last, wanted);
-  const auto guessed = is_quick && !is_known ? guess(wanted, s.drawn_frame, s.elasticity) : std::nullopt;
-  if (guessed) {
-    const auto frame = frame_for(s.session, *guessed, points, s.last);
-    const double stretch = frame && frame->height > 0 ? *wanted.height / frame->height : 0;
-    if (std::abs(stretch - 1) < .03) return {frame, stretch};
-  }
-  return {frame_for(s.session, wanted, points, s.last), 1};
-}
 
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   const std::lock_guard turn(state_->drawing);
@@ -334,8 +248,9 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   const double scale = mm_per_unit(model->surface(), request.options);
   const Result<FrameOptions> wanted = frame_options(request, scale);
   if (!wanted) return std::unexpected(wanted.error());
-  const auto [frame, stretch] =
-      frame_to_draw(*wanted, !request.render.is_fine, model->surface().points.size());
+  const std::size_t points = model->surface().points.size();
+  const auto [frame, stretch, is_new] =
+      request.render.is_fine ? state_->frames.exact(*wanted, points) : state_->frames.quick(*wanted, points);
   if (!frame) return nothing_open();
 
   const auto start = std::chrono::steady_clock::now();
@@ -351,11 +266,7 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
   answer.compression = frame->options.shape.compression;
   answer.height_mm = frame->height * stretch * scale;
   answer.is_height_met = frame->is_height_met;
-  // A frame that was shown before cost nothing now.
-  if (state_->drawn_frame != frame) answer.times = frame->times;
-  if (state_->drawn_frame)
-    state_->elasticity = elasticity_between(*state_->drawn_frame, *frame, state_->elasticity);
-  state_->drawn_frame = frame;
+  if (is_new) answer.times = frame->times;
   return answer;
 }
 
@@ -367,7 +278,7 @@ Result<std::vector<float>> Engine::profile(const PictureRequest& request, const 
   const double scale = mm_per_unit(model->surface(), request.options);
   const Result<FrameOptions> wanted = frame_options(request, scale);
   if (!wanted) return std::unexpected(wanted.error());
-  const auto frame = frame_for(state_->session, *wanted, model->surface().points.size(), state_->last);
+  const auto frame = state_->frames.exact(*wanted, model->surface().points.size()).frame;
   if (!frame) return nothing_open();
   FrameRenderer& renderer = *state_->renderer;
   const Shown shown = request.is_original ? renderer.original() : Shown{frame->heights, frame->normals};
@@ -376,7 +287,7 @@ Result<std::vector<float>> Engine::profile(const PictureRequest& request, const 
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   const std::lock_guard turn(state_->drawing);
-  const auto cloud = state_->scan_in_use().cloud;
+  const auto cloud = state_->scan_in_use().cloud();
   if (!cloud) return nothing_open();
   if (cloud != state_->drawn_cloud) state_->cloud_renderer.emplace(*cloud);
   state_->drawn_cloud = cloud;
@@ -386,7 +297,7 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
 }
 
 Result<std::vector<std::string>> Engine::suggest_views() {
-  const auto cloud = state_->scan_in_use().cloud;
+  const auto cloud = state_->scan_in_use().cloud();
   if (!cloud) return nothing_open();
   std::vector<std::string> names;
   for (const ViewGuess& guess : rank_views(*cloud)) names.emplace_back(guess.name);

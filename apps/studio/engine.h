@@ -87,13 +87,6 @@ class Engine {
   Result<ExportedFile> make_file(const ReliefOptions& options, const std::string& format, int heightmap_px);
 
  private:
-  // A frame, and how much higher it is to be drawn.
-  struct Drawing {
-    std::shared_ptr<const Frame> frame;
-    double stretch = 1;
-  };
-  Drawing frame_to_draw(const FrameOptions& wanted, bool is_quick, std::size_t points);
-
   struct State;
   std::unique_ptr<State> state_;
 };

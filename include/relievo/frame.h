@@ -16,6 +16,8 @@ struct FrameOptions {
   std::optional<double> height;   // locked: shape.compression.u is found so that this height is met to 0.1 %
   Vec3f light = Vec3f(-1, 1, 1);  // towards the light, not zero
   std::shared_ptr<const std::vector<float>> base;  // added to the heights, per point; none is a plane
+
+  bool operator==(const FrameOptions&) const = default;  // bases are alike if they are the same
 };
 
 struct FrameTimes {

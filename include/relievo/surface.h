@@ -41,6 +41,9 @@ struct Surface {
   std::size_t memory() const;
 };
 
+// Returns x and y of each point.
+std::vector<Vec2> in_plane(std::span<const Vec3> points);
+
 // Returns the surface. Normals are estimated if the cloud has none, and turned if they point inwards.
 // Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
 // are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind

@@ -6,6 +6,7 @@ import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./docu
 import {NativeEngine} from "./engine.js";
 import {ExportDialog} from "./export.js";
 import {FIELDS, MATERIALS} from "./fields.js";
+import {takeArrowKeys, takeDrops, takeKeys} from "./inputs.js";
 import {engineBack, engineLost, showProgress, toast} from "./messages.js";
 import {showNumbers, showSection} from "./readouts.js";
 import {Stage, TABLE_LIGHTS} from "./stage.js";
@@ -257,18 +258,6 @@ const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "tr
 
 // ------------------------------------------------------------------------------------------------------- wiring
 
-// Arrow keys move within a radio group.
-function arrowKeys(group) {
-  group.onkeydown = (event) => {
-    const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
-    if (!step) return;
-    event.preventDefault();
-    const all = [...group.children], next = all[(all.indexOf(document.activeElement) + step + all.length) % all.length];
-    next.focus();
-    next.click();
-  };
-}
-
 function buildTools() {
   $("#materials").append(...Object.entries(MATERIALS).map(([material, name]) => make("button", {
     role: "radio", "data-material": material, "aria-label": name, title: name, onclick: () => doc.change({material}),
@@ -280,8 +269,8 @@ function buildTools() {
     },
   }, make("canvas", {"aria-hidden": "true"}), make("span", {"aria-hidden": "true"}, name))));
   for (const button of $("#tools").children) button.onclick = () => setTool(button.dataset.tool);
-  arrowKeys($("#tools"));
-  arrowKeys($("#materials"));
+  takeArrowKeys($("#tools"));
+  takeArrowKeys($("#materials"));
 }
 
 function wire() {
@@ -307,22 +296,10 @@ function wire() {
   $("#method").onchange = (event) => doc.change({options: {method: event.target.value}});
   $("#outline").onchange = (event) => doc.change({options: {outline: event.target.value}});
   $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
-  addEventListener("keydown", key);
-  addEventListener("keyup", (event) => event.key.toLowerCase() === "b" && stage.hold(false));
-  dropping();
-}
-
-function dropping() {
-  const veil = (isShown) => (event) => {
-    if (!event.dataTransfer?.types.includes("Files")) return;
-    event.preventDefault();
-    $("#veil").hidden = !isShown;
-  };
-  addEventListener("dragover", veil(true));
-  addEventListener("dragleave", (event) => event.relatedTarget === null && veil(false)(event));
-  addEventListener("drop", (event) => {
-    veil(false)(event);
-    openFile(event.dataTransfer?.files[0]);
+  takeDrops($("#veil"), openFile);
+  takeKeys({
+    commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
+    isReady: () => facts && !$("#studio").hidden, hold: (isHeld) => stage.hold(isHeld),
   });
 }
 
@@ -332,26 +309,9 @@ const COMMANDS = {
 const KEYS = {
   l: () => setTool("light"), o: () => setTool("turn"), h: () => setTool("pan"), s: () => setTool("section"), f: () => stage.fit(),
   t: () => setTable(!isPressed("#light-table")), c: () => setComparing(!isPressed("#compare")), v: () => views.show(doc.now.options),
+  Escape: () => setTable(false),
+  ...Object.fromEntries(Object.keys(MATERIALS).map((material, i) => [i + 1, () => doc.change({material})])),
 };
-
-function key(event) {
-  if ($("dialog[open]")) return;
-  const isTyping = event.target.matches?.("input[type='number'], select");
-  if (event.ctrlKey || event.metaKey) {
-    const command = COMMANDS[event.key];
-    if (!command || (isTyping && "zZy".includes(event.key))) return;
-    event.preventDefault();
-    return command();
-  }
-  if (isTyping || event.altKey) return;
-  if (event.key === "?") return $("#help-dialog").showModal();
-  if ($("#studio").hidden || !facts) return;
-  if (event.key === "b" && !event.repeat) return stage.hold(true);
-  if (event.key === "Escape") return setTable(false);
-  const material = Object.keys(MATERIALS)[Number(event.key) - 1];
-  if (material) return doc.change({material});
-  KEYS[event.key]?.();
-}
 
 // ------------------------------------------------------------------------------------------------------- start
 

@@ -1,0 +1,49 @@
+// What a user does besides pressing buttons: keys, and files dropped on the page.
+
+// Arrow keys move within a radio group.
+export function takeArrowKeys(group) {
+  group.onkeydown = (event) => {
+    const step = {ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1}[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const all = [...group.children], next = all[(all.indexOf(document.activeElement) + step + all.length) % all.length];
+    next.focus();
+    next.click();
+  };
+}
+
+// Calls `open` with a file that is dropped; meanwhile the veil tells where.
+export function takeDrops(veil, open) {
+  const show = (isShown) => (event) => {
+    if (!event.dataTransfer?.types.includes("Files")) return;
+    event.preventDefault();
+    veil.hidden = !isShown;
+  };
+  addEventListener("dragover", show(true));
+  addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
+  addEventListener("drop", (event) => {
+    show(false)(event);
+    open(event.dataTransfer?.files[0]);
+  });
+}
+
+// Calls what belongs to a key: `commands` with Ctrl or Cmd; `always` and, while `isReady()`, `keys` without;
+// `hold(true)` while B is down. No key counts while a dialog is open, nor letters while something is typed.
+export function takeKeys({commands, always, keys, isReady, hold}) {
+  addEventListener("keydown", (event) => {
+    if (document.querySelector("dialog[open]")) return;
+    const isTyping = event.target.matches?.("input[type='number'], select");
+    if (event.ctrlKey || event.metaKey) {
+      const command = commands[event.key];
+      if (!command || (isTyping && "zZy".includes(event.key))) return;
+      event.preventDefault();
+      return command();
+    }
+    if (isTyping || event.altKey) return;
+    if (always[event.key]) return always[event.key]();
+    if (!isReady()) return;
+    if (event.key === "b" && !event.repeat) return hold(true);
+    keys[event.key]?.();
+  });
+  addEventListener("keyup", (event) => event.key.toLowerCase() === "b" && hold(false));
+}
