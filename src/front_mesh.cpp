@@ -1,5 +1,7 @@
 #include "front_mesh.h"
 
+#include <algorithm>
+
 #include "depth_buffer.h"
 #include "jumps.h"
 #include "relievo/visible.h"
@@ -22,6 +24,22 @@ Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
   return surface;
 }
 
+// Whether a triangle is wider than the gaps between points of one surface.
+bool is_wide(const Surface& surface, const Triangle& t) {
+  constexpr double widest_gap = 2.5;  // in rho
+  double longest = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    longest = std::max(longest, (surface.points[t[i]] - surface.points[t[(i + 1) % 3]]).head<2>().norm());
+  return longest > widest_gap * surface.rho;
+}
+
+// Whether the surface may well go on from corner to corner of a triangle.
+bool look_alike(const Surface& surface, const Triangle& t) {
+  const auto& n = surface.normals;
+  constexpr float least_cosine = .5F;
+  return std::min({n[t[0]].dot(n[t[1]]), n[t[1]].dot(n[t[2]]), n[t[2]].dot(n[t[0]])}) > least_cosine;
+}
+
 class Mesher {
  public:
   explicit Mesher(const Surface& surface) : surface_(surface) {
@@ -32,19 +50,23 @@ class Mesher {
   Mesh make() {
     const std::vector<std::uint8_t> is_jumping = jump_triangles(surface_);
     for (std::size_t t = 0; t < is_jumping.size(); ++t) {
+      const Triangle& corners = surface_.triangulation.triangles[t];
+      const auto& [a, b, c] = corners;
       if (!surface_.boundary.is_inside[t]) continue;
-      if (is_jumping[t])
-        share_out(surface_.triangulation.triangles[t]);
+      if (is_wide(surface_, corners) && (is_jumping[t] || !look_alike(surface_, corners)))
+        add(corners, {Vec3f::UnitZ(), Vec3f::UnitZ(), Vec3f::UnitZ()});
+      else if (is_jumping[t])
+        share_out(corners);
       else
-        add_whole(surface_.triangulation.triangles[t]);
+        add(corners, {surface_.normals[a], surface_.normals[b], surface_.normals[c]});
     }
     return std::move(mesh_);
   }
 
  private:
-  void add_whole(const Triangle& t) {
+  void add(const Triangle& t, const std::array<Vec3f, 3>& normals) {
     mesh_.triangles.push_back(t);
-    mesh_.corner_normals.push_back({surface_.normals[t[0]], surface_.normals[t[1]], surface_.normals[t[2]]});
+    mesh_.corner_normals.push_back(normals);
   }
 
   // Each corner gets what lies nearer to it than the lines between the middles of the sides and the centre.
@@ -54,11 +76,9 @@ class Mesher {
     for (std::size_t i = 0; i < 3; ++i) {
       const Index next = add_point(t[i], (at(i) + at(i + 1)) / 2), middle = add_point(t[i], centre);
       const Index last = add_point(t[i], (at(i) + at(i + 2)) / 2);
-      for (const Triangle& part : {Triangle{t[i], next, middle}, Triangle{t[i], middle, last}}) {
-        mesh_.triangles.push_back(part);
-        const Vec3f& normal = surface_.normals[t[i]];
-        mesh_.corner_normals.push_back({normal, normal, normal});
-      }
+      const Vec3f& normal = surface_.normals[t[i]];
+      add({t[i], next, middle}, {normal, normal, normal});
+      add({t[i], middle, last}, {normal, normal, normal});
     }
   }
 

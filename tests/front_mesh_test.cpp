@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <numbers>
 
 #include "shapes.h"
@@ -33,13 +34,51 @@ TEST(FrontMesh, CoversWhatIsSeen) {
 }
 
 TEST(FrontMesh, LeavesNoGapAndNoWallWhereTheDepthJumps) {
-  const Cloud scene = test::joined(test::sheet(4000, 1, 0), test::sheet(4000, .5, 2, 8));
+  const Cloud scene = test::joined(test::sheet(16000, 1, 0), test::sheet(4000, .5, 2, 8));
   const Mesh mesh = front_mesh(scene, measure_spacing(scene));
   EXPECT_NEAR(area_in_plane(mesh), 4, .1);
   for (const Vec3& p : mesh.points) EXPECT_LT(std::min(std::abs(p.z()), std::abs(p.z() - 2)), 1e-9);
-  for (const auto& [a, b, c] : mesh.triangles) {
-    EXPECT_EQ(mesh.points[a].z() > 1, mesh.points[b].z() > 1);
-    EXPECT_EQ(mesh.points[a].z() > 1, mesh.points[c].z() > 1);
+  // Triangles of both sheets, over gaps too wide to be shared out, stand at the edge of the nearer one alone.
+  const double rho = measure_spacing(scene).rho;
+  for (const Triangle& t : mesh.triangles) {
+    const auto is_near = [&](Index i) { return mesh.points[i].z() > 1; };
+    if (is_near(t[0]) == is_near(t[1]) && is_near(t[0]) == is_near(t[2])) continue;
+    const Vec2 middle = (mesh.points[t[0]] + mesh.points[t[1]] + mesh.points[t[2]]).head<2>() / 3;
+    EXPECT_NEAR(middle.cwiseAbs().maxCoeff(), .5, 3.5 * rho);
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_LT((mesh.points[t[i]] - mesh.points[t[(i + 1) % 3]]).head<2>().norm(), 6 * rho);
+  }
+}
+
+// Slopes of 45 degrees, of which the one right of a gap lies deeper.
+Cloud broken_slope(double half_gap, double depth) {
+  const Cloud slope = test::height_field(
+      10000, 1, [](double x, double) { return x; }, [](double, double) { return Vec2(1, 0); });
+  std::vector<Index> in_gap;
+  for (Index i = 0; i < slope.size(); ++i)
+    if (std::abs(slope.points[i].x()) < half_gap) in_gap.push_back(i);
+  Cloud broken = without(slope, in_gap);
+  for (Vec3& p : broken.points)
+    if (p.x() > 0) p.z() -= depth;
+  return broken;
+}
+
+TEST(FrontMesh, AGapInOneSurfaceTakesItsSlope) {
+  const Cloud broken = broken_slope(.02, 0);
+  const Mesh mesh = front_mesh(broken, measure_spacing(broken));
+  EXPECT_NEAR(area_in_plane(mesh), 4, .1);
+  for (const auto& normals : mesh.corner_normals) EXPECT_LT(normals[0].z(), .71F);
+}
+
+TEST(FrontMesh, AGapBetweenTwoSurfacesShowsNothing) {
+  const double half_gap = .035;
+  const Cloud broken = broken_slope(half_gap, 3);
+  const Mesh mesh = front_mesh(broken, measure_spacing(broken));
+  EXPECT_NEAR(area_in_plane(mesh), 4, .1);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    double x = 0;
+    for (const Index corner : mesh.triangles[t]) x += mesh.points[corner].x() / 3;
+    EXPECT_EQ(mesh.corner_normals[t][0].z() > .99F, std::abs(x) < half_gap) << x;
   }
 }
 
