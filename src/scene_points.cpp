@@ -181,13 +181,21 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   return all;
 }
 
+// What is seen of one file, which lives as long as the points.
+Result<SeenPoints> seen_points(const std::shared_ptr<const CloudFile>& file, const View& view, double points,
+                               Progress* progress) {
+  Result<SeenPoints> seen = relievo::seen_points(*file, view, points, progress);
+  if (seen && seen->cloud.get() == &file->cloud) seen->cloud = {file, &file->cloud};
+  return seen;
+}
+
 }  // namespace
 
 Result<SeenPoints> seen_points(const Scene& scene, const View& view, double points, Progress* progress) {
   const Result<std::vector<PlacedModel>> places = place_models(scene, view);
   if (!places) return std::unexpected(places.error());
   if (scene.models.size() == 1 && scene.models[0].pose == Pose{})
-    return seen_points(*scene.models[0].file, view, points, progress);
+    return seen_points(scene.models[0].file, view, points, progress);
   Result<Parts> parts = place_all(scene, *places, view, progress);
   if (!parts) return std::unexpected(parts.error());
   MeshSampling sampling{points};

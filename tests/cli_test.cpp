@@ -138,6 +138,9 @@ TEST_F(Cli, MakesScenes) {
     {"file": "torus.ply", "rotate": [60, 0, 0], "translate": [0, 0, 1.5]},
     {"file": "torus.ply", "scale": 1.5, "mirror": true}]})");
   EXPECT_EQ(run("make scene.json -o scene.stl --quiet").exit_code, 0);
+  write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "scene.json"}, "options": {}})");
+  EXPECT_EQ(run("make p.relievo -o p.stl --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "scene.stl"));
   EXPECT_NE(run("compare scene.json --height 0.02 --methods ours").out.find("ours"), std::string::npos);
   EXPECT_NE(run("info scene.json").out.find("models     2"), std::string::npos);
   expect_refusal("make scene.json -o scene.json", "scene.json");

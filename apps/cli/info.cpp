@@ -84,7 +84,7 @@ Result<void> scene_info(const std::vector<std::string>& inputs) {
 
 Result<void> info(const std::vector<std::string>& inputs) {
   const std::string& input = inputs[0];
-  if (inputs.size() > 1 || ending_of(input) == "json") return scene_info(inputs);
+  if (inputs.size() > 1 || is_scene_file(input)) return scene_info(inputs);
   const Result<std::vector<std::byte>> bytes = read_file(input);
   if (!bytes) return std::unexpected(bytes.error());
   if (is_picture(*bytes)) return depth_info(*bytes, input);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "files.h"
 #include "flags.h"
@@ -89,15 +90,22 @@ struct Seen {
   double points = 0;
 };
 
-// Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
-Result<std::optional<Input>> read_large(const std::string& path, const InputArguments& arguments,
-                                        const Seen& seen, Progress* progress) {
+// Size of a file that is to be read piece by piece if that is possible; nothing for small ones.
+std::optional<std::uintmax_t> large_size(const std::string& path, const InputArguments& arguments) {
   std::error_code failed;
   const std::uintmax_t size =
       std::filesystem::is_regular_file(path, failed) ? std::filesystem::file_size(path, failed) : 0;
   if (failed || static_cast<double>(size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
-  FileSource source(path, size);
-  std::vector<std::byte> head(std::min<std::uintmax_t>(size, 1 << 20));
+  return size;
+}
+
+// Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
+Result<std::optional<Input>> read_large(const std::string& path, const InputArguments& arguments,
+                                        const Seen& seen, Progress* progress) {
+  const std::optional<std::uintmax_t> size = large_size(path, arguments);
+  if (!size) return std::nullopt;
+  FileSource source(path, *size);
+  std::vector<std::byte> head(std::min<std::uintmax_t>(*size, 1 << 20));
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
   auto streamed = stream_front(source, path, seen.view, seen.points, progress);
   if (!streamed) return std::unexpected(streamed.error());
@@ -119,10 +127,6 @@ Result<Input> read_input(const std::string& path, const InputArguments& argument
   const auto bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
   return parse_input(*bytes, path, arguments, seen.points, progress);
-}
-
-bool is_scene_file(const std::string& path) {
-  return ending_of(path) == "json";
 }
 
 Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths) {
@@ -149,6 +153,10 @@ View seen_by_model(const View& view, const Pose& pose) {
 }
 
 }  // namespace
+
+bool is_scene_file(const std::string& path) {
+  return ending_of(path) == "json";
+}
 
 void add_input_flags(CLI::App& command, InputArguments& arguments) {
   add_flags(command, arguments.depth);
@@ -205,12 +213,18 @@ Result<SceneInput> read_scene(const std::vector<std::string>& paths, const Input
   const Result<std::vector<SceneEntry>> entries = entries_of(paths);
   if (!entries) return std::unexpected(entries.error());
   SceneInput made;
+  std::map<std::string, std::shared_ptr<const CloudFile>> known;  // the same for every pose
   for (const SceneEntry& entry : *entries) {
+    if (known.contains(entry.path)) {
+      made.scene.models.push_back({entry.path, known[entry.path], entry.pose});
+      continue;
+    }
     Result<Input> read =
         read_input(entry.path, arguments, {seen_by_model(*view, entry.pose), relief.points}, progress);
     if (!read) return std::unexpected(read.error());
-    made.scene.models.push_back(
-        {entry.path, std::make_shared<const CloudFile>(std::move(read->file)), entry.pose});
+    const auto file = std::make_shared<const CloudFile>(std::move(read->file));
+    if (!large_size(entry.path, arguments)) known[entry.path] = file;
+    made.scene.models.push_back({entry.path, file, entry.pose});
     made.remarks.insert(made.remarks.end(), read->remarks.begin(), read->remarks.end());
   }
   return made;

@@ -39,6 +39,9 @@ struct SceneInput {
   std::vector<std::string> remarks;
 };
 
+// Whether that is a scene file, by its ending: .json.
+bool is_scene_file(const std::string& path);
+
 // Reads the files of those paths, one or several models, or one scene file (.json): of depth images and very
 // large files what the view and the number of points in `relief` ask for. Errors: those of read_file(),
 // read_cloud(), stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene

@@ -155,9 +155,9 @@ Result<SceneInput> load(const MakeArguments& arguments, Progress& progress) {
   if (!arguments.scan) return read_scene(arguments.inputs, arguments.in, arguments.relief, &progress);
   if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
   studio::Input scan = *arguments.scan;
-  Result<CloudFile> file = studio::load_input(scan, std::filesystem::path(arguments.inputs[0]).parent_path());
-  if (!file) return std::unexpected(file.error());
-  return SceneInput{{{{scan.name, std::make_shared<const CloudFile>(std::move(*file))}}}, {}};
+  Result<Scene> scene = studio::load_input(scan, std::filesystem::path(arguments.inputs[0]).parent_path());
+  if (!scene) return std::unexpected(scene.error());
+  return SceneInput{std::move(*scene), {}};
 }
 
 std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Scene& scene,

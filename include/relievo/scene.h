@@ -58,8 +58,8 @@ Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& vi
 // cloud, or the one at which the viewer sees about as many points as wanted, if that is wider or the scene
 // has meshes. Finer clouds are thinned to it, clouds that are much coarser, of which only what the viewer
 // sees is taken, get points in between. Normals are estimated, or turned, for each model by itself. If any
-// model has colours, the others are white. A single model that is not moved gives what its file does. The
-// scene's files must outlive the points. Errors: those of place_models() and sample_mesh(); geometry for a
+// model has colours, the others are white. A single model that is not moved gives what its file does.
+// Errors: those of place_models() and sample_mesh(); geometry for a
 // cloud of which nothing can be seen; kind cancelled.
 Result<SeenPoints> seen_points(const Scene& scene, const View& view, double points,
                                Progress* progress = nullptr);
