@@ -79,6 +79,7 @@ bool is_mirrored(Form form) {
 }
 
 constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
+constexpr double rim_bevel = .3;               // of the rim's height: 17 degrees from upright, dies come off
 
 // A lithophane has no height to reach: its own is exact by construction.
 Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions options, double mm_per_unit,
@@ -114,6 +115,13 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
   Result<Front> front = formed_front(form, surface, relief, options, report, progress);
   if (front && !front->is_relief.empty()) return relief_alone(*front);
   return front;
+}
+
+RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
+  if (!options.rim_mm) return {};
+  const double width = *options.rim_mm, height = options.rim_height_mm.value_or(std::min(width, relief_mm)),
+               bevel = std::min(width, options.rim_bevel_mm.value_or(rim_bevel * height));
+  return {width, form == Form::die ? -height : height, bevel};
 }
 
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
@@ -158,8 +166,9 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   made.report = report_on(model.surface(), *relief, options);
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
-  Result<Solid> solid = make_plate(
-      *front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline), options.corner_mm});
+  Result<Solid> solid =
+      make_plate(*front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline),
+                          options.corner_mm, rim_of(options, form, made.report.height_mm)});
   if (!solid) return std::unexpected(solid.error());
   made.solid = std::move(*solid);
   made.report.below_ground_mm = depth_below_ground(*front);

@@ -46,6 +46,19 @@ Result<void> check_method(const ReliefOptions& options) {
   return {};
 }
 
+Result<void> check_rim(const ReliefOptions& options) {
+  if (!options.rim_mm && options.rim_height_mm)
+    return contradiction("--rim-height", "expected --rim with it, found none");
+  if (!options.rim_mm && options.rim_bevel_mm)
+    return contradiction("--rim-bevel", "expected --rim with it, found none");
+  if (options.rim_mm && options.outline == "none")
+    return contradiction("--rim", "expected an outline to lie along, found --outline none");
+  if (options.rim_bevel_mm > options.rim_mm)
+    return contradiction("--rim-bevel", cat("expected at most the rim's width, ", *options.rim_mm,
+                                            " mm, found ", *options.rim_bevel_mm, " mm"));
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const ReliefOptions& options) {
@@ -56,6 +69,7 @@ Result<void> check(const ReliefOptions& options) {
     return contradiction("--alpha", "expected either --height or --alpha, found both");
   if (const auto form = parse_form(options.form); !form) return std::unexpected(form.error());
   if (const auto outline = parse_outline(options.outline); !outline) return std::unexpected(outline.error());
+  if (auto good = check_rim(options); !good) return good;
   return check_method(options);
 }
 

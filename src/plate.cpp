@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
+#include "convex_polygon.h"
 #include "plate_rings.h"
 #include "relievo/solid.h"
 #include "relievo/text.h"
@@ -20,17 +22,36 @@ std::unexpected<Error> fail(ErrorKind kind, std::string input, std::string expec
   return std::unexpected(Error{kind, std::move(input), {}, std::move(expected)});
 }
 
-Result<void> check_options(const PlateOptions& options) {
-  const auto is_good = [](double mm) { return std::isfinite(mm) && mm >= least_size_mm; };
-  const auto wanted = [](double mm) {
-    return cat("expected a finite length of at least 0.001 mm, found ", mm);
-  };
-  if (!is_good(options.margin_mm)) return fail(ErrorKind::option, "margin", wanted(options.margin_mm));
-  if (!is_good(options.thickness_mm))
-    return fail(ErrorKind::option, "thickness", wanted(options.thickness_mm));
-  if (options.outline == Outline::round && !is_good(options.corner_mm))
-    return fail(ErrorKind::option, "corner", wanted(options.corner_mm));
+bool is_good(double mm) {
+  return std::isfinite(mm) && mm >= least_size_mm;
+}
+
+std::string wanted_length(double mm) {
+  return cat("expected a finite length of at least 0.001 mm, found ", mm);
+}
+
+Result<void> check_rim(const PlateOptions& options) {
+  const RimOptions& rim = options.rim;
+  if (rim.width_mm == 0) return {};
+  if (options.outline == Outline::none)
+    return fail(ErrorKind::option, "rim", "expected an outline to lie along, found none");
+  if (!is_good(rim.width_mm)) return fail(ErrorKind::option, "rim", wanted_length(rim.width_mm));
+  if (!is_good(std::abs(rim.height_mm)))
+    return fail(ErrorKind::option, "rim-height", wanted_length(rim.height_mm));
+  if (!is_good(rim.bevel_mm) || rim.bevel_mm > rim.width_mm)
+    return fail(
+        ErrorKind::option, "rim-bevel",
+        cat("expected 0.001 mm to ", rim.width_mm, " mm, the rim's width, found ", rim.bevel_mm, " mm"));
   return {};
+}
+
+Result<void> check_options(const PlateOptions& options) {
+  if (!is_good(options.margin_mm)) return fail(ErrorKind::option, "margin", wanted_length(options.margin_mm));
+  if (!is_good(options.thickness_mm))
+    return fail(ErrorKind::option, "thickness", wanted_length(options.thickness_mm));
+  if (options.outline == Outline::round && !is_good(options.corner_mm))
+    return fail(ErrorKind::option, "corner", wanted_length(options.corner_mm));
+  return check_rim(options);
 }
 
 Result<void> check_front(const Front& front, bool has_ground) {
@@ -63,6 +84,24 @@ void place_front(const Front& front, const Box& box, const Vec3& corner, Solid& 
   for (const Vec3& p : front.points) solid.points.push_back((p - box.min) + corner);
 }
 
+// A line along the outline where the ground bends.
+struct Ledge {
+  double inward_mm = 0, height_mm = 0;  // from the outline; above the ground
+};
+
+// From the outside in.
+std::vector<Ledge> ledges_of(const RimOptions& rim) {
+  if (rim.width_mm == 0) return {{}};
+  std::vector<Ledge> ledges;
+  const bool is_groove = rim.height_mm < 0;
+  const double outer = is_groove ? rim.width_mm + rim.bevel_mm : 0;
+  if (is_groove) ledges = {{0, 0}, {rim.width_mm, 0}};
+  ledges.push_back({outer, rim.height_mm});
+  if (rim.bevel_mm < rim.width_mm) ledges.push_back({outer + rim.width_mm - rim.bevel_mm, rim.height_mm});
+  ledges.push_back({outer + rim.width_mm, 0});
+  return ledges;
+}
+
 // The outline of a plate with ground, from the far, lower left corner of the plate's box; and where that of
 // the front's box lies in it.
 struct Ground {
@@ -71,13 +110,16 @@ struct Ground {
 };
 
 Ground ground_around(const Front& front, const Box& box, const PlateOptions& options) {
+  const double beyond_rim = ledges_of(options.rim).back().inward_mm - options.rim.width_mm;
   if (options.outline == Outline::rectangle) {
-    const Vec2 corner = Vec2::Constant(options.margin_mm), size = box.size().head<2>() + corner + corner;
+    const Vec2 corner = Vec2::Constant(options.margin_mm + options.rim.width_mm + beyond_rim),
+               size = box.size().head<2>() + corner + corner;
     return {{{0, 0}, {size.x(), 0}, size, {0, size.y()}}, corner};
   }
   std::vector<Vec2> hull;
   for (const Index i : front.hull) hull.push_back((front.points[i] - box.min).head<2>());
-  Ground ground{outline_around(hull, {options.outline, options.corner_mm, options.margin_mm})};
+  const double margin = options.margin_mm + options.rim.width_mm;
+  Ground ground{inset(outline_around(hull, {options.outline, options.corner_mm, margin}), -beyond_rim)};
   Vec2 min = ground.outline[0];
   for (const Vec2& p : ground.outline) min = min.cwiseMin(p);
   for (Vec2& p : ground.outline) p -= min;
@@ -100,12 +142,20 @@ void add_bottom(Solid& solid, const Loop& loop) {
 
 Solid plate_with_ground(const Front& front, const PlateOptions& options) {
   Solid solid;
-  const Box box = used_box(front);
+  Box box = used_box(front);
+  const double ground_z = front.points[front.hull[0]].z();
+  const std::vector<Ledge> ledges = ledges_of(options.rim);
+  for (const Ledge& ledge : ledges) box.min.z() = std::min(box.min.z(), ground_z + ledge.height_mm);
   const Ground ground = ground_around(front, box, options);
   place_front(front, box, {ground.corner.x(), ground.corner.y(), options.thickness_mm}, solid);
   solid.triangles = front.triangles;
-  const Loop top = add_loop(solid, ground.outline, solid.points[front.hull[0]].z());
-  add_ring(solid, front.hull, top);
+  Loop top = front.hull;
+  for (const Ledge& ledge : ledges | std::views::reverse) {
+    const double z = solid.points[front.hull[0]].z() + ledge.height_mm;
+    Loop outer = add_loop(solid, inset(ground.outline, ledge.inward_mm), z);
+    add_ring(solid, top, outer);
+    top = std::move(outer);
+  }
   solid.front_triangles = solid.triangles.size();
   const Loop bottom = add_loop(solid, ground.outline, 0);
   add_walls(solid, top, bottom);
