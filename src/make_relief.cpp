@@ -202,20 +202,6 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 
 namespace {
 
-// The plate of points that were seen.
-Result<MadeRelief> make_relief_of(const SeenPoints& seen, const View& view, const ReliefOptions& options,
-                                  Progress* progress) {
-  const Result<Mode> mode = parse_mode(options.mode);
-  if (!mode) return std::unexpected(mode.error());
-  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
-  if (!surface) return std::unexpected(surface.error());
-  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
-  if (!model) return std::unexpected(model.error());
-  Result<MadeRelief> made = make_relief(*model, options, progress);
-  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
-  return made;
-}
-
 // The cloud without its strays, which is not copied if there are none.
 SeenPoints near_points(std::shared_ptr<const Cloud> cloud) {
   const std::vector<Index> strays = far_points(*cloud);
@@ -242,20 +228,34 @@ Result<SeenPoints> seen_points(const CloudFile& file, const View& view, double p
   return seen;
 }
 
+Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
+                               Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
+  if (!surface) return std::unexpected(surface.error());
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
+  if (!model) return std::unexpected(model.error());
+  Result<MadeRelief> made = make_relief(*model, options, progress);
+  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
+  return made;
+}
+
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
   const Result<SeenPoints> seen = seen_points(file, *view, options.points, progress);
   if (!seen) return std::unexpected(seen.error());
-  return make_relief_of(*seen, *view, options, progress);
+  return make_relief(*seen, *view, options, progress);
 }
 
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
-  return make_relief_of(near_points(not_owned(cloud)), *view, options, progress);
+  return make_relief(near_points(not_owned(cloud)), *view, options, progress);
 }
 
 }  // namespace relievo
