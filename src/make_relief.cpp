@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "relievo/draft.h"
 #include "relievo/forms.h"
 #include "relievo/mesh.h"
 #include "relievo/method.h"
@@ -20,9 +21,15 @@ Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& optio
                             Progress* progress) {
   const Result<Shape> shape = shape_of(options);
   if (!shape) return std::unexpected(shape.error());
-  if (!options.height_mm) return model.make(*shape);
-  return make_by_method(*parse_method(options.effective_method()), model, *options.height_mm / mm_per_unit,
-                        *shape, mm_per_unit, progress);
+  const Method method = *parse_method(options.effective_method());
+  const double height = options.height_mm.value_or(0) / mm_per_unit;
+  if (!options.draft_deg) {
+    if (!options.height_mm) return model.make(*shape);
+    return make_by_method(method, model, height, *shape, mm_per_unit, progress);
+  }
+  const DraftOptions draft{slope_at_draft(*options.draft_deg)};
+  if (!options.height_mm) return limit_draft(model, model.make(*shape), draft, progress);
+  return make_with_draft(model, {method, *shape, height, mm_per_unit}, draft, progress);
 }
 
 Box visible_box(const Surface& surface) {
@@ -79,6 +86,7 @@ bool is_mirrored(Form form) {
 }
 
 constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
+constexpr double rim_bevel = .3;               // of the rim's height: 17 degrees from upright, dies come off
 
 // A lithophane has no height to reach: its own is exact by construction.
 Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions options, double mm_per_unit,
@@ -86,6 +94,11 @@ Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions opt
   if (form == Form::lithophane) options.height_mm.reset();
   return shape_relief(model, options, mm_per_unit, progress);
 }
+
+// Of the steepest slope, what simpler fronts keep: between that of limit_draft() and 1, which is left for
+// rounding.
+constexpr double front_share = .9995;
+constexpr double most_held_mm = 1e-5;  // what hold_draft() moves points by, as a rule
 
 // The front in the form asked for, and as simple as allowed.
 Result<Front> formed_front(Form form, const Surface& surface, const Relief& relief,
@@ -99,7 +112,12 @@ Result<Front> formed_front(Form form, const Surface& surface, const Relief& reli
   if (form == Form::mirror) front = mirrored(std::move(front));
   if (form == Form::die) front = as_die(std::move(front));
   if (!options.tolerance_mm) return front;
-  Result<SimplerFront> simpler = simplify(front, *options.tolerance_mm, progress);
+  SimplifyOptions simplest{*options.tolerance_mm};
+  if (options.draft_deg) {
+    simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
+    simplest.tolerance_mm -= std::min(.1 * *options.tolerance_mm, most_held_mm);
+  }
+  Result<SimplerFront> simpler = simplify(front, simplest, progress);
   if (!simpler) return std::unexpected(simpler.error());
   report.simplification_error_mm = simpler->error_mm;
   report.remarks.push_back(cat("the front has ", simpler->front.triangles.size(), " of ",
@@ -114,6 +132,13 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
   Result<Front> front = formed_front(form, surface, relief, options, report, progress);
   if (front && !front->is_relief.empty()) return relief_alone(*front);
   return front;
+}
+
+RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
+  if (!options.rim_mm) return {};
+  const double width = *options.rim_mm, height = options.rim_height_mm.value_or(std::min(width, relief_mm)),
+               bevel = std::min(width, options.rim_bevel_mm.value_or(rim_bevel * height));
+  return {width, form == Form::die ? -height : height, bevel};
 }
 
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
@@ -158,10 +183,17 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   made.report = report_on(model.surface(), *relief, options);
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
-  Result<Solid> solid = make_plate(
-      *front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline), options.corner_mm});
+  Result<Solid> solid =
+      make_plate(*front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline),
+                          options.corner_mm, rim_of(options, form, made.report.height_mm)});
   if (!solid) return std::unexpected(solid.error());
+  if (options.draft_deg) {
+    const Result<double> moved = hold_draft(*solid, slope_at_draft(*options.draft_deg));
+    if (!moved) return std::unexpected(moved.error());
+    if (made.report.simplification_error_mm) *made.report.simplification_error_mm += *moved;
+  }
   made.solid = std::move(*solid);
+  made.report.steepest_deg = std::atan(steepest_slope(made.solid)) * 180 / std::numbers::pi;
   made.report.below_ground_mm = depth_below_ground(*front);
   made.report.scale = scale;
   place(made.report, model.surface(), *front, made.solid.points[0] - front->points[0], form);

@@ -46,6 +46,19 @@ Result<void> check_method(const ReliefOptions& options) {
   return {};
 }
 
+Result<void> check_rim(const ReliefOptions& options) {
+  if (!options.rim_mm && options.rim_height_mm)
+    return contradiction("--rim-height", "expected --rim with it, found none");
+  if (!options.rim_mm && options.rim_bevel_mm)
+    return contradiction("--rim-bevel", "expected --rim with it, found none");
+  if (options.rim_mm && options.outline == "none")
+    return contradiction("--rim", "expected an outline to lie along, found --outline none");
+  if (options.rim_bevel_mm > options.rim_mm)
+    return contradiction("--rim-bevel", cat("expected at most the rim's width, ", *options.rim_mm,
+                                            " mm, found ", *options.rim_bevel_mm, " mm"));
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const ReliefOptions& options) {
@@ -54,8 +67,12 @@ Result<void> check(const ReliefOptions& options) {
   if (ranges.error) return std::unexpected(*ranges.error);
   if (options.height_mm && options.alpha)
     return contradiction("--alpha", "expected either --height or --alpha, found both");
-  if (const auto form = parse_form(options.form); !form) return std::unexpected(form.error());
+  const Result<Form> form = parse_form(options.form);
+  if (!form) return std::unexpected(form.error());
+  if (options.draft_deg && *form == Form::lithophane)
+    return contradiction("--draft", "expected a form other than lithophane, whose walls the light decides");
   if (const auto outline = parse_outline(options.outline); !outline) return std::unexpected(outline.error());
+  if (auto good = check_rim(options); !good) return good;
   return check_method(options);
 }
 

@@ -136,6 +136,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
        report.height_requested_mm ? nlohmann::json(*report.height_requested_mm) : nlohmann::json()},
       {"height_mm", report.height_mm},
       {"below_ground_mm", report.below_ground_mm},
+      {"steepest_deg", report.steepest_deg},
       {"simplification_error_mm",
        report.simplification_error_mm ? nlohmann::json(*report.simplification_error_mm) : nlohmann::json()},
       {"seconds", seconds},

@@ -27,7 +27,8 @@ struct ReliefReport {
   std::optional<double> height_requested_mm;
   double height_mm = 0;  // reached, lowest to highest point of the front
   double below_ground_mm =
-      0;  // of it, how deep the lowest point lies below the flat ground, which may be all
+      0;                    // of it, how deep the lowest point lies below the flat ground, which may be all
+  double steepest_deg = 0;  // of the front's triangles, as files hold them
 
   // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
   // in z the model keeps its depth and its lowest visible point lies on the ground. The rotation of a

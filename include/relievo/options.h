@@ -18,6 +18,7 @@ struct ReliefOptions {
   std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
   std::string method;                // see method.h; ours with a height, else the paper's
   std::optional<double> steepest_deg;    // steepest slope of the front, 76 without it
+  std::optional<double> draft_deg;       // least lean of walls off the vertical, held by every triangle
   std::optional<double> boundary_width;  // of (7), in sampling distances; 2, with our method 0.5
   std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
   std::string mode = "exact";
@@ -27,9 +28,12 @@ struct ReliefOptions {
   double corner_mm = 5;               // radius of the corners of outline "round"
   double margin_mm = 5;
   double thickness_mm = 3;
-  double points = 3e5;                 // visible points to take from a mesh
-  std::string form = "relief";         // or "mirror", "die", "lithophane": see forms.h
-  std::optional<double> tolerance_mm;  // largest error of a mesh made simpler; without it all points stay
+  std::optional<double> rim_mm;         // width of a raised edge along the outline; without it there is none
+  std::optional<double> rim_height_mm;  // above the ground; the relief's height, at most the rim's width
+  std::optional<double> rim_bevel_mm;   // width of its slanting inner side; 0.3 of its height
+  double points = 3e5;                  // visible points to take from a mesh
+  std::string form = "relief";          // or "mirror", "die", "lithophane": see forms.h
+  std::optional<double> tolerance_mm;   // largest error of a mesh made simpler; without it all points stay
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
   // model.
@@ -70,6 +74,10 @@ void visit(Options& o, F&& f) {
   f(OptionField{"steepest", "DEG",
                 "steepest slope asked of the surface, which walls at jumps can exceed; default 76", 1, 89},
     o.steepest_deg);
+  f(OptionField{"draft", "DEG",
+                "least angle of walls off the vertical, kept by every triangle of the front; default: any", 1,
+                80},
+    o.draft_deg);
   f(OptionField{"boundary", "W",
                 "width of the soft rim, in sampling distances; default 2, with method ours 0.5", .1, 100},
     o.boundary_width);
@@ -90,6 +98,16 @@ void visit(Options& o, F&& f) {
   f(OptionField{"corner", "MM", "radius of the corners of outline round", .01, 1e5}, o.corner_mm);
   f(OptionField{"margin", "MM", "least flat ground around the relief", .01, 1e5}, o.margin_mm);
   f(OptionField{"thickness", "MM", "smallest thickness of the plate", .01, 1e5}, o.thickness_mm);
+  f(OptionField{"rim", "MM", "width of a raised edge along the outline, as coins have; default: none", .01,
+                1e5},
+    o.rim_mm);
+  f(OptionField{"rim-height", "MM",
+                "of the rim above the ground; default: as high as the relief, at most as high as wide", .001,
+                1e5},
+    o.rim_height_mm);
+  f(OptionField{"rim-bevel", "MM",
+                "of the rim's width, what its slanting side takes; default: 0.3 of its height", .001, 1e5},
+    o.rim_bevel_mm);
   f(OptionField{"points", "N", "visible points to take from a mesh", 1000, 1e7}, o.points);
   f(OptionField{"form", "FORM",
                 "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "
