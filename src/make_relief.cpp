@@ -96,6 +96,7 @@ bool is_mirrored(Form form) {
 }
 
 constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
+constexpr double rim_bevel = .3;               // of the rim's height: 17 degrees from upright, dies come off
 
 // A lithophane has no height to reach: its own is exact by construction.
 Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions options, double mm_per_unit,
@@ -107,6 +108,7 @@ Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions opt
 // Of the steepest slope, what simpler fronts keep: between that of limit_draft() and 1, which is left for
 // rounding.
 constexpr double front_share = .9995;
+constexpr double rounded_up = 1.002;   // bevels of curved rims are polygons, whose sides are steeper
 constexpr double most_held_mm = 1e-5;  // what hold_draft() moves points by, as a rule
 
 // The front in the form asked for, and as simple as allowed.
@@ -157,6 +159,20 @@ void add_reach(MadeRelief& made, const ReliefOptions& options) {
                                     " mm)"));
 }
 
+Result<RimOptions> rim_of(const ReliefOptions& options, Form form, double relief_mm) {
+  if (!options.rim_mm) return RimOptions{};
+  const double width = *options.rim_mm, height = options.rim_height_mm.value_or(std::min(width, relief_mm)),
+               least = options.draft_deg ? rounded_up * height / slope_at_draft(*options.draft_deg) : 0,
+               bevel = std::min(width, options.rim_bevel_mm.value_or(std::max(rim_bevel * height, least)));
+  if (bevel < least)
+    return std::unexpected(Error{ErrorKind::option,
+                                 options.rim_bevel_mm ? "--rim-bevel" : "--rim",
+                                 {},
+                                 cat("expected at least ", least, " mm, so that the rim of ", height,
+                                     " mm leans as --draft asks, found ", bevel, " mm")});
+  return RimOptions{width, form == Form::die ? -height : height, bevel};
+}
+
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
 void place(ReliefReport& report, const Surface& surface, const Front& front, const Vec3& shift, Form form) {
   const Box box = visible_box(surface);
@@ -199,8 +215,10 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   made.report = report_on(model.surface(), *relief, options);
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
-  Result<Solid> solid = make_plate(
-      *front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline), options.corner_mm});
+  const Result<RimOptions> rim = rim_of(options, form, made.report.height_mm);
+  if (!rim) return std::unexpected(rim.error());
+  Result<Solid> solid = make_plate(*front, {options.margin_mm, options.thickness_mm,
+                                            *parse_outline(options.outline), options.corner_mm, *rim});
   if (!solid) return std::unexpected(solid.error());
   if (options.draft_deg) {
     const Result<double> moved = hold_draft(*solid, slope_at_draft(*options.draft_deg));
@@ -217,20 +235,6 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 }
 
 namespace {
-
-// The plate of points that were seen.
-Result<MadeRelief> make_relief_of(const SeenPoints& seen, const View& view, const ReliefOptions& options,
-                                  Progress* progress) {
-  const Result<Mode> mode = parse_mode(options.mode);
-  if (!mode) return std::unexpected(mode.error());
-  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
-  if (!surface) return std::unexpected(surface.error());
-  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
-  if (!model) return std::unexpected(model.error());
-  Result<MadeRelief> made = make_relief(*model, options, progress);
-  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
-  return made;
-}
 
 // The cloud without its strays, which is not copied if there are none.
 SeenPoints near_points(std::shared_ptr<const Cloud> cloud) {
@@ -258,20 +262,34 @@ Result<SeenPoints> seen_points(const CloudFile& file, const View& view, double p
   return seen;
 }
 
+Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
+                               Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
+  if (!surface) return std::unexpected(surface.error());
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
+  if (!model) return std::unexpected(model.error());
+  Result<MadeRelief> made = make_relief(*model, options, progress);
+  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
+  return made;
+}
+
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
   const Result<SeenPoints> seen = seen_points(file, *view, options.points, progress);
   if (!seen) return std::unexpected(seen.error());
-  return make_relief_of(*seen, *view, options, progress);
+  return make_relief(*seen, *view, options, progress);
 }
 
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
-  return make_relief_of(near_points(not_owned(cloud)), *view, options, progress);
+  return make_relief(near_points(not_owned(cloud)), *view, options, progress);
 }
 
 }  // namespace relievo

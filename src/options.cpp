@@ -57,6 +57,19 @@ Result<void> check_tool(const ReliefOptions& options) {
   return tool ? Result<void>{} : std::unexpected(tool.error());
 }
 
+Result<void> check_rim(const ReliefOptions& options) {
+  if (!options.rim_mm && options.rim_height_mm)
+    return contradiction("--rim-height", "expected --rim with it, found none");
+  if (!options.rim_mm && options.rim_bevel_mm)
+    return contradiction("--rim-bevel", "expected --rim with it, found none");
+  if (options.rim_mm && options.outline == "none")
+    return contradiction("--rim", "expected an outline to lie along, found --outline none");
+  if (options.rim_bevel_mm > options.rim_mm)
+    return contradiction("--rim-bevel", cat("expected at most the rim's width, ", *options.rim_mm,
+                                            " mm, found ", *options.rim_bevel_mm, " mm"));
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const ReliefOptions& options) {
@@ -71,6 +84,7 @@ Result<void> check(const ReliefOptions& options) {
     return contradiction("--draft", "expected a form other than lithophane, whose walls the light decides");
   if (const auto outline = parse_outline(options.outline); !outline) return std::unexpected(outline.error());
   if (auto ok = check_tool(options); !ok) return ok;
+  if (auto good = check_rim(options); !good) return good;
   return check_method(options);
 }
 

@@ -65,6 +65,20 @@ TEST(Options, MethodsAreKnownAndHaveWhatTheyNeed) {
   EXPECT_NE(complaint(options).find("--detail"), std::string::npos);
 }
 
+TEST(Options, ARimGoesAlongAnOutlineAndHoldsItsBevel) {
+  ReliefOptions options;
+  options.rim_height_mm = 1;
+  EXPECT_NE(complaint(options).find("--rim-height"), std::string::npos);
+  options.rim_mm = 2;
+  EXPECT_EQ(complaint(options), "");
+  options.rim_bevel_mm = 2.5;
+  EXPECT_NE(complaint(options).find("--rim-bevel"), std::string::npos);
+  options.rim_bevel_mm = 2;
+  EXPECT_EQ(complaint(options), "");
+  options.outline = "none";
+  EXPECT_NE(complaint(options).find("--rim: "), std::string::npos);
+}
+
 TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
   ReliefOptions options;
   options.height_mm = 3;

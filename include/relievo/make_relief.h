@@ -74,6 +74,10 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
+// The same for points that were seen in that view; options.view and options.up are not looked at.
+Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
+                               Progress* progress = nullptr);
+
 // The same, bit for bit, in a fraction of the time: from a model that was prepared from the
 // seen_points() in the view asked for. options.view and options.up are not looked at.
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,

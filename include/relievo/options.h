@@ -28,11 +28,14 @@ struct ReliefOptions {
   double corner_mm = 5;               // radius of the corners of outline "round"
   double margin_mm = 5;
   double thickness_mm = 3;
-  double points = 3e5;                 // visible points to take from a mesh
-  std::string form = "relief";         // or "mirror", "die", "lithophane": see forms.h
-  std::string tool;                    // a milling tool to be told of, see parse_tool(); none if empty
-  std::string surface = "full";        // or "reachable": what that tool leaves
-  std::optional<double> tolerance_mm;  // largest error of a mesh made simpler; without it all points stay
+  std::optional<double> rim_mm;         // width of a raised edge along the outline; without it there is none
+  std::optional<double> rim_height_mm;  // above the ground; the relief's height, at most the rim's width
+  std::optional<double> rim_bevel_mm;   // width of its slanting inner side; 0.3 of its height
+  double points = 3e5;                  // visible points to take from a mesh
+  std::string form = "relief";          // or "mirror", "die", "lithophane": see forms.h
+  std::string tool;                     // a milling tool to be told of, see parse_tool(); none if empty
+  std::string surface = "full";         // or "reachable": what that tool leaves
+  std::optional<double> tolerance_mm;   // largest error of a mesh made simpler; without it all points stay
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
   // model.
@@ -97,6 +100,16 @@ void visit(Options& o, F&& f) {
   f(OptionField{"corner", "MM", "radius of the corners of outline round", .01, 1e5}, o.corner_mm);
   f(OptionField{"margin", "MM", "least flat ground around the relief", .01, 1e5}, o.margin_mm);
   f(OptionField{"thickness", "MM", "smallest thickness of the plate", .01, 1e5}, o.thickness_mm);
+  f(OptionField{"rim", "MM", "width of a raised edge along the outline, as coins have; default: none", .01,
+                1e5},
+    o.rim_mm);
+  f(OptionField{"rim-height", "MM",
+                "of the rim above the ground; default: as high as the relief, at most as high as wide", .001,
+                1e5},
+    o.rim_height_mm);
+  f(OptionField{"rim-bevel", "MM",
+                "of the rim's width, what its slanting side takes; default: 0.3 of its height", .001, 1e5},
+    o.rim_bevel_mm);
   f(OptionField{"points", "N", "visible points to take from a mesh", 1000, 1e7}, o.points);
   f(OptionField{"form", "FORM",
                 "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "

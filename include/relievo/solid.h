@@ -27,11 +27,21 @@ struct Front {
   std::vector<std::uint8_t> is_relief = {};
 };
 
+// A raised edge along the outline, as coins and plaques have. Lengths but 0 are at least 0.001.
+struct RimOptions {
+  double width_mm = 0;  // from the outline to its foot on the ground; 0 is no rim
+  // Of its flat top above the ground. Below 0 it is a groove instead, what the rim is in a die, and the plate
+  // goes on outside of it, as wide as the rim.
+  double height_mm = 1;
+  double bevel_mm = .3;  // of its width, what its slanting inner side takes; at most all of it
+};
+
 struct PlateOptions {
-  double margin_mm = 5;     // least flat ground around the front, >= 0.001
+  double margin_mm = 5;     // least flat ground around the front, up to the rim, >= 0.001
   double thickness_mm = 3;  // smallest thickness of the plate anywhere, >= 0.001
   Outline outline = Outline::rectangle;
   double corner_mm = 5;  // radius of the corners of outline `round`, >= 0.001
+  RimOptions rim = {};
 };
 
 // A closed triangle mesh, oriented outwards. `front_triangles` first triangles are the front (relief and
@@ -43,20 +53,20 @@ struct Solid {
   std::vector<Colour> colours = {};  // of the points, or empty
 };
 
-// Returns the plate: front, flat ground out to the outline, walls, bottom. Moved so that its box starts at
-// the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z = thickness_mm. Its z
-// extent is thickness + (highest - lowest point of the front, ground included). The front's points and
-// triangles come first, in their order; the ground adds no points but the outline's corners. Of two points
-// that single precision cannot tell apart the second is lifted or lowered by the smallest step that separates
-// them.
+// Returns the plate: front, flat ground and rim out to the outline, walls, bottom. Moved so that its box
+// starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z = thickness_mm.
+// Its z extent is thickness + (highest - lowest point of the front, ground and rim included). The front's
+// points and triangles come first, in their order; the ground adds no points but the corners of the outline
+// and of the rim's edges. Of two points that single precision cannot tell apart the second is lifted or
+// lowered by the smallest step that separates them.
 //
 // Outline `none` makes a body of the relief alone, or several where it has several pieces, with their holes:
 // the front is the relief's points and triangles alone, in their order, and the bottom has as many. Left out
 // are triangles that hang on by a corner only, and pieces below a thousandth of the whole.
 //
-// Errors: kind option for a margin, thickness or corner that is not finite or below a micrometre; kind
-// geometry for an empty front, one whose corners are not finite points of it, or without relief for outline
-// `none`. Time: O(n log n), 0.1 s for 340k points.
+// Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
+// bevel wider than its rim, or a rim for outline `none`; kind geometry for an empty front, one whose corners
+// are not finite points of it, or without relief for outline `none`. Time: O(n log n), 0.1 s for 340k points.
 Result<Solid> make_plate(const Front& front, const PlateOptions& options);
 
 // Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with

@@ -48,10 +48,10 @@ struct ToolReach {
 ToolReach measure_reach(const Solid& solid, const Tool& tool);
 
 // Returns the front as the tool leaves it: points lifted to where it reaches, and points added, a quarter of
-// its radius apart, where it leaves something; those are grey where there are colours. Points on the hull
-// stay. The triangles are Delaunay's. A front that tells what is relief gets no new points. Heights between
-// points, as those between samples, are interpolated. Errors: kind geometry for a front without triangles or
-// hull.
+// its radius apart, where it leaves something; those are grey where there are colours. The hull stays, and
+// points next to it are lifted no further than they are from it. The triangles are Delaunay's. A front that
+// tells what is relief gets no new points. Heights between points, as those between samples, are
+// interpolated. Errors: kind geometry for a front without triangles or hull.
 Result<Front> reachable_front(const Front& front, const Tool& tool);
 
 // Returns the front from above, shaded, with what the tool leaves standing in orange to red: by share of the
