@@ -153,10 +153,10 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
 
 void add_reach(MadeRelief& made, const ReliefOptions& options) {
   const ToolReach& reach = made.report.reach.emplace(measure_reach(made.solid, *parse_tool(options.tool)));
-  made.report.remarks.push_back(cat("the tool ", options.tool, " reaches ", 100 * reach.reached_share,
-                                    " % of the front within ", reach.tolerance_mm, " mm and leaves at most ",
-                                    reach.largest_residual_mm, " mm (sampled every ", reach.mm_per_sample,
-                                    " mm)"));
+  made.report.remarks.push_back(cat("the tool ", text_of(*parse_tool(options.tool)), " reaches ",
+                                    100 * reach.reached_share, " % of the front within ", reach.tolerance_mm,
+                                    " mm and leaves at most ", reach.largest_residual_mm,
+                                    " mm (sampled every ", reach.mm_per_sample, " mm)"));
 }
 
 Result<RimOptions> rim_of(const ReliefOptions& options, Form form, double relief_mm) {

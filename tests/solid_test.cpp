@@ -385,5 +385,34 @@ TEST(WriteStl, AdmeshFindsNothingToRepair) {
   std::filesystem::remove(path);
 }
 
+TEST(InUnit, ScalesAndSeparates) {
+  const Solid mm = make_plate(test::pyramid_front({{0, 0}, {60, 0}, {60, 40}, {0, 40}}, 7), {}).value();
+  const Solid inches = in_unit(mm, LengthUnit::inch);
+  EXPECT_EQ(inches.unit, LengthUnit::inch);
+  EXPECT_EQ(inches.triangles, mm.triangles);
+  for (std::size_t i = 0; i < mm.points.size(); ++i)
+    EXPECT_LT((inches.points[i] * 25.4 - mm.points[i]).norm(), 1e-12);
+  EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
+}
+
+// Two points of a needle, which a file in millimetres tells apart, and one in inches does not always.
+TEST(InUnit, KeepsPointsApart) {
+  int merged = 0;
+  for (int i = 0; i < 20; ++i) {
+    const double width = 43 + .01 * i;
+    Front front = test::pyramid_front({{0, 0}, {width, 0}, {width, 40}, {0, 40}}, 7);
+    front.points.push_back({width / 2 + 2e-6, 20, 7});
+    front.triangles[1] = {1, 2, 5};
+    front.triangles.push_back({1, 5, 4});
+    front.triangles.push_back({2, 4, 5});
+    const Solid mm = make_plate(front, {10, 3}).value();
+    Solid scaled = mm;
+    for (Vec3& p : scaled.points) p /= 25.4;
+    merged += check_solid(scaled) != "";
+    EXPECT_EQ(check_solid(in_unit(mm, LengthUnit::inch)), "");
+  }
+  EXPECT_GT(merged, 0);
+}
+
 }  // namespace
 }  // namespace relievo

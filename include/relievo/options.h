@@ -119,7 +119,7 @@ void visit(Options& o, F&& f) {
       OptionField{
           "tool", "TOOL",
           "tells what a milling tool reaches: ball:DIAMETER, flat:DIAMETER or v:ANGLE, with a round tip "
-          "v:ANGLE:DIAMETER, in mm"},
+          "v:ANGLE:DIAMETER"},
       o.tool);
   f(OptionField{"surface", "KIND", "full; or reachable: as that tool leaves it"}, o.surface);
   f(OptionField{"tolerance", "MM",

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "relievo/error.h"
+#include "relievo/length.h"
 #include "relievo/outline.h"
 #include "relievo/types.h"
 
@@ -51,7 +52,12 @@ struct Solid {
   std::vector<Triangle> triangles;
   std::size_t front_triangles = 0;
   std::vector<Colour> colours = {};  // of the points, or empty
+  LengthUnit unit = LengthUnit::mm;  // of the coordinates; everything but in_unit() and the files takes mm
 };
+
+// Returns the same body with coordinates in that unit, for files: points that its single precision would no
+// longer tell apart are separated as in make_plate().
+Solid in_unit(Solid solid, LengthUnit unit);
 
 // Returns the plate: front, flat ground and rim out to the outline, walls, bottom. Moved so that its box
 // starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z = thickness_mm.
@@ -77,8 +83,9 @@ std::string check_solid(const Solid& solid);
 // Enclosed volume in cubic millimetres; negative if the solid is inside out.
 double volume_mm3(const Solid& solid);
 
-// The solid as a file: binary STL; binary little-endian PLY; OBJ. Coordinates are in millimetres, single
-// precision. Of colours only PLY tells. The solid's corners must exist, as check_solid() tells.
+// The solid as a file: binary STL; binary little-endian PLY; OBJ. Coordinates are in single precision, in the
+// solid's unit, which a comment tells. Of colours only PLY tells. The solid's corners must exist, as
+// check_solid() tells.
 std::vector<std::byte> write_stl(const Solid& solid);
 std::vector<std::byte> write_ply(const Solid& solid);
 std::vector<std::byte> write_obj(const Solid& solid);
