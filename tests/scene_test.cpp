@@ -341,6 +341,16 @@ TEST(SeenScene, SaysWhichModelIsNoSurface) {
   EXPECT_EQ(result.error().input, "dot.ply");
 }
 
+TEST(SeenScene, RefusesTooFewPoints) {
+  const Scene scene{{model_of(test::sphere(5000, 1)), model_of(test::sphere(3, 1))}};
+  const auto of_three = seen_points(scene, front, 1000);
+  ASSERT_FALSE(of_three);
+  EXPECT_EQ(of_three.error().message(), "cloud: expected at least 4 points, found 3");
+  const auto none_wanted = seen_points(scene, front, 0);
+  ASSERT_FALSE(none_wanted);
+  EXPECT_EQ(none_wanted.error().kind, ErrorKind::option);
+}
+
 TEST(SeenScene, CanBeCancelled) {
   Progress progress;
   progress.cancel();
