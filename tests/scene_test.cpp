@@ -385,6 +385,7 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
   options.height_mm = 4;
   const auto made = make_relief(scene, options);
   ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
   double steepest = 0;
   for (std::size_t t = 0; t < made->solid.front_triangles; ++t) {
     const auto& [a, b, c] = made->solid.triangles[t];
