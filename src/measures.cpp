@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "jumps.h"
-#include "picture.h"
+#include "model_picture.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
@@ -13,7 +13,6 @@ namespace {
 
 constexpr int lights = 16;
 constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
-constexpr int safe_distance_px = 5;  // the reach of SSIM's window, too
 constexpr std::size_t pairs = 200000;
 
 // Azimuths of 45 degrees, first at 30, then at 55 degrees above the plane.
@@ -34,10 +33,6 @@ struct Random {
     z = (z ^ z >> 27) * 0x94D049BB133111EBU;
     return static_cast<std::size_t>((z ^ z >> 31) % n);
   }
-};
-
-struct NormalPicture {
-  Plane x, y, z;
 };
 
 Plane lambert(const NormalPicture& n, const Vec3f& light) {
@@ -74,16 +69,9 @@ Image8 to_grey(const Plane& light, int width) {
   return image;
 }
 
-std::vector<Index> where(const std::vector<std::uint8_t>& mask) {
-  std::vector<Index> places;
-  for (Index i = 0; i < mask.size(); ++i)
-    if (mask[i]) places.push_back(i);
-  return places;
-}
-
 }  // namespace
 
-struct Judge::Truth {
+struct Judge::Truth : ModelPicture {
   // The model's shading under a light, with what SSIM needs of it.
   struct Shading {
     Plane mean, variance, light;
@@ -92,25 +80,14 @@ struct Judge::Truth {
     Index a, b;
   };
 
-  std::vector<Vec3> points;
-  Triangulation triangulation;
-  PictureGrid grid;
-  std::vector<std::uint8_t> is_inside;  // per pixel: on the relief
-  std::vector<std::uint8_t> is_smooth;  // the differences of normals across it stay on one surface
-  std::vector<Index> measured;          // pixels
-  NormalPicture normals;
-  Plane depth;
   std::vector<Shading> shadings;
   std::array<Plane, 3> curvature;      // smoothed
   std::array<Plane, 3> smooth_weight;  // what of a Gaussian lies on smooth pixels
   std::vector<Edge> jumps;
-  GaussianFilter window{1.5, 5};
+  GaussianFilter window{1.5, safe_distance_px};
 
-  explicit Truth(const Surface& surface)
-      : grid(surface.points, surface.triangulation, longer_side_px, margin_px) {
+  explicit Truth(const Surface& surface) : ModelPicture(surface, longer_side_px, margin_px) {
     if (grid.pixels() == 0) return;
-    classify(surface);
-    draw(surface);
     shadings.resize(lights);
     parallel_for(
         lights, [&](std::size_t i) { shadings[i] = shading_of(normals, static_cast<int>(i)); }, 1);
@@ -122,45 +99,6 @@ struct Judge::Truth {
                     b = surface.triangulation.triangles[t][(corner + 1) % 3];
         if (surface.boundary.is_inside[t] && a < b && is_jump(surface, a, b)) jumps.push_back({a, b});
       }
-  }
-
-  int width() const { return grid.width(); }
-
-  void classify(const Surface& surface) {
-    const std::vector<std::uint8_t> is_jumping = jump_triangles(surface);
-    std::vector<std::uint8_t> is_outside(grid.pixels()), is_broken(grid.pixels());
-    for (std::size_t i = 0; i < grid.pixels(); ++i) {
-      const Index t = grid.triangle(i);
-      is_outside[i] = t == no_index || !surface.boundary.is_inside[t];
-      is_broken[i] = is_outside[i] || is_jumping[t];
-    }
-    is_inside.resize(grid.pixels());
-    is_smooth = widened(is_broken, width(), 1);
-    std::vector<std::uint8_t> is_safe = widened(is_broken, width(), safe_distance_px);
-    for (std::size_t i = 0; i < grid.pixels(); ++i) {
-      is_inside[i] = !is_outside[i];
-      is_smooth[i] = !is_smooth[i];
-      is_safe[i] = !is_safe[i];
-    }
-    measured = where(is_safe);
-  }
-
-  // Normals and depths of the scan; level outside.
-  void draw(const Surface& surface) {
-    const std::size_t n = grid.pixels();
-    normals = {Plane(n), Plane(n), Plane(n)};
-    depth.resize(n);
-    parallel_for(n, [&](std::size_t i) {
-      depth[i] = grid.at(
-          i, [&](Index p) { return static_cast<float>(surface.points[p].z()); }, 0);
-      Vec3f normal = Vec3f::UnitZ();
-      if (is_inside[i])
-        for (int axis = 0; axis < 3; ++axis)
-          normal[axis] = grid.at(
-              i, [&](Index p) { return surface.normals[p][axis]; }, 0);
-      normal.normalize();
-      normals.x[i] = normal.x(), normals.y[i] = normal.y(), normals.z[i] = normal.z();
-    });
   }
 
   Shading shading_of(const NormalPicture& n, int light) const {
@@ -247,32 +185,6 @@ struct Judge::Truth {
       kept += (depth[a] > depth[b]) == (z[a] > z[b]) && z[a] != z[b];
     }
     return counted > 0 ? static_cast<double>(kept) / static_cast<double>(counted) : 0;
-  }
-
-  Plane heights_in_pixels(std::span<const double> heights) const {
-    Plane z(grid.pixels());
-    const double scale = 1 / grid.units_per_pixel();
-    parallel_for(z.size(), [&](std::size_t i) {
-      z[i] = grid.at(
-          i, [&](Index p) { return static_cast<float>(heights[p] * scale); }, 0);
-    });
-    return z;
-  }
-
-  // By central differences, level at the picture's rim.
-  NormalPicture normals_of(const Plane& z) const {
-    NormalPicture n{Plane(z.size(), 0.F), Plane(z.size(), 0.F), Plane(z.size(), 1.F)};
-    const int w = width(), h = grid.height();
-    for (int row = 1; row + 1 < h; ++row)
-      for (int column = 1; column + 1 < w; ++column) {
-        const std::size_t i =
-            static_cast<std::size_t>(row) * static_cast<std::size_t>(w) + static_cast<std::size_t>(column);
-        const float dx = (z[i + 1] - z[i - 1]) / 2,
-                    dy = (z[i - static_cast<std::size_t>(w)] - z[i + static_cast<std::size_t>(w)]) / 2;
-        const float scale = 1 / std::sqrt(1 + dx * dx + dy * dy);
-        n.x[i] = -dx * scale, n.y[i] = -dy * scale, n.z[i] = scale;
-      }
-    return n;
   }
 
   // What the relief does where the measures do not look.
