@@ -79,11 +79,16 @@ struct Judge::Truth : ModelPicture {
   struct Edge {
     Index a, b;
   };
+  // Edges of inside triangles where the relief may stand as a step.
+  struct Steps {
+    std::vector<Edge> jumps;  // within the model
+    std::vector<Index> rim;   // points next to the boundary, maybe several times
+  };
 
   std::vector<Shading> shadings;
   std::array<Plane, 3> curvature;      // smoothed
-  std::array<Plane, 3> smooth_weight;  // what of a Gaussian lies on smooth pixels
-  std::vector<Edge> jumps;
+  std::array<Plane, 3> smooth_weight;  // what of a Gaussian lies on measured pixels
+  Steps steps;
   GaussianFilter window{1.5, safe_distance_px};
 
   explicit Truth(const Surface& surface) : ModelPicture(surface, longer_side_px, margin_px) {
@@ -93,11 +98,18 @@ struct Judge::Truth : ModelPicture {
         lights, [&](std::size_t i) { shadings[i] = shading_of(normals, static_cast<int>(i)); }, 1);
     set_smooth_weights();
     curvature = smoothed_curvature(normals);
+    find_steps(surface);
+  }
+
+  void find_steps(const Surface& surface) {
+    const std::vector<std::uint8_t>& is_boundary = surface.boundary.is_boundary;
     for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-      for (int corner = 0; corner < 3; ++corner) {
+      for (int corner = 0; corner < 3 && surface.boundary.is_inside[t]; ++corner) {
         const Index a = surface.triangulation.triangles[t][corner],
                     b = surface.triangulation.triangles[t][(corner + 1) % 3];
-        if (surface.boundary.is_inside[t] && a < b && is_jump(surface, a, b)) jumps.push_back({a, b});
+        if (is_boundary[a] != is_boundary[b]) steps.rim.push_back(is_boundary[a] ? b : a);
+        if (a < b && !is_boundary[a] && !is_boundary[b] && is_jump(surface, a, b))
+          steps.jumps.push_back({a, b});
       }
   }
 
@@ -149,17 +161,17 @@ struct Judge::Truth : ModelPicture {
 
   void set_smooth_weights() {
     for (std::size_t s = 0; s < detail_scales_px.size(); ++s) {
-      smooth_weight[s].assign(is_smooth.begin(), is_smooth.end());
+      smooth_weight[s].assign(is_measured.begin(), is_measured.end());
       GaussianFilter(detail_scales_px[s], 3 * detail_scales_px[s]).apply(smooth_weight[s], width());
     }
   }
 
-  // div n, averaged over smooth pixels alone.
+  // div n, averaged over measured pixels alone: at others differences reach across walls.
   std::array<Plane, 3> smoothed_curvature(const NormalPicture& n) const {
     Plane divergence(n.x.size(), 0.F);
     const auto w = static_cast<std::size_t>(width());
     for (std::size_t i = w; i + w < divergence.size(); ++i)
-      if (is_smooth[i]) divergence[i] = (n.x[i + 1] - n.x[i - 1] + n.y[i - w] - n.y[i + w]) / 2;
+      if (is_measured[i]) divergence[i] = (n.x[i + 1] - n.x[i - 1] + n.y[i - w] - n.y[i + w]) / 2;
     std::array<Plane, 3> smoothed;
     parallel_for(
         smoothed.size(),
@@ -212,8 +224,9 @@ struct Judge::Truth : ModelPicture {
     };
     m.steep_share = steep_pixels / static_cast<double>(inside.size());
     m.height_used = (percentile(.99) - percentile(.01)) / height_px;
-    for (const auto& [a, b] : jumps)
+    for (const auto& [a, b] : steps.jumps)
       m.jump_step = std::max(m.jump_step, std::abs(heights[a] - heights[b]) / m.height);
+    for (const Index i : steps.rim) m.rim_step = std::max(m.rim_step, std::abs(heights[i]) / m.height);
   }
 };
 

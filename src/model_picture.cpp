@@ -33,14 +33,13 @@ void ModelPicture::classify(const Surface& surface) {
     is_broken[i] = is_outside[i] || is_jumping[t];
   }
   is_inside.resize(grid.pixels());
-  is_smooth = widened(is_broken, width(), 1);
-  std::vector<std::uint8_t> is_safe = widened(is_broken, width(), safe_distance_px);
+  const std::vector<std::uint8_t> is_unsafe = widened(is_broken, width(), safe_distance_px);
+  is_measured.resize(grid.pixels());
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
     is_inside[i] = !is_outside[i];
-    is_smooth[i] = !is_smooth[i];
-    is_safe[i] = !is_safe[i];
+    is_measured[i] = !is_unsafe[i];
   }
-  measured = where(is_safe);
+  measured = where(is_measured);
 }
 
 void ModelPicture::draw(const Surface& surface) {

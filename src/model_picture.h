@@ -14,9 +14,9 @@ struct ModelPicture {
   static constexpr int safe_distance_px = 5;  // from silhouette and jumps; the reach of SSIM's window, too
 
   PictureGrid grid;
-  std::vector<std::uint8_t> is_inside;  // per pixel: on the relief
-  std::vector<std::uint8_t> is_smooth;  // the differences of normals across it stay on one surface
-  std::vector<Index> measured;          // pixels at the safe distance
+  std::vector<std::uint8_t> is_inside;    // per pixel: on the relief
+  std::vector<std::uint8_t> is_measured;  // per pixel: at the safe distance
+  std::vector<Index> measured;            // those pixels
   NormalPicture normals;
   Plane depth;
 
