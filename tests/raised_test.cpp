@@ -116,7 +116,7 @@ TEST(Raised, OfAWaveKeptInFullIsTheWave) {
     if (p.head<2>().cwiseAbs().maxCoeff() > .75) continue;
     product += p.z() * relief.heights[i], square += p.z() * p.z();
   }
-  EXPECT_NEAR(product / square, 1, .03);
+  EXPECT_NEAR(product / square, 1, .05);
 }
 
 TEST(Raised, StandsOnTheBaseAndOffItAtTheSilhouette) {
