@@ -41,7 +41,8 @@ Fields solve_layers(const Surface& surface, const FreeRimSystem& system, std::sp
     fields[layer] = system.solve(slopes, {});
   }
   std::vector<double> levels = depth_ranks(surface.points);
-  for (double& level : levels) level *= longer_side_of(surface.points);
+  const double side = longer_side_of(surface.points);
+  for (double& level : levels) level *= side;
   fields[3] = system.solve({}, levels);
   return fields;
 }
