@@ -187,7 +187,8 @@ void place(ReliefReport& report, const Surface& surface, const Front& front, con
 Result<Shape> shape_of(const ReliefOptions& options) {
   const double beta = options.effective_saturation();
   Shape shape{Compression::from_alpha(options.effective_alpha(), beta), options.effective_detail()};
-  if (options.effective_method() == "ours") shape.style = Style::layered;
+  if (const auto method = parse_method(options.effective_method()))
+    shape.style = default_shape(*method).style;
   if (options.steepest_deg) shape.max_slope = std::tan(*options.steepest_deg * std::numbers::pi / 180);
   shape.boundary_width = options.effective_boundary_width();
   if (options.tone.empty()) return shape;
