@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "plate_of.h"
 #include "relievo/forms.h"
 #include "relievo/mesh.h"
 #include "relievo/method.h"
@@ -74,12 +75,7 @@ double depth_below_ground(const Front& front) {
   return front.ground_mm - lowest;
 }
 
-bool is_mirrored(Form form) {
-  return form == Form::mirror || form == Form::die;
-}
-
 constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
-constexpr double rim_bevel = .3;               // of the rim's height: 17 degrees from upright, dies come off
 
 // A lithophane has no height to reach: its own is exact by construction.
 Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions options, double mm_per_unit,
@@ -99,13 +95,10 @@ Result<Front> formed_front(Form form, const Surface& surface, const Relief& reli
   if (*parse_outline(options.outline) == Outline::none) front.is_relief = surface.boundary.is_inside;
   if (form == Form::mirror) front = mirrored(std::move(front));
   if (form == Form::die) front = as_die(std::move(front));
-  if (!options.tolerance_mm) return front;
-  Result<SimplerFront> simpler = simplify(front, *options.tolerance_mm, progress);
+  if (!options.tolerance_mm || plate_of(options, form, 1).simplify_mm > 0) return front;
+  Result<SimplerFront> simpler = simplify(front, front_tolerance(options), progress);
   if (!simpler) return std::unexpected(simpler.error());
   report.simplification_error_mm = simpler->error_mm;
-  report.remarks.push_back(cat("the front has ", simpler->front.triangles.size(), " of ",
-                               front.triangles.size(), " triangles and is off by at most ", simpler->error_mm,
-                               " mm"));
   return std::move(simpler->front);
 }
 
@@ -117,11 +110,12 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
   return front;
 }
 
-RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
-  if (!options.rim_mm) return {};
-  const double width = *options.rim_mm, height = options.rim_height_mm.value_or(std::min(width, relief_mm)),
-               bevel = std::min(width, options.rim_bevel_mm.value_or(rim_bevel * height));
-  return {width, form == Form::die ? -height : height, bevel};
+// Tells how far the front is off, its plate's part included.
+void tell_simplification(ReliefReport& report, const Solid& solid, std::size_t full_triangles) {
+  report.simplification_error_mm = report.simplification_error_mm.value_or(0) + solid.error_mm;
+  report.remarks.push_back(cat("the front has ", solid.front_triangles, " triangles, the full relief ",
+                               full_triangles, ", and is off by at most ", *report.simplification_error_mm,
+                               " mm"));
 }
 
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
@@ -166,14 +160,15 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   made.report = report_on(model.surface(), *relief, options);
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
-  Result<Solid> solid =
-      make_plate(*front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline),
-                          options.corner_mm, rim_of(options, form, made.report.height_mm)});
+  const PlateOptions plate = plate_of(options, form, made.report.height_mm);
+  Result<Solid> solid = make_plate(*front, plate);
   if (!solid) return std::unexpected(solid.error());
   made.solid = std::move(*solid);
   made.report.below_ground_mm = depth_below_ground(*front);
   made.report.scale = scale;
-  place(made.report, model.surface(), *front, made.solid.points[0] - front->points[0], form);
+  if (options.tolerance_mm)
+    tell_simplification(made.report, made.solid, model.surface().triangulation.triangles.size());
+  place(made.report, model.surface(), *front, made.solid.shift, form);
   return made;
 }
 

@@ -1,0 +1,19 @@
+// The plate that the options of a relief ask for.
+#pragma once
+
+#include "relievo/forms.h"
+#include "relievo/options.h"
+#include "relievo/solid.h"
+
+namespace relievo {
+
+// Are left and right swapped in this form?
+bool is_mirrored(Form form);
+
+// Returns the plate of a relief as high as that. The options have passed check().
+PlateOptions plate_of(const ReliefOptions& options, Form form, double relief_mm);
+
+// What of the tolerance asked for is left for the front; a curved base takes the rest.
+double front_tolerance(const ReliefOptions& options);
+
+}  // namespace relievo
