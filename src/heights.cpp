@@ -42,4 +42,8 @@ void HeightSystem::solve(std::span<const Vec2f> slopes, std::span<float> heights
   factor_.solve(heights, heights, workspace);
 }
 
+void HeightSystem::solve_in_place(std::span<float> heights, Workspace& workspace) const {
+  factor_.solve(heights, heights, workspace);
+}
+
 }  // namespace relievo

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "plate_of.h"
+#include "relievo/draft.h"
 #include "relievo/forms.h"
 #include "relievo/mesh.h"
 #include "relievo/method.h"
@@ -16,15 +17,6 @@
 
 namespace relievo {
 namespace {
-
-Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, double mm_per_unit,
-                            Progress* progress) {
-  const Result<Shape> shape = shape_of(options);
-  if (!shape) return std::unexpected(shape.error());
-  if (!options.height_mm) return model.make(*shape);
-  return make_by_method(*parse_method(options.effective_method()), model, *options.height_mm / mm_per_unit,
-                        *shape, mm_per_unit, progress);
-}
 
 Box visible_box(const Surface& surface) {
   Box box;
@@ -41,6 +33,38 @@ Front front_in_mm(const Surface& surface, const Relief& relief, double mm_per_un
   }
   front.colours = surface.colours;
   return front;
+}
+
+// Heights of the base under the surface's points, in its units; none for a plane.
+Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
+                                         double mm_per_unit) {
+  const PlateOptions plate = plate_of(options, Form::relief, 1);
+  if (plate.base.kind == BaseKind::plane) return std::vector<double>();
+  const Relief flat{std::vector<double>(surface.points.size(), 0), 0, {}};
+  Front front = front_in_mm(surface, flat, mm_per_unit);
+  if (plate.outline == Outline::none) front.is_relief = surface.boundary.is_inside;
+  const Result<Base> base = plate_base(front, plate);
+  if (!base) return std::unexpected(base.error());
+  std::vector<double> heights;
+  for (const Vec3& p : front.points) heights.push_back(base->height(p.head<2>()) / mm_per_unit);
+  return heights;
+}
+
+Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, double mm_per_unit,
+                            Progress* progress) {
+  const Result<Shape> shape = shape_of(options);
+  if (!shape) return std::unexpected(shape.error());
+  const Method method = *parse_method(options.effective_method());
+  const double height = options.height_mm.value_or(0) / mm_per_unit;
+  if (!options.draft_deg) {
+    if (!options.height_mm) return model.make(*shape);
+    return make_by_method(method, model, height, *shape, mm_per_unit, progress);
+  }
+  const Result<std::vector<double>> base = base_heights(model.surface(), options, mm_per_unit);
+  if (!base) return std::unexpected(base.error());
+  const DraftOptions draft{slope_at_draft(*options.draft_deg), *base};
+  if (!options.height_mm) return limit_draft(model, model.make(*shape), draft, progress);
+  return make_with_draft(model, {method, *shape, height, mm_per_unit}, draft, progress);
 }
 
 ReliefReport report_on(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
@@ -96,7 +120,7 @@ Result<Front> formed_front(Form form, const Surface& surface, const Relief& reli
   if (form == Form::mirror) front = mirrored(std::move(front));
   if (form == Form::die) front = as_die(std::move(front));
   if (!options.tolerance_mm || plate_of(options, form, 1).simplify_mm > 0) return front;
-  Result<SimplerFront> simpler = simplify(front, front_tolerance(options), progress);
+  Result<SimplerFront> simpler = simplify(front, simplest_front(options), progress);
   if (!simpler) return std::unexpected(simpler.error());
   report.simplification_error_mm = simpler->error_mm;
   return std::move(simpler->front);
@@ -163,7 +187,13 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   const PlateOptions plate = plate_of(options, form, made.report.height_mm);
   Result<Solid> solid = make_plate(*front, plate);
   if (!solid) return std::unexpected(solid.error());
+  if (options.draft_deg) {
+    const Result<double> moved = hold_draft(*solid, slope_at_draft(*options.draft_deg));
+    if (!moved) return std::unexpected(moved.error());
+    if (made.report.simplification_error_mm) *made.report.simplification_error_mm += *moved;
+  }
   made.solid = std::move(*solid);
+  made.report.steepest_deg = std::atan(steepest_slope(made.solid)) * 180 / std::numbers::pi;
   made.report.below_ground_mm = depth_below_ground(*front);
   made.report.scale = scale;
   if (options.tolerance_mm)
@@ -173,20 +203,6 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 }
 
 namespace {
-
-// The plate of points that were seen.
-Result<MadeRelief> make_relief_of(const SeenPoints& seen, const View& view, const ReliefOptions& options,
-                                  Progress* progress) {
-  const Result<Mode> mode = parse_mode(options.mode);
-  if (!mode) return std::unexpected(mode.error());
-  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
-  if (!surface) return std::unexpected(surface.error());
-  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
-  if (!model) return std::unexpected(model.error());
-  Result<MadeRelief> made = make_relief(*model, options, progress);
-  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
-  return made;
-}
 
 // The cloud without its strays, which is not copied if there are none.
 SeenPoints near_points(std::shared_ptr<const Cloud> cloud) {
@@ -214,20 +230,34 @@ Result<SeenPoints> seen_points(const CloudFile& file, const View& view, double p
   return seen;
 }
 
+Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
+                               Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
+  if (!surface) return std::unexpected(surface.error());
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
+  if (!model) return std::unexpected(model.error());
+  Result<MadeRelief> made = make_relief(*model, options, progress);
+  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
+  return made;
+}
+
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
   const Result<SeenPoints> seen = seen_points(file, *view, options.points, progress);
   if (!seen) return std::unexpected(seen.error());
-  return make_relief_of(*seen, *view, options, progress);
+  return make_relief(*seen, *view, options, progress);
 }
 
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
-  return make_relief_of(near_points(not_owned(cloud)), *view, options, progress);
+  return make_relief(near_points(not_owned(cloud)), *view, options, progress);
 }
 
 }  // namespace relievo

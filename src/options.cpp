@@ -75,7 +75,10 @@ Result<void> check(const ReliefOptions& options) {
   if (ranges.error) return std::unexpected(*ranges.error);
   if (options.height_mm && options.alpha)
     return contradiction("--alpha", "expected either --height or --alpha, found both");
-  if (const auto form = parse_form(options.form); !form) return std::unexpected(form.error());
+  const Result<Form> form = parse_form(options.form);
+  if (!form) return std::unexpected(form.error());
+  if (options.draft_deg && *form == Form::lithophane)
+    return contradiction("--draft", "expected a form other than lithophane, whose walls the light decides");
   if (const auto outline = parse_outline(options.outline); !outline) return std::unexpected(outline.error());
   if (auto good = check_rim(options); !good) return good;
   if (auto good = check_base(options); !good) return good;

@@ -2,11 +2,18 @@
 
 #include <algorithm>
 
+#include "relievo/draft.h"
+
 namespace relievo {
 namespace {
 
 constexpr double bending_share = .25;  // of a tolerance, what a curved base may take
 constexpr double rim_bevel = .3;       // of the rim's height: 17 degrees from upright, so dies come off
+
+// Of the steepest slope, what simpler fronts keep: between that of limit_draft() and 1, which is left for
+// rounding.
+constexpr double front_share = .9995;
+constexpr double most_held_mm = 1e-5;  // what hold_draft() moves points by, as a rule
 
 // The base that a form has: what is high is deep in a die.
 BaseOptions base_of(const ReliefOptions& options, Form form) {
@@ -17,10 +24,14 @@ BaseOptions base_of(const ReliefOptions& options, Form form) {
   return base;
 }
 
+// Its bevel leans as much as walls must.
 RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
   if (!options.rim_mm) return {};
-  const double width = *options.rim_mm, height = options.rim_height_mm.value_or(std::min(width, relief_mm)),
-               bevel = std::min(width, options.rim_bevel_mm.value_or(rim_bevel * height));
+  const double lean =
+      options.draft_deg ? std::max(rim_bevel, 1.001 / slope_at_draft(*options.draft_deg)) : rim_bevel;
+  const double width = *options.rim_mm, highest = std::min({width, width / lean, relief_mm}),
+               height = options.rim_height_mm.value_or(highest),
+               bevel = std::min(width, options.rim_bevel_mm.value_or(lean * height));
   return {width, form == Form::die ? -height : height, bevel};
 }
 
@@ -36,7 +47,10 @@ PlateOptions plate_of(const ReliefOptions& options, Form form, double relief_mm)
   if (!options.tolerance_mm) return plate;
   plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
   const bool is_curved = plate.base.kind != BaseKind::plane || plate.wrap.kind != WrapKind::none;
-  if (is_curved && plate.outline != Outline::none) plate.simplify_mm = front_tolerance(options);
+  if (!is_curved || plate.outline == Outline::none) return plate;
+  const SimplifyOptions simplest = simplest_front(options);
+  plate.simplify_mm = simplest.tolerance_mm;
+  plate.max_slope = simplest.max_slope;
   return plate;
 }
 
@@ -44,9 +58,13 @@ bool is_mirrored(Form form) {
   return form == Form::mirror || form == Form::die;
 }
 
-double front_tolerance(const ReliefOptions& options) {
+SimplifyOptions simplest_front(const ReliefOptions& options) {
   const bool is_plane = parse_base(options.base)->kind == BaseKind::plane;
-  return (is_plane ? 1 : 1 - bending_share) * *options.tolerance_mm;
+  SimplifyOptions simplest{(is_plane ? 1 : 1 - bending_share) * *options.tolerance_mm};
+  if (!options.draft_deg) return simplest;
+  simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
+  simplest.tolerance_mm -= std::min(.1 * simplest.tolerance_mm, most_held_mm);
+  return simplest;
 }
 
 }  // namespace relievo

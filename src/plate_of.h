@@ -3,6 +3,7 @@
 
 #include "relievo/forms.h"
 #include "relievo/options.h"
+#include "relievo/simplify.h"
 #include "relievo/solid.h"
 
 namespace relievo {
@@ -13,7 +14,7 @@ bool is_mirrored(Form form);
 // Returns the plate of a relief as high as that. The options have passed check().
 PlateOptions plate_of(const ReliefOptions& options, Form form, double relief_mm);
 
-// What of the tolerance asked for is left for the front; a curved base takes the rest.
-double front_tolerance(const ReliefOptions& options);
+// How simple the front may become, with a tolerance; a curved base takes its share of that.
+SimplifyOptions simplest_front(const ReliefOptions& options);
 
 }  // namespace relievo

@@ -130,8 +130,8 @@ Front as_front(const Top& top) {
 }
 
 // Fewer triangles for a top that has been lifted.
-Result<void> simplify_top(Top& top, double tolerance_mm) {
-  Result<SimplerFront> simpler = simplify(as_front(top), tolerance_mm);
+Result<void> simplify_top(Top& top, const SimplifyOptions& options) {
+  Result<SimplerFront> simpler = simplify(as_front(top), options);
   if (!simpler) return std::unexpected(simpler.error());
   top.solid.points = std::move(simpler->front.points);
   top.solid.triangles = std::move(simpler->front.triangles);
@@ -157,12 +157,14 @@ void find_regions(Solid& top, std::span<const Vec2> foot, double ground_z, doubl
 
 // The flat top, made to follow the course, given in its own coordinates.
 Result<void> follow(Top& top, const Course& course, const PlateOptions& options, std::span<const Vec2> foot) {
-  top.solid.error_mm = refine(top.solid, top.outline, course.bend, options.tolerance_mm);
+  // What is to be bent as a whole is refined as a whole, by wrap_plate().
+  if (course.is_lifted)
+    top.solid.error_mm = refine(top.solid, top.outline, course.bend, options.tolerance_mm);
   const bool is_simplified = options.simplify_mm > 0 && !top.outline.empty();
   const double ground_z = top.solid.ground_mm;
   if (is_simplified || course.is_lifted) lift(top.solid.points, course, 1);
   if (!is_simplified) return {};
-  if (auto good = simplify_top(top, options.simplify_mm); !good) return good;
+  if (auto good = simplify_top(top, {options.simplify_mm, options.max_slope}); !good) return good;
   lift(top.solid.points, course, -1);
   find_regions(top.solid, foot, ground_z, options.simplify_mm);
   if (course.is_lifted) lift(top.solid.points, course, 1);

@@ -2,6 +2,7 @@
 // each adds the worst place of every triangle that is off too much.
 #include "relievo/simplify.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -19,6 +20,8 @@ namespace {
 
 constexpr int most_rounds = 200;
 constexpr std::size_t grain = 8192;
+// A triangle that is too steep comes this near to the original, whose triangles are not.
+constexpr double steep_tolerance_mm = 1e-6;
 
 // A place that would bring its triangle nearer to the original.
 struct Candidate {
@@ -77,6 +80,27 @@ class Approximation {
     return no_index;
   }
 
+  // The triangle on the other side of the edge that the place lies on; no_index if it is inside t or on the
+  // hull.
+  Index across(const Vec2& place, Index t) const {
+    const Triangle& corners = mesh_.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i)
+      if (orient2d(plane_[corners[(i + 1) % 3]], plane_[corners[(i + 2) % 3]], place) == 0)
+        return mesh_.neighbours[t][i];
+    return no_index;
+  }
+
+  // Slopes of all triangles, squared.
+  std::vector<double> slopes_sq() const {
+    std::vector<double> slopes(mesh_.triangles.size());
+    parallel_for(slopes.size(), [&](std::size_t t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      const Vec3 normal = (points_[b] - points_[a]).cross(points_[c] - points_[a]);
+      slopes[t] = normal.head<2>().squaredNorm() / (normal.z() * normal.z());
+    });
+    return slopes;
+  }
+
   double height(Index t, const Vec2& place) const {
     const auto& [a, b, c] = mesh_.triangles[t];
     const Vec3 p = points_[b] - points_[a], q = points_[c] - points_[a];
@@ -86,8 +110,8 @@ class Approximation {
            (p.z() * (d.x() * q.y() - d.y() * q.x()) + q.z() * (p.x() * d.y() - p.y() * d.x())) / area;
   }
 
-  // Calls f(triangle, share of the way, height of this surface) where the way from a to b, which begins in
-  // triangle t, crosses an edge.
+  // Calls f(triangles left and entered, share of the way, height of this surface) where the way from a to b,
+  // which begins in triangle t, crosses an edge.
   template <typename F>
   void walk(const Vec2& a, const Vec2& b, Index t, F&& f) const {
     Index from = no_index;
@@ -102,8 +126,8 @@ class Approximation {
       const double left = side(p), right = side(q), along_edge = left / (left - right);
       const Vec3 crossing = p + along_edge * (q - p);
       const double share = (crossing.head<2>() - a).dot(b - a) / (b - a).squaredNorm();
-      f(t, share, crossing.z());
       from = std::exchange(t, mesh_.neighbours[t][*exit]);
+      f(std::array{from, t}, share, crossing.z());
       if (t == no_index) return;
     }
   }
@@ -145,8 +169,8 @@ Colour mixed(const Colour& a, const Colour& b, double share) {
 
 class Simplifier {
  public:
-  Simplifier(const Front& front, double tolerance_mm)
-      : front_(front), tolerance_(tolerance_mm), edges_(edges_of(front)), is_chosen_(front.points.size(), 0) {
+  Simplifier(const Front& front, const SimplifyOptions& options)
+      : front_(front), options_(options), edges_(edges_of(front)), is_chosen_(front.points.size(), 0) {
     choose_corners();
   }
 
@@ -199,6 +223,7 @@ class Simplifier {
   // triangle. Keeps the largest error.
   std::optional<std::vector<Candidate>> find_worst(const Approximation& now) {
     where_.resize(front_.points.size());
+    slopes_sq_ = now.slopes_sq();
     const std::size_t blocks = (front_.points.size() + grain - 1) / grain,
                       edge_blocks = (edges_.size() + grain - 1) / grain;
     std::vector<std::vector<Candidate>> found(blocks + edge_blocks);
@@ -215,6 +240,21 @@ class Simplifier {
     });
     error_ = *std::ranges::max_element(errors);
     return worst_of(found, now.mesh().triangles.size());
+  }
+
+  double least_allowed() const {
+    const bool is_limited = options_.max_slope < std::numeric_limits<double>::infinity();
+    return is_limited ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
+  }
+
+  // Of two triangles that share a place, the first for which this error is too much; no_index if none.
+  Index one_off(const std::array<Index, 2>& sides, double error) const {
+    for (const Index t : sides) {
+      if (t == no_index) continue;
+      const bool is_steep = slopes_sq_[t] > options_.max_slope * options_.max_slope;
+      if (error > (is_steep ? least_allowed() : options_.tolerance_mm)) return t;
+    }
+    return no_index;
   }
 
   static std::vector<Candidate> worst_of(const std::vector<std::vector<Candidate>>& found,
@@ -239,7 +279,8 @@ class Simplifier {
       where_[i] = t;
       const double error = std::abs(now.height(t, p.head<2>()) - p.z());
       worst = std::max(worst, error);
-      if (error > tolerance_) found.push_back(at_point(t, error, static_cast<Index>(i)));
+      const Index off = one_off({t, error > least_allowed() ? now.across(p.head<2>(), t) : no_index}, error);
+      if (off != no_index) found.push_back(at_point(off, error, static_cast<Index>(i)));
     }
     return true;
   }
@@ -251,12 +292,14 @@ class Simplifier {
       const Edge& edge = edges_[e];
       if (where_[edge.a] == where_[edge.b]) continue;
       const Vec3 &a = front_.points[edge.a], &b = front_.points[edge.b];
-      now.walk(a.head<2>(), b.head<2>(), where_[edge.a], [&](Index t, double share, double height) {
-        if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // at an end, which is a point of its own
-        const double error = std::abs(height - (a + share * (b - a)).z());
-        worst = std::max(worst, error);
-        if (error > tolerance_) found.push_back(remedy(edge, share, t, error));
-      });
+      now.walk(a.head<2>(), b.head<2>(), where_[edge.a],
+               [&](std::array<Index, 2> sides, double share, double height) {
+                 if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // at an end, which is a point of its own
+                 const double error = std::abs(height - (a + share * (b - a)).z());
+                 worst = std::max(worst, error);
+                 if (const Index t = one_off(sides, error); t != no_index)
+                   found.push_back(remedy(edge, share, t, error));
+               });
     }
   }
 
@@ -279,7 +322,9 @@ class Simplifier {
   }
 
   const Front& front_;
-  double tolerance_, error_ = 0;
+  SimplifyOptions options_;
+  double error_ = 0;
+  std::vector<double> slopes_sq_;  // per triangle of the approximation
   std::vector<Edge> edges_;
   std::vector<std::uint8_t> is_chosen_;  // per point of the original
   std::vector<RimEdge> rim_;             // to be kept
@@ -291,14 +336,20 @@ class Simplifier {
 
 }  // namespace
 
-Result<SimplerFront> simplify(const Front& front, double tolerance_mm, Progress* progress) {
-  if (!(tolerance_mm > 0))
-    return std::unexpected(
-        Error{ErrorKind::option, "--tolerance", {}, cat("expected a positive length, found ", tolerance_mm)});
+Result<SimplerFront> simplify(const Front& front, const SimplifyOptions& options, Progress* progress) {
+  if (!(options.tolerance_mm > 0))
+    return std::unexpected(Error{ErrorKind::option,
+                                 "--tolerance",
+                                 {},
+                                 cat("expected a positive length, found ", options.tolerance_mm)});
   if (front.triangles.empty() || front.hull.size() < 3)
     return std::unexpected(
         Error{ErrorKind::geometry, "front", {}, "expected triangles and a hull around them, found none"});
-  return Simplifier(front, tolerance_mm).run(progress);
+  return Simplifier(front, options).run(progress);
+}
+
+Result<SimplerFront> simplify(const Front& front, double tolerance_mm, Progress* progress) {
+  return simplify(front, SimplifyOptions{tolerance_mm}, progress);
 }
 
 }  // namespace relievo

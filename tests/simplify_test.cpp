@@ -143,5 +143,31 @@ TEST(SimplifyProperty, AnyScatterStaysWithinItsTolerance) {
   }));
 }
 
+double steepest(const Front& front) {
+  double most = 0;
+  for (const Triangle& t : front.triangles) {
+    const Vec3 p = front.points[t[1]] - front.points[t[0]], q = front.points[t[2]] - front.points[t[0]];
+    const double area = p.x() * q.y() - p.y() * q.x();
+    most = std::max(most, Vec2(p.z() * q.y() - q.z() * p.y(), q.z() * p.x() - p.z() * q.x()).norm() / area);
+  }
+  return most;
+}
+
+TEST(Simplify, MakesNoTriangleSteeperThanAsked) {
+  // Folds with slopes of 1.1, cut off by ramps of slope 1 at the rim.
+  const auto folds = [](double x, double y) {
+    const double along = x + .5 * y + 100;
+    return std::min({std::abs(along - 6 * std::round(along / 6)), x, 60 - x, y, 40 - y});
+  };
+  const Front full = test::grid_front({60, 40, 120, 80}, folds);
+  const double limit = 1.0001 * steepest(full), tolerance = .3;
+  EXPECT_GT(steepest(simplify(full, tolerance)->front), 1.3 * limit);
+  const auto simpler = simplify(full, SimplifyOptions{tolerance, limit});
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  EXPECT_LE(steepest(simpler->front), limit * (1 + 1e-4));
+  EXPECT_LE(simpler->error_mm, tolerance);
+  EXPECT_LT(simpler->front.triangles.size(), full.triangles.size() / 2);
+}
+
 }  // namespace
 }  // namespace relievo

@@ -49,6 +49,10 @@ class HeightSystem {
   // The same in single precision, for frames: within about 1e-6 of the span of the heights.
   void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
 
+  // Solves for a right-hand side that others wrote, in place and in single precision; boundary points stay as
+  // they are.
+  void solve_in_place(std::span<float> heights, Workspace& workspace) const;
+
  private:
   HeightSystem(Cholesky factor, PointLinks edges);
 

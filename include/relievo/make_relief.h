@@ -27,7 +27,8 @@ struct ReliefReport {
   std::optional<double> height_requested_mm;
   double height_mm = 0;  // reached, lowest to highest point of the front, above its base
   double below_ground_mm =
-      0;  // of it, how deep the lowest point lies below the flat ground, which may be all
+      0;                    // of it, how deep the lowest point lies below the flat ground, which may be all
+  double steepest_deg = 0;  // of the front's triangles, as files hold them
 
   // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
   // in z the model keeps its depth and its lowest visible point lies on the ground, of a curved base on that
@@ -67,6 +68,10 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
 
 // The same for what a file holds: of a mesh the points that the viewer sees of it, see sample_mesh().
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options,
+                               Progress* progress = nullptr);
+
+// The same for points that were seen in that view; options.view and options.up are not looked at.
+Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
 // The same, bit for bit, in a fraction of the time: from a model that was prepared from the

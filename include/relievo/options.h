@@ -19,6 +19,7 @@ struct ReliefOptions {
   std::optional<double> detail;      // the paper's gamma: 0.02, or 0.04 with a height
   std::string method;                // see method.h; ours with a height, else the paper's
   std::optional<double> steepest_deg;    // steepest slope of the front, 76 without it
+  std::optional<double> draft_deg;       // least lean of walls off the vertical, held by every triangle
   std::optional<double> boundary_width;  // of (7), in sampling distances; 2, with our method 0.5
   std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
   std::string mode = "exact";
@@ -76,6 +77,10 @@ void visit(Options& o, F&& f) {
   f(OptionField{"steepest", "DEG",
                 "steepest slope asked of the surface, which walls at jumps can exceed; default 76", 1, 89},
     o.steepest_deg);
+  f(OptionField{"draft", "DEG",
+                "least angle of walls off the vertical, kept by every triangle of the front; default: any", 1,
+                80},
+    o.draft_deg);
   f(OptionField{"boundary", "W",
                 "width of the soft rim, in sampling distances; default 2, with method ours 0.5", .1, 100},
     o.boundary_width);

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -45,10 +46,11 @@ struct PlateOptions {
   double corner_mm = 5;  // radius of the corners of outline `round`, >= 0.001
   RimOptions rim = {};
   BaseOptions base = {};
-  WrapOptions wrap = {};      // that its triangles are to be fine enough for; then on a plane
+  WrapOptions wrap = {};      // what the plate is to be bent around, see wrap_plate(); then on a plane
   double tolerance_mm = .01;  // between a curved base, or wrap, and the triangles that follow it, >= 0.0001
   // Of a curved plate with ground: fewer triangles, so far from its full front at most; 0 for all of them.
   double simplify_mm = 0;
+  double max_slope = std::numeric_limits<double>::infinity();  // of those triangles, as for simplify()
 };
 
 // Surfaces that meet in an edge, however little they bend there.
@@ -86,6 +88,13 @@ Result<Solid> make_plate(const Front& front, const PlateOptions& options);
 // Returns the base that make_plate() lays under the front, in the front's coordinates. Errors: those of
 // make_plate() and Base::over().
 Result<Base> plate_base(const Front& front, const PlateOptions& options);
+
+// Returns the plate bent around its wrap: its front stands on the wrap, its bottom becomes the shell's other
+// side, and walls point at the axis. Moved so that its box starts at the origin. Where a rectangle goes all
+// the way around a cylinder or a cone its sides become one. The plate is of make_plate() with the same
+// options. Errors: kind option if the shell or the relief would reach the axis, or if another outline, a rim
+// or a slanting axis goes all the way around; kind option without a wrap.
+Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
 // Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with
 // opposite directions, no triangle with two equal corners, no two used points with the same single-precision
