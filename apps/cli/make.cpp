@@ -10,6 +10,7 @@
 #include "flags.h"
 #include "inputs.h"
 #include "project.h"
+#include "relievo/depth_image.h"
 #include "relievo/draft.h"
 #include "relievo/export.h"
 #include "relievo/make_relief.h"
@@ -24,7 +25,7 @@ namespace {
 
 struct MakeArguments {
   std::vector<std::string> inputs;
-  std::string output, preview, heightmap, tool_picture, report;
+  std::string output, preview, heightmap, tool_picture, report, base_image;
   int heightmap_px = 1024;
   int threads = 0;
   bool is_quiet = false;
@@ -55,6 +56,7 @@ const std::map<std::string, SolidWriter>& solid_writers() {
 // Each output has a place of its own that can be written to.
 Result<void> check_places(const MakeArguments& arguments) {
   std::vector<std::string> taken = arguments.inputs;
+  taken.push_back(arguments.base_image);
   for (const std::string& path :
        {arguments.output, arguments.preview, arguments.heightmap, arguments.tool_picture, arguments.report}) {
     if (path.empty()) continue;
@@ -261,6 +263,31 @@ Result<void> make(const MakeArguments& arguments) {
   return {};
 }
 
+// Reads the height image of a base, which is then its shape unless another was asked for.
+Result<void> take_base_image(MakeArguments& arguments) {
+  ReliefOptions& relief = arguments.relief;
+  if (!arguments.base_image.empty() && relief.base == "plane") relief.base = "image";
+  const Result<BaseOptions> base = parse_base(relief.base);
+  if (!base) return std::unexpected(base.error());
+  const bool is_image = base->kind == BaseKind::image;
+  if (!is_image && arguments.base_image.empty()) return {};
+  if (arguments.base_image.empty())
+    return std::unexpected(
+        Error{ErrorKind::option, "--base", {}, "expected --base-image with image, found none"});
+  if (!is_image)
+    return std::unexpected(Error{ErrorKind::option,
+                                 "--base-image",
+                                 {},
+                                 cat("expected --base image with it, found '", relief.base, "'")});
+  const Result<std::vector<std::byte>> bytes = read_file(arguments.base_image);
+  if (!bytes) return std::unexpected(bytes.error());
+  Result<DepthImage> image = read_depth_image(*bytes, arguments.base_image);
+  if (!image) return std::unexpected(image.error());
+  relief.base_image =
+      std::make_shared<const HeightGrid>(image->width, image->height, std::move(image->values));
+  return {};
+}
+
 // Takes what a project says, but for the flags that were given.
 Result<void> take_project(MakeArguments& arguments, const CLI::App& command) {
   const std::string& input = arguments.inputs[0];
@@ -321,6 +348,10 @@ void add_make(CLI::App& program, Result<void>& result) {
       ->capture_default_str();
   add_flags(command, arguments->relief);
   add_input_flags(command, arguments->in);
+  command
+      .add_option("--base-image", arguments->base_image,
+                  "height map that the relief lies on, bright is high: PNG or TIFF")
+      ->type_name("B.png");
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
       ->check(CLI::Range(0, 256).description(""))
       ->type_name("N")
@@ -331,6 +362,7 @@ void add_make(CLI::App& program, Result<void>& result) {
     if (const auto tool = parse_tool(arguments->relief.tool, unit_of(*arguments)); tool)
       arguments->relief.tool = text_of(*tool);
     result = take_project(*arguments, command);
+    if (result) result = take_base_image(*arguments);
     if (result) result = make(*arguments);
   });
 }
