@@ -17,8 +17,8 @@ Box front_box(const Solid& solid) {
 }
 
 // Heights count from the lowest point, which keeps their single-precision digits.
-Scene front_scene(const Solid& solid, const HeightField& field) {
-  Scene scene;
+Drawing front_scene(const Solid& solid, const HeightField& field) {
+  Drawing scene;
   scene.triangles = std::span(solid.triangles).first(solid.front_triangles);
   scene.width = field.width;
   scene.height = field.height;
@@ -39,7 +39,7 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   field.box = front_box(solid);
   const Vec3 size = field.box.size();
   const double longer_mm = std::max(size.x(), size.y());
-  if (longer_side_px < 1 || longer_side_px > Scene::most_pixels || !(longer_mm > 0)) return field;
+  if (longer_side_px < 1 || longer_side_px > Drawing::most_pixels || !(longer_mm > 0)) return field;
   field.mm_per_pixel = longer_mm / longer_side_px;
   const auto pixels = [&](double mm) {
     return std::max(1, static_cast<int>(std::lround(mm / field.mm_per_pixel)));
@@ -49,7 +49,7 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   field.z.resize(static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.height));
   field.is_beside.resize(field.z.size());
 
-  const Scene scene = front_scene(solid, field);
+  const Drawing scene = front_scene(solid, field);
   const int band_rows = 32;
   const Raster raster(scene, band_rows);
   const auto height = [](const Sample& sample) { return std::max(0.F, sample.z); };

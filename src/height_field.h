@@ -24,7 +24,7 @@ struct HeightField {
 };
 
 // Returns the heights with a longer side of `longer_side_px` pixels; without pixels if that is not in
-// [1, Scene::most_pixels] or the front is empty.
+// [1, Drawing::most_pixels] or the front is empty.
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
 }  // namespace relievo

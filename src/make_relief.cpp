@@ -74,11 +74,21 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   return report;
 }
 
+// Lowest and highest point of the front, ground included.
+std::pair<double, double> span_of(const Front& front) {
+  double lowest = front.ground_mm, highest = lowest;
+  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
+  return {lowest, highest};
+}
+
+double height_of(const Front& front) {
+  const auto [lowest, highest] = span_of(front);
+  return highest - lowest;
+}
+
 // How far the lowest point of the front lies below the ground: 0 or more.
 double depth_below_ground(const Front& front) {
-  double lowest = front.ground_mm;
-  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z());
-  return front.ground_mm - lowest;
+  return front.ground_mm - span_of(front).first;
 }
 
 bool is_mirrored(Form form) {
@@ -98,6 +108,7 @@ Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions opt
 // Of the steepest slope, what simpler fronts keep: between that of limit_draft() and 1, which is left for
 // rounding.
 constexpr double front_share = .9995;
+constexpr double rounded_up = 1.002;   // bevels of curved rims are polygons, whose sides are steeper
 constexpr double most_held_mm = 1e-5;  // what hold_draft() moves points by, as a rule
 
 // The front in the form asked for, and as simple as allowed.
@@ -111,6 +122,12 @@ Result<Front> formed_front(Form form, const Surface& surface, const Relief& reli
   if (*parse_outline(options.outline) == Outline::none) front.is_relief = surface.boundary.is_inside;
   if (form == Form::mirror) front = mirrored(std::move(front));
   if (form == Form::die) front = as_die(std::move(front));
+  if (options.surface == "reachable") {
+    Result<Front> reachable = reachable_front(front, *parse_tool(options.tool));
+    if (!reachable) return reachable;
+    front = std::move(*reachable);
+    report.height_mm = height_of(front);  // what is narrow and deep is filled
+  }
   if (!options.tolerance_mm) return front;
   SimplifyOptions simplest{*options.tolerance_mm};
   if (options.draft_deg) {
@@ -134,11 +151,26 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
   return front;
 }
 
-RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
-  if (!options.rim_mm) return {};
+void add_reach(MadeRelief& made, const ReliefOptions& options) {
+  const ToolReach& reach = made.report.reach.emplace(measure_reach(made.solid, *parse_tool(options.tool)));
+  made.report.remarks.push_back(cat("the tool ", options.tool, " reaches ", 100 * reach.reached_share,
+                                    " % of the front within ", reach.tolerance_mm, " mm and leaves at most ",
+                                    reach.largest_residual_mm, " mm (sampled every ", reach.mm_per_sample,
+                                    " mm)"));
+}
+
+Result<RimOptions> rim_of(const ReliefOptions& options, Form form, double relief_mm) {
+  if (!options.rim_mm) return RimOptions{};
   const double width = *options.rim_mm, height = options.rim_height_mm.value_or(std::min(width, relief_mm)),
-               bevel = std::min(width, options.rim_bevel_mm.value_or(rim_bevel * height));
-  return {width, form == Form::die ? -height : height, bevel};
+               least = options.draft_deg ? rounded_up * height / slope_at_draft(*options.draft_deg) : 0,
+               bevel = std::min(width, options.rim_bevel_mm.value_or(std::max(rim_bevel * height, least)));
+  if (bevel < least)
+    return std::unexpected(Error{ErrorKind::option,
+                                 options.rim_bevel_mm ? "--rim-bevel" : "--rim",
+                                 {},
+                                 cat("expected at least ", least, " mm, so that the rim of ", height,
+                                     " mm leans as --draft asks, found ", bevel, " mm")});
+  return RimOptions{width, form == Form::die ? -height : height, bevel};
 }
 
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
@@ -184,9 +216,10 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   made.report = report_on(model.surface(), *relief, options);
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
-  Result<Solid> solid =
-      make_plate(*front, {options.margin_mm, options.thickness_mm, *parse_outline(options.outline),
-                          options.corner_mm, rim_of(options, form, made.report.height_mm)});
+  const Result<RimOptions> rim = rim_of(options, form, made.report.height_mm);
+  if (!rim) return std::unexpected(rim.error());
+  Result<Solid> solid = make_plate(*front, {options.margin_mm, options.thickness_mm,
+                                            *parse_outline(options.outline), options.corner_mm, *rim});
   if (!solid) return std::unexpected(solid.error());
   if (options.draft_deg) {
     const Result<double> moved = hold_draft(*solid, slope_at_draft(*options.draft_deg));
@@ -195,6 +228,7 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   }
   made.solid = std::move(*solid);
   made.report.steepest_deg = std::atan(steepest_slope(made.solid)) * 180 / std::numbers::pi;
+  if (!options.tool.empty()) add_reach(made, options);
   made.report.below_ground_mm = depth_below_ground(*front);
   made.report.scale = scale;
   place(made.report, model.surface(), *front, made.solid.points[0] - front->points[0], form);
@@ -202,20 +236,6 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 }
 
 namespace {
-
-// The plate of points that were seen.
-Result<MadeRelief> make_relief_of(const SeenPoints& seen, const View& view, const ReliefOptions& options,
-                                  Progress* progress) {
-  const Result<Mode> mode = parse_mode(options.mode);
-  if (!mode) return std::unexpected(mode.error());
-  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
-  if (!surface) return std::unexpected(surface.error());
-  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
-  if (!model) return std::unexpected(model.error());
-  Result<MadeRelief> made = make_relief(*model, options, progress);
-  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
-  return made;
-}
 
 // The cloud without its strays, which is not copied if there are none.
 SeenPoints near_points(std::shared_ptr<const Cloud> cloud) {
@@ -243,20 +263,34 @@ Result<SeenPoints> seen_points(const CloudFile& file, const View& view, double p
   return seen;
 }
 
+Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
+                               Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<Mode> mode = parse_mode(options.mode);
+  if (!mode) return std::unexpected(mode.error());
+  Result<Surface> surface = find_surface(*seen.cloud, view, {}, progress);
+  if (!surface) return std::unexpected(surface.error());
+  const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), progress, *mode);
+  if (!model) return std::unexpected(model.error());
+  Result<MadeRelief> made = make_relief(*model, options, progress);
+  if (made) made->report.remarks.insert(made->report.remarks.end(), seen.remarks.begin(), seen.remarks.end());
+  return made;
+}
+
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
   const Result<SeenPoints> seen = seen_points(file, *view, options.points, progress);
   if (!seen) return std::unexpected(seen.error());
-  return make_relief_of(*seen, *view, options, progress);
+  return make_relief(*seen, *view, options, progress);
 }
 
 Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options, Progress* progress) {
   if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   const Result<View> view = parse_view(options.view, options.up);
   if (!view) return std::unexpected(view.error());
-  return make_relief_of(near_points(not_owned(cloud)), *view, options, progress);
+  return make_relief(near_points(not_owned(cloud)), *view, options, progress);
 }
 
 }  // namespace relievo

@@ -48,7 +48,7 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
   parallel_for(seen.points.size(),
                [&](std::size_t i) { seen.points[i] = view.rotation * (mesh.points[i] - centre); });
   seen.triangles = mesh.triangles;
-  seen.normals = tells_normals(mesh) ? mesh.corner_normals : smooth_normals(mesh);
+  seen.normals = normals_to_show(mesh);
   const Eigen::Matrix3f turn = view.rotation.cast<float>();
   parallel_for(seen.triangles.size(), [&](std::size_t t) {
     Triangle& corners = seen.triangles[t];
@@ -70,8 +70,8 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
   return seen;
 }
 
-Scene scene_of(const SeenMesh& seen, double pixel) {
-  Scene scene;
+Drawing scene_of(const SeenMesh& seen, double pixel) {
+  Drawing scene;
   scene.triangles = seen.triangles;
   const Vec3 size = seen.box.size() / pixel;
   scene.width = std::max(1, static_cast<int>(std::ceil(size.x())));
@@ -84,7 +84,7 @@ Scene scene_of(const SeenMesh& seen, double pixel) {
   return scene;
 }
 
-std::size_t covered_pixels(const Scene& scene) {
+std::size_t covered_pixels(const Drawing& scene) {
   const Raster raster(scene, band_rows);
   std::vector<std::size_t> covered(raster.bands());
   parallel_for(
@@ -100,18 +100,20 @@ std::size_t covered_pixels(const Scene& scene) {
   return sum;
 }
 
-// Side of the pixels of which about `points` show the mesh, or nothing if none does.
-std::optional<double> pixel_for(const SeenMesh& seen, double points) {
+// Side of the pixels asked for: as given, or so that about as many as wanted show the mesh; nothing if none
+// does.
+std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& options) {
   const Vec3 size = seen.box.size();
   const double longer = std::max(size.x(), size.y());
-  const double finest = longer / (Scene::most_pixels / 8.0);
+  const double finest = longer / (Drawing::most_pixels / 8.0);
+  if (options.spacing > 0 && longer > 0) return std::max(finest, options.spacing);
   double pixel = longer / first_side_px;
   if (!(pixel > 0)) return std::nullopt;
   const int tries = 4;  // a wire that the first pixels miss shows in finer ones
   for (int i = 0; i < tries; ++i) {
     const auto covered = static_cast<double>(covered_pixels(scene_of(seen, pixel)));
     const bool is_sure = covered > 1000;
-    if (is_sure) return std::max(finest, pixel * std::sqrt(covered / points));
+    if (is_sure) return std::max(finest, pixel * std::sqrt(covered / options.points));
     pixel = std::max(finest, pixel / 4);
   }
   return std::nullopt;
@@ -234,7 +236,7 @@ class Sampler {
   const Mesh& mesh_;
   const SeenMesh& seen_;
   double fine_pixel_;
-  Scene scene_;
+  Drawing scene_;
   int columns_, rows_;  // of the pixels
   std::vector<Index> along_rows_, along_columns_;
 };
@@ -250,13 +252,19 @@ void turn_back(Cloud& cloud, const View& view, const Vec3& centre) {
 
 }  // namespace
 
+std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh) {
+  return tells_normals(mesh) ? mesh.corner_normals : smooth_normals(mesh);
+}
+
+Result<void> check_points(double points) {
+  if (points >= 100 && points <= 1e7) return {};
+  return std::unexpected(
+      Error{ErrorKind::option, "--points", {}, cat("expected a number from 100 to 1e+07, found ", points)});
+}
+
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options,
                           Progress* progress) {
-  if (!(options.points >= 100 && options.points <= 1e7))
-    return std::unexpected(Error{ErrorKind::option,
-                                 "--points",
-                                 {},
-                                 cat("expected a number from 100 to 1e+07, found ", options.points)});
+  if (auto ok = check_points(options.points); !ok) return std::unexpected(ok.error());
   if (auto go = begin_stage(progress, "mesh", 0); !go) return std::unexpected(go.error());
   Box box;
   for (const Vec3& p : mesh.points) box.extend(p);
@@ -265,7 +273,7 @@ Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling
     return std::unexpected(Error{
         ErrorKind::geometry, {}, {}, "expected a mesh between 1e-100 and 1e100 units large, found another"});
   const SeenMesh seen = look_at(mesh, view, centre);
-  const std::optional<double> pixel = pixel_for(seen, options.points);
+  const std::optional<double> pixel = pixel_for(seen, options);
   if (!pixel)
     return std::unexpected(Error{
         ErrorKind::geometry, {}, {}, "expected triangles that show an area in this view; try another view"});

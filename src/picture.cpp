@@ -22,7 +22,7 @@ PictureGrid::PictureGrid(std::span<const Vec3> points, const Triangulation& tria
   height_ = pixels(size.y());
   places_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
 
-  Scene scene{std::vector<Vec3>(points.size()), triangulation.triangles, width_, height_};
+  Drawing scene{std::vector<Vec3>(points.size()), triangulation.triangles, width_, height_};
   centre_ = box.centre();
   parallel_for(points.size(), [&](std::size_t i) {
     const Vec2 place = to_pixels(points[i]);

@@ -14,7 +14,7 @@ std::uint16_t to_65535ths(float weight) {
 
 }  // namespace
 
-void draw_pixel_map(const Scene& scene, std::span<const Part> parts, PixelMap& map) {
+void draw_pixel_map(const Drawing& scene, std::span<const Part> parts, PixelMap& map) {
   map.width = scene.width;
   map.height = scene.height;
   const auto columns = static_cast<std::size_t>(scene.width);

@@ -29,6 +29,6 @@ struct PixelMap {
 };
 
 // Overwrites the map with what is seen of the scene; parts[t] tells what triangle t belongs to.
-void draw_pixel_map(const Scene& scene, std::span<const Part> parts, PixelMap& map);
+void draw_pixel_map(const Drawing& scene, std::span<const Part> parts, PixelMap& map);
 
 }  // namespace relievo

@@ -71,10 +71,10 @@ Placement placement_of(const Topology& topology, const RenderOptions& options, i
   return placement;
 }
 
-Scene raster_scene(const PlateScene& scene, const Placement& placement) {
+Drawing raster_scene(const PlateScene& scene, const Placement& placement) {
   const auto& places = scene.topology.places;
   const double scale = scene.options.mm_per_unit;
-  Scene raster;
+  Drawing raster;
   raster.triangles = scene.topology.triangles;
   raster.width = placement.width;
   raster.height = placement.height;

@@ -58,7 +58,7 @@ struct PlateScene {
 PlateScene scene_of(const Topology& topology, const Shown& shown, const RenderOptions& options);
 
 // The triangles in the picture. Seen from the front, heights make no difference and are left out.
-Scene raster_scene(const PlateScene& scene, const Placement& placement);
+Drawing raster_scene(const PlateScene& scene, const Placement& placement);
 
 // Of a triangle of the plate's sides or bottom; `first_corner` is the number of the first of the plate's
 // eight.

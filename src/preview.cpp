@@ -16,7 +16,7 @@ namespace {
 
 constexpr int samples_per_side = 3, samples_per_pixel = 9;
 constexpr double padding = 0.06;  // around the plate, as a share of the picture's longer side
-constexpr int most_pixels = Scene::most_pixels / samples_per_side / 2;
+constexpr int most_pixels = Drawing::most_pixels / samples_per_side / 2;
 
 // Lamp and sky together never exceed 1, so nothing is clipped; a flat ground comes out light-mid grey.
 constexpr float lamp_strength = .77F, sky_strength = .23F;
@@ -77,7 +77,7 @@ Light light_on_wall(const Model& model, const Triangle& t) {
 }
 
 // Light on triangle `t` at a place in the picture.
-Light light_at(const Model& model, const Scene& scene, Index t, const Vec2& place) {
+Light light_at(const Model& model, const Drawing& scene, Index t, const Vec2& place) {
   const Triangle& corners = model.solid.triangles[t];
   if (t >= model.solid.front_triangles) return light_on_wall(model, corners);
   const Vec3f weights = corner_weights(scene, t, place.x(), place.y());
@@ -118,8 +118,8 @@ std::array<View, 2> views_of(const Solid& solid, int longer_side_px) {
   return {view, {turn, std::min(scale, fit), view.width, view.height}};
 }
 
-Scene scene_of(const Solid& solid, const View& view) {
-  Scene scene;
+Drawing scene_of(const Solid& solid, const View& view) {
+  Drawing scene;
   scene.triangles = solid.triangles;
   scene.width = view.width * samples_per_side;
   scene.height = view.height * samples_per_side;
@@ -155,7 +155,7 @@ struct Seen {
 };
 
 // The triangles that a pixel's samples show, each once: light is computed for triangles, not for samples.
-int find_seen(const Scene& scene, const Band& band, int row, int column,
+int find_seen(const Drawing& scene, const Band& band, int row, int column,
               std::array<Seen, samples_per_pixel>& seen) {
   const int n = samples_per_side;
   int count = 0;
@@ -174,7 +174,7 @@ int find_seen(const Scene& scene, const Band& band, int row, int column,
   return count;
 }
 
-void gather(const Model& model, const Scene& scene, const Band& band, int row, int column, Layer& layer) {
+void gather(const Model& model, const Drawing& scene, const Band& band, int row, int column, Layer& layer) {
   std::array<Seen, samples_per_pixel> seen;
   const int count = find_seen(scene, band, row, column, seen);
   Light& light = layer.light[layer.at(column, row)];
@@ -189,7 +189,7 @@ void gather(const Model& model, const Scene& scene, const Band& band, int row, i
 }
 
 Layer draw(const Model& model, const View& view) {
-  const Scene scene = scene_of(model.solid, view);
+  const Drawing scene = scene_of(model.solid, view);
   const auto pixels = static_cast<std::size_t>(view.width) * static_cast<std::size_t>(view.height);
   Layer layer{view.width, view.height, std::vector<Light>(pixels), std::vector<float>(pixels)};
   const Raster raster(scene, 12 * samples_per_side);

@@ -83,7 +83,7 @@ Plane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-Raster::Raster(const Scene& scene, int band_rows) : scene_(scene), band_rows_(band_rows) {
+Raster::Raster(const Drawing& scene, int band_rows) : scene_(scene), band_rows_(band_rows) {
   corners_.resize(scene.points.size());
   parallel_for(scene.points.size(), [&](std::size_t i) {
     const Vec3& p = scene.points[i];
@@ -154,7 +154,7 @@ Band Raster::draw(std::size_t b) const {
   return band;
 }
 
-Vec3f corner_weights(const Scene& scene, Index triangle, double x, double y) {
+Vec3f corner_weights(const Drawing& scene, Index triangle, double x, double y) {
   const auto& [i, j, k] = scene.triangles[triangle];
   const Vec2 place(x, y);
   const Vec2 a = scene.points[i].head<2>() - place, b = scene.points[j].head<2>() - place,

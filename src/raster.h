@@ -10,7 +10,7 @@ namespace relievo {
 
 // What is to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. They may lie
 // outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5, 0.5).
-struct Scene {
+struct Drawing {
   static constexpr int most_pixels = 32768;  // of width and height: keeps the coverage test exact
 
   std::vector<Vec3> points;
@@ -36,7 +36,7 @@ struct Band {
 // object.
 class Raster {
  public:
-  Raster(const Scene& scene, int band_rows);
+  Raster(const Drawing& scene, int band_rows);
 
   std::size_t bands() const { return first_.size() - 1; }
   Band draw(std::size_t band) const;
@@ -52,7 +52,7 @@ class Raster {
   void sort_into_bands();
   void draw_triangle(Index t, Rows rows, Band& band) const;
 
-  const Scene& scene_;
+  const Drawing& scene_;
   int band_rows_;
   std::vector<Corner> corners_;     // per point
   std::vector<std::size_t> first_;  // per band and one more: where its triangles begin
@@ -60,6 +60,6 @@ class Raster {
 };
 
 // Weights of the triangle's corners at a place in the picture; not negative, also for places outside.
-Vec3f corner_weights(const Scene& scene, Index triangle, double x, double y);
+Vec3f corner_weights(const Drawing& scene, Index triangle, double x, double y);
 
 }  // namespace relievo

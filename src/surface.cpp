@@ -6,9 +6,9 @@
 
 #include "hilbert.h"
 #include "memory.h"
-#include "relievo/normals.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
+#include "settle_normals.h"
 #include "space_curve.h"
 
 namespace relievo {
@@ -50,23 +50,6 @@ Result<void> check_extent(const Cloud& cloud) {
   return {};
 }
 
-// A scan from the viewer's side, say a depth image of a room: turned, its normals would all face away.
-bool all_face_viewer(const Cloud& viewed) {
-  return std::ranges::all_of(viewed.normals, [](const Vec3f& n) { return n.z() > 0; });
-}
-
-void settle_normals(Cloud& viewed, const Spacing& spacing, const Cloud& cloud, Surface& surface) {
-  surface.has_estimated_normals = !viewed.has_normals();
-  if (surface.has_estimated_normals) {
-    estimate_normals(viewed);
-    turn_to_viewer(viewed);
-    turn_to_viewer(viewed, spacing, visible_points(viewed, spacing));
-  } else if (!all_face_viewer(viewed) && normals_point_inward(cloud)) {
-    surface.has_flipped_normals = true;
-    flip_normals(viewed);
-  }
-}
-
 void scatter(const std::vector<double>& values, std::span<const Index> places, std::vector<double>& to) {
   for (std::size_t i = 0; i < places.size(); ++i) to[places[i]] = values[i];
 }
@@ -103,7 +86,9 @@ Result<Viewed> look_at(const Cloud& cloud, Surface& surface, Progress* progress)
     return geometry_error("expected points at a distance from each other, found most of them equal");
 
   if (auto go = begin_stage(progress, "normals", .2); !go) return std::unexpected(go.error());
-  settle_normals(viewed.cloud, viewed.spacing, cloud, surface);
+  const NormalsWere were = settle_normals(viewed.cloud, viewed.spacing, cloud);
+  surface.has_estimated_normals = were == NormalsWere::missing;
+  surface.has_flipped_normals = were == NormalsWere::inward;
   return viewed;
 }
 

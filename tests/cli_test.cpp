@@ -120,6 +120,71 @@ TEST_F(Cli, RefusesWrongProjects) {
   refuse(R"({"relievo": 1, "input": {"path": "gone.ply"}, "options": {}})", "gone.ply");
 }
 
+TEST_F(Cli, MakesScenes) {
+  write_all(folder_ / "wedge.stl", ascii_stl());
+  EXPECT_EQ(
+      run("make torus.ply wedge.stl torus.ply -o row.stl --report r.json --points 20000 --quiet").exit_code,
+      0);
+  const std::string report = read_all(folder_ / "r.json");
+  for (const char* key : {"\"models\"", "\"model_to_scene\"", "\"wedge.stl\"", "\"torus.ply\""})
+    EXPECT_NE(report.find(key), std::string::npos) << key;
+  fs::create_directory(folder_ / "models");
+  fs::rename(folder_ / "wedge.stl", folder_ / "models/wedge.stl");
+  write_all(folder_ / "models/row.json",
+            R"({"models": [{"file": "../torus.ply"}, {"file": "wedge.stl"}, {"file": "../torus.ply"}]})");
+  EXPECT_EQ(run("make models/row.json -o same.stl --points 20000 --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "row.stl"), read_all(folder_ / "same.stl"));
+  write_all(folder_ / "scene.json", R"({"models": [
+    {"file": "torus.ply", "rotate": [60, 0, 0], "translate": [0, 0, 1.5]},
+    {"file": "torus.ply", "scale": 1.5, "mirror": true}]})");
+  EXPECT_EQ(run("make scene.json -o scene.stl --quiet").exit_code, 0);
+  write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "scene.json"}, "options": {}})");
+  EXPECT_EQ(run("make p.relievo -o p.stl --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "scene.stl"));
+  EXPECT_NE(run("compare scene.json --height 0.02 --methods ours").out.find("ours"), std::string::npos);
+  EXPECT_NE(run("info scene.json").out.find("models     2"), std::string::npos);
+  expect_refusal("make scene.json -o scene.json", "scene.json");
+  expect_refusal("make torus.ply torus.ply -o torus.ply", "torus.ply: expected different files");
+  expect_refusal("make scene.json torus.ply -o t.stl", "scene.json: expected a scene file alone");
+  expect_refusal("make torus.ply gone.ply -o t.stl", "gone.ply");
+}
+
+TEST_F(Cli, RefusesBrokenScenes) {
+  const auto refuse = [&](const std::string& scene, const std::string& part) {
+    write_all(folder_ / "s.json", scene);
+    expect_refusal("make s.json -o t.stl", "relievo: s.json" + part);
+  };
+  const auto refuse_model = [&](const std::string& rest, const std::string& part) {
+    refuse(R"({"models": [{"file": "torus.ply"}, {"file": "torus.ply", )" + rest + "}]}",
+           ", models[1]" + part);
+  };
+  refuse("", ": expected a scene in JSON");
+  refuse("{\"models\": [", ": expected a scene in JSON");
+  refuse("[]", ": expected a scene in JSON");
+  refuse("{}", ", models: expected a list of at least one model");
+  refuse(R"({"models": []})", ", models: expected a list of at least one model");
+  refuse(R"({"models": {"file": "torus.ply"}})", ", models: expected a list");
+  refuse(R"({"models": [{"file": "torus.ply"}], "model": 1})",
+         ": expected only the key models, found 'model'");
+  refuse(R"({"models": ["torus.ply"]})", ", models[0]: expected an object");
+  refuse(R"({"models": [{"scale": 1}]})", ", models[0].file: expected the name of a file");
+  refuse(R"({"models": [{"file": 1}]})", ", models[0].file: expected the name of a file");
+  refuse(R"({"models": [{"file": "gone.ply"}]})",
+         ", models[0].file: expected a file that is there, found no 'gone.ply'");
+  refuse_model(R"("rotation": [0, 0, 0])",
+               ": expected only the keys file, rotate, translate, scale, mirror, found 'rotation'");
+  refuse_model(R"("rotate": 60)", ".rotate: expected three angles in degrees");
+  refuse_model(R"("rotate": [0, 60])", ".rotate: expected three angles in degrees");
+  refuse_model(R"("rotate": [0, "60", 0])", ".rotate: expected three angles in degrees");
+  refuse_model(R"("translate": [1, 2, null])", ".translate: expected three lengths");
+  refuse_model(R"("scale": "2")", ".scale: expected a number from 1e-06 to 1e+06");
+  refuse_model(R"("scale": 0)", ".scale: expected a number from 1e-06 to 1e+06");
+  refuse_model(R"("mirror": 1)", ".mirror: expected true or false");
+  write_all(folder_ / "cut.ply", "ply\n");
+  write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}, {"file": "cut.ply"}]})");
+  expect_refusal("make s.json -o t.stl", "cut.ply");
+}
+
 TEST_F(Cli, WritesPlyAndObjToo) {
   EXPECT_EQ(run("make torus.ply -o t.ply --quiet").exit_code, 0);
   EXPECT_EQ(run("make torus.ply -o t.OBJ --quiet").exit_code, 0);

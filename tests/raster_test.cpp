@@ -23,7 +23,7 @@ struct Random {
 // and corners.
 struct Sheet {
   std::vector<Triangle> triangles;
-  Scene scene;
+  Drawing scene;
 
   Sheet(int width, int height, int cells, double round) {
     Random random;
@@ -47,7 +47,7 @@ struct Sheet {
   }
 };
 
-std::vector<Sample> draw_all(const Scene& scene, int band_rows) {
+std::vector<Sample> draw_all(const Drawing& scene, int band_rows) {
   const Raster raster(scene, band_rows);
   std::vector<Sample> samples;
   for (std::size_t b = 0; b < raster.bands(); ++b) {
@@ -65,7 +65,7 @@ TEST(Raster, EveryCentreBelongsToExactlyOneTriangle) {
       const Sheet sheet(64, 48, cells, round);
       std::vector<int> count(64 * 48, 0);
       for (const Triangle& t : sheet.triangles) {
-        Scene one = sheet.scene;
+        Drawing one = sheet.scene;
         one.triangles = std::span(&t, 1);
         const std::vector<Sample> samples = draw_all(one, 48);
         for (std::size_t i = 0; i < samples.size(); ++i) count[i] += samples[i].triangle == 0;
@@ -114,7 +114,7 @@ TEST(Raster, BandsDoNotChangeThePicture) {
 }
 
 TEST(Raster, TheNearestIsSeenAndBackFacesAreNot) {
-  Scene scene{
+  Drawing scene{
       {{0, 0, 1}, {0, 20, 1}, {20, 0, 1}, {0, 0, 2}, {0, 10, 2}, {10, 0, 2}, {20, 20, 9}}, {}, 20, 20};
   const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}, {0, 1, 2}, {1, 6, 2}, {1, 2, 6}};
   scene.triangles = triangles;
@@ -125,8 +125,8 @@ TEST(Raster, TheNearestIsSeenAndBackFacesAreNot) {
 }
 
 TEST(Raster, ASliverDoesNotSpike) {
-  const Scene scene{{{0, 10, 0}, {100, 10.004, 5}, {50, 10.001, 100}}, {}, 100, 20};
-  Scene drawn = scene;
+  const Drawing scene{{{0, 10, 0}, {100, 10.004, 5}, {50, 10.001, 100}}, {}, 100, 20};
+  Drawing drawn = scene;
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 1}};
   drawn.triangles = triangles;
   for (const Sample& sample : draw_all(drawn, 20)) {
@@ -137,7 +137,7 @@ TEST(Raster, ASliverDoesNotSpike) {
 }
 
 TEST(CornerWeights, ReproduceThePlaceAndStayPositiveOutside) {
-  Scene scene{{{0, 0, 0}, {0, 10, 0}, {10, 0, 0}}, {}, 10, 10};
+  Drawing scene{{{0, 0, 0}, {0, 10, 0}, {10, 0, 0}}, {}, 10, 10};
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 0, 1}};
   scene.triangles = triangles;
   const Vec3f weights = corner_weights(scene, 0, 2, 3);

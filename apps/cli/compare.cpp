@@ -183,9 +183,10 @@ Result<void> check_arguments(const CompareArguments& arguments) {
   if (arguments.output.empty()) return {};
   if (ending_of(arguments.output) != "png")
     return std::unexpected(Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .png"});
-  if (is_same_file(arguments.output, arguments.scene.path))
-    return std::unexpected(
-        Error{ErrorKind::option, arguments.output, {}, "expected different files for input and outputs"});
+  for (const std::string& input : arguments.scene.paths)
+    if (is_same_file(arguments.output, input))
+      return std::unexpected(
+          Error{ErrorKind::option, arguments.output, {}, "expected different files for input and outputs"});
   return check_writable(arguments.output);
 }
 
@@ -198,7 +199,7 @@ Result<void> compare(const CompareArguments& arguments) {
   Result<Comparison> comparison = compare_all(arguments, *chosen, progress);
   progress.finish();
   if (!comparison) {
-    if (comparison.error().input.empty()) comparison.error().input = arguments.scene.path;
+    if (comparison.error().input.empty()) comparison.error().input = joined(arguments.scene.paths);
     return std::unexpected(comparison.error());
   }
   if (!arguments.output.empty()) {

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "files.h"
+#include "inputs.h"
 #include "relievo/depth_image.h"
 #include "relievo/io.h"
 #include "relievo/normals.h"
@@ -54,7 +55,36 @@ Result<void> depth_info(std::span<const std::byte> bytes, const std::string& inp
   return {};
 }
 
-Result<void> info(const std::string& input) {
+Box placed_box(const CloudFile& file, const PlacedModel& place) {
+  Box box;
+  for (const Vec3& p : file.mesh.empty() ? file.cloud.points : file.mesh.points) box.extend(place(p));
+  return box;
+}
+
+// What stands where, seen from the front.
+Result<void> scene_info(const std::vector<std::string>& inputs) {
+  const Result<SceneInput> input = read_scene(inputs, {}, {}, nullptr);
+  if (!input) return std::unexpected(input.error());
+  const auto places = place_models(input->scene, View{});
+  if (!places) return std::unexpected(places.error());
+  print_line("models", cat(places->size()));
+  for (std::size_t i = 0; i < places->size(); ++i) {
+    const CloudFile& file = *input->scene.models[i].file;
+    const Box box = placed_box(file, (*places)[i]);
+    std::printf("\n%s\n", input->scene.models[i].name.c_str());
+    print_line("format", file.format);
+    print_line("points", cat(file.cloud.size()));
+    if (!file.mesh.empty()) print_line("triangles", cat(file.mesh.triangles.size()));
+    print_line("scale", cat((*places)[i].scale));
+    print_line("from", vector_text(box.min));
+    print_line("to", vector_text(box.max));
+  }
+  return {};
+}
+
+Result<void> info(const std::vector<std::string>& inputs) {
+  const std::string& input = inputs[0];
+  if (inputs.size() > 1 || is_scene_file(input)) return scene_info(inputs);
   const Result<std::vector<std::byte>> bytes = read_file(input);
   if (!bytes) return std::unexpected(bytes.error());
   if (is_picture(*bytes)) return depth_info(*bytes, input);
@@ -77,15 +107,16 @@ Result<void> info(const std::string& input) {
 }  // namespace
 
 void add_info(CLI::App& program, Result<void>& result) {
-  const auto input = std::make_shared<std::string>();
+  const auto inputs = std::make_shared<std::vector<std::string>>();
   CLI::App& command = *program.add_subcommand("info", "Tell what is in a scan");
   command
       .add_option(
-          "input", *input,
-          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, TIFF)")
+          "input", *inputs,
+          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, TIFF); "
+          "several, or a scene (JSON): where each stands")
       ->required()
       ->type_name("INPUT");
-  command.callback([input, &result] { result = info(*input); });
+  command.callback([inputs, &result] { result = info(*inputs); });
 }
 
 }  // namespace relievo::cli

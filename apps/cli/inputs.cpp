@@ -2,13 +2,15 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 
 #include "files.h"
 #include "flags.h"
-#include "relievo/make_relief.h"
+#include "relievo/scene.h"
 #include "relievo/stream.h"
 #include "relievo/text.h"
 #include "relievo/view.h"
+#include "scene_file.h"
 
 namespace relievo::cli {
 namespace {
@@ -82,19 +84,30 @@ class FileSource : public ByteSource {
   std::ifstream file_;
 };
 
-// Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
-Result<std::optional<Input>> read_large(const std::string& path, const InputArguments& arguments,
-                                        const ReliefOptions& relief, Progress* progress) {
+// How much is seen of a file, and from where.
+struct Seen {
+  View view;  // in the file's frame
+  double points = 0;
+};
+
+// Size of a file that is to be read piece by piece if that is possible; nothing for small ones.
+std::optional<std::uintmax_t> large_size(const std::string& path, const InputArguments& arguments) {
   std::error_code failed;
   const std::uintmax_t size =
       std::filesystem::is_regular_file(path, failed) ? std::filesystem::file_size(path, failed) : 0;
   if (failed || static_cast<double>(size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
-  FileSource source(path, size);
-  std::vector<std::byte> head(std::min<std::uintmax_t>(size, 1 << 20));
+  return size;
+}
+
+// Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
+Result<std::optional<Input>> read_large(const std::string& path, const InputArguments& arguments,
+                                        const Seen& seen, Progress* progress) {
+  const std::optional<std::uintmax_t> size = large_size(path, arguments);
+  if (!size) return std::nullopt;
+  FileSource source(path, *size);
+  std::vector<std::byte> head(std::min<std::uintmax_t>(*size, 1 << 20));
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
-  const auto view = parse_view(relief.view, relief.up);
-  if (!view) return std::unexpected(view.error());
-  auto streamed = stream_front(source, path, *view, relief.points, progress);
+  auto streamed = stream_front(source, path, seen.view, seen.points, progress);
   if (!streamed) return std::unexpected(streamed.error());
   Input input;
   input.remarks.push_back(
@@ -104,7 +117,46 @@ Result<std::optional<Input>> read_large(const std::string& path, const InputArgu
   return input;
 }
 
+// Reads the file of that path.
+Result<Input> read_input(const std::string& path, const InputArguments& arguments, const Seen& seen,
+                         Progress* progress) {
+  if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
+  auto large = read_large(path, arguments, seen, progress);
+  if (!large) return std::unexpected(large.error());
+  if (*large) return std::move(**large);
+  const auto bytes = read_file(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  return parse_input(*bytes, path, arguments, seen.points, progress);
+}
+
+Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths) {
+  if (paths.size() == 1 && is_scene_file(paths[0])) {
+    const auto bytes = read_file(paths[0]);
+    if (!bytes) return std::unexpected(bytes.error());
+    return read_scene_file({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, paths[0]);
+  }
+  std::vector<SceneEntry> entries;
+  for (const std::string& path : paths) {
+    if (is_scene_file(path))
+      return std::unexpected(
+          Error{ErrorKind::option, path, {}, "expected a scene file alone, or models without one"});
+    entries.push_back({path});
+  }
+  return entries;
+}
+
+// The view of the scene in the frame of a model's file; which side of it is left does not matter there.
+View seen_by_model(const View& view, const Pose& pose) {
+  View own{view.rotation * turn_of(pose)};
+  if (pose.is_mirrored) own.rotation.row(0) = -own.rotation.row(0);
+  return own;
+}
+
 }  // namespace
+
+bool is_scene_file(const std::string& path) {
+  return ending_of(path) == "json";
+}
 
 void add_input_flags(CLI::App& command, InputArguments& arguments) {
   add_flags(command, arguments.depth);
@@ -131,7 +183,9 @@ Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& p
 }
 
 void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
-  command.add_option("input", arguments.path, "point cloud, mesh or depth image, as for make")
+  command
+      .add_option("input", arguments.paths,
+                  "point cloud, mesh or depth image, several of them, or a scene (JSON), as for make")
       ->required()
       ->type_name("INPUT");
   command.add_option("--view", arguments.view, "as for make")->type_name("SIDE")->capture_default_str();
@@ -143,24 +197,43 @@ Result<Surface> read_surface(const SceneArguments& arguments, Progress* progress
   ReliefOptions relief;
   relief.view = arguments.view;
   relief.up = arguments.up;
-  const Result<Input> input = read_input(arguments.path, arguments.in, relief, progress);
+  const Result<SceneInput> input = read_scene(arguments.paths, arguments.in, relief, progress);
   if (!input) return std::unexpected(input.error());
   const Result<View> view = parse_view(arguments.view, arguments.up);
   if (!view) return std::unexpected(view.error());
-  const Result<SeenPoints> seen = seen_points(input->file, *view, relief.points, progress);
+  const Result<SeenPoints> seen = seen_points(input->scene, *view, relief.points, progress);
   if (!seen) return std::unexpected(seen.error());
   return find_surface(*seen->cloud, *view, {}, progress);
 }
 
-Result<Input> read_input(const std::string& path, const InputArguments& arguments,
-                         const ReliefOptions& relief, Progress* progress) {
-  if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
-  auto large = read_large(path, arguments, relief, progress);
-  if (!large) return std::unexpected(large.error());
-  if (*large) return std::move(**large);
-  const auto bytes = read_file(path);
-  if (!bytes) return std::unexpected(bytes.error());
-  return parse_input(*bytes, path, arguments, relief.points, progress);
+Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
+                              const ReliefOptions& relief, Progress* progress) {
+  const Result<View> view = parse_view(relief.view, relief.up);
+  if (!view) return std::unexpected(view.error());
+  const Result<std::vector<SceneEntry>> entries = entries_of(paths);
+  if (!entries) return std::unexpected(entries.error());
+  SceneInput made;
+  std::map<std::string, std::shared_ptr<const CloudFile>> known;  // the same for every pose
+  for (const SceneEntry& entry : *entries) {
+    if (known.contains(entry.path)) {
+      made.scene.models.push_back({entry.path, known[entry.path], entry.pose});
+      continue;
+    }
+    Result<Input> read =
+        read_input(entry.path, arguments, {seen_by_model(*view, entry.pose), relief.points}, progress);
+    if (!read) return std::unexpected(read.error());
+    const auto file = std::make_shared<const CloudFile>(std::move(read->file));
+    if (!large_size(entry.path, arguments)) known[entry.path] = file;
+    made.scene.models.push_back({entry.path, file, entry.pose});
+    made.remarks.insert(made.remarks.end(), read->remarks.begin(), read->remarks.end());
+  }
+  return made;
+}
+
+std::string joined(const std::vector<std::string>& paths) {
+  std::string all;
+  for (const std::string& path : paths) all += cat(all.empty() ? "" : ", ", path);
+  return all;
 }
 
 }  // namespace relievo::cli

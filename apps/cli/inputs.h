@@ -1,4 +1,5 @@
-// What the commands read: clouds, meshes and depth images, with the flags that depth images need.
+// What the commands read: clouds, meshes, depth images and scenes of them, with the flags that depth images
+// need.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,6 +9,7 @@
 #include "relievo/depth_image.h"
 #include "relievo/io.h"
 #include "relievo/options.h"
+#include "relievo/scene.h"
 #include "relievo/surface.h"
 
 namespace relievo::cli {
@@ -31,23 +33,37 @@ void add_input_flags(CLI::App& command, InputArguments& arguments);
 Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
                           const InputArguments& arguments, double points, Progress* progress);
 
-// Reads the file of that path: of a depth image or a very large file what the view and the number of points
-// in `relief` ask for. Errors: those of read_file(), read_cloud(), stream_front(), parse_camera(),
-// depth_cloud().
-Result<Input> read_input(const std::string& path, const InputArguments& arguments,
-                         const ReliefOptions& relief, Progress* progress);
+// Models to make one relief of, and what the user should know of their files, in a line for each.
+struct SceneInput {
+  Scene scene;
+  std::vector<std::string> remarks;
+};
 
-// A scan and the side of it that is looked at.
+// Whether that is a scene file, by its ending: .json.
+bool is_scene_file(const std::string& path);
+
+// Reads the files of those paths, one or several models, or one scene file (.json): of depth images and very
+// large files what the view and the number of points in `relief` ask for. Errors: those of read_file(),
+// read_cloud(), stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene
+// file among others.
+Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
+                              const ReliefOptions& relief, Progress* progress);
+
+// The paths, in one line.
+std::string joined(const std::vector<std::string>& paths);
+
+// What is looked at, and the side of it that is.
 struct SceneArguments {
-  std::string path, view = "front", up;
+  std::vector<std::string> paths;
+  std::string view = "front", up;
   InputArguments in;
 };
 
 // Adds INPUT, --view, --up and the flags of InputArguments.
 void add_scene_flags(CLI::App& command, SceneArguments& arguments);
 
-// Reads a scan and finds the surface seen in its view, as `make` does. Errors: also those of parse_view(),
-// sample_mesh() and find_surface().
+// Reads the inputs and finds the surface seen in their view, as `make` does. Errors: also those of
+// parse_view(), seen_points() and find_surface().
 Result<Surface> read_surface(const SceneArguments& arguments, Progress* progress);
 
 }  // namespace relievo::cli

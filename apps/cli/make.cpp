@@ -22,7 +22,8 @@ namespace relievo::cli {
 namespace {
 
 struct MakeArguments {
-  std::string input, output, preview, heightmap, report;
+  std::vector<std::string> inputs;
+  std::string output, preview, heightmap, tool_picture, report;
   int heightmap_px = 1024;
   int threads = 0;
   bool is_quiet = false;
@@ -47,9 +48,9 @@ const std::map<std::string, SolidWriter>& solid_writers() {
 
 // Each output has a place of its own that can be written to.
 Result<void> check_places(const MakeArguments& arguments) {
-  std::vector<std::string> taken{arguments.input};
+  std::vector<std::string> taken = arguments.inputs;
   for (const std::string& path :
-       {arguments.output, arguments.preview, arguments.heightmap, arguments.report}) {
+       {arguments.output, arguments.preview, arguments.heightmap, arguments.tool_picture, arguments.report}) {
     if (path.empty()) continue;
     if (auto ok = check_writable(path); !ok) return ok;
     for (const std::string& other : taken)
@@ -67,6 +68,11 @@ Result<void> check_outputs(const MakeArguments& arguments) {
         Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .stl, .3mf, .ply or .obj"});
   if (!arguments.preview.empty() && ending_of(arguments.preview) != "png")
     return std::unexpected(Error{ErrorKind::option, arguments.preview, {}, "expected a file ending in .png"});
+  if (!arguments.tool_picture.empty() && ending_of(arguments.tool_picture) != "png")
+    return std::unexpected(
+        Error{ErrorKind::option, arguments.tool_picture, {}, "expected a file ending in .png"});
+  if (!arguments.tool_picture.empty() && arguments.relief.tool.empty())
+    return std::unexpected(Error{ErrorKind::option, "--tool-picture", {}, "expected --tool, which it shows"});
   const std::string map = ending_of(arguments.heightmap);
   if (!arguments.heightmap.empty() && map != "png" && map != "tif" && map != "tiff")
     return std::unexpected(
@@ -82,6 +88,44 @@ std::vector<std::byte> height_map_file(const Solid& solid, const std::string& pa
   return write_png(map.image, scale, map.mm_per_pixel);
 }
 
+nlohmann::json reach_json(const ReliefReport& report) {
+  if (!report.reach) return {};
+  return {{"reached_share", report.reach->reached_share},
+          {"largest_residual_mm", report.reach->largest_residual_mm},
+          {"tolerance_mm", report.reach->tolerance_mm},
+          {"mm_per_sample", report.reach->mm_per_sample}};
+}
+
+std::vector<double> row_by_row(const Mat3& m) {
+  std::vector<double> values;
+  for (int i = 0; i < 9; ++i) values.push_back(m(i / 3, i % 3));
+  return values;
+}
+
+std::vector<double> as_list(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+// What stands in the scene, and where: a point p of a file is scale * rotation * p + offset in it.
+nlohmann::json models_json(const Scene& scene, const ReliefOptions& options) {
+  const Result<View> view = parse_view(options.view, options.up);
+  const auto places = place_models(scene, view.value_or(View{}));
+  nlohmann::json models = nlohmann::json::array();
+  for (std::size_t i = 0; places && i < places->size(); ++i) {
+    const CloudFile& file = *scene.models[i].file;
+    const PlacedModel& place = (*places)[i];
+    models.push_back({{"file", scene.models[i].name},
+                      {"format", file.format},
+                      {"points", file.cloud.size()},
+                      {"triangles", file.mesh.triangles.size()},
+                      {"model_to_scene",
+                       {{"rotation", row_by_row(place.turn)},
+                        {"scale", place.scale},
+                        {"offset", as_list(place.offset)}}}});
+  }
+  return models;
+}
+
 nlohmann::json report_json(const ReliefReport& report, const Progress& progress) {
   const auto number_or_null = [](double x) {
     return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
@@ -89,8 +133,6 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
   nlohmann::json seconds = nlohmann::json::object();
   for (const StageTime& stage : progress.times())
     seconds[stage.name] = seconds.value(stage.name, 0.0) + stage.seconds;
-  std::vector<double> rotation;
-  for (int i = 0; i < 9; ++i) rotation.push_back(report.rotation(i / 3, i % 3));
   return {
       {"version", version},
       {"threads", thread_count()},
@@ -108,13 +150,14 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
       {"height_mm", report.height_mm},
       {"below_ground_mm", report.below_ground_mm},
       {"steepest_deg", report.steepest_deg},
+      {"tool", reach_json(report)},
       {"simplification_error_mm",
        report.simplification_error_mm ? nlohmann::json(*report.simplification_error_mm) : nlohmann::json()},
       {"seconds", seconds},
       {"model_to_mm",
-       {{"rotation", rotation},
+       {{"rotation", row_by_row(report.rotation)},
         {"scale", report.scale},
-        {"offset", {report.offset.x(), report.offset.y(), report.offset.z()}}}},
+        {"offset", as_list(report.offset)}}},
       {"remarks", report.remarks}};
 }
 
@@ -123,17 +166,17 @@ std::vector<std::byte> text_bytes(const std::string& text) {
   return {bytes.begin(), bytes.end()};
 }
 
-Result<Input> load(const MakeArguments& arguments, Progress& progress) {
-  if (!arguments.scan) return read_input(arguments.input, arguments.in, arguments.relief, &progress);
+Result<SceneInput> load(const MakeArguments& arguments, Progress& progress) {
+  if (!arguments.scan) return read_scene(arguments.inputs, arguments.in, arguments.relief, &progress);
   if (auto go = progress.stage("read", 0); !go) return std::unexpected(go.error());
   studio::Input scan = *arguments.scan;
-  Result<CloudFile> file = studio::load_input(scan, std::filesystem::path(arguments.input).parent_path());
-  if (!file) return std::unexpected(file.error());
-  return Input{std::move(*file), {}};
+  Result<Scene> scene = studio::load_input(scan, std::filesystem::path(arguments.inputs[0]).parent_path());
+  if (!scene) return std::unexpected(scene.error());
+  return SceneInput{std::move(*scene), {}};
 }
 
-std::vector<OutputFile> finished_files(const MakeArguments& arguments, const MadeRelief& made,
-                                       Progress& progress) {
+std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Scene& scene,
+                                       const MadeRelief& made, Progress& progress) {
   std::vector<OutputFile> files;
   files.push_back({arguments.output, solid_writers().at(ending_of(arguments.output))(made.solid)});
   if (!arguments.heightmap.empty())
@@ -141,9 +184,13 @@ std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Mad
         {arguments.heightmap, height_map_file(made.solid, arguments.heightmap, arguments.heightmap_px)});
   if (!arguments.preview.empty())
     files.push_back({arguments.preview, write_png(render_preview(made.solid, {}))});
+  if (!arguments.tool_picture.empty())
+    files.push_back({arguments.tool_picture, write_png(render_reach(*made.report.reach, 1600))});
   progress.finish();
-  if (!arguments.report.empty())
-    files.push_back({arguments.report, text_bytes(report_json(made.report, progress).dump(2) + "\n")});
+  if (arguments.report.empty()) return files;
+  nlohmann::json report = report_json(made.report, progress);
+  report["models"] = models_json(scene, arguments.relief);
+  files.push_back({arguments.report, text_bytes(report.dump(2) + "\n")});
   return files;
 }
 
@@ -154,16 +201,16 @@ struct Finished {
 };
 
 Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
-  const Result<Input> input = load(arguments, progress);
+  const Result<SceneInput> input = load(arguments, progress);
   if (!input) return std::unexpected(input.error());
   Finished finished{{}, input->remarks};
-  Result<MadeRelief> made = make_relief(input->file, arguments.relief, &progress);
+  Result<MadeRelief> made = make_relief(input->scene, arguments.relief, &progress);
   if (!made) {
-    if (made.error().input.empty()) made.error().input = arguments.input;
+    if (made.error().input.empty()) made.error().input = joined(arguments.inputs);
     return std::unexpected(made.error());
   }
   (void)progress.stage("files", .97);
-  finished.files = finished_files(arguments, *made, progress);
+  finished.files = finished_files(arguments, input->scene, *made, progress);
   const ReliefReport& report = made->report;
   finished.lines.insert(finished.lines.end(), report.remarks.begin(), report.remarks.end());
   finished.lines.push_back(cat(arguments.output, ": ", report.visible_points, " of ", report.input_points,
@@ -189,11 +236,12 @@ Result<void> make(const MakeArguments& arguments) {
 
 // Takes what a project says, but for the flags that were given.
 Result<void> take_project(MakeArguments& arguments, const CLI::App& command) {
-  if (ending_of(arguments.input) != "relievo") return {};
-  const Result<std::vector<std::byte>> bytes = read_file(arguments.input);
+  const std::string& input = arguments.inputs[0];
+  if (arguments.inputs.size() > 1 || ending_of(input) != "relievo") return {};
+  const Result<std::vector<std::byte>> bytes = read_file(input);
   if (!bytes) return std::unexpected(bytes.error());
   const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  Result<studio::Project> project = studio::read_project(text, arguments.input);
+  Result<studio::Project> project = studio::read_project(text, input);
   if (!project) return std::unexpected(project.error());
   visit(project->options, [&](const OptionField& field, auto& value) {
     if (command.count(FlagAdder::flag(field)) == 0) return;
@@ -214,9 +262,10 @@ void add_make(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<MakeArguments>();
   CLI::App& command = *program.add_subcommand("make", "Make a relief from a scan");
   command
-      .add_option("input", arguments->input,
-                  "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB), "
-                  "depth image (PNG, TIFF) or a studio's project")
+      .add_option(
+          "input", arguments->inputs,
+          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, "
+          "TIFF); several of them side by side; a scene (JSON) or a studio's project")
       ->required()
       ->type_name("INPUT");
   command.add_option("-o,--output", arguments->output, "the solid: .stl, .3mf, .ply or .obj, in millimetres")
@@ -227,6 +276,9 @@ void add_make(CLI::App& program, Result<void>& result) {
       .add_option("--heightmap", arguments->heightmap,
                   "height map of the front: .png of 16 bits, or .tif in millimetres")
       ->type_name("H.png");
+  command
+      .add_option("--tool-picture", arguments->tool_picture, "the front, with what the tool leaves in red")
+      ->type_name("T.png");
   command.add_option("--heightmap-size", arguments->heightmap_px, "its longer side [16 to 16384]")
       ->check(CLI::Range(16, 16384).description(""))
       ->type_name("PX")

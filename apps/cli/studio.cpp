@@ -53,7 +53,8 @@ Result<void> studio(const StudioArguments& arguments) {
 void add_studio(CLI::App& program, Result<void>& result) {
   const auto arguments = std::make_shared<StudioArguments>();
   CLI::App& command = *program.add_subcommand("studio", "Shape a relief by hand, live, in the browser");
-  command.add_option("input", arguments->input, "point cloud, mesh, depth image or project, as for make")
+  command
+      .add_option("input", arguments->input, "point cloud, mesh, depth image, scene or project, as for make")
       ->type_name("INPUT");
   command.add_option("--port", arguments->port, "0 for a free one [0 to 65535]")
       ->check(CLI::Range(0, 65535).description(""))

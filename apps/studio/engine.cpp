@@ -65,12 +65,12 @@ struct Engine::State {
       return std::exchange(s.opening, std::nullopt);
     });
     if (!opening) return false;
-    Result<CloudFile> file = load_input(opening->input, {});
+    Result<Scene> scene = load_input(opening->input, {});
     Result<void> done;
-    if (!file)
-      done = std::unexpected(file.error());
-    else if (file->cloud.size() > 0)
-      done = hand_over(OpenScan(opening->input, std::move(*file)), opening->view);
+    if (!scene)
+      done = std::unexpected(scene.error());
+    else
+      done = hand_over(OpenScan(opening->input, std::move(*scene)), opening->view);
     shared.with([&](Shared& s) {
       s.is_reading = false;
       if (!done) s.error = done.error();

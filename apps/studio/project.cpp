@@ -7,7 +7,6 @@
 
 #include "files.h"
 #include "inputs.h"
-#include "relievo/io.h"
 #include "relievo/sample.h"
 #include "relievo/text.h"
 
@@ -129,11 +128,19 @@ std::string hash_of(std::string_view bytes) {
   return "fnv1a64:" + text;
 }
 
-Result<CloudFile> load_input(Input& input, const std::string& folder) {
+namespace {
+
+Scene scene_of(const std::string& name, CloudFile file) {
+  return {{{name, std::make_shared<const CloudFile>(std::move(file))}}};
+}
+
+}  // namespace
+
+Result<Scene> load_input(Input& input, const std::string& folder) {
   if (!input.sample.empty()) {
     Result<Cloud> sample = make_sample(input.sample);
     if (!sample) return std::unexpected(sample.error());
-    return CloudFile{std::move(*sample), "sample"};
+    return scene_of(input.sample, {std::move(*sample), "sample"});
   }
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = cli::read_file(path);
@@ -142,9 +149,14 @@ Result<CloudFile> load_input(Input& input, const std::string& folder) {
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
+  if (cli::is_scene_file(path)) {
+    Result<cli::SceneInput> read = cli::read_scene({path}, {}, {}, nullptr);
+    if (!read) return std::unexpected(read.error());
+    return std::move(read->scene);
+  }
   Result<cli::Input> read = cli::parse_input(*bytes, path, {}, ReliefOptions{}.points, nullptr);
   if (!read) return std::unexpected(read.error());
-  return std::move(read->file);
+  return scene_of(input.name, std::move(read->file));
 }
 
 }  // namespace relievo::studio

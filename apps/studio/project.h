@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "relievo/io.h"
 #include "relievo/options.h"
+#include "relievo/scene.h"
 
 namespace relievo::studio {
 
@@ -37,9 +37,9 @@ Result<Input> input_from_json(const nlohmann::json& json, std::string_view name)
 // Tells changed files from unchanged ones: 64 bits of FNV-1a. No protection against intent.
 std::string hash_of(std::string_view bytes);
 
-// Returns the points or the mesh of the input and sets its hash if it has none. A relative path starts at
-// `folder`. Errors: kind input, also if the file is not the one that the hash was taken from; kind option for
-// an unknown sample.
-Result<CloudFile> load_input(Input& input, const std::string& folder);
+// Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
+// path starts at `folder`. Errors: kind input, also if the file is not the one that the hash was taken from;
+// kind option for an unknown sample.
+Result<Scene> load_input(Input& input, const std::string& folder);
 
 }  // namespace relievo::studio

@@ -12,6 +12,7 @@
 #include "relievo/progress.h"
 #include "relievo/relief.h"
 #include "relievo/solid.h"
+#include "relievo/tool.h"
 
 namespace relievo {
 
@@ -36,6 +37,9 @@ struct ReliefReport {
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
+
+  // What the tool asked for reaches of the front; there are no samples without one.
+  std::optional<ToolReach> reach;
 
   // Largest difference to the front before it was made simpler, if a tolerance was given.
   std::optional<double> simplification_error_mm;
@@ -68,6 +72,10 @@ Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
 
 // The same for what a file holds: of a mesh the points that the viewer sees of it, see sample_mesh().
 Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options,
+                               Progress* progress = nullptr);
+
+// The same for points that were seen in that view; options.view and options.up are not looked at.
+Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
 // The same, bit for bit, in a fraction of the time: from a model that was prepared from the

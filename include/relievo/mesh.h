@@ -26,17 +26,24 @@ struct Mesh {
 // their numbers. Zero for triangles without an area.
 std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh);
 
+// Returns the normals that are interpolated on the mesh: its own, or smooth_normals() where there are none,
+// or where they are those of the triangles.
+std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh);
+
 struct MeshSampling {
   double points = 3e5;  // visible points to aim at, [100, 1e7]
+  double spacing = 0;   // side of a square of the grid, in the mesh's units; 0 is what `points` asks for
 };
 
+// Errors: kind option for a number of points out of its range.
+Result<void> check_points(double points);
+
 // Returns the points that the viewer sees of the mesh, in the mesh's frame: one under the centre of each
-// pixel of a square grid, as fine as gives about the wanted number, with normals interpolated between those
-// of the corners (smooth_normals() where there are none, or where they are those of the triangles) and
-// colours. Where the outline passes between two
-// pixels there is a point on it, so that it is smoother than the grid. Both sides of a triangle are seen, and
-// all normals face the viewer. Errors: kind geometry if nothing is seen in this view; kind option for a
-// number of points out of its range; kind cancelled.
+// pixel of a square grid, as fine as gives about the wanted number, with normals interpolated between the
+// corners, see normals_to_show(), and colours. Where the outline passes between two pixels there is a point
+// on it, so that it is smoother than the grid. Both sides of a triangle are seen, and all normals face the
+// viewer. Errors: kind geometry if nothing is seen in this view; kind option for a number of points out of
+// its range; kind cancelled.
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options = {},
                           Progress* progress = nullptr);
 

@@ -33,6 +33,8 @@ struct ReliefOptions {
   std::optional<double> rim_bevel_mm;   // width of its slanting inner side; 0.3 of its height
   double points = 3e5;                  // visible points to take from a mesh
   std::string form = "relief";          // or "mirror", "die", "lithophane": see forms.h
+  std::string tool;                     // a milling tool to be told of, see parse_tool(); none if empty
+  std::string surface = "full";         // or "reachable": what that tool leaves
   std::optional<double> tolerance_mm;   // largest error of a mesh made simpler; without it all points stay
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
@@ -116,6 +118,13 @@ void visit(Options& o, F&& f) {
                 "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "
                 "lithophane: thick where the model is dark"},
     o.form);
+  f(
+      OptionField{
+          "tool", "TOOL",
+          "tells what a milling tool reaches: ball:DIAMETER, flat:DIAMETER or v:ANGLE, with a round tip "
+          "v:ANGLE:DIAMETER, in mm"},
+      o.tool);
+  f(OptionField{"surface", "KIND", "full; or reachable: as that tool leaves it"}, o.surface);
   f(OptionField{"tolerance", "MM",
                 "fewer triangles, at most so far from the full relief; default: all of them", 1e-4, 100},
     o.tolerance_mm);

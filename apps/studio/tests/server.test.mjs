@@ -97,6 +97,20 @@ test("refuses malformed requests and says what was expected", async () => {
   await stillWorks();
 });
 
+test("opens scenes, and exports what make makes of them", async () => {
+  const scene = path.join(folder, "scene.json"), out = path.join(folder, "scene.stl");
+  writeFileSync(scene, JSON.stringify({models: [
+    {file: "scan.ply", translate: [0, 0, 0]}, {file: "scan.ply", rotate: [0, 60, 0], translate: [0.5, 0, -1]}]}));
+  await engine.open({path: scene});
+  await stillWorks();
+  const exported = await engine.post("export", {options: OPTIONS, format: "stl"});
+  assert.equal(exported.status, 200, String(exported.body));
+  const made = spawnSync(PROGRAM, ["make", scene, "-o", out, "--width", "60", "--height", "2", "--quiet"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  assert.ok(readFileSync(out).equals(exported.body));
+  await engine.open({path: scan});
+});
+
 test("keeps dropped files inside its folder", async () => {
   const bytes = readFileSync(scan);
   const upload = (name) => engine.request(`${engine.url.pathname}api/upload?name=${encodeURIComponent(name)}`, {method: "POST", body: bytes});

@@ -1,0 +1,23 @@
+// Scene files: several models and how each stands, in JSON.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/scene.h"
+
+namespace relievo::cli {
+
+struct SceneEntry {
+  std::string path;  // as the program opens it
+  Pose pose = {};
+};
+
+// Returns the models of a scene file called `name`, whose relative paths start at the file's own folder:
+//   {"models": [{"file": "a.ply", "rotate": [0, 60, 0], "translate": [1, 0, 0], "scale": 2, "mirror": true}]}
+// All but `file` may be left out. Errors: kind input for what is not JSON, for keys that do not belong there,
+// values of another type or size, and files that are not there, naming the key: "models[1].rotate".
+Result<std::vector<SceneEntry>> read_scene_file(std::string_view text, const std::string& name);
+
+}  // namespace relievo::cli

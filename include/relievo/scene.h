@@ -1,0 +1,71 @@
+// Several models in one relief: how they are placed, and what a viewer sees of them together.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "relievo/make_relief.h"
+
+namespace relievo {
+
+// How a model stands in a scene. It is mirrored, scaled and turned about the centre of its own box, strays
+// left out, and then moved.
+struct Pose {
+  Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z; the axes stay; 90 about z takes x to y
+  std::optional<Vec3> translate = {};  // in the units of the files
+  double scale = 1;                    // above 0
+  bool is_mirrored = false;            // x is reversed, before all else
+
+  bool operator==(const Pose& other) const;
+};
+
+// How a pose turns a model: a rotation, after a reflection where it is mirrored.
+Mat3 turn_of(const Pose& pose);
+
+struct SceneModel {
+  std::string name;                       // in errors and remarks
+  std::shared_ptr<const CloudFile> file;  // not null
+  Pose pose = {};
+};
+
+// At least one model. A scene in which none has a `translate` is arranged, in the view in which it is seen.
+struct Scene {
+  std::vector<SceneModel> models;
+};
+
+// A point p of the file is scale * turn * p + offset in the scene.
+struct PlacedModel {
+  Mat3 turn = Mat3::Identity();  // see turn_of()
+  double scale = 1;
+  Vec3 offset = Vec3::Zero();
+
+  Vec3 operator()(const Vec3& p) const { return scale * (turn * p) + offset; }
+};
+
+// Returns where each model stands. With a `translate` anywhere, where the poses say: files that share one
+// frame fit together. Without, the models are arranged as the view shows them: side by side from left to
+// right, on one ground line, their middles equally deep, a gap of 8 % of their height between them. The
+// first, which keeps its size and, unless it is turned, its place, decides how high: the others become as
+// high, but those more than one and a half times as wide as that, only so wide. Their `scale` is on top of
+// this: 0.5 is half as high as the others. One model alone stays where it is. Errors: kind option for a
+// scene without models, for a scale not in [1e-6, 1e6], for angles and places that are not finite.
+Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
+
+// Returns the points of all models as they stand, in the scene's frame. Meshes are seen together, hidden
+// parts left out; clouds come whole, without strays. All have about one sampling distance: that of the
+// finest cloud, or the one at which the viewer sees about as many points as wanted, if that is wider or the
+// scene has meshes. Finer clouds are thinned to it, clouds that are much coarser, of which only what the
+// viewer sees is taken, get points in between. Normals are estimated, or turned, for each model by itself.
+// If any model has colours, the others are white. A single model that is not moved gives what its file does.
+// Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones,
+// naming the model; kind cancelled.
+Result<SeenPoints> seen_points(const Scene& scene, const View& view, double points,
+                               Progress* progress = nullptr);
+
+// Returns the plate with the relief of the scene, as make_relief() does for a file.
+Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options,
+                               Progress* progress = nullptr);
+
+}  // namespace relievo
