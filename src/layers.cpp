@@ -22,7 +22,7 @@ struct Shares {
 };
 
 Shares shares_of(Style style) {
-  return style == Style::raised ? Shares{.22, 1.6, .003} : Shares{.4, 1, .008};
+  return style == Style::raised ? Shares{.3, 1.4, .01} : Shares{.4, 1, .008};
 }
 
 // -(n_x, n_y), which fades out where the surface turns away from the viewer: such slopes spend height and

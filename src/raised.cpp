@@ -13,9 +13,9 @@ namespace {
 
 // Of the longer side: how far from the silhouette the layers are whole, how far the pull towards a level
 // reaches, and what the coarse form is averaged over.
-constexpr double fade_width = .008, reach = .2, form_width = .023;
+constexpr double fade_width = .012, reach = .1, form_width = .023;
 // How the coarse form is held back.
-constexpr TailOptions form_tails{.share = .1, .flattest = .2, .keeps_base = false};
+constexpr TailOptions form_tails{.share = .1, .flattest = .35, .keeps_base = false};
 // The relief whose form that is.
 constexpr double typical_u = .6, typical_detail = .04;
 

@@ -120,7 +120,7 @@ TEST(LayerWeights, OfTheRaisedStyleHoldTheCoarseLayerBackMore) {
                      raised = LayerWeights::of(.5, .04, Style::raised);
   EXPECT_EQ(raised.fine, ours.fine);
   EXPECT_GT(raised.middle, ours.middle);
-  EXPECT_FLOAT_EQ(raised.coarse, static_cast<float>(1 - std::exp(-.5 * std::exp(-1.6))));
+  EXPECT_FLOAT_EQ(raised.coarse, static_cast<float>(1 - std::exp(-.5 * std::exp(-1.4))));
   EXPECT_EQ(LayerWeights::of(.5, 0, Style::raised).coarse, raised.fine);
 }
 

@@ -50,7 +50,7 @@ Cloud two_sheets() {
 TEST(RaisedLayers, FadeTowardsTheSilhouetteAlone) {
   const Surface& surface = model().surface();
   const RaisedLayers& layers = model().raised_layers();
-  const double width = .008 * 2 * (1.5 + .4);
+  const double width = .012 * 2 * (1.5 + .4);
   for (std::size_t i = 0; i < surface.points.size(); ++i) {
     const auto t = static_cast<double>(surface.boundary.distance[i]) / width;
     const double s = std::min(t, 1.0);

@@ -34,7 +34,7 @@ struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, depth = 0;
 
   // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-25 detail), in
-  // the raised style by exp(-40 detail); 0 is even. Style::paper has no layers: it counts as layered.
+  // the raised style by exp(-35 detail); 0 is even. Style::paper has no layers: it counts as layered.
   static LayerWeights of(double u, double detail, Style style);
 };
 
