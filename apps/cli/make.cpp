@@ -77,12 +77,30 @@ Result<void> check_outputs(const MakeArguments& arguments) {
   return check_places(arguments);
 }
 
-std::vector<std::byte> height_map_file(const Solid& solid, const std::string& path, int longer_side_px) {
-  if (ending_of(path) != "png") return write_tiff(make_heights_mm(solid, longer_side_px));
+// Of what was bent around a wrap the flat plate is shown, for machines that turn the stock.
+std::vector<std::byte> height_map_file(const MadeRelief& made, const std::string& path, int longer_side_px) {
+  const auto& wrap = made.report.wrap;
+  const Solid& solid = wrap ? made.flat : made.solid;
+  if (ending_of(path) != "png") {
+    HeightsMm heights = make_heights_mm(solid, longer_side_px);
+    if (wrap) heights.note = cat("diameter_mm=", wrap->diameter_mm, ", mm_per_degree=", wrap->mm_per_degree);
+    return write_tiff(heights);
+  }
   const HeightMap map = make_height_map(solid, longer_side_px);
-  const std::pair<std::string, std::string> scale[] = {{"mm_per_pixel", cat(map.mm_per_pixel)},
-                                                       {"mm_per_grey", cat(map.mm_per_grey)}};
+  std::vector<std::pair<std::string, std::string>> scale{{"mm_per_pixel", cat(map.mm_per_pixel)},
+                                                         {"mm_per_grey", cat(map.mm_per_grey)}};
+  if (wrap) {
+    scale.emplace_back("diameter_mm", cat(wrap->diameter_mm));
+    scale.emplace_back("mm_per_degree", cat(wrap->mm_per_degree));
+  }
   return write_png(map.image, scale, map.mm_per_pixel);
+}
+
+nlohmann::json wrap_json(const std::optional<ReliefReport::Wrapped>& wrap) {
+  if (!wrap) return {};
+  return {{"diameter_mm", wrap->diameter_mm},
+          {"turn_degrees", wrap->turn_deg},
+          {"mm_per_degree", wrap->mm_per_degree}};
 }
 
 std::vector<double> row_by_row(const Mat3& m) {
@@ -141,6 +159,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
       {"steepest_deg", report.steepest_deg},
       {"simplification_error_mm",
        report.simplification_error_mm ? nlohmann::json(*report.simplification_error_mm) : nlohmann::json()},
+      {"wrap", wrap_json(report.wrap)},
       {"seconds", seconds},
       {"model_to_mm",
        {{"rotation", row_by_row(report.rotation)},
@@ -169,7 +188,7 @@ std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Sce
   files.push_back({arguments.output, solid_writers().at(ending_of(arguments.output))(made.solid)});
   if (!arguments.heightmap.empty())
     files.push_back(
-        {arguments.heightmap, height_map_file(made.solid, arguments.heightmap, arguments.heightmap_px)});
+        {arguments.heightmap, height_map_file(made, arguments.heightmap, arguments.heightmap_px)});
   if (!arguments.preview.empty())
     files.push_back({arguments.preview, write_png(render_preview(made.solid, {}))});
   progress.finish();
