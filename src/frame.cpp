@@ -61,30 +61,40 @@ struct FrameMaker::Packed {
     });
   }
 
+  SlopeInput slope_input(std::span<const float> rim_weight) const {
+    return {surface.normals, surface.curvature.k, rim_weight, surface.curvature.delta, surface.layers};
+  }
+
   void find_slopes(const Shape& shape) {
-    const SlopeInput input{surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta,
-                           surface.layers};
     const bool is_layered = shape.style == Style::layered;
     weight.fill(surface.curvature.delta,
                 is_layered ? saturation_alone(shape.compression) : shape.compression);
     if (is_layered)
-      frame_layered_slopes(input, weight, shape, slopes);
+      frame_layered_slopes(slope_input(boundary_weight), weight, shape, slopes);
     else
-      frame_slopes(input, weight, shape.max_slope, slopes);
+      frame_slopes(slope_input(boundary_weight), weight, shape.max_slope, slopes);
   }
 
-  // Heights before detail: weights by table, slopes, right-hand side and solve; or those of the control
-  // points and their way to all.
-  void find_heights(Frame& frame) {
-    const Shape& shape = frame.options.shape;
+  // For the frame's shape.
+  RaisedWeights raised_weights(const Shape& shape) {
+    weight.fill(surface.curvature.delta, saturation_alone(shape.compression));
+    const auto scale = static_cast<float>(saturation_scale(shape.compression));
+    const auto share = [&](float k) { return scale * weight(k); };
+    return RaisedWeights::of(shape, mean_share(shape.compression, surface.curvature.k, share));
+  }
+
+  // Heights by the ordinary system, where the two calls find slopes of all points or of the samples of
+  // control points, and the way of those to all.
+  template <typename Slopes, typename Subspace>
+  void find_heights(Frame& frame, Slopes&& find_slopes, Subspace&& solve_subspace) {
     const Stopwatch watch;
     if (const HeightSystem* system = model.system()) {
-      find_slopes(shape);
+      find_slopes();
       system->solve(slopes, frame.heights, std::get<HeightSystem::Workspace>(workspace));
       frame.times.heights_s += watch.seconds();
     } else {
       auto& own = std::get<SubspaceModel::Workspace>(workspace);
-      model.subspace()->solve(shape, boundary_weight, own);
+      solve_subspace(*model.subspace(), own);
       frame.times.heights_s += watch.seconds();
       const Stopwatch mapping;
       model.subspace()->carry(boundary_weight, own, frame.heights);
@@ -117,13 +127,48 @@ struct FrameMaker::Packed {
                 [&](std::size_t i, float& z) { z += amount * surface.curvature.k[i] * boundary_weight[i]; });
   }
 
+  // Adds the layers' own heights, and bevels the step at the silhouette.
+  float add_layers(Frame& frame, const RaisedWeights& weights) {
+    const std::vector<LayerHeights>& layers = model.raised_layers().heights;
+    parallel_for(size(), [&](std::size_t i) { frame.heights[i] += weights.height(layers[i]); });
+    const Bevel<float> bevel(frame.heights, surface.boundary, boundary_weight);
+    return pass(frame.heights, [&](std::size_t i, float& z) { z = bevel(i, z); });
+  }
+
+  float raise_layers(Frame& frame) {
+    const Shape& shape = frame.options.shape;
+    const std::vector<float>& fade = model.raised_layers().fade;
+    const Stopwatch weighing;
+    const RaisedWeights weights = raised_weights(shape);
+    frame.times.heights_s += weighing.seconds();
+    find_heights(
+        frame, [&] { frame_raised_slopes(slope_input(fade), weight, shape, weights, slopes); },
+        [&](const SubspaceModel& subspace, SubspaceModel::Workspace& own) {
+          subspace.solve_raised(shape, weights, fade, own);
+        });
+    const Stopwatch watch;
+    const float height = add_layers(frame, weights);
+    frame.times.detail_s += watch.seconds();
+    return height;
+  }
+
+  float raise_slopes(Frame& frame) {
+    const Shape& shape = frame.options.shape;
+    find_heights(
+        frame, [&] { find_slopes(shape); },
+        [&](const SubspaceModel& subspace, SubspaceModel::Workspace& own) {
+          subspace.solve(shape, boundary_weight, own);
+        });
+    const Stopwatch watch;
+    const float height = shape.style == Style::layered ? round_tails(frame) : add_detail(frame);
+    frame.times.detail_s += watch.seconds();
+    return height;
+  }
+
   // Heights and detail for the frame's shape.
   void raise(Frame& frame) {
-    find_heights(frame);
-    const Stopwatch watch;
-    const bool is_layered = frame.options.shape.style == Style::layered;
-    frame.height = static_cast<double>(is_layered ? round_tails(frame) : add_detail(frame));
-    frame.times.detail_s += watch.seconds();
+    const bool is_raised = frame.options.shape.style == Style::raised;
+    frame.height = static_cast<double>(is_raised ? raise_layers(frame) : raise_slopes(frame));
   }
 
   // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "extent.h"
 #include "relievo/parallel.h"
 #include "surface_blur.h"
 
@@ -14,15 +14,15 @@ namespace {
 constexpr double finest = .006, coarsest = .05, depth_width = .015;
 // The slope, 85 degrees, at which half of a normal's x and y is left.
 constexpr double steepest_kept = 12;
-// How far the middle layer is held back, of the coarse one's exponent.
-constexpr double middle_share = .4;
-// The height that all ranks of depth together get where the fine layer is kept in full, of the longer side.
-constexpr double depth_share = .008;
 
-double longer_side_of(std::span<const Vec3> points) {
-  Box box;
-  for (const Vec3& p : points) box.extend(p);
-  return std::max(box.size().x(), box.size().y());
+// How a style divides a relief among the layers.
+struct Shares {
+  double middle, coarse;  // how far they are held back: of the exponent 25 detail
+  double depth;  // the height of all ranks of depth where the fine layer is kept in full, of the longer side
+};
+
+Shares shares_of(Style style) {
+  return style == Style::raised ? Shares{.22, 1.6, .003} : Shares{.4, 1, .008};
 }
 
 // -(n_x, n_y), which fades out where the surface turns away from the viewer: such slopes spend height and
@@ -31,19 +31,6 @@ Vec2f falling_off(const Vec3f& normal) {
   const double slope =
       static_cast<double>(normal.head<2>().norm()) / std::max(static_cast<double>(normal.z()), 1e-3);
   return static_cast<float>(-1 / (1 + std::pow(slope / steepest_kept, 8))) * normal.head<2>();
-}
-
-// 0 for the deepest point, 1 for the nearest; equal depths have equal ranks.
-std::vector<double> depth_ranks(std::span<const Vec3> points) {
-  std::vector<double> sorted(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) sorted[i] = points[i].z();
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<double> ranks(points.size());
-  parallel_for(points.size(), [&](std::size_t i) {
-    const auto at = std::lower_bound(sorted.begin(), sorted.end(), points[i].z()) - sorted.begin();
-    ranks[i] = static_cast<double>(at) / static_cast<double>(points.size());
-  });
-  return ranks;
 }
 
 // Per point the mean of its triangles' gradients, by their areas.
@@ -101,12 +88,13 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   return layers;
 }
 
-LayerWeights LayerWeights::of(double u, double detail) {
+LayerWeights LayerWeights::of(double u, double detail, Style style) {
+  const Shares shares = shares_of(style);
   const auto kept = [&](double exponent) {
     return static_cast<float>(u > 0 ? -std::expm1(-u * std::exp(-25 * detail * exponent)) : 0);
   };
   const float fine = kept(0);
-  return {fine, kept(middle_share), kept(1), static_cast<float>(depth_share) * fine};
+  return {fine, kept(shares.middle), kept(shares.coarse), static_cast<float>(shares.depth) * fine};
 }
 
 }  // namespace relievo

@@ -93,11 +93,21 @@ ReliefReport report_on(const Surface& surface, const Relief& relief, const Relie
   return report;
 }
 
+// Lowest and highest point of the front, ground included.
+std::pair<double, double> span_of(const Front& front) {
+  double lowest = front.ground_mm, highest = lowest;
+  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
+  return {lowest, highest};
+}
+
+double height_of(const Front& front) {
+  const auto [lowest, highest] = span_of(front);
+  return highest - lowest;
+}
+
 // How far the lowest point of the front lies below the ground: 0 or more.
 double depth_below_ground(const Front& front) {
-  double lowest = front.ground_mm;
-  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z());
-  return front.ground_mm - lowest;
+  return front.ground_mm - span_of(front).first;
 }
 
 constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
@@ -120,6 +130,12 @@ Result<Front> formed_front(Form form, const Surface& surface, const Relief& reli
   if (*parse_outline(options.outline) == Outline::none) front.is_relief = surface.boundary.is_inside;
   if (form == Form::mirror) front = mirrored(std::move(front));
   if (form == Form::die) front = as_die(std::move(front));
+  if (options.surface == "reachable") {
+    Result<Front> reachable = reachable_front(front, *parse_tool(options.tool));
+    if (!reachable) return reachable;
+    front = std::move(*reachable);
+    report.height_mm = height_of(front);  // what is narrow and deep is filled
+  }
   if (!options.tolerance_mm || plate_of(options, form, 1).simplify_mm > 0) return front;
   Result<SimplerFront> simpler = simplify(front, simplest_front(options), progress);
   if (!simpler) return std::unexpected(simpler.error());
@@ -133,6 +149,27 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
   Result<Front> front = formed_front(form, surface, relief, options, report, progress);
   if (front && !front->is_relief.empty()) return relief_alone(*front);
   return front;
+}
+
+void add_reach(MadeRelief& made, const ReliefOptions& options) {
+  const ToolReach& reach = made.report.reach.emplace(measure_reach(made.solid, *parse_tool(options.tool)));
+  made.report.remarks.push_back(cat("the tool ", options.tool, " reaches ", 100 * reach.reached_share,
+                                    " % of the front within ", reach.tolerance_mm, " mm and leaves at most ",
+                                    reach.largest_residual_mm, " mm (sampled every ", reach.mm_per_sample,
+                                    " mm)"));
+}
+
+// A bevel of its own is asked for by the user: it must lean as walls must.
+Result<void> check_bevel(const RimOptions& rim, const ReliefOptions& options) {
+  if (!options.draft_deg || !options.rim_mm) return {};
+  const double least = least_bevel(std::abs(rim.height_mm), *options.draft_deg);
+  if (rim.bevel_mm >= .9999 * least) return {};
+  return std::unexpected(
+      Error{ErrorKind::option,
+            options.rim_bevel_mm ? "--rim-bevel" : "--rim",
+            {},
+            cat("expected at least ", least, " mm, so that the rim of ", std::abs(rim.height_mm),
+                " mm leans as --draft asks, found ", rim.bevel_mm, " mm")});
 }
 
 // Tells how far the front is off, its plate's part included.
@@ -171,7 +208,8 @@ void place(ReliefReport& report, const Surface& surface, const Front& front, con
 Result<Shape> shape_of(const ReliefOptions& options) {
   const double beta = options.effective_saturation();
   Shape shape{Compression::from_alpha(options.effective_alpha(), beta), options.effective_detail()};
-  if (options.effective_method() == "ours") shape.style = Style::layered;
+  if (const auto method = parse_method(options.effective_method()))
+    shape.style = default_shape(*method).style;
   if (options.steepest_deg) shape.max_slope = std::tan(*options.steepest_deg * std::numbers::pi / 180);
   shape.boundary_width = options.effective_boundary_width();
   if (options.tone.empty()) return shape;
@@ -200,6 +238,7 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
   const PlateOptions plate = plate_of(options, form, made.report.height_mm);
+  if (auto ok = check_bevel(plate.rim, options); !ok) return std::unexpected(ok.error());
   Result<Solid> solid = make_plate(*front, plate);
   if (!solid) return std::unexpected(solid.error());
   if (options.draft_deg) {
@@ -209,6 +248,7 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   }
   made.solid = std::move(*solid);
   made.report.steepest_deg = std::atan(steepest_slope(made.solid)) * 180 / std::numbers::pi;
+  if (!options.tool.empty()) add_reach(made, options);
   made.report.below_ground_mm = depth_below_ground(*front);
   made.report.scale = scale;
   if (options.tolerance_mm)

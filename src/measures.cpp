@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "jumps.h"
-#include "picture.h"
+#include "model_picture.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
@@ -13,7 +13,6 @@ namespace {
 
 constexpr int lights = 16;
 constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
-constexpr int safe_distance_px = 5;  // the reach of SSIM's window, too
 constexpr std::size_t pairs = 200000;
 
 // Azimuths of 45 degrees, first at 30, then at 55 degrees above the plane.
@@ -34,10 +33,6 @@ struct Random {
     z = (z ^ z >> 27) * 0x94D049BB133111EBU;
     return static_cast<std::size_t>((z ^ z >> 31) % n);
   }
-};
-
-struct NormalPicture {
-  Plane x, y, z;
 };
 
 Plane lambert(const NormalPicture& n, const Vec3f& light) {
@@ -74,16 +69,9 @@ Image8 to_grey(const Plane& light, int width) {
   return image;
 }
 
-std::vector<Index> where(const std::vector<std::uint8_t>& mask) {
-  std::vector<Index> places;
-  for (Index i = 0; i < mask.size(); ++i)
-    if (mask[i]) places.push_back(i);
-  return places;
-}
-
 }  // namespace
 
-struct Judge::Truth {
+struct Judge::Truth : ModelPicture {
   // The model's shading under a light, with what SSIM needs of it.
   struct Shading {
     Plane mean, variance, light;
@@ -91,76 +79,38 @@ struct Judge::Truth {
   struct Edge {
     Index a, b;
   };
+  // Edges of inside triangles where the relief may stand as a step.
+  struct Steps {
+    std::vector<Edge> jumps;  // within the model
+    std::vector<Index> rim;   // points next to the boundary, maybe several times
+  };
 
-  std::vector<Vec3> points;
-  Triangulation triangulation;
-  PictureGrid grid;
-  std::vector<std::uint8_t> is_inside;  // per pixel: on the relief
-  std::vector<std::uint8_t> is_smooth;  // the differences of normals across it stay on one surface
-  std::vector<Index> measured;          // pixels
-  NormalPicture normals;
-  Plane depth;
   std::vector<Shading> shadings;
   std::array<Plane, 3> curvature;      // smoothed
-  std::array<Plane, 3> smooth_weight;  // what of a Gaussian lies on smooth pixels
-  std::vector<Edge> jumps;
-  GaussianFilter window{1.5, 5};
+  std::array<Plane, 3> smooth_weight;  // what of a Gaussian lies on measured pixels
+  Steps steps;
+  GaussianFilter window{1.5, safe_distance_px};
 
-  explicit Truth(const Surface& surface)
-      : grid(surface.points, surface.triangulation, longer_side_px, margin_px) {
+  explicit Truth(const Surface& surface) : ModelPicture(surface, longer_side_px, margin_px) {
     if (grid.pixels() == 0) return;
-    classify(surface);
-    draw(surface);
     shadings.resize(lights);
     parallel_for(
         lights, [&](std::size_t i) { shadings[i] = shading_of(normals, static_cast<int>(i)); }, 1);
     set_smooth_weights();
     curvature = smoothed_curvature(normals);
+    find_steps(surface);
+  }
+
+  void find_steps(const Surface& surface) {
+    const std::vector<std::uint8_t>& is_boundary = surface.boundary.is_boundary;
     for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-      for (int corner = 0; corner < 3; ++corner) {
+      for (int corner = 0; corner < 3 && surface.boundary.is_inside[t]; ++corner) {
         const Index a = surface.triangulation.triangles[t][corner],
                     b = surface.triangulation.triangles[t][(corner + 1) % 3];
-        if (surface.boundary.is_inside[t] && a < b && is_jump(surface, a, b)) jumps.push_back({a, b});
+        if (is_boundary[a] != is_boundary[b]) steps.rim.push_back(is_boundary[a] ? b : a);
+        if (a < b && !is_boundary[a] && !is_boundary[b] && is_jump(surface, a, b))
+          steps.jumps.push_back({a, b});
       }
-  }
-
-  int width() const { return grid.width(); }
-
-  void classify(const Surface& surface) {
-    const std::vector<std::uint8_t> is_jumping = jump_triangles(surface);
-    std::vector<std::uint8_t> is_outside(grid.pixels()), is_broken(grid.pixels());
-    for (std::size_t i = 0; i < grid.pixels(); ++i) {
-      const Index t = grid.triangle(i);
-      is_outside[i] = t == no_index || !surface.boundary.is_inside[t];
-      is_broken[i] = is_outside[i] || is_jumping[t];
-    }
-    is_inside.resize(grid.pixels());
-    is_smooth = widened(is_broken, width(), 1);
-    std::vector<std::uint8_t> is_safe = widened(is_broken, width(), safe_distance_px);
-    for (std::size_t i = 0; i < grid.pixels(); ++i) {
-      is_inside[i] = !is_outside[i];
-      is_smooth[i] = !is_smooth[i];
-      is_safe[i] = !is_safe[i];
-    }
-    measured = where(is_safe);
-  }
-
-  // Normals and depths of the scan; level outside.
-  void draw(const Surface& surface) {
-    const std::size_t n = grid.pixels();
-    normals = {Plane(n), Plane(n), Plane(n)};
-    depth.resize(n);
-    parallel_for(n, [&](std::size_t i) {
-      depth[i] = grid.at(
-          i, [&](Index p) { return static_cast<float>(surface.points[p].z()); }, 0);
-      Vec3f normal = Vec3f::UnitZ();
-      if (is_inside[i])
-        for (int axis = 0; axis < 3; ++axis)
-          normal[axis] = grid.at(
-              i, [&](Index p) { return surface.normals[p][axis]; }, 0);
-      normal.normalize();
-      normals.x[i] = normal.x(), normals.y[i] = normal.y(), normals.z[i] = normal.z();
-    });
   }
 
   Shading shading_of(const NormalPicture& n, int light) const {
@@ -211,17 +161,17 @@ struct Judge::Truth {
 
   void set_smooth_weights() {
     for (std::size_t s = 0; s < detail_scales_px.size(); ++s) {
-      smooth_weight[s].assign(is_smooth.begin(), is_smooth.end());
+      smooth_weight[s].assign(is_measured.begin(), is_measured.end());
       GaussianFilter(detail_scales_px[s], 3 * detail_scales_px[s]).apply(smooth_weight[s], width());
     }
   }
 
-  // div n, averaged over smooth pixels alone.
+  // div n, averaged over measured pixels alone: at others differences reach across walls.
   std::array<Plane, 3> smoothed_curvature(const NormalPicture& n) const {
     Plane divergence(n.x.size(), 0.F);
     const auto w = static_cast<std::size_t>(width());
     for (std::size_t i = w; i + w < divergence.size(); ++i)
-      if (is_smooth[i]) divergence[i] = (n.x[i + 1] - n.x[i - 1] + n.y[i - w] - n.y[i + w]) / 2;
+      if (is_measured[i]) divergence[i] = (n.x[i + 1] - n.x[i - 1] + n.y[i - w] - n.y[i + w]) / 2;
     std::array<Plane, 3> smoothed;
     parallel_for(
         smoothed.size(),
@@ -249,32 +199,6 @@ struct Judge::Truth {
     return counted > 0 ? static_cast<double>(kept) / static_cast<double>(counted) : 0;
   }
 
-  Plane heights_in_pixels(std::span<const double> heights) const {
-    Plane z(grid.pixels());
-    const double scale = 1 / grid.units_per_pixel();
-    parallel_for(z.size(), [&](std::size_t i) {
-      z[i] = grid.at(
-          i, [&](Index p) { return static_cast<float>(heights[p] * scale); }, 0);
-    });
-    return z;
-  }
-
-  // By central differences, level at the picture's rim.
-  NormalPicture normals_of(const Plane& z) const {
-    NormalPicture n{Plane(z.size(), 0.F), Plane(z.size(), 0.F), Plane(z.size(), 1.F)};
-    const int w = width(), h = grid.height();
-    for (int row = 1; row + 1 < h; ++row)
-      for (int column = 1; column + 1 < w; ++column) {
-        const std::size_t i =
-            static_cast<std::size_t>(row) * static_cast<std::size_t>(w) + static_cast<std::size_t>(column);
-        const float dx = (z[i + 1] - z[i - 1]) / 2,
-                    dy = (z[i - static_cast<std::size_t>(w)] - z[i + static_cast<std::size_t>(w)]) / 2;
-        const float scale = 1 / std::sqrt(1 + dx * dx + dy * dy);
-        n.x[i] = -dx * scale, n.y[i] = -dy * scale, n.z[i] = scale;
-      }
-    return n;
-  }
-
   // What the relief does where the measures do not look.
   void guard(const Plane& z, const NormalPicture& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
@@ -300,8 +224,9 @@ struct Judge::Truth {
     };
     m.steep_share = steep_pixels / static_cast<double>(inside.size());
     m.height_used = (percentile(.99) - percentile(.01)) / height_px;
-    for (const auto& [a, b] : jumps)
+    for (const auto& [a, b] : steps.jumps)
       m.jump_step = std::max(m.jump_step, std::abs(heights[a] - heights[b]) / m.height);
+    for (const Index i : steps.rim) m.rim_step = std::max(m.rim_step, std::abs(heights[i]) / m.height);
   }
 };
 

@@ -256,13 +256,15 @@ std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh) {
   return tells_normals(mesh) ? mesh.corner_normals : smooth_normals(mesh);
 }
 
+Result<void> check_points(double points) {
+  if (points >= 100 && points <= 1e7) return {};
+  return std::unexpected(
+      Error{ErrorKind::option, "--points", {}, cat("expected a number from 100 to 1e+07, found ", points)});
+}
+
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options,
                           Progress* progress) {
-  if (!(options.points >= 100 && options.points <= 1e7))
-    return std::unexpected(Error{ErrorKind::option,
-                                 "--points",
-                                 {},
-                                 cat("expected a number from 100 to 1e+07, found ", options.points)});
+  if (auto ok = check_points(options.points); !ok) return std::unexpected(ok.error());
   if (auto go = begin_stage(progress, "mesh", 0); !go) return std::unexpected(go.error());
   Box box;
   for (const Vec3& p : mesh.points) box.extend(p);

@@ -4,6 +4,7 @@
 #include "relievo/method.h"
 #include "relievo/outline.h"
 #include "relievo/text.h"
+#include "relievo/tool.h"
 #include "relievo/wrap.h"
 
 namespace relievo {
@@ -45,6 +46,16 @@ Result<void> check_method(const ReliefOptions& options) {
         "--method",
         cat("expected none of --saturation, --detail, --steepest and --tone with method ", name_of(*method)));
   return {};
+}
+
+Result<void> check_tool(const ReliefOptions& options) {
+  if (options.surface != "full" && options.surface != "reachable")
+    return contradiction("--surface", cat("expected full or reachable, found '", options.surface, "'"));
+  if (options.surface == "reachable" && options.tool.empty())
+    return contradiction("--surface", "expected --tool, which tells what is reachable");
+  if (options.tool.empty()) return {};
+  const Result<Tool> tool = parse_tool(options.tool);
+  return tool ? Result<void>{} : std::unexpected(tool.error());
 }
 
 Result<void> check_rim(const ReliefOptions& options) {
@@ -93,6 +104,7 @@ Result<void> check(const ReliefOptions& options) {
   if (options.draft_deg && *form == Form::lithophane)
     return contradiction("--draft", "expected a form other than lithophane, whose walls the light decides");
   if (const auto outline = parse_outline(options.outline); !outline) return std::unexpected(outline.error());
+  if (auto ok = check_tool(options); !ok) return ok;
   if (auto good = check_rim(options); !good) return good;
   if (auto good = check_base(options); !good) return good;
   if (auto good = check_wrap(options); !good) return good;

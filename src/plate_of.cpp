@@ -14,6 +14,7 @@ constexpr double rim_bevel = .3;       // of the rim's height: 17 degrees from u
 // rounding.
 constexpr double front_share = .9995;
 constexpr double most_held_mm = 1e-5;  // what hold_draft() moves points by, as a rule
+constexpr double rounded_up = 1.002;   // bevels of curved rims are polygons, whose sides are steeper
 
 // The base that a form has: what is high is deep in a die.
 BaseOptions base_of(const ReliefOptions& options, Form form) {
@@ -27,8 +28,7 @@ BaseOptions base_of(const ReliefOptions& options, Form form) {
 // Its bevel leans as much as walls must.
 RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
   if (!options.rim_mm) return {};
-  const double lean =
-      options.draft_deg ? std::max(rim_bevel, 1.001 / slope_at_draft(*options.draft_deg)) : rim_bevel;
+  const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
   const double width = *options.rim_mm, highest = std::min({width, width / lean, relief_mm}),
                height = options.rim_height_mm.value_or(highest),
                bevel = std::min(width, options.rim_bevel_mm.value_or(lean * height));
@@ -36,6 +36,10 @@ RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
 }
 
 }  // namespace
+
+double least_bevel(double height_mm, double draft_deg) {
+  return rounded_up * height_mm / slope_at_draft(draft_deg);
+}
 
 PlateOptions plate_of(const ReliefOptions& options, Form form, double relief_mm) {
   PlateOptions plate{options.margin_mm,

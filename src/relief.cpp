@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "height_tails.h"
+#include "raised.h"
 #include "relievo/detail.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
@@ -25,7 +26,9 @@ Mode settle(Mode mode, const Surface& surface) {
 }
 
 ReliefModel::ReliefModel(Surface surface, Solver solver)
-    : surface_(std::move(surface)), solver_(std::move(solver)) {}
+    : surface_(std::move(surface)),
+      solver_(std::move(solver)),
+      raised_layers_(std::make_shared<Once<RaisedLayers>>()) {}
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
   if (settle(mode, surface) == Mode::subspace) {
@@ -40,19 +43,76 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   return ReliefModel(std::move(surface), std::move(*system));
 }
 
-std::size_t ReliefModel::memory() const {
-  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, solver_);
-  return solver + surface_.memory();
+const RaisedLayers& ReliefModel::raised_layers() const {
+  return raised_layers_->get([&] { return relievo::raised_layers(surface_); });
 }
 
+std::size_t ReliefModel::memory() const {
+  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, solver_);
+  const RaisedLayers* raised = raised_layers_->find();
+  return solver + surface_.memory() + (raised ? raised->memory() : 0);
+}
+
+namespace {
+
+// Heights in subspace mode, where `solve` finds those of the control points.
+template <typename Solve>
+std::vector<double> carried_heights(const SubspaceModel& model, std::span<const float> boundary_weight,
+                                    Solve&& solve) {
+  SubspaceModel::Workspace workspace = model.make_workspace();
+  std::vector<float> heights(model.size());
+  solve(workspace);
+  model.carry(boundary_weight, workspace, heights);
+  return {heights.begin(), heights.end()};
+}
+
+// What the layers' own heights leave, by the ordinary system.
+std::vector<double> raised_rest(const ReliefModel& model, const Shape& shape, const RaisedWeights& weights,
+                                std::span<const float> boundary_weight) {
+  const Surface& surface = model.surface();
+  const std::vector<float>& fade = model.raised_layers().fade;
+  if (const SubspaceModel* subspace = model.subspace())
+    return carried_heights(*subspace, boundary_weight, [&](SubspaceModel::Workspace& workspace) {
+      subspace->solve_raised(shape, weights, fade, workspace);
+    });
+  const SaturationShare share(surface.curvature.delta, shape.compression);
+  std::vector<Vec2> slopes(surface.points.size());
+  parallel_for(slopes.size(), [&](std::size_t i) {
+    slopes[i] = weights.rest(surface.layers[i], share(surface.curvature.k[i]), static_cast<double>(fade[i]),
+                             shape.max_slope);
+  });
+  std::vector<double> heights(slopes.size());
+  model.system()->solve(slopes, heights);
+  return heights;
+}
+
+std::vector<double> raised_heights(const ReliefModel& model, const Shape& shape,
+                                   std::span<const float> boundary_weight) {
+  const Surface& surface = model.surface();
+  const SaturationShare share(surface.curvature.delta, shape.compression);
+  const RaisedWeights weights =
+      RaisedWeights::of(shape, mean_share(shape.compression, surface.curvature.k, share));
+  std::vector<double> heights = raised_rest(model, shape, weights, boundary_weight);
+  const std::vector<LayerHeights>& layers = model.raised_layers().heights;
+  parallel_for(heights.size(),
+               [&](std::size_t i) { heights[i] += static_cast<double>(weights.height(layers[i])); });
+  const Bevel<double> bevel(heights, surface.boundary, boundary_weight);
+  parallel_for(heights.size(), [&](std::size_t i) { heights[i] = bevel(i, heights[i]); });
+  return heights;
+}
+
+void round_tails(std::vector<double>& heights) {
+  const HeightTails<double> tails(heights);
+  parallel_for(heights.size(), [&](std::size_t i) { heights[i] = tails(heights[i]); });
+}
+
+}  // namespace
+
 std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const float> boundary_weight) const {
-  if (const SubspaceModel* model = subspace()) {
-    SubspaceModel::Workspace workspace = model->make_workspace();
-    std::vector<float> heights(surface_.points.size());
-    model->solve(shape, boundary_weight, workspace);
-    model->carry(boundary_weight, workspace, heights);
-    return {heights.begin(), heights.end()};
-  }
+  if (const SubspaceModel* model = subspace())
+    return carried_heights(*model, boundary_weight, [&](SubspaceModel::Workspace& workspace) {
+      model->solve(shape, boundary_weight, workspace);
+    });
   std::vector<Vec2> slopes(surface_.points.size());
   const SlopeInput input{surface_.normals, surface_.curvature.k, boundary_weight, surface_.curvature.delta,
                          surface_.layers};
@@ -65,22 +125,14 @@ std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const flo
   return heights;
 }
 
-namespace {
-
-void round_tails(std::vector<double>& heights) {
-  const HeightTails<double> tails(heights);
-  parallel_for(heights.size(), [&](std::size_t i) { heights[i] = tails(heights[i]); });
-}
-
-}  // namespace
-
 Relief ReliefModel::make(const Shape& shape) const {
   const std::vector<float> boundary_weight =
       boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);  // (7) has 2 rho
-  Relief relief{heights(shape, boundary_weight), 0, shape};
-  if (shape.style == Style::layered)
-    round_tails(relief.heights);
-  else
+  const bool is_raised = shape.style == Style::raised;
+  Relief relief{is_raised ? raised_heights(*this, shape, boundary_weight) : heights(shape, boundary_weight),
+                0, shape};
+  if (shape.style == Style::layered) round_tails(relief.heights);
+  if (shape.style == Style::paper)
     add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
   relief.height = height_span(relief.heights);
   return relief;

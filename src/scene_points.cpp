@@ -99,6 +99,10 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
   return placed;
 }
 
+std::unexpected<Error> geometry_error(const SceneModel& model, std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, model.name, {}, std::move(expected)});
+}
+
 Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& places, const View& view,
                         Progress* progress) {
   Parts parts;
@@ -109,10 +113,11 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
       append(parts.mesh, placed_mesh(model, places[i]));
       continue;
     }
+    if (model.file->cloud.size() < 4)
+      return geometry_error(model, cat("expected at least 4 points, found ", model.file->cloud.size()));
     parts.clouds.push_back(placed_cloud(model, places[i], view, parts));
     if (!(parts.clouds.back().spacing.rho > 0))
-      return std::unexpected(
-          Error{ErrorKind::geometry, model.name, {}, "expected points at a distance from each other"});
+      return geometry_error(model, "expected points at a distance from each other, found most of them equal");
   }
   return parts;
 }
@@ -170,8 +175,9 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
       parts.remarks.push_back(cat(placed.name, ": coarser than the scene: points taken between its points"));
     } else if (own < much_closer * spacing) {
       const Cloud thin = thinned(placed.cloud, placed.spacing, spacing);
-      parts.remarks.push_back(cat(placed.name, ": finer than the scene: ", thin.size(), " of ",
-                                  placed.cloud.size(), " points kept"));
+      if (thin.size() < placed.cloud.size())
+        parts.remarks.push_back(cat(placed.name, ": finer than the scene: ", thin.size(), " of ",
+                                    placed.cloud.size(), " points kept"));
       append(all, thin);
     } else {
       append(all, placed.cloud);
@@ -196,6 +202,7 @@ Result<SeenPoints> seen_points(const Scene& scene, const View& view, double poin
   if (!places) return std::unexpected(places.error());
   if (scene.models.size() == 1 && scene.models[0].pose == Pose{})
     return seen_points(scene.models[0].file, view, points, progress);
+  if (auto ok = check_points(points); !ok) return std::unexpected(ok.error());
   Result<Parts> parts = place_all(scene, *places, view, progress);
   if (!parts) return std::unexpected(parts.error());
   MeshSampling sampling{points};

@@ -273,7 +273,7 @@ TEST_F(Cli, GeneratesSamplesThatItCanRead) {
 }
 
 TEST_F(Cli, MakesReliefsByEveryMethod) {
-  for (const std::string method : {"ours", "paper", "linear", "equalise", "gradient", "detail"}) {
+  for (const std::string method : {"ours", "raised", "paper", "linear", "equalise", "gradient", "detail"}) {
     const Outcome outcome = run("make torus.ply -o t.stl --height 2 --method " + method + " --report r.json");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(read_all(folder_ / "r.json").find("\"method\": \"" + method + '"'), std::string::npos);

@@ -277,6 +277,30 @@ TEST(Draft, IsKeptInFiles) {
       }
 }
 
+TEST(Draft, RimsLeanAsMuch) {
+  const ReliefModel model = model_of(figure(6000));
+  ReliefOptions options;
+  options.height_mm = 4;
+  options.draft_deg = 40;
+  options.rim_mm = 5;
+  for (const char* outline : {"rectangle", "round", "circle", "hexagon"})
+    for (const char* form : {"relief", "die"}) {
+      options.outline = outline;
+      options.form = form;
+      const auto made = make_relief(model, options);
+      ASSERT_TRUE(made) << made.error().message();
+      EXPECT_EQ(check_solid(made->solid), "");
+      const double found = steepest_deg_in_stl(write_stl(made->solid), made->solid.front_triangles);
+      EXPECT_LE(found, 50) << outline << " " << form;
+    }
+  options.rim_bevel_mm = 1;
+  EXPECT_EQ(make_relief(model, options).error().input, "--rim-bevel");
+  options.rim_bevel_mm = {};
+  options.rim_mm = 2;
+  options.rim_height_mm = 4;
+  EXPECT_EQ(make_relief(model, options).error().input, "--rim");
+}
+
 TEST(Draft, WithoutAHeightTooAndNotForLithophanes) {
   ReliefOptions options;
   options.alpha = .5;

@@ -102,17 +102,26 @@ TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
 
 TEST(LayerWeights, AreEquationSixLayerByLayer) {
   for (const double u : {.1, 1.0, 5.0}) {
-    const LayerWeights even = LayerWeights::of(u, 0);
+    const LayerWeights even = LayerWeights::of(u, 0, Style::layered);
     EXPECT_FLOAT_EQ(even.fine, static_cast<float>(1 - std::exp(-u)));
     EXPECT_EQ(even.coarse, even.fine);
-    const LayerWeights held = LayerWeights::of(u, .04);
+    const LayerWeights held = LayerWeights::of(u, .04, Style::layered);
     EXPECT_EQ(held.fine, even.fine);
     EXPECT_LT(held.middle, held.fine);
     EXPECT_FLOAT_EQ(held.coarse, static_cast<float>(1 - std::exp(-u * std::exp(-1))));
   }
-  EXPECT_EQ(LayerWeights::of(infinity, .04).coarse, 1);
-  EXPECT_EQ(LayerWeights::of(0, .04).fine, 0);
-  EXPECT_EQ(LayerWeights::of(0, .04).depth, 0);
+  EXPECT_EQ(LayerWeights::of(infinity, .04, Style::layered).coarse, 1);
+  EXPECT_EQ(LayerWeights::of(0, .04, Style::layered).fine, 0);
+  EXPECT_EQ(LayerWeights::of(0, .04, Style::layered).depth, 0);
+}
+
+TEST(LayerWeights, OfTheRaisedStyleHoldTheCoarseLayerBackMore) {
+  const LayerWeights ours = LayerWeights::of(.5, .04, Style::layered),
+                     raised = LayerWeights::of(.5, .04, Style::raised);
+  EXPECT_EQ(raised.fine, ours.fine);
+  EXPECT_GT(raised.middle, ours.middle);
+  EXPECT_FLOAT_EQ(raised.coarse, static_cast<float>(1 - std::exp(-.5 * std::exp(-1.6))));
+  EXPECT_EQ(LayerWeights::of(.5, 0, Style::raised).coarse, raised.fine);
 }
 
 // Kept in full, a normal gives the surface's own slope; weighted, the slope of the normal that is left.

@@ -113,6 +113,40 @@ TEST(Measures, JumpStepIsWhatIsLeftOfAJump) {
   EXPECT_LT(judge.measure(ramp).jump_step, .05);
 }
 
+// Everything one high but the boundary: a step at the silhouette, none within, even where a sheet in front
+// ends beyond the one behind.
+TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
+  Cloud front = test::sheet(10000, .5, 3, 9);
+  for (Vec3& p : front.points) p.x() += 1;
+  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), front));
+  std::vector<double> z(sheets.points.size(), 2.0);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    if (sheets.boundary.is_boundary[i]) z[i] = 0;
+  const Measures m = Judge(sheets).measure(z);
+  EXPECT_EQ(m.rim_step, 1);
+  EXPECT_EQ(m.jump_step, 0);
+}
+
+// On a grid of points finer than the distance that is kept: no triangle of the step reaches what is measured.
+TEST(Measures, AStepAtTheSilhouetteIsNoDetail) {
+  Cloud grid;
+  test::Random random(8);
+  for (int i = 0; i < 200 * 200; ++i) {
+    const double x = (i % 200 + random.uniform(-.1, .1)) / 100 - 1, y = i / 200 / 100. - 1;
+    const Vec2 g = bumps_gradient(x, y);
+    test::add(grid, {x, y, bumps(x, y)}, {-g.x(), -g.y(), 1});
+  }
+  const Surface surface = surface_of(grid);
+  const Judge judge(surface);
+  std::vector<double> z = depths(surface, .2);
+  const Measures level = judge.measure(z);
+  for (std::size_t i = 0; i < z.size(); ++i) z[i] += surface.boundary.is_boundary[i] ? 0 : 1;
+  const Measures stepped = judge.measure(z);
+  EXPECT_GT(stepped.rim_step, .9);
+  EXPECT_NEAR(stepped.angle_deg, level.angle_deg, 1e-3);
+  for (std::size_t s = 0; s < level.detail.size(); ++s) EXPECT_NEAR(stepped.detail[s], level.detail[s], 1e-4);
+}
+
 TEST(Measures, AJumpIsNotMeasured) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, 3, 9)));
   std::vector<double> z = depths(sheets);

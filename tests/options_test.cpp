@@ -5,6 +5,8 @@
 #include <limits>
 #include <set>
 
+#include "relievo/method.h"
+
 namespace relievo {
 namespace {
 
@@ -85,6 +87,15 @@ TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
   options.method = "paper";
   EXPECT_EQ(options.effective_saturation(), .01);
   EXPECT_EQ(options.effective_detail(), .02);
+}
+
+TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
+  ReliefOptions options;
+  options.height_mm = 3;
+  for (const Method method : {Method::ours, Method::raised, Method::paper}) {
+    options.method = name_of(method);
+    EXPECT_EQ(options.effective_boundary_width(), default_shape(method).boundary_width) << options.method;
+  }
 }
 
 TEST(Options, EachFieldHasANameOfItsOwnAndHelp) {

@@ -341,6 +341,16 @@ TEST(SeenScene, SaysWhichModelIsNoSurface) {
   EXPECT_EQ(result.error().input, "dot.ply");
 }
 
+TEST(SeenScene, RefusesTooFewPoints) {
+  const Scene scene{{model_of(test::sphere(5000, 1)), model_of(test::sphere(3, 1))}};
+  const auto of_three = seen_points(scene, front, 1000);
+  ASSERT_FALSE(of_three);
+  EXPECT_EQ(of_three.error().message(), "cloud: expected at least 4 points, found 3");
+  const auto none_wanted = seen_points(scene, front, 0);
+  ASSERT_FALSE(none_wanted);
+  EXPECT_EQ(none_wanted.error().kind, ErrorKind::option);
+}
+
 TEST(SeenScene, CanBeCancelled) {
   Progress progress;
   progress.cancel();
@@ -375,6 +385,7 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
   options.height_mm = 4;
   const auto made = make_relief(scene, options);
   ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
   double steepest = 0;
   for (std::size_t t = 0; t < made->solid.front_triangles; ++t) {
     const auto& [a, b, c] = made->solid.triangles[t];

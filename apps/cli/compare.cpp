@@ -146,12 +146,14 @@ std::vector<std::byte> sheet_of(const Comparison& comparison, std::size_t method
 void print_table(const Comparison& comparison) {
   std::printf("%zu visible points, %zu pixels measured\n\n", comparison.visible_points,
               comparison.measured_pixels);
-  std::printf("height  method    shading  angle  detail 1, 2, 4 px    order   halo  steep  used  jump\n");
+  std::printf(
+      "height  method    shading  angle  detail 1, 2, 4 px    order   halo  steep  used  jump   rim\n");
   for (const Entry& e : comparison.entries) {
     const Measures& m = e.measures;
-    std::printf("%5.4g%%  %-8s  %7.4f  %5.2f  %5.3f %5.3f %5.3f   %6.3f  %5.3f  %5.3f  %4.2f  %4.2f\n",
+    std::printf("%5.4g%%  %-8s  %7.4f  %5.2f  %5.3f %5.3f %5.3f   %6.3f  %5.3f  %5.3f  %4.2f  %4.2f  %4.2f\n",
                 100 * e.height, std::string(name_of(e.method)).c_str(), m.shading, m.angle_deg, m.detail[0],
-                m.detail[1], m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step);
+                m.detail[1], m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step,
+                m.rim_step);
   }
 }
 
@@ -168,7 +170,8 @@ void print_json(const Comparison& comparison) {
                        {"halo", m.halo},
                        {"steep_share", m.steep_share},
                        {"height_used", m.height_used},
-                       {"jump_step", m.jump_step}});
+                       {"jump_step", m.jump_step},
+                       {"rim_step", m.rim_step}});
   }
   const nlohmann::json json{{"visible_points", comparison.visible_points},
                             {"measured_pixels", comparison.measured_pixels},

@@ -24,7 +24,7 @@ namespace {
 
 struct MakeArguments {
   std::vector<std::string> inputs;
-  std::string output, preview, heightmap, report, base_image;
+  std::string output, preview, heightmap, tool_picture, report, base_image;
   int heightmap_px = 1024;
   int threads = 0;
   bool is_quiet = false;
@@ -52,7 +52,7 @@ Result<void> check_places(const MakeArguments& arguments) {
   std::vector<std::string> taken = arguments.inputs;
   taken.push_back(arguments.base_image);
   for (const std::string& path :
-       {arguments.output, arguments.preview, arguments.heightmap, arguments.report}) {
+       {arguments.output, arguments.preview, arguments.heightmap, arguments.tool_picture, arguments.report}) {
     if (path.empty()) continue;
     if (auto ok = check_writable(path); !ok) return ok;
     for (const std::string& other : taken)
@@ -70,6 +70,11 @@ Result<void> check_outputs(const MakeArguments& arguments) {
         Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .stl, .3mf, .ply or .obj"});
   if (!arguments.preview.empty() && ending_of(arguments.preview) != "png")
     return std::unexpected(Error{ErrorKind::option, arguments.preview, {}, "expected a file ending in .png"});
+  if (!arguments.tool_picture.empty() && ending_of(arguments.tool_picture) != "png")
+    return std::unexpected(
+        Error{ErrorKind::option, arguments.tool_picture, {}, "expected a file ending in .png"});
+  if (!arguments.tool_picture.empty() && arguments.relief.tool.empty())
+    return std::unexpected(Error{ErrorKind::option, "--tool-picture", {}, "expected --tool, which it shows"});
   const std::string map = ending_of(arguments.heightmap);
   if (!arguments.heightmap.empty() && map != "png" && map != "tif" && map != "tiff")
     return std::unexpected(
@@ -101,6 +106,14 @@ nlohmann::json wrap_json(const std::optional<ReliefReport::Wrapped>& wrap) {
   return {{"diameter_mm", wrap->diameter_mm},
           {"turn_degrees", wrap->turn_deg},
           {"mm_per_degree", wrap->mm_per_degree}};
+}
+
+nlohmann::json reach_json(const ReliefReport& report) {
+  if (!report.reach) return {};
+  return {{"reached_share", report.reach->reached_share},
+          {"largest_residual_mm", report.reach->largest_residual_mm},
+          {"tolerance_mm", report.reach->tolerance_mm},
+          {"mm_per_sample", report.reach->mm_per_sample}};
 }
 
 std::vector<double> row_by_row(const Mat3& m) {
@@ -157,6 +170,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
       {"height_mm", report.height_mm},
       {"below_ground_mm", report.below_ground_mm},
       {"steepest_deg", report.steepest_deg},
+      {"tool", reach_json(report)},
       {"simplification_error_mm",
        report.simplification_error_mm ? nlohmann::json(*report.simplification_error_mm) : nlohmann::json()},
       {"wrap", wrap_json(report.wrap)},
@@ -191,6 +205,8 @@ std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Sce
         {arguments.heightmap, height_map_file(made, arguments.heightmap, arguments.heightmap_px)});
   if (!arguments.preview.empty())
     files.push_back({arguments.preview, write_png(render_preview(made.solid, {}))});
+  if (!arguments.tool_picture.empty())
+    files.push_back({arguments.tool_picture, write_png(render_reach(*made.report.reach, 1600))});
   progress.finish();
   if (arguments.report.empty()) return files;
   nlohmann::json report = report_json(made.report, progress);
@@ -306,6 +322,9 @@ void add_make(CLI::App& program, Result<void>& result) {
       .add_option("--heightmap", arguments->heightmap,
                   "height map of the front: .png of 16 bits, or .tif in millimetres")
       ->type_name("H.png");
+  command
+      .add_option("--tool-picture", arguments->tool_picture, "the front, with what the tool leaves in red")
+      ->type_name("T.png");
   command.add_option("--heightmap-size", arguments->heightmap_px, "its longer side [16 to 16384]")
       ->check(CLI::Range(16, 16384).description(""))
       ->type_name("PX")

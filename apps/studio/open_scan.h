@@ -28,7 +28,7 @@ class OpenScan {
 
  private:
   bool is_one_file() const;
-  void add(const CloudFile& file, const PlacedModel& place, Cloud& all);
+  void add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all);
 
   Input input_;
   Scene scene_;

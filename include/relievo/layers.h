@@ -23,13 +23,19 @@ struct PointLayers {
 std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals,
                                        const Triangulation& triangulation, const Boundary& boundary);
 
+enum class Style {
+  paper,    // equations (5) to (7), and detail added to the heights
+  layered,  // ours: fine layers of the normals kept more than coarse ones, and the heights' tails rounded off
+  raised    // layered, and the figure stands off the base by a step at its silhouette
+};
+
 // How much of each layer a relief keeps: the paper's w_k = 1 - exp(-u), equation (6), layer by layer.
 struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, depth = 0;
 
-  // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, by exp(-25 detail) for the coarse one; 0
-  // is even.
-  static LayerWeights of(double u, double detail);
+  // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-25 detail), in
+  // the raised style by exp(-40 detail); 0 is even. Style::paper has no layers: it counts as layered.
+  static LayerWeights of(double u, double detail, Style style);
 };
 
 // The slope whose normal has the x and y that the weighted layers add up to, times `weight`; shortened to at

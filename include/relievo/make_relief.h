@@ -12,6 +12,7 @@
 #include "relievo/progress.h"
 #include "relievo/relief.h"
 #include "relievo/solid.h"
+#include "relievo/tool.h"
 
 namespace relievo {
 
@@ -36,6 +37,9 @@ struct ReliefReport {
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();
+
+  // What the tool asked for reaches of the front; there are no samples without one.
+  std::optional<ToolReach> reach;
 
   // Largest difference to the front before it was made simpler, if a tolerance was given.
   std::optional<double> simplification_error_mm;

@@ -13,7 +13,7 @@
 namespace relievo {
 
 // Taken on a picture whose longer side is 512 pixels, inside the silhouette and at least 5 pixels away from
-// it and from the model's depth jumps; halo, steep_share, height_used and jump_step see all of it. The model
+// it and from the model's depth jumps; halo, steep_share, height_used and the steps see all of it. The model
 // is what the scan's own normals and depths say. A noisy relief can win on shading: read them together.
 struct Measures {
   double shading = 0;    // mean SSIM of Lambert shadings under 16 lights, [-1, 1]; 1 is the model's
@@ -26,6 +26,7 @@ struct Measures {
   double steep_share = 0;  // of the silhouette's pixels, steeper than 80 degrees
   double height_used = 0;  // from the 1st to the 99th percentile, of the height
   double jump_step = 0;    // greatest difference left across a depth jump of the model, of the height
+  double rim_step = 0;     // greatest height next to the silhouette, one edge away, of the height
   double height = 0;       // lowest to highest, base included, in the surface's units
 };
 

@@ -35,6 +35,9 @@ struct MeshSampling {
   double spacing = 0;   // side of a square of the grid, in the mesh's units; 0 is what `points` asks for
 };
 
+// Errors: kind option for a number of points out of its range.
+Result<void> check_points(double points);
+
 // Returns the points that the viewer sees of the mesh, in the mesh's frame: one under the centre of each
 // pixel of a square grid, as fine as gives about the wanted number, with normals interpolated between the
 // corners, see normals_to_show(), and colours. Where the outline passes between two pixels there is a point

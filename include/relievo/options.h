@@ -20,7 +20,7 @@ struct ReliefOptions {
   std::string method;                // see method.h; ours with a height, else the paper's
   std::optional<double> steepest_deg;    // steepest slope of the front, 76 without it
   std::optional<double> draft_deg;       // least lean of walls off the vertical, held by every triangle
-  std::optional<double> boundary_width;  // of (7), in sampling distances; 2, with our method 0.5
+  std::optional<double> boundary_width;  // of (7), in sampling distances; 2, with method ours 0.5, raised 1
   std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
   std::string mode = "exact";
   std::string view = "front";
@@ -37,6 +37,8 @@ struct ReliefOptions {
   std::string wrap = "none";                     // that the plate is bent around: see parse_wrap()
   double points = 3e5;                           // visible points to take from a mesh
   std::string form = "relief";                   // or "mirror", "die", "lithophane": see forms.h
+  std::string tool;                    // a milling tool to be told of, see parse_tool(); none if empty
+  std::string surface = "full";        // or "reachable": what that tool leaves
   std::optional<double> tolerance_mm;  // largest error of a mesh made simpler; without it all points stay
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
@@ -45,7 +47,8 @@ struct ReliefOptions {
   double effective_alpha() const { return alpha.value_or(4); }
   double effective_saturation() const { return saturation.value_or(effective_method() == "paper" ? .01 : 0); }
   double effective_boundary_width() const {
-    return boundary_width.value_or(effective_method() == "ours" ? .5 : 2);
+    const std::string ruling = effective_method();
+    return boundary_width.value_or(ruling == "ours" ? .5 : ruling == "raised" ? 1 : 2);
   }
   double effective_detail() const { return detail.value_or(effective_method() == "paper" ? .02 : .04); }
 };
@@ -73,7 +76,8 @@ void visit(Options& o, F&& f) {
     o.saturation);
   f(OptionField{"detail", "G", "detail coefficient; default 0.02, with height 0.04", 0, 1}, o.detail);
   f(OptionField{"method", "NAME",
-                "ours, paper, linear, equalise, gradient or detail; default ours with a height, else paper"},
+                "ours, raised, paper, linear, equalise, gradient or detail; default ours with a height, else "
+                "paper"},
     o.method);
   f(OptionField{"steepest", "DEG",
                 "steepest slope asked of the surface, which walls at jumps can exceed; default 76", 1, 89},
@@ -83,7 +87,8 @@ void visit(Options& o, F&& f) {
                 80},
     o.draft_deg);
   f(OptionField{"boundary", "W",
-                "width of the soft rim, in sampling distances; default 2, with method ours 0.5", .1, 100},
+                "width of the soft rim, in sampling distances; default 2, with method ours 0.5, raised 1", .1,
+                100},
     o.boundary_width);
   f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
     o.tone);
@@ -125,6 +130,13 @@ void visit(Options& o, F&& f) {
                 "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "
                 "lithophane: thick where the model is dark"},
     o.form);
+  f(
+      OptionField{
+          "tool", "TOOL",
+          "tells what a milling tool reaches: ball:DIAMETER, flat:DIAMETER or v:ANGLE, with a round tip "
+          "v:ANGLE:DIAMETER, in mm"},
+      o.tool);
+  f(OptionField{"surface", "KIND", "full; or reachable: as that tool leaves it"}, o.surface);
   f(OptionField{"tolerance", "MM",
                 "fewer triangles, at most so far from the full relief; default: all of them", 1e-4, 100},
     o.tolerance_mm);

@@ -1,6 +1,7 @@
 // The relief of a surface: prepared once, shaped many times. Stages 7 to 12 and 14.
 #pragma once
 
+#include <memory>
 #include <string_view>
 #include <variant>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "relievo/weights.h"
 
 namespace relievo {
+
+struct RaisedLayers;
+template <typename T>
+class Once;
 
 struct Relief {
   std::vector<double> heights;  // per point of the surface, above the base, in its units
@@ -47,6 +52,10 @@ class ReliefModel {
   const HeightSystem* system() const { return std::get_if<HeightSystem>(&solver_); }
   const SubspaceModel* subspace() const { return std::get_if<SubspaceModel>(&solver_); }
 
+  // The heights of the layers, for Style::raised; made when first asked for, which takes about as long as
+  // factoring the system.
+  const RaisedLayers& raised_layers() const;
+
   // Bytes held.
   std::size_t memory() const;
 
@@ -68,6 +77,7 @@ class ReliefModel {
 
   Surface surface_;
   Solver solver_;
+  std::shared_ptr<Once<RaisedLayers>> raised_layers_;  // a copy's surface is the same
 };
 
 }  // namespace relievo

@@ -47,20 +47,20 @@ struct PlacedModel {
 // Returns where each model stands. With a `translate` anywhere, where the poses say: files that share one
 // frame fit together. Without, the models are arranged as the view shows them: side by side from left to
 // right, on one ground line, their middles equally deep, a gap of 8 % of their height between them. The
-// first, which keeps its size and place, decides how high: the others become as high, but those more than one
-// and a half times as wide as that, only so wide. Their `scale` is on top of this: 0.5 is half as high as the
-// others. One model alone stays where it is. Errors: kind option for a scene without models, for a scale not
-// in [1e-6, 1e6], for angles and places that are not finite.
+// first, which keeps its size and, unless it is turned, its place, decides how high: the others become as
+// high, but those more than one and a half times as wide as that, only so wide. Their `scale` is on top of
+// this: 0.5 is half as high as the others. One model alone stays where it is. Errors: kind option for a
+// scene without models, for a scale not in [1e-6, 1e6], for angles and places that are not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
 // Returns the points of all models as they stand, in the scene's frame. Meshes are seen together, hidden
-// parts left out; clouds come whole, without strays. All have about one sampling distance: that of the finest
-// cloud, or the one at which the viewer sees about as many points as wanted, if that is wider or the scene
-// has meshes. Finer clouds are thinned to it, clouds that are much coarser, of which only what the viewer
-// sees is taken, get points in between. Normals are estimated, or turned, for each model by itself. If any
-// model has colours, the others are white. A single model that is not moved gives what its file does.
-// Errors: those of place_models() and sample_mesh(); geometry for a
-// cloud of which nothing can be seen; kind cancelled.
+// parts left out; clouds come whole, without strays. All have about one sampling distance: that of the
+// finest cloud, or the one at which the viewer sees about as many points as wanted, if that is wider or the
+// scene has meshes. Finer clouds are thinned to it, clouds that are much coarser, of which only what the
+// viewer sees is taken, get points in between. Normals are estimated, or turned, for each model by itself.
+// If any model has colours, the others are white. A single model that is not moved gives what its file does.
+// Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones,
+// naming the model; kind cancelled.
 Result<SeenPoints> seen_points(const Scene& scene, const View& view, double points,
                                Progress* progress = nullptr);
 

@@ -30,11 +30,6 @@ struct Compression {
   double alpha() const;
 };
 
-enum class Style {
-  paper,   // equations (5) to (7), and detail added to the heights
-  layered  // ours: fine layers of the normals kept more than coarse ones, and the heights' tails rounded off
-};
-
 // All that shapes a relief.
 struct Shape {
   Compression compression;    // height and saturation

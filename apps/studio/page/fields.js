@@ -15,4 +15,7 @@ export const FIELDS = {
   thickness: {label: "Thickness", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Smallest thickness of the plate"},
 };
 
+// The soft rim that each method starts from.
+export const RIMS = {ours: 0.5, raised: 1, paper: 2};
+
 export const MATERIALS = {plaster: "Plaster", silver: "Struck silver", bronze: "Bronze", walnut: "Walnut", porcelain: "Porcelain, lit from behind"};

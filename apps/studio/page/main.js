@@ -5,7 +5,7 @@ import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./document.js";
 import {NativeEngine} from "./engine.js";
 import {ExportDialog} from "./export.js";
-import {FIELDS, MATERIALS} from "./fields.js";
+import {FIELDS, MATERIALS, RIMS} from "./fields.js";
 import {takeArrowKeys, takeDrops, takeKeys} from "./inputs.js";
 import {engineBack, engineLost, showProgress, toast} from "./messages.js";
 import {showNumbers, showSection} from "./readouts.js";
@@ -47,6 +47,13 @@ function slide(name, value) {
   const part = {options: {[name]: value}};
   if (name === "height") part.u = null; // to be found anew
   doc.change(part, name);
+}
+
+// A rim that was not touched becomes the one that the new method starts from.
+function changeMethod(method) {
+  const {options} = doc.now;
+  const boundary = options.boundary === RIMS[options.method] ? RIMS[method] : options.boundary;
+  doc.change({options: {method, boundary}});
 }
 
 function toggleLock() {
@@ -293,7 +300,7 @@ function wire() {
     openFile(event.target.files[0]);
     event.target.value = "";
   };
-  $("#method").onchange = (event) => doc.change({options: {method: event.target.value}});
+  $("#method").onchange = (event) => changeMethod(event.target.value);
   $("#outline").onchange = (event) => doc.change({options: {outline: event.target.value}});
   $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
   takeDrops($("#veil"), openFile);

@@ -203,6 +203,23 @@ test("changes the method", {skip}, async () => {
   assertSame(await picture(), first);
 });
 
+test("changes the method's own rim with it, and no other", {skip}, async () => {
+  const rim = page.getByRole("slider", {name: "Soft rim"});
+  const method = page.getByRole("combobox", {name: "Method"});
+  const first = await picture();
+  assert.equal(await rim.getAttribute("aria-valuetext"), "0.5 sampling distances");
+  await method.selectOption("Layers, raised");
+  assertOther(await picture(), first);
+  await untilHeight(3, 0.01);
+  assert.equal(await rim.getAttribute("aria-valuetext"), "1.0 sampling distances");
+  await rim.press("ArrowRight");
+  const touched = await rim.getAttribute("aria-valuetext");
+  await method.selectOption("Layers");
+  assert.equal(await rim.getAttribute("aria-valuetext"), touched);
+  for (let step = 0; step < 3; ++step) await button("Undo").click();
+  assertSame(await picture(), first);
+});
+
 test("turns, lights, cuts and compares", {skip}, async () => {
   const stage = page.getByRole("application", {name: /^Relief/});
   const change = async (act) => {

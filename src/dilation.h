@@ -1,0 +1,37 @@
+// The upper envelope of a shape moved along the heights of a picture.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+namespace relievo {
+
+struct Grid {
+  int width = 0, height = 0;
+  std::vector<float> values;  // row-major
+};
+
+// Heights of a shape, symmetric in x and y, over offsets of whole samples.
+class Profile {
+ public:
+  // height(x, y) for 0 <= x, y <= reach; infinite where the shape is not. Must not fall with x or y.
+  template <typename F>
+  Profile(int reach, F&& height) : reach_(reach) {
+    for (int y = 0; y <= reach; ++y)
+      for (int x = 0; x <= reach; ++x) heights_.push_back(height(x, y));
+  }
+
+  int reach() const { return reach_; }
+  float at(int x, int y) const { return heights_[static_cast<std::size_t>(y * (reach_ + 1) + x)]; }
+
+ private:
+  int reach_;
+  std::vector<float> heights_;
+};
+
+// Returns, for every sample p, the largest value(q) - profile(p - q); NaN counts as -infinity. The result has
+// `border` more samples on each side than the grid, or fewer if it is negative. Exact: what is skipped cannot
+// be the largest. Same bits for any number of threads.
+Grid dilate(const Grid& grid, const Profile& profile, int border);
+
+}  // namespace relievo
