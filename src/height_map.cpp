@@ -19,7 +19,7 @@ HeightMap make_height_map(const Solid& solid, int longer_side_px) {
 
 HeightsMm make_heights_mm(const Solid& solid, int longer_side_px) {
   HeightField field = draw_height_field(solid, longer_side_px);
-  return {{field.width, field.height, 1, std::move(field.z)}, field.mm_per_pixel};
+  return {{field.width, field.height, 1, std::move(field.z)}, field.mm_per_pixel, {}};
 }
 
 }  // namespace relievo

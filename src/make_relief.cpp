@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "plate_of.h"
 #include "relievo/draft.h"
@@ -179,6 +180,20 @@ void tell_simplification(ReliefReport& report, const Solid& solid, std::size_t f
                                " mm"));
 }
 
+// Bends the solid and keeps the flat one.
+Result<MadeRelief> wrapped(MadeRelief made, const PlateOptions& plate) {
+  const Result<Wrap> wrap = plate_wrap(made.solid, plate);
+  if (!wrap) return std::unexpected(wrap.error());
+  Result<Solid> bent = wrap_plate(made.solid, plate);
+  if (!bent) return std::unexpected(bent.error());
+  made.flat = std::exchange(made.solid, std::move(*bent));
+  made.report.wrap = {wrap->diameter_mm(), wrap->turn_deg(), wrap->mm_per_degree()};
+  made.report.remarks.push_back(cat("the ground has a diameter of ", wrap->diameter_mm(),
+                                    " mm, goes around by ", wrap->turn_deg(), " degrees and has ",
+                                    wrap->mm_per_degree(), " mm in a degree"));
+  return made;
+}
+
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
 void place(ReliefReport& report, const Surface& surface, const Front& front, const Vec3& shift, Form form) {
   const Box box = visible_box(surface);
@@ -229,7 +244,7 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   if (options.draft_deg) {
     const Result<double> moved = hold_draft(*solid, slope_at_draft(*options.draft_deg));
     if (!moved) return std::unexpected(moved.error());
-    if (made.report.simplification_error_mm) *made.report.simplification_error_mm += *moved;
+    solid->error_mm += *moved;
   }
   made.solid = std::move(*solid);
   made.report.steepest_deg = std::atan(steepest_slope(made.solid)) * 180 / std::numbers::pi;
@@ -239,7 +254,8 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   if (options.tolerance_mm)
     tell_simplification(made.report, made.solid, model.surface().triangulation.triangles.size());
   place(made.report, model.surface(), *front, made.solid.shift, form);
-  return made;
+  if (plate.wrap.kind == WrapKind::none) return made;
+  return wrapped(std::move(made), plate);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include "relievo/outline.h"
 #include "relievo/text.h"
 #include "relievo/tool.h"
+#include "relievo/wrap.h"
 
 namespace relievo {
 namespace {
@@ -78,6 +79,18 @@ Result<void> check_base(const ReliefOptions& options) {
   return {};
 }
 
+Result<void> check_wrap(const ReliefOptions& options) {
+  const Result<WrapOptions> wrap = parse_wrap(options.wrap);
+  if (!wrap) return std::unexpected(wrap.error());
+  if (wrap->kind == WrapKind::none) return {};
+  if (parse_base(options.base)->kind != BaseKind::plane)
+    return contradiction("--wrap", "expected either --base or --wrap, found both");
+  if (options.draft_deg)
+    return contradiction("--wrap",
+                         "expected either --draft or --wrap, found both: no die comes off all around");
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const ReliefOptions& options) {
@@ -94,6 +107,7 @@ Result<void> check(const ReliefOptions& options) {
   if (auto ok = check_tool(options); !ok) return ok;
   if (auto good = check_rim(options); !good) return good;
   if (auto good = check_base(options); !good) return good;
+  if (auto good = check_wrap(options); !good) return good;
   return check_method(options);
 }
 

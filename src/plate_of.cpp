@@ -47,7 +47,8 @@ PlateOptions plate_of(const ReliefOptions& options, Form form, double relief_mm)
                      *parse_outline(options.outline),
                      options.corner_mm,
                      rim_of(options, form, relief_mm),
-                     base_of(options, form)};
+                     base_of(options, form),
+                     *parse_wrap(options.wrap)};
   if (!options.tolerance_mm) return plate;
   plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
   const bool is_curved = plate.base.kind != BaseKind::plane || plate.wrap.kind != WrapKind::none;
@@ -63,8 +64,9 @@ bool is_mirrored(Form form) {
 }
 
 SimplifyOptions simplest_front(const ReliefOptions& options) {
-  const bool is_plane = parse_base(options.base)->kind == BaseKind::plane;
-  SimplifyOptions simplest{(is_plane ? 1 : 1 - bending_share) * *options.tolerance_mm};
+  const bool is_flat =
+      parse_base(options.base)->kind == BaseKind::plane && parse_wrap(options.wrap)->kind == WrapKind::none;
+  SimplifyOptions simplest{(is_flat ? 1 : 1 - bending_share) * *options.tolerance_mm};
   if (!options.draft_deg) return simplest;
   simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
   simplest.tolerance_mm -= std::min(.1 * simplest.tolerance_mm, most_held_mm);

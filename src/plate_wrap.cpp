@@ -116,10 +116,14 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
 
 }  // namespace
 
+Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options) {
+  return Wrap::around(options.wrap, back_of(plate));
+}
+
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   if (options.wrap.kind == WrapKind::none)
     return plate_error(ErrorKind::option, "--wrap", "expected cylinder, cone or sphere, found none");
-  const Result<Wrap> wrap = Wrap::around(options.wrap, back_of(plate));
+  const Result<Wrap> wrap = plate_wrap(plate, options);
   if (!wrap) return std::unexpected(wrap.error());
   if (auto good = check_room(plate, *wrap); !good) return std::unexpected(good.error());
   Bend bend;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "relievo/make_relief.h"
 #include "shapes.h"
@@ -60,6 +61,37 @@ TEST(MakePlates, ADieIsTheCoinTurnedOver) {
   const Box die = box_of(made(options).solid);
   EXPECT_NEAR(die.size().z(), coin.size().z(), 1e-9);
   EXPECT_NEAR(die.size().x(), coin.size().x() + 2 * (2 + .3 * .8), 1e-3);
+}
+
+TEST(MakePlates, AWrapKeepsTheFlatPlateForHeightMaps) {
+  ReliefOptions options;
+  options.width_mm = 20;
+  options.height_mm = .8;
+  options.margin_mm = 1;
+  options.wrap = "cylinder:diameter=30";
+  const MadeRelief shell = made(options);
+  ASSERT_TRUE(shell.report.wrap);
+  const double width = box_of(shell.flat).size().x(), pi = std::numbers::pi;
+  EXPECT_EQ(shell.report.wrap->diameter_mm, 30);
+  EXPECT_NEAR(shell.report.wrap->turn_deg, width / (30 * pi) * 360, 1e-9);
+  EXPECT_NEAR(shell.report.wrap->mm_per_degree, 30 * pi / 360, 1e-12);
+  EXPECT_EQ(check_solid(shell.flat), "");
+  EXPECT_NEAR(shell.report.height_mm, .8, 1e-3);
+  options.base = "wave";
+  EXPECT_TRUE(check(options).error().message().starts_with("--wrap: expected either --base or --wrap"));
+}
+
+TEST(MakePlates, ABaseLeavesTheReliefsHeightAndADieFitsIt) {
+  ReliefOptions options = coin_options();
+  options.base = "dome:height=1.5";
+  const MadeRelief coin = made(options);
+  EXPECT_NEAR(coin.report.height_mm, .8, 1e-3);
+  options.form = "die";
+  const MadeRelief die = made(options);
+  EXPECT_NEAR(die.report.height_mm, .8, 1e-3);
+  EXPECT_GT(box_of(die.solid).size().z(), 3 + 1.5);
+  options.form = "lithophane";
+  EXPECT_TRUE(check(options).error().message().starts_with("--base: expected a plane for a lithophane"));
 }
 
 }  // namespace

@@ -88,9 +88,15 @@ Result<void> check_outputs(const MakeArguments& arguments) {
   return check_places(arguments);
 }
 
-std::vector<std::byte> height_map_file(const Solid& solid, const MakeArguments& arguments) {
-  if (ending_of(arguments.heightmap) != "png")
-    return write_tiff(make_heights_mm(solid, arguments.heightmap_px));
+// Of what was bent around a wrap the flat plate is shown, for machines that turn the stock.
+std::vector<std::byte> height_map_file(const MadeRelief& made, const MakeArguments& arguments) {
+  const auto& wrap = made.report.wrap;
+  const Solid& solid = wrap ? made.flat : made.solid;
+  if (ending_of(arguments.heightmap) != "png") {
+    HeightsMm heights = make_heights_mm(solid, arguments.heightmap_px);
+    if (wrap) heights.note = cat("diameter_mm=", wrap->diameter_mm, ", mm_per_degree=", wrap->mm_per_degree);
+    return write_tiff(heights);
+  }
   const HeightMap map = make_height_map(solid, arguments.heightmap_px);
   std::vector<std::pair<std::string, std::string>> scale{{"mm_per_pixel", cat(map.mm_per_pixel)},
                                                          {"mm_per_grey", cat(map.mm_per_grey)}};
@@ -98,7 +104,18 @@ std::vector<std::byte> height_map_file(const Solid& solid, const MakeArguments& 
     scale.emplace_back("in_per_pixel", cat(map.mm_per_pixel / mm_per_inch));
     scale.emplace_back("in_per_grey", cat(map.mm_per_grey / mm_per_inch));
   }
+  if (wrap) {
+    scale.emplace_back("diameter_mm", cat(wrap->diameter_mm));
+    scale.emplace_back("mm_per_degree", cat(wrap->mm_per_degree));
+  }
   return write_png(map.image, scale, map.mm_per_pixel);
+}
+
+nlohmann::json wrap_json(const std::optional<ReliefReport::Wrapped>& wrap) {
+  if (!wrap) return {};
+  return {{"diameter_mm", wrap->diameter_mm},
+          {"turn_degrees", wrap->turn_deg},
+          {"mm_per_degree", wrap->mm_per_degree}};
 }
 
 nlohmann::json reach_json(const ReliefReport& report) {
@@ -166,6 +183,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
       {"tool", reach_json(report)},
       {"simplification_error_mm",
        report.simplification_error_mm ? nlohmann::json(*report.simplification_error_mm) : nlohmann::json()},
+      {"wrap", wrap_json(report.wrap)},
       {"seconds", seconds},
       {"model_to_mm",
        {{"rotation", row_by_row(report.rotation)},
@@ -205,8 +223,7 @@ Result<std::vector<OutputFile>> finished_files(const MakeArguments& arguments, c
   if (!solid) return std::unexpected(solid.error());
   std::vector<OutputFile> files;
   files.push_back({arguments.output, std::move(*solid)});
-  if (!arguments.heightmap.empty())
-    files.push_back({arguments.heightmap, height_map_file(made.solid, arguments)});
+  if (!arguments.heightmap.empty()) files.push_back({arguments.heightmap, height_map_file(made, arguments)});
   if (!arguments.preview.empty())
     files.push_back({arguments.preview, write_png(render_preview(made.solid, {}))});
   if (!arguments.tool_picture.empty())

@@ -1,4 +1,7 @@
-"""Joins the left halves (the fronts) of previews into one grey picture. Usage: join.py OUT.png IN.png..."""
+"""Joins the left halves (the fronts) of previews, or with --whole all of them, into one grey picture.
+
+Usage: join.py [--whole] OUT.png IN.png...
+"""
 
 import struct
 import sys
@@ -41,10 +44,10 @@ def undo(method, row, above):
             row[i] = row[i] + (a if pa <= pb and pa <= pc else b if pb <= pc else c) & 255
 
 
-def shrunk_front(path):
-    """Grey rows of the left half, HEIGHT of them, averaged over boxes."""
+def shrunk(path, parts):
+    """Grey rows of the left half or of all, HEIGHT of them, averaged over boxes."""
     width, rows = read(path)
-    half, out = width // 2, []
+    half, out = width // parts, []
     columns = max(1, half * HEIGHT // len(rows))
     for y in range(HEIGHT):
         band = rows[y * len(rows) // HEIGHT : (y + 1) * len(rows) // HEIGHT]
@@ -72,5 +75,7 @@ def write(path, rows):
     open(path, "wb").write(b"\x89PNG\r\n\x1a\n" + png)
 
 
-fronts = [shrunk_front(path) for path in sys.argv[2:]]
-write(sys.argv[1], [bytearray().join(rows) for rows in zip(*fronts)])
+is_whole = sys.argv[1] == "--whole"
+out, *previews = sys.argv[2 if is_whole else 1 :]
+parts = [shrunk(path, 1 if is_whole else 2) for path in previews]
+write(out, [bytearray().join(rows) for rows in zip(*parts)])

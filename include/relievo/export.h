@@ -23,6 +23,7 @@ std::vector<std::byte> write_3mf(const Solid& solid,
 struct HeightsMm {
   Image<float> image;
   double mm_per_pixel = 0;
+  std::string note = {};  // more to be said in a file's description
 };
 
 // Returns the front of a solid as heights, see make_height_map().

@@ -44,12 +44,20 @@ struct ReliefReport {
   // Largest difference to the front before it was made simpler, if a tolerance was given.
   std::optional<double> simplification_error_mm;
 
+  // Of a wrap: the ground's diameter, how far the plate goes around, and how wide a degree is on the ground
+  // and so in the flat plate.
+  struct Wrapped {
+    double diameter_mm = 0, turn_deg = 0, mm_per_degree = 0;
+  };
+  std::optional<Wrapped> wrap;  // offset and scale are then those of the flat plate
+
   std::vector<std::string> remarks;  // what the user should know: normals estimated, or turned
 };
 
 struct MadeRelief {
   Solid solid;
   ReliefReport report;
+  Solid flat = {};  // the solid before it was bent around its wrap, for height maps; empty without one
 };
 
 // What a relief is made of.

@@ -34,6 +34,7 @@ struct ReliefOptions {
   std::optional<double> rim_bevel_mm;   // width of its slanting inner side; 0.3 of its height
   std::string base = "plane";           // that the relief lies on: see parse_base()
   std::shared_ptr<const HeightGrid> base_image;  // of base "image"; not told by visit()
+  std::string wrap = "none";                     // that the plate is bent around: see parse_wrap()
   double points = 3e5;                           // visible points to take from a mesh
   std::string form = "relief";                   // or "mirror", "die", "lithophane": see forms.h
   std::string tool;                    // a milling tool to be told of, see parse_tool(); none if empty
@@ -120,6 +121,10 @@ void visit(Options& o, F&& f) {
                 "that the relief lies on: plane, fold, wave, cylinder, dome or image, with numbers in mm and "
                 "degrees: wave:height=4,length=40 fold:angle=15,hollow cylinder:diameter=200,direction=0"},
     o.base);
+  f(OptionField{"wrap", "BODY",
+                "that the finished plate is bent around: cylinder:diameter=60 cylinder:turn=360 "
+                "cone:turn=90,angle=8 sphere:diameter=80,inside; default turn: 180 degrees, sphere 120"},
+    o.wrap);
   f(OptionField{"points", "N", "visible points to take from a mesh", 1000, 1e7}, o.points);
   f(OptionField{"form", "FORM",
                 "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "

@@ -100,7 +100,11 @@ Result<Base> plate_base(const Front& front, const PlateOptions& options);
 // the way around a cylinder or a cone its sides become one. The plate is of make_plate() with the same
 // options. Errors: kind option if the shell or the relief would reach the axis, or if another outline, a rim
 // or a slanting axis goes all the way around; kind option without a wrap.
+// The wrap's own numbers are those of plate_wrap().
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
+
+// Returns the wrap of a plate of make_plate() with the same options. Errors: those of Wrap::around().
+Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
 // Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with
 // opposite directions, no triangle with two equal corners, no two used points with the same single-precision

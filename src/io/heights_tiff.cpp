@@ -9,7 +9,8 @@ namespace {
 void set_tags(TIFF* tiff, const HeightsMm& heights) {
   const auto& [width, height, channels, pixels] = heights.image;
   const std::string description =
-      cat("heights in mm, mm_per_pixel=", heights.mm_per_pixel, ", lowest point of the front is 0");
+      cat("heights in mm, mm_per_pixel=", heights.mm_per_pixel, ", lowest point of the front is 0",
+          heights.note.empty() ? "" : ", ", heights.note);
   const std::string software = cat("relievo ", version);
   TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width));
   TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height));
