@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "plate_of.h"
 #include "relievo/draft.h"
 #include "relievo/forms.h"
 #include "relievo/mesh.h"
@@ -16,21 +17,6 @@
 
 namespace relievo {
 namespace {
-
-Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, double mm_per_unit,
-                            Progress* progress) {
-  const Result<Shape> shape = shape_of(options);
-  if (!shape) return std::unexpected(shape.error());
-  const Method method = *parse_method(options.effective_method());
-  const double height = options.height_mm.value_or(0) / mm_per_unit;
-  if (!options.draft_deg) {
-    if (!options.height_mm) return model.make(*shape);
-    return make_by_method(method, model, height, *shape, mm_per_unit, progress);
-  }
-  const DraftOptions draft{slope_at_draft(*options.draft_deg)};
-  if (!options.height_mm) return limit_draft(model, model.make(*shape), draft, progress);
-  return make_with_draft(model, {method, *shape, height, mm_per_unit}, draft, progress);
-}
 
 Box visible_box(const Surface& surface) {
   Box box;
@@ -47,6 +33,38 @@ Front front_in_mm(const Surface& surface, const Relief& relief, double mm_per_un
   }
   front.colours = surface.colours;
   return front;
+}
+
+// Heights of the base under the surface's points, in its units; none for a plane.
+Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
+                                         double mm_per_unit) {
+  const PlateOptions plate = plate_of(options, Form::relief, 1);
+  if (plate.base.kind == BaseKind::plane) return std::vector<double>();
+  const Relief flat{std::vector<double>(surface.points.size(), 0), 0, {}};
+  Front front = front_in_mm(surface, flat, mm_per_unit);
+  if (plate.outline == Outline::none) front.is_relief = surface.boundary.is_inside;
+  const Result<Base> base = plate_base(front, plate);
+  if (!base) return std::unexpected(base.error());
+  std::vector<double> heights;
+  for (const Vec3& p : front.points) heights.push_back(base->height(p.head<2>()) / mm_per_unit);
+  return heights;
+}
+
+Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, double mm_per_unit,
+                            Progress* progress) {
+  const Result<Shape> shape = shape_of(options);
+  if (!shape) return std::unexpected(shape.error());
+  const Method method = *parse_method(options.effective_method());
+  const double height = options.height_mm.value_or(0) / mm_per_unit;
+  if (!options.draft_deg) {
+    if (!options.height_mm) return model.make(*shape);
+    return make_by_method(method, model, height, *shape, mm_per_unit, progress);
+  }
+  const Result<std::vector<double>> base = base_heights(model.surface(), options, mm_per_unit);
+  if (!base) return std::unexpected(base.error());
+  const DraftOptions draft{slope_at_draft(*options.draft_deg), *base};
+  if (!options.height_mm) return limit_draft(model, model.make(*shape), draft, progress);
+  return make_with_draft(model, {method, *shape, height, mm_per_unit}, draft, progress);
 }
 
 ReliefReport report_on(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
@@ -91,12 +109,7 @@ double depth_below_ground(const Front& front) {
   return front.ground_mm - span_of(front).first;
 }
 
-bool is_mirrored(Form form) {
-  return form == Form::mirror || form == Form::die;
-}
-
 constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
-constexpr double rim_bevel = .3;               // of the rim's height: 17 degrees from upright, dies come off
 
 // A lithophane has no height to reach: its own is exact by construction.
 Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions options, double mm_per_unit,
@@ -104,12 +117,6 @@ Result<Relief> relief_for(Form form, const ReliefModel& model, ReliefOptions opt
   if (form == Form::lithophane) options.height_mm.reset();
   return shape_relief(model, options, mm_per_unit, progress);
 }
-
-// Of the steepest slope, what simpler fronts keep: between that of limit_draft() and 1, which is left for
-// rounding.
-constexpr double front_share = .9995;
-constexpr double rounded_up = 1.002;   // bevels of curved rims are polygons, whose sides are steeper
-constexpr double most_held_mm = 1e-5;  // what hold_draft() moves points by, as a rule
 
 // The front in the form asked for, and as simple as allowed.
 Result<Front> formed_front(Form form, const Surface& surface, const Relief& relief,
@@ -128,18 +135,10 @@ Result<Front> formed_front(Form form, const Surface& surface, const Relief& reli
     front = std::move(*reachable);
     report.height_mm = height_of(front);  // what is narrow and deep is filled
   }
-  if (!options.tolerance_mm) return front;
-  SimplifyOptions simplest{*options.tolerance_mm};
-  if (options.draft_deg) {
-    simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
-    simplest.tolerance_mm -= std::min(.1 * *options.tolerance_mm, most_held_mm);
-  }
-  Result<SimplerFront> simpler = simplify(front, simplest, progress);
+  if (!options.tolerance_mm || plate_of(options, form, 1).simplify_mm > 0) return front;
+  Result<SimplerFront> simpler = simplify(front, simplest_front(options), progress);
   if (!simpler) return std::unexpected(simpler.error());
   report.simplification_error_mm = simpler->error_mm;
-  report.remarks.push_back(cat("the front has ", simpler->front.triangles.size(), " of ",
-                               front.triangles.size(), " triangles and is off by at most ", simpler->error_mm,
-                               " mm"));
   return std::move(simpler->front);
 }
 
@@ -153,24 +152,31 @@ Result<Front> front_for(Form form, const Surface& surface, const Relief& relief,
 
 void add_reach(MadeRelief& made, const ReliefOptions& options) {
   const ToolReach& reach = made.report.reach.emplace(measure_reach(made.solid, *parse_tool(options.tool)));
-  made.report.remarks.push_back(cat("the tool ", options.tool, " reaches ", 100 * reach.reached_share,
-                                    " % of the front within ", reach.tolerance_mm, " mm and leaves at most ",
-                                    reach.largest_residual_mm, " mm (sampled every ", reach.mm_per_sample,
-                                    " mm)"));
+  made.report.remarks.push_back(cat("the tool ", text_of(*parse_tool(options.tool)), " reaches ",
+                                    100 * reach.reached_share, " % of the front within ", reach.tolerance_mm,
+                                    " mm and leaves at most ", reach.largest_residual_mm,
+                                    " mm (sampled every ", reach.mm_per_sample, " mm)"));
 }
 
-Result<RimOptions> rim_of(const ReliefOptions& options, Form form, double relief_mm) {
-  if (!options.rim_mm) return RimOptions{};
-  const double width = *options.rim_mm, height = options.rim_height_mm.value_or(std::min(width, relief_mm)),
-               least = options.draft_deg ? rounded_up * height / slope_at_draft(*options.draft_deg) : 0,
-               bevel = std::min(width, options.rim_bevel_mm.value_or(std::max(rim_bevel * height, least)));
-  if (bevel < least)
-    return std::unexpected(Error{ErrorKind::option,
-                                 options.rim_bevel_mm ? "--rim-bevel" : "--rim",
-                                 {},
-                                 cat("expected at least ", least, " mm, so that the rim of ", height,
-                                     " mm leans as --draft asks, found ", bevel, " mm")});
-  return RimOptions{width, form == Form::die ? -height : height, bevel};
+// A bevel of its own is asked for by the user: it must lean as walls must.
+Result<void> check_bevel(const RimOptions& rim, const ReliefOptions& options) {
+  if (!options.draft_deg || !options.rim_mm) return {};
+  const double least = least_bevel(std::abs(rim.height_mm), *options.draft_deg);
+  if (rim.bevel_mm >= .9999 * least) return {};
+  return std::unexpected(
+      Error{ErrorKind::option,
+            options.rim_bevel_mm ? "--rim-bevel" : "--rim",
+            {},
+            cat("expected at least ", least, " mm, so that the rim of ", std::abs(rim.height_mm),
+                " mm leans as --draft asks, found ", rim.bevel_mm, " mm")});
+}
+
+// Tells how far the front is off, its plate's part included.
+void tell_simplification(ReliefReport& report, const Solid& solid, std::size_t full_triangles) {
+  report.simplification_error_mm = report.simplification_error_mm.value_or(0) + solid.error_mm;
+  report.remarks.push_back(cat("the front has ", solid.front_triangles, " triangles, the full relief ",
+                               full_triangles, ", and is off by at most ", *report.simplification_error_mm,
+                               " mm"));
 }
 
 // Tells where the scan lies, when the plate's making moved the front by `shift`.
@@ -216,10 +222,9 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   made.report = report_on(model.surface(), *relief, options);
   const Result<Front> front = front_for(form, model.surface(), *relief, options, made.report, progress);
   if (!front) return std::unexpected(front.error());
-  const Result<RimOptions> rim = rim_of(options, form, made.report.height_mm);
-  if (!rim) return std::unexpected(rim.error());
-  Result<Solid> solid = make_plate(*front, {options.margin_mm, options.thickness_mm,
-                                            *parse_outline(options.outline), options.corner_mm, *rim});
+  const PlateOptions plate = plate_of(options, form, made.report.height_mm);
+  if (auto ok = check_bevel(plate.rim, options); !ok) return std::unexpected(ok.error());
+  Result<Solid> solid = make_plate(*front, plate);
   if (!solid) return std::unexpected(solid.error());
   if (options.draft_deg) {
     const Result<double> moved = hold_draft(*solid, slope_at_draft(*options.draft_deg));
@@ -231,7 +236,9 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
   if (!options.tool.empty()) add_reach(made, options);
   made.report.below_ground_mm = depth_below_ground(*front);
   made.report.scale = scale;
-  place(made.report, model.surface(), *front, made.solid.points[0] - front->points[0], form);
+  if (options.tolerance_mm)
+    tell_simplification(made.report, made.solid, model.surface().triangulation.triangles.size());
+  place(made.report, model.surface(), *front, made.solid.shift, form);
   return made;
 }
 

@@ -70,6 +70,14 @@ Result<void> check_rim(const ReliefOptions& options) {
   return {};
 }
 
+Result<void> check_base(const ReliefOptions& options) {
+  const Result<BaseOptions> base = parse_base(options.base);
+  if (!base) return std::unexpected(base.error());
+  if (base->kind != BaseKind::plane && options.form == "lithophane")
+    return contradiction("--base", "expected a plane for a lithophane, whose thickness is the picture");
+  return {};
+}
+
 }  // namespace
 
 Result<void> check(const ReliefOptions& options) {
@@ -85,6 +93,7 @@ Result<void> check(const ReliefOptions& options) {
   if (const auto outline = parse_outline(options.outline); !outline) return std::unexpected(outline.error());
   if (auto ok = check_tool(options); !ok) return ok;
   if (auto good = check_rim(options); !good) return good;
+  if (auto good = check_base(options); !good) return good;
   return check_method(options);
 }
 

@@ -9,6 +9,7 @@
 #include "blur.h"
 #include "light_map.h"
 #include "raster.h"
+#include "relievo/mesh.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
@@ -31,22 +32,50 @@ Box bounds(const Solid& solid, const Mat3& turn) {
 
 // ---------------------------------------------------------------------------------------------------- light
 
-bool is_level(const Solid& solid, const Triangle& t) {
-  const double z = solid.points[t[0]].z();
-  return solid.points[t[1]].z() == z && solid.points[t[2]].z() == z;
+bool is_relief(const Solid& solid, std::size_t t) {
+  return t < solid.front_triangles && (solid.regions.empty() || solid.regions[t] == Region::relief);
 }
 
-// Unit normals of the front's points, weighted by the areas around them. Level triangles, the ground, take no
-// part and are shaded flat: they are large and thin, and would smear the relief's rim across the ground.
-std::vector<Vec3f> front_normals(const Solid& solid) {
+// Unit normals of the relief's points, weighted by the areas around them. Other triangles take no part: they
+// are large and thin, and would smear the relief's rim across the ground.
+std::vector<Vec3f> relief_normals(const Solid& solid) {
   std::vector<Vec3f> normals(solid.points.size(), Vec3f::Zero());
-  for (const Triangle& t : std::span(solid.triangles).first(solid.front_triangles)) {
-    if (is_level(solid, t)) continue;
-    const Vec3 p = solid.points[t[1]] - solid.points[t[0]], q = solid.points[t[2]] - solid.points[t[0]];
+  for (std::size_t t = 0; t < solid.front_triangles; ++t) {
+    if (!is_relief(solid, t)) continue;
+    const Triangle& corners = solid.triangles[t];
+    const Vec3 p = solid.points[corners[1]] - solid.points[corners[0]],
+               q = solid.points[corners[2]] - solid.points[corners[0]];
     const Vec3f twice_area = p.cross(q).cast<float>();
-    for (const Index i : t) normals[i] += twice_area;
+    for (const Index i : corners) normals[i] += twice_area;
   }
   parallel_for(normals.size(), [&](std::size_t i) { normals[i].normalize(); });
+  return normals;
+}
+
+// Normals of the corners of all other triangles: round where they bend a little within their region.
+constexpr double sharpest_deg = 20;
+struct PlateNormals {
+  std::vector<Index> place;  // per triangle; no_index for the relief's
+  std::vector<std::array<Vec3f, 3>> corners;
+};
+
+PlateNormals plate_normals(const Solid& solid) {
+  PlateNormals normals{std::vector<Index>(solid.triangles.size(), no_index), {}};
+  const auto add = [&](auto&& is_part) {
+    Mesh part{solid.points, {}};
+    const std::size_t begin = normals.corners.size();
+    for (std::size_t t = 0; t < solid.triangles.size(); ++t) {
+      if (is_relief(solid, t) || !is_part(t)) continue;
+      normals.place[t] = static_cast<Index>(begin + part.triangles.size());
+      part.triangles.push_back(solid.triangles[t]);
+    }
+    const auto smooth = smooth_normals(part, sharpest_deg);
+    normals.corners.insert(normals.corners.end(), smooth.begin(), smooth.end());
+  };
+  const auto is_front = [&](std::size_t t) { return t < solid.front_triangles; };
+  add([&](std::size_t t) { return is_front(t) && solid.regions[t] == Region::ground; });
+  add([&](std::size_t t) { return is_front(t) && solid.regions[t] == Region::bevel; });
+  add([&](std::size_t t) { return !is_front(t); });
   return normals;
 }
 
@@ -55,6 +84,7 @@ std::vector<Vec3f> front_normals(const Solid& solid) {
 struct Model {
   const Solid& solid;
   std::vector<Vec3f> normals;
+  PlateNormals plate;
   Vec3f to_lamp, to_sky;
   LightMap light_map;
 
@@ -68,27 +98,22 @@ Vec3f brightest_sky(const Vec3& to_lamp) {
   return Vec3(-.35 * to_lamp.x(), -.2 * to_lamp.y(), .9).normalized().cast<float>();
 }
 
-// Light on a triangle that is not part of the front.
-Light light_on_wall(const Model& model, const Triangle& t) {
-  const Vec3 &p = model.solid.points[t[0]], &q = model.solid.points[t[1]], &r = model.solid.points[t[2]];
-  const Light light = model.facing((q - p).cross(r - p).normalized().cast<float>());
-  const float share = .78F;  // what hangs behind the plate hides some: its edge stands out from the ground
-  return {light.lamp * share, light.sky * share};
-}
-
-// Light on triangle `t` at a place in the picture.
+// Light at a place in the picture, which shows triangle `t`.
 Light light_at(const Model& model, const Drawing& scene, Index t, const Vec2& place) {
   const Triangle& corners = model.solid.triangles[t];
-  if (t >= model.solid.front_triangles) return light_on_wall(model, corners);
   const Vec3f weights = corner_weights(scene, t, place.x(), place.y());
   Vec3f normal = Vec3f::Zero();
   Vec3 point = Vec3::Zero();
+  const Index on_plate = model.plate.place[t];
   for (int i = 0; i < 3; ++i) {
-    normal += weights[i] * model.normals[corners[i]];
+    normal +=
+        weights[i] * (on_plate == no_index ? model.normals[corners[i]] : model.plate.corners[on_plate][i]);
     point += weights[i] * model.solid.points[corners[i]];
   }
-  if (is_level(model.solid, corners)) normal = Vec3f::UnitZ();
-  const Light facing = model.facing(normal.normalized()), reaching = model.light_map.at(point.cast<float>());
+  const Light facing = model.facing(normal.normalized());
+  const float share = .78F;  // what hangs behind the plate hides some: its edge stands out from the ground
+  if (t >= model.solid.front_triangles) return {facing.lamp * share, facing.sky * share};
+  const Light reaching = model.light_map.at(point.cast<float>());
   return {facing.lamp * reaching.lamp, facing.sky * reaching.sky};
 }
 
@@ -264,7 +289,11 @@ Image8 render_preview(const Solid& solid, const PreviewOptions& options) {
     return {};
   const Vec3 to_lamp = options.light.stableNormalized();
   const int light_map_px = std::max(1, options.longer_side_px / 2);
-  const Model model{solid, front_normals(solid), to_lamp.cast<float>(), brightest_sky(to_lamp),
+  const Model model{solid,
+                    relief_normals(solid),
+                    plate_normals(solid),
+                    to_lamp.cast<float>(),
+                    brightest_sky(to_lamp),
                     LightMap(solid, to_lamp, light_map_px)};
   const auto views = views_of(solid, options.longer_side_px);
   Image8 image{2 * views[0].width, views[0].height, 3, {}};

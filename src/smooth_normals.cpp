@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "relievo/mesh.h"
@@ -9,8 +10,6 @@
 
 namespace relievo {
 namespace {
-
-constexpr double least_cosine = .7071;  // of the turn between triangles that share a normal: 45 degrees
 
 // At the apex of a cone thousands meet: more than this many of them tell nothing new, and looking at all
 // from each would take time that grows with their square.
@@ -50,7 +49,8 @@ Fans find_fans(const Mesh& mesh, const std::vector<Index>& place) {
 
 }  // namespace
 
-std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh) {
+std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg) {
+  const double least_cosine = std::cos(sharpest_deg * std::numbers::pi / 180);
   const std::vector<Index> place = places(mesh.points);
   const Fans fans = find_fans(mesh, place);
   std::vector<Vec3f> flat(mesh.triangles.size());

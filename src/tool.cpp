@@ -28,11 +28,20 @@ std::unexpected<Error> fail(std::string_view text) {
                 text, "'")});
 }
 
-std::optional<double> number_in(std::string_view text, double least, double most) {
+std::optional<double> in_range(double value, double least, double most) {
+  return value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> length_in(std::string_view text, LengthUnit bare, double least_mm) {
+  const Result<double> mm = parse_length(text, bare);
+  return mm ? in_range(*mm, least_mm, 1000) : std::nullopt;
+}
+
+std::optional<double> angle_in(std::string_view text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool is_whole = error == std::errc() && end == text.data() + text.size();
-  return is_whole && value >= least && value <= most ? std::optional(value) : std::nullopt;
+  return is_whole ? in_range(value, 1, 170) : std::nullopt;
 }
 
 double half_angle(const Tool& tool) {
@@ -58,7 +67,7 @@ Span span_of(const std::vector<float>& heights) {
 
 }  // namespace
 
-Result<Tool> parse_tool(std::string_view text) {
+Result<Tool> parse_tool(std::string_view text, LengthUnit bare) {
   const std::size_t colon = text.find(':');
   if (colon == std::string_view::npos) return fail(text);
   const std::string_view kind = text.substr(0, colon);
@@ -69,15 +78,21 @@ Result<Tool> parse_tool(std::string_view text) {
   }
   Tool tool;
   if (kind == "v") {
-    const auto angle = number_in(size, 1, 170), tip_mm = number_in(tip, 0, 1000);
+    const auto angle = angle_in(size), tip_mm = length_in(tip, bare, 0);
     if (!angle || !tip_mm) return fail(text);
     tool = {Tool::Kind::v, 0, *angle, *tip_mm};
   } else {
-    const auto diameter = number_in(size, .01, 1000);
+    const auto diameter = length_in(size, bare, .01);
     if (!diameter || (kind != "ball" && kind != "flat")) return fail(text);
     tool = {kind == "ball" ? Tool::Kind::ball : Tool::Kind::flat, *diameter};
   }
   return tool;
+}
+
+std::string text_of(const Tool& tool) {
+  if (tool.kind != Tool::Kind::v)
+    return cat(tool.kind == Tool::Kind::ball ? "ball:" : "flat:", tool.diameter_mm, "mm");
+  return cat("v:", tool.angle_deg, tool.tip_mm > 0 ? cat(":", tool.tip_mm, "mm") : std::string());
 }
 
 double tool_profile(const Tool& tool, double distance_mm) {

@@ -38,9 +38,14 @@ void separate_twins(Solid& solid, double middle_z) {
   for (int pass = 0; pass < most_passes; ++pass) {
     const auto twins = find_twins(solid);
     if (twins.empty()) return;
+    Index previous = no_index;
+    int steps = 0;  // one more for each of several at the same place
     for (const auto& [first, second] : twins) {
-      double& z = solid.points[second].z();
-      z = std::nextafter(static_cast<float>(z), static_cast<float>(middle_z));
+      steps = first == previous ? steps + 1 : 1;
+      auto z = static_cast<float>(solid.points[second].z());
+      for (int i = 0; i < steps; ++i) z = std::nextafter(z, static_cast<float>(middle_z));
+      solid.points[second].z() = static_cast<double>(z);
+      previous = second;
     }
   }
 }

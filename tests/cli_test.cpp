@@ -3,10 +3,14 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <numbers>
 #include <string>
 
 #include "format_samples.h"
@@ -400,6 +404,69 @@ TEST_F(Cli, KeepsTheOldFileOnFailure) {
   write_all(folder_ / "t.stl", "old");
   EXPECT_GT(run("make torus.ply -o t.stl", "trap '' XFSZ; ulimit -f 100;").exit_code, 0);
   EXPECT_EQ(read_all(folder_ / "t.stl"), "old");
+}
+
+// Extent of a binary STL's corners.
+Vec3 stl_size(const std::string& file) {
+  Box box;
+  for (std::size_t at = 84; at + 50 <= file.size(); at += 50) {
+    std::array<float, 9> v{};
+    std::memcpy(v.data(), file.data() + at + 12, sizeof v);
+    for (std::size_t i = 0; i < 9; i += 3) box.extend(Vec3f(v[i], v[i + 1], v[i + 2]).cast<double>());
+  }
+  return box.size();
+}
+
+TEST_F(Cli, LengthsCarryAUnitOrAreInThatOfAll) {
+  const std::string mm =
+      "make torus.ply -o mm.stl --quiet --width 76.2 --height 6.35 --margin 10 --thickness 2 ";
+  ASSERT_EQ(run(mm).exit_code, 0);
+  const std::string expected = read_all(folder_ / "mm.stl");
+  ASSERT_EQ(run("make torus.ply -o a.stl --quiet --width 3in --height 1/4in --margin 1cm --thickness 2mm")
+                .exit_code,
+            0);
+  EXPECT_EQ(read_all(folder_ / "a.stl"), expected);
+  const Outcome inches =
+      run("make torus.ply -o b.stl --width 3 --height 1/4 --margin 1cm --thickness 2mm --units in --report "
+          "r.json");
+  ASSERT_EQ(inches.exit_code, 0) << inches.err;
+  EXPECT_NE(inches.err.find("height 0.25 in"), std::string::npos) << inches.err;
+  EXPECT_NE(read_all(folder_ / "r.json").find("\"units\": \"in\""), std::string::npos);
+  const std::string file = read_all(folder_ / "b.stl");
+  EXPECT_NE(file.find("unit in"), std::string::npos);
+  EXPECT_LT((25.4 * stl_size(file) - stl_size(expected)).norm(), 1e-4);
+  expect_refusal("make torus.ply -o c.stl --width 4ft", "--width: expected a length");
+  expect_refusal("make torus.ply -o c.stl --units ft", "--units: expected mm or in");
+}
+
+TEST_F(Cli, TellsWhatAToolReaches) {
+  const Outcome made = run(
+      "make torus.ply -o t.stl --height 4 --tool ball:1/8in --tool-picture t.png --report r.json --width 60");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("ball:3.175mm reaches"), std::string::npos) << made.err;
+  EXPECT_NE(read_all(folder_ / "r.json").find("reached_share"), std::string::npos);
+  EXPECT_EQ(read_all(folder_ / "t.png").substr(1, 3), "PNG");
+  expect_refusal("make torus.ply -o u.stl --tool drill:3", "--tool");
+  expect_refusal("make torus.ply -o u.stl --surface reachable", "--surface");
+  expect_refusal("make torus.ply -o u.stl --tool-picture u.png", "--tool-picture");
+}
+
+TEST_F(Cli, KeepsADraftAngleInInchesToo) {
+  ASSERT_EQ(run("make torus.ply -o d.stl --height 9 --draft 40 --units mm --report r.json").exit_code, 0);
+  ASSERT_EQ(run("make torus.ply -o e.stl --height 9mm --width 100mm --draft 40 --units in --quiet").exit_code,
+            0);
+  const std::string file = read_all(folder_ / "e.stl");
+  double steepest = 0;
+  for (std::size_t at = 84; at + 50 <= file.size(); at += 50) {
+    std::array<float, 9> v{};
+    std::memcpy(v.data(), file.data() + at + 12, sizeof v);
+    const Vec3 p(v[3] - v[0], v[4] - v[1], v[5] - v[2]), q(v[6] - v[0], v[7] - v[1], v[8] - v[2]);
+    const double area = p.x() * q.y() - p.y() * q.x();  // of walls and bottom 0 or less
+    const Vec2 slope(p.z() * q.y() - q.z() * p.y(), q.z() * p.x() - p.z() * q.x());
+    if (area > 0) steepest = std::max(steepest, slope.norm() / area);
+  }
+  EXPECT_GT(steepest, std::tan(48 * std::numbers::pi / 180));
+  EXPECT_LT(steepest, std::tan(50.01 * std::numbers::pi / 180));
 }
 
 }  // namespace

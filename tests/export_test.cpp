@@ -57,6 +57,15 @@ std::size_t count(const std::string& text, const std::string& part) {
   return n;
 }
 
+TEST(Write3mf, AndTheOthersTellInches) {
+  const Solid solid = in_unit(pyramid(), LengthUnit::inch);
+  EXPECT_NE(unzip(write_3mf(solid)).at("3D/3dmodel.model").find("<model unit=\"inch\""), std::string::npos);
+  for (const auto& file : {write_stl(solid), write_ply(solid), write_obj(solid)}) {
+    const std::string head(reinterpret_cast<const char*>(file.data()), 100);
+    EXPECT_NE(head.find("unit in"), std::string::npos) << head;
+  }
+}
+
 TEST(Write3mf, HoldsTheSolidInMillimetres) {
   const Solid solid = pyramid();
   const std::pair<std::string, std::string> metadata[] = {{"Title", "A <relief> & \"more\""}};

@@ -37,6 +37,47 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
   EXPECT_NEAR(box.size().z(), 1.5 + made->report.height_mm, 1e-9);
 }
 
+// Heights at which a vertical line crosses the solid, by looking at every triangle.
+std::vector<double> crossings(const Solid& solid, const Vec2& place) {
+  std::vector<double> heights;
+  for (const Triangle& t : solid.triangles) {
+    const Vec3 a = solid.points[t[0]], b = solid.points[t[1]], c = solid.points[t[2]];
+    const auto side = [&](const Vec3& p, const Vec3& q) {
+      return (q.x() - p.x()) * (place.y() - p.y()) - (q.y() - p.y()) * (place.x() - p.x());
+    };
+    const double ab = side(a, b), bc = side(b, c), ca = side(c, a), sum = ab + bc + ca;
+    if ((ab > 0) != (bc > 0) || (bc > 0) != (ca > 0) || sum == 0) continue;
+    heights.push_back((bc * a.z() + ca * b.z() + ab * c.z()) / sum);
+  }
+  std::ranges::sort(heights);
+  return heights;
+}
+
+TEST(MakeRelief, IsNowhereThinnerThanAsked) {
+  const Cloud cloud = test::joined(test::torus(4000, 1.5, .4), test::sphere(2000, .8));
+  const auto model = ReliefModel::prepare(*find_surface(cloud, View{}));
+  test::Random random(5);
+  for (const char* form : {"relief", "mirror", "die", "lithophane"})
+    for (const char* outline : {"rectangle", "circle", "none"}) {
+      ReliefOptions options;
+      options.height_mm = 6;
+      options.thickness_mm = 1.25;
+      options.form = form;
+      options.outline = outline;
+      const auto made = make_relief(*model, options);
+      ASSERT_TRUE(made) << made.error().message();
+      const Vec3 size = box_of(made->solid).size();
+      int lines = 0;
+      for (int trial = 0; trial < 100; ++trial) {
+        const auto at = crossings(made->solid, {random.uniform(0, size.x()), random.uniform(0, size.y())});
+        ASSERT_EQ(at.size() % 2, 0U);
+        for (std::size_t i = 0; i < at.size(); i += 2, ++lines)
+          EXPECT_GE(at[i + 1] - at[i], 1.25 - 1e-9) << form << " " << outline;
+      }
+      EXPECT_GT(lines, 30);
+    }
+}
+
 TEST(MakeRelief, ReportsThePapersParametersAndU) {
   ReliefOptions options;
   const auto paper = make_relief(figure(), options);

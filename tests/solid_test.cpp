@@ -6,14 +6,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <span>
-#include <sstream>
 #include <string_view>
 
+#include "admesh.h"
 #include "fronts.h"
 
 namespace relievo {
@@ -340,49 +337,42 @@ TEST(Writers, AnEmptySolidGivesAnEmptyFileWithItsHeader) {
 
 // ------------------------------------------------------------------------------------------- outside judge
 
-std::string output_of(const std::string& command) {
-  std::string output;
-  FILE* pipe = popen(command.c_str(), "r");
-  if (!pipe) return output;
-  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) output += static_cast<char>(c);
-  pclose(pipe);
-  return output;
-}
-
-// The number that admesh's report gives for `label`, after its repairs; -1 if it has no such line. Its lines
-// hold either one number, or one before and one after the repairs, then perhaps another label.
-int reported(const std::string& report, const std::string& label) {
-  const std::size_t line = report.find("\n" + label);
-  if (line == std::string::npos) return -1;
-  std::istringstream rest(report.substr(report.find(':', line) + 1));
-  int before = -1, after = -1;
-  rest >> before;
-  while (rest.peek() == ' ') rest.ignore();
-  return std::isdigit(rest.peek()) && rest >> after ? after : before;
-}
-
 TEST(WriteStl, AdmeshFindsNothingToRepair) {
-  if (output_of("command -v admesh").empty()) GTEST_SKIP() << "admesh is not installed";
-  const auto path = std::filesystem::temp_directory_path() / "relievo_solid_test.stl";
+  if (!test::has_admesh()) GTEST_SKIP() << "admesh is not installed";
   const Front pyramid = pyramid_front(ellipse(101, 30, 20, 0.3), 3);
-  std::vector<Solid> solids = {bumpy_plate()};
+  EXPECT_EQ(test::complaint_of_admesh(bumpy_plate()), "");
   for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
                                 Outline::hexagon, Outline::none})
-    solids.push_back(plate(pyramid, {1, 1, outline}));
-  for (const Solid& solid : solids) {
-    const std::vector<std::byte> bytes = write_stl(solid);
-    std::ofstream(path, std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    const std::string report = output_of("LC_ALL=C admesh '" + path.string() + "' 2>&1");
-    EXPECT_EQ(reported(report, "Number of facets"), static_cast<int>(solid.triangles.size())) << report;
-    EXPECT_EQ(reported(report, "Number of parts"), 1) << report;
-    for (const char* label :
-         {"Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed", "Facets added",
-          "Facets reversed", "Backwards edges", "Normals fixed"})
-      EXPECT_EQ(reported(report, label), 0) << label << "\n" << report;
-    EXPECT_TRUE(report.contains("All facets connected.  No nearby check necessary.")) << report;
+    EXPECT_EQ(test::complaint_of_admesh(plate(pyramid, {1, 1, outline})), "");
+}
+
+TEST(InUnit, ScalesAndSeparates) {
+  const Solid mm = make_plate(test::pyramid_front({{0, 0}, {60, 0}, {60, 40}, {0, 40}}, 7), {}).value();
+  const Solid inches = in_unit(mm, LengthUnit::inch);
+  EXPECT_EQ(inches.unit, LengthUnit::inch);
+  EXPECT_EQ(inches.triangles, mm.triangles);
+  for (std::size_t i = 0; i < mm.points.size(); ++i)
+    EXPECT_LT((inches.points[i] * 25.4 - mm.points[i]).norm(), 1e-12);
+  EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
+}
+
+// Two points of a needle, which a file in millimetres tells apart, and one in inches does not always.
+TEST(InUnit, KeepsPointsApart) {
+  int merged = 0;
+  for (int i = 0; i < 20; ++i) {
+    const double width = 43 + .01 * i;
+    Front front = test::pyramid_front({{0, 0}, {width, 0}, {width, 40}, {0, 40}}, 7);
+    front.points.push_back({width / 2 + 2e-6, 20, 7});
+    front.triangles[1] = {1, 2, 5};
+    front.triangles.push_back({1, 5, 4});
+    front.triangles.push_back({2, 4, 5});
+    const Solid mm = make_plate(front, {10, 3}).value();
+    Solid scaled = mm;
+    for (Vec3& p : scaled.points) p /= 25.4;
+    merged += check_solid(scaled) != "";
+    EXPECT_EQ(check_solid(in_unit(mm, LengthUnit::inch)), "");
   }
-  std::filesystem::remove(path);
+  EXPECT_GT(merged, 0);
 }
 
 }  // namespace

@@ -70,7 +70,11 @@ TEST(Tool, IsParsed) {
   EXPECT_EQ(v.tip_mm, .5);
   EXPECT_EQ(parse_tool("ball:1.5")->diameter_mm, 1.5);
   EXPECT_EQ(parse_tool("flat:2")->kind, Tool::Kind::flat);
-  for (const char* text : {"", "ball", "ball:", "ball:x", "ball:1mm", "ball:-1", "ball:0", "ball:1:2", "v:0",
+  EXPECT_EQ(parse_tool("flat:1/8in")->diameter_mm, 3.175);
+  EXPECT_EQ(parse_tool("v:60:0.01", LengthUnit::inch)->tip_mm, .254);
+  for (const char* text : {"ball:1.5mm", "flat:0.25mm", "v:60", "v:30:0.5mm"})
+    EXPECT_EQ(text_of(*parse_tool(text)), text);
+  for (const char* text : {"", "ball", "ball:", "ball:x", "ball:1ft", "ball:-1", "ball:0", "ball:1:2", "v:0",
                            "v:171", "v:60:", "v:60:-1", "cone:3", "ball:nan", "flat:1e9"}) {
     const auto tool = parse_tool(text);
     ASSERT_FALSE(tool) << text;

@@ -10,6 +10,8 @@
 #include "flags.h"
 #include "inputs.h"
 #include "project.h"
+#include "relievo/depth_image.h"
+#include "relievo/draft.h"
 #include "relievo/export.h"
 #include "relievo/make_relief.h"
 #include "relievo/parallel.h"
@@ -23,14 +25,19 @@ namespace {
 
 struct MakeArguments {
   std::vector<std::string> inputs;
-  std::string output, preview, heightmap, tool_picture, report;
+  std::string output, preview, heightmap, tool_picture, report, base_image;
   int heightmap_px = 1024;
   int threads = 0;
   bool is_quiet = false;
+  std::string units = "mm";
   ReliefOptions relief;
   std::optional<studio::Input> scan;  // of a project
   InputArguments in;
 };
+
+LengthUnit unit_of(const MakeArguments& arguments) {
+  return *parse_unit(arguments.units);
+}
 
 using SolidWriter = std::vector<std::byte> (*)(const Solid&);
 
@@ -49,6 +56,7 @@ const std::map<std::string, SolidWriter>& solid_writers() {
 // Each output has a place of its own that can be written to.
 Result<void> check_places(const MakeArguments& arguments) {
   std::vector<std::string> taken = arguments.inputs;
+  taken.push_back(arguments.base_image);
   for (const std::string& path :
        {arguments.output, arguments.preview, arguments.heightmap, arguments.tool_picture, arguments.report}) {
     if (path.empty()) continue;
@@ -80,11 +88,16 @@ Result<void> check_outputs(const MakeArguments& arguments) {
   return check_places(arguments);
 }
 
-std::vector<std::byte> height_map_file(const Solid& solid, const std::string& path, int longer_side_px) {
-  if (ending_of(path) != "png") return write_tiff(make_heights_mm(solid, longer_side_px));
-  const HeightMap map = make_height_map(solid, longer_side_px);
-  const std::pair<std::string, std::string> scale[] = {{"mm_per_pixel", cat(map.mm_per_pixel)},
-                                                       {"mm_per_grey", cat(map.mm_per_grey)}};
+std::vector<std::byte> height_map_file(const Solid& solid, const MakeArguments& arguments) {
+  if (ending_of(arguments.heightmap) != "png")
+    return write_tiff(make_heights_mm(solid, arguments.heightmap_px));
+  const HeightMap map = make_height_map(solid, arguments.heightmap_px);
+  std::vector<std::pair<std::string, std::string>> scale{{"mm_per_pixel", cat(map.mm_per_pixel)},
+                                                         {"mm_per_grey", cat(map.mm_per_grey)}};
+  if (unit_of(arguments) == LengthUnit::inch) {
+    scale.emplace_back("in_per_pixel", cat(map.mm_per_pixel / mm_per_inch));
+    scale.emplace_back("in_per_grey", cat(map.mm_per_grey / mm_per_inch));
+  }
   return write_png(map.image, scale, map.mm_per_pixel);
 }
 
@@ -175,13 +188,25 @@ Result<SceneInput> load(const MakeArguments& arguments, Progress& progress) {
   return SceneInput{std::move(*scene), {}};
 }
 
-std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Scene& scene,
-                                       const MadeRelief& made, Progress& progress) {
+// The solid as a file. In inches its coordinates are rounded anew, which tilts needles.
+Result<std::vector<std::byte>> solid_file(const MakeArguments& arguments, const Solid& solid) {
+  const SolidWriter write = solid_writers().at(ending_of(arguments.output));
+  if (unit_of(arguments) == solid.unit) return write(solid);
+  Solid other = in_unit(solid, unit_of(arguments));
+  if (arguments.relief.draft_deg)
+    if (auto held = hold_draft(other, slope_at_draft(*arguments.relief.draft_deg)); !held)
+      return std::unexpected(held.error());
+  return write(other);
+}
+
+Result<std::vector<OutputFile>> finished_files(const MakeArguments& arguments, const Scene& scene,
+                                               const MadeRelief& made, Progress& progress) {
+  Result<std::vector<std::byte>> solid = solid_file(arguments, made.solid);
+  if (!solid) return std::unexpected(solid.error());
   std::vector<OutputFile> files;
-  files.push_back({arguments.output, solid_writers().at(ending_of(arguments.output))(made.solid)});
+  files.push_back({arguments.output, std::move(*solid)});
   if (!arguments.heightmap.empty())
-    files.push_back(
-        {arguments.heightmap, height_map_file(made.solid, arguments.heightmap, arguments.heightmap_px)});
+    files.push_back({arguments.heightmap, height_map_file(made.solid, arguments)});
   if (!arguments.preview.empty())
     files.push_back({arguments.preview, write_png(render_preview(made.solid, {}))});
   if (!arguments.tool_picture.empty())
@@ -189,6 +214,7 @@ std::vector<OutputFile> finished_files(const MakeArguments& arguments, const Sce
   progress.finish();
   if (arguments.report.empty()) return files;
   nlohmann::json report = report_json(made.report, progress);
+  report["units"] = arguments.units;
   report["models"] = models_json(scene, arguments.relief);
   files.push_back({arguments.report, text_bytes(report.dump(2) + "\n")});
   return files;
@@ -210,12 +236,15 @@ Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
     return std::unexpected(made.error());
   }
   (void)progress.stage("files", .97);
-  finished.files = finished_files(arguments, input->scene, *made, progress);
+  Result<std::vector<OutputFile>> files = finished_files(arguments, input->scene, *made, progress);
+  if (!files) return std::unexpected(files.error());
+  finished.files = std::move(*files);
   const ReliefReport& report = made->report;
   finished.lines.insert(finished.lines.end(), report.remarks.begin(), report.remarks.end());
+  const double unit_mm = mm_per(unit_of(arguments));
   finished.lines.push_back(cat(arguments.output, ": ", report.visible_points, " of ", report.input_points,
-                               " points, height ", report.height_mm, " mm, ", report.below_ground_mm,
-                               " of it below the ground"));
+                               " points, height ", report.height_mm / unit_mm, " ", arguments.units, ", ",
+                               report.below_ground_mm / unit_mm, " of it below the ground"));
   return finished;
 }
 
@@ -231,6 +260,31 @@ Result<void> make(const MakeArguments& arguments) {
   if (auto ok = write_files(finished->files); !ok) return ok;
   for (const std::string& line : finished->lines)
     if (!arguments.is_quiet) std::fprintf(stderr, "%s\n", line.c_str());
+  return {};
+}
+
+// Reads the height image of a base, which is then its shape unless another was asked for.
+Result<void> take_base_image(MakeArguments& arguments) {
+  ReliefOptions& relief = arguments.relief;
+  if (!arguments.base_image.empty() && relief.base == "plane") relief.base = "image";
+  const Result<BaseOptions> base = parse_base(relief.base);
+  if (!base) return std::unexpected(base.error());
+  const bool is_image = base->kind == BaseKind::image;
+  if (!is_image && arguments.base_image.empty()) return {};
+  if (arguments.base_image.empty())
+    return std::unexpected(
+        Error{ErrorKind::option, "--base", {}, "expected --base-image with image, found none"});
+  if (!is_image)
+    return std::unexpected(Error{ErrorKind::option,
+                                 "--base-image",
+                                 {},
+                                 cat("expected --base image with it, found '", relief.base, "'")});
+  const Result<std::vector<std::byte>> bytes = read_file(arguments.base_image);
+  if (!bytes) return std::unexpected(bytes.error());
+  Result<DepthImage> image = read_depth_image(*bytes, arguments.base_image);
+  if (!image) return std::unexpected(image.error());
+  relief.base_image =
+      std::make_shared<const HeightGrid>(image->width, image->height, std::move(image->values));
   return {};
 }
 
@@ -268,7 +322,7 @@ void add_make(CLI::App& program, Result<void>& result) {
           "TIFF); several of them side by side; a scene (JSON) or a studio's project")
       ->required()
       ->type_name("INPUT");
-  command.add_option("-o,--output", arguments->output, "the solid: .stl, .3mf, .ply or .obj, in millimetres")
+  command.add_option("-o,--output", arguments->output, "the solid: .stl, .3mf, .ply or .obj")
       ->required()
       ->type_name("OUT");
   command.add_option("--preview", arguments->preview, "picture of the relief")->type_name("P.png");
@@ -279,12 +333,25 @@ void add_make(CLI::App& program, Result<void>& result) {
   command
       .add_option("--tool-picture", arguments->tool_picture, "the front, with what the tool leaves in red")
       ->type_name("T.png");
+  command
+      .add_option("--units", arguments->units,
+                  "mm or in: of lengths without a unit of their own, and of the solid's coordinates")
+      ->check([](const std::string& name) {
+        const auto unit = parse_unit(name);
+        return unit ? std::string() : unit.error().expected;
+      })
+      ->type_name("UNIT")
+      ->capture_default_str();
   command.add_option("--heightmap-size", arguments->heightmap_px, "its longer side [16 to 16384]")
       ->check(CLI::Range(16, 16384).description(""))
       ->type_name("PX")
       ->capture_default_str();
   add_flags(command, arguments->relief);
   add_input_flags(command, arguments->in);
+  command
+      .add_option("--base-image", arguments->base_image,
+                  "height map that the relief lies on, bright is high: PNG or TIFF")
+      ->type_name("B.png");
   command.add_option("--threads", arguments->threads, "0 for all [0 to 256]")
       ->check(CLI::Range(0, 256).description(""))
       ->type_name("N")
@@ -292,7 +359,10 @@ void add_make(CLI::App& program, Result<void>& result) {
   command.add_option("--report", arguments->report, "what was made and how, as JSON")->type_name("R.json");
   command.add_flag("--quiet", arguments->is_quiet, "print errors only");
   command.callback([arguments, &command, &result] {
+    if (const auto tool = parse_tool(arguments->relief.tool, unit_of(*arguments)); tool)
+      arguments->relief.tool = text_of(*tool);
     result = take_project(*arguments, command);
+    if (result) result = take_base_image(*arguments);
     if (result) result = make(*arguments);
   });
 }

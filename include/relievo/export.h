@@ -12,10 +12,10 @@
 
 namespace relievo {
 
-// Returns the solid as 3MF (core specification 1.3): one object, unit millimetre, coordinates in single
-// precision. `metadata` becomes the model's metadata, keys being names that the specification knows (Title,
-// Description, Designer, Copyright, Application ...). The same solid gives the same bytes: no dates. Empty if
-// the file would exceed 4 GB. The solid's corners must exist, as check_solid() tells.
+// Returns the solid as 3MF (core specification 1.3): one object, unit and coordinates those of the solid, in
+// single precision. `metadata` becomes the model's metadata, keys being names that the specification knows
+// (Title, Description, Designer, Copyright, Application ...). The same solid gives the same bytes: no dates.
+// Empty if the file would exceed 4 GB. The solid's corners must exist, as check_solid() tells.
 std::vector<std::byte> write_3mf(const Solid& solid,
                                  std::span<const std::pair<std::string, std::string>> metadata = {});
 

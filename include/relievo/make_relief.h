@@ -26,14 +26,14 @@ struct ReliefReport {
   double beta = 0, gamma = 0;
   double u = 0;  // alpha^-beta, see Compression
   std::optional<double> height_requested_mm;
-  double height_mm = 0;  // reached, lowest to highest point of the front
+  double height_mm = 0;  // reached, lowest to highest point of the front, above its base
   double below_ground_mm =
       0;                    // of it, how deep the lowest point lies below the flat ground, which may be all
   double steepest_deg = 0;  // of the front's triangles, as files hold them
 
   // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
-  // in z the model keeps its depth and its lowest visible point lies on the ground. The rotation of a
-  // mirrored form holds the mirror, too.
+  // in z the model keeps its depth and its lowest visible point lies on the ground, of a curved base on that
+  // in the middle of the plate. The rotation of a mirrored form holds the mirror, too.
   Mat3 rotation = Mat3::Identity();
   double scale = 1;
   Vec3 offset = Vec3::Zero();

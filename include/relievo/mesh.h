@@ -22,9 +22,9 @@ struct Mesh {
 };
 
 // Returns unit normals for the corners of each triangle: of the triangles that meet in a corner those count
-// that turn by less than 45 degrees there, weighted by their angle. Corners at the same place meet, whatever
-// their numbers. Zero for triangles without an area.
-std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh);
+// that turn by less than `sharpest_deg` there, weighted by their angle. Corners at the same place meet,
+// whatever their numbers. Zero for triangles without an area.
+std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg = 45);
 
 // Returns the normals that are interpolated on the mesh: its own, or smooth_normals() where there are none,
 // or where they are those of the triangles.

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "relievo/base.h"
 #include "relievo/error.h"
 
 namespace relievo {
@@ -31,11 +32,13 @@ struct ReliefOptions {
   std::optional<double> rim_mm;         // width of a raised edge along the outline; without it there is none
   std::optional<double> rim_height_mm;  // above the ground; the relief's height, at most the rim's width
   std::optional<double> rim_bevel_mm;   // width of its slanting inner side; 0.3 of its height
-  double points = 3e5;                  // visible points to take from a mesh
-  std::string form = "relief";          // or "mirror", "die", "lithophane": see forms.h
-  std::string tool;                     // a milling tool to be told of, see parse_tool(); none if empty
-  std::string surface = "full";         // or "reachable": what that tool leaves
-  std::optional<double> tolerance_mm;   // largest error of a mesh made simpler; without it all points stay
+  std::string base = "plane";           // that the relief lies on: see parse_base()
+  std::shared_ptr<const HeightGrid> base_image;  // of base "image"; not told by visit()
+  double points = 3e5;                           // visible points to take from a mesh
+  std::string form = "relief";                   // or "mirror", "die", "lithophane": see forms.h
+  std::string tool;                    // a milling tool to be told of, see parse_tool(); none if empty
+  std::string surface = "full";        // or "reachable": what that tool leaves
+  std::optional<double> tolerance_mm;  // largest error of a mesh made simpler; without it all points stay
 
   // The values that rule where none was given: the paper's, or for a height those that keep most of the
   // model.
@@ -113,6 +116,10 @@ void visit(Options& o, F&& f) {
   f(OptionField{"rim-bevel", "MM",
                 "of the rim's width, what its slanting side takes; default: 0.3 of its height", .001, 1e5},
     o.rim_bevel_mm);
+  f(OptionField{"base", "SHAPE",
+                "that the relief lies on: plane, fold, wave, cylinder, dome or image, with numbers in mm and "
+                "degrees: wave:height=4,length=40 fold:angle=15,hollow cylinder:diameter=200,direction=0"},
+    o.base);
   f(OptionField{"points", "N", "visible points to take from a mesh", 1000, 1e7}, o.points);
   f(OptionField{"form", "FORM",
                 "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "
@@ -122,7 +129,7 @@ void visit(Options& o, F&& f) {
       OptionField{
           "tool", "TOOL",
           "tells what a milling tool reaches: ball:DIAMETER, flat:DIAMETER or v:ANGLE, with a round tip "
-          "v:ANGLE:DIAMETER, in mm"},
+          "v:ANGLE:DIAMETER"},
       o.tool);
   f(OptionField{"surface", "KIND", "full; or reachable: as that tool leaves it"}, o.surface);
   f(OptionField{"tolerance", "MM",

@@ -1,9 +1,11 @@
 // What a milling tool can reach of a front: reported, pictured, or made.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "relievo/length.h"
 #include "relievo/preview.h"
 #include "relievo/solid.h"
 
@@ -18,9 +20,12 @@ struct Tool {
   double tip_mm = 0;       // diameter of the ball that rounds a V tool's tip, [0, 1000]; 0 is sharp
 };
 
-// Returns the tool of "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in mm and degrees.
-// Errors: kind option, naming --tool.
-Result<Tool> parse_tool(std::string_view text);
+// Returns the tool of "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in degrees and lengths,
+// see parse_length(). Errors: kind option, naming --tool.
+Result<Tool> parse_tool(std::string_view text, LengthUnit bare = LengthUnit::mm);
+
+// The tool as parse_tool() reads it, in millimetres.
+std::string text_of(const Tool& tool);
 
 // Height of the tool's surface above its lowest point at that distance from its axis, in mm; infinite beyond
 // its radius.

@@ -78,9 +78,10 @@ std::string triangles_of(const Solid& solid) {
 
 std::vector<std::byte> write_3mf(const Solid& solid,
                                  std::span<const std::pair<std::string, std::string>> metadata) {
-  std::string model =
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" "
-      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n";
+  std::string model = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"" +
+                      std::string(solid.unit == LengthUnit::inch ? "inch" : "millimeter") +
+                      "\" xml:lang=\"en-US\" "
+                      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n";
   for (const auto& [key, value] : metadata)
     model += "<metadata name=\"" + escaped(key) + "\">" + escaped(value) + "</metadata>\n";
   model +=

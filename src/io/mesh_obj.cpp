@@ -26,7 +26,7 @@ char* put_line(char* to, char kind, const std::array<T, 3>& numbers) {
 }  // namespace
 
 std::vector<std::byte> write_obj(const Solid& solid) {
-  const std::string head = cat("# relievo ", version, ", unit mm\n");
+  const std::string head = cat("# relievo ", version, ", unit ", name_of(solid.unit), "\n");
   std::vector<std::byte> bytes(head.size() + most_per_line * (solid.points.size() + solid.triangles.size()));
   char* to = reinterpret_cast<char*>(detail::put_text(bytes.data(), head));
   for (const Vec3& p : solid.points) {

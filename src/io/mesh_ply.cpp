@@ -11,11 +11,11 @@ namespace {
 constexpr std::size_t vertex_size = 12, colour_size = 3, face_size = 13;
 
 std::string header(const Solid& solid) {
-  return cat("ply\nformat binary_little_endian 1.0\ncomment relievo ", version, ", unit mm\nelement vertex ",
-             solid.points.size(), "\nproperty float x\nproperty float y\nproperty float z\n",
-             solid.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n",
-             "element face ", solid.triangles.size(),
-             "\nproperty list uchar int vertex_indices\nend_header\n");
+  return cat(
+      "ply\nformat binary_little_endian 1.0\ncomment relievo ", version, ", unit ", name_of(solid.unit),
+      "\nelement vertex ", solid.points.size(), "\nproperty float x\nproperty float y\nproperty float z\n",
+      solid.colours.empty() ? "" : "property uchar red\nproperty uchar green\nproperty uchar blue\n",
+      "element face ", solid.triangles.size(), "\nproperty list uchar int vertex_indices\nend_header\n");
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::vector<std::byte> write_stl(const Solid& solid) {
   const std::size_t n = solid.triangles.size();
   std::vector<std::byte> bytes(header_size + 4 + n * triangle_size);
   // Must not begin with "solid": readers would take the file for text.
-  detail::put_text(bytes.data(), cat("relievo ", version, " binary STL, unit mm"));
+  detail::put_text(bytes.data(), cat("relievo ", version, " binary STL, unit ", name_of(solid.unit)));
   detail::put(bytes.data() + header_size, static_cast<std::uint32_t>(n));
   std::byte* const triangles = bytes.data() + header_size + 4;
   parallel_for(n, [&](std::size_t t) {

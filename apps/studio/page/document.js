@@ -5,7 +5,7 @@ export const FIRST = Object.freeze({
   options: Object.freeze({
     width: 100, height: 4, saturation: 0, detail: 0.04, steepest: 76, boundary: 0.5, tone: "",
     view: "front", up: "", outline: "rectangle", corner: 5, margin: 5, thickness: 3, mode: "auto", method: "ours",
-    form: "relief", tolerance: null,
+    form: "relief", tolerance: null, draft: null,
   }),
   isHeightLocked: true,
   u: null, // of the compression, while the height is not locked
@@ -93,7 +93,7 @@ export class Document {
 
 // The options as the engine and `relievo make` take them.
 export function engineOptions(step) {
-  const {steepest, tone, up, form, outline, corner, tolerance, ...rest} = step.options;
+  const {steepest, tone, up, form, outline, corner, tolerance, draft, ...rest} = step.options;
   const options = {...rest, height: Math.round(rest.height * 1e4) / 1e4};
   if (steepest !== FIRST.options.steepest) options.steepest = steepest; // without it the paper's bound rules
   if (tone) options.tone = tone;
@@ -101,6 +101,7 @@ export function engineOptions(step) {
   if (outline !== FIRST.options.outline) options.outline = outline;
   if (outline === "round") options.corner = corner;
   if (tolerance) options.tolerance = tolerance;
+  if (draft && form !== "lithophane") options.draft = draft;
   if (up) options.up = up;
   return options;
 }

@@ -41,6 +41,7 @@ export class ExportDialog {
     this.dialog.oninput = () => this.show();
     $("#form").onchange = () => this.choose();
     $("#tolerance").onchange = () => this.choose();
+    $("#draft").onchange = () => this.choose();
     $("#export-go").onclick = (event) => {
       event.preventDefault();
       this.go();
@@ -52,15 +53,16 @@ export class ExportDialog {
   }
 
   choose() {
-    const tolerance = Number.parseFloat($("#tolerance").value);
-    this.change({form: $("#form").value, tolerance: tolerance > 0 ? tolerance : null});
+    const tolerance = Number.parseFloat($("#tolerance").value), draft = Number.parseFloat($("#draft").value);
+    this.change({form: $("#form").value, tolerance: tolerance > 0 ? tolerance : null, draft: draft > 0 ? draft : null});
     this.show();
   }
 
   open() {
-    const {form = "relief", tolerance = ""} = this.current().options;
+    const {form = "relief", tolerance = "", draft = ""} = this.current().options;
     $("#form").value = form;
     $("#tolerance").value = tolerance;
+    $("#draft").value = draft;
     $("#export-note").textContent = "";
     this.show();
     this.dialog.showModal();
