@@ -47,7 +47,8 @@ class FrameMaker {
   ~FrameMaker();
 
   // Overwrites `frame` with the relief asked for. Same options, same bits, for any number of threads and,
-  // unless the height is locked, whatever was made before; a locked height starts from the last frame's.
+  // unless the height is locked, whatever was made before; a locked height starts from the last frame's. A
+  // model's first raised frame waits for ReliefModel::raised_layers().
   void make(const FrameOptions& options, Frame& frame);
 
   // Bytes held, the model's not included.
