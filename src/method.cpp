@@ -33,6 +33,10 @@ Shape default_shape(Method method) {
 
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress) {
+  const bool needs_all_points = method == Method::gradient || method == Method::detail;
+  if (needs_all_points && !model.system())
+    return std::unexpected(
+        Error{ErrorKind::option, "--mode", {}, cat("expected exact for the method ", name_of(method))});
   switch (method) {
     case Method::linear:
       return linear_relief(model.surface(), height);

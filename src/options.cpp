@@ -76,6 +76,8 @@ Result<void> check_base(const ReliefOptions& options) {
   if (!base) return std::unexpected(base.error());
   if (base->kind != BaseKind::plane && options.form == "lithophane")
     return contradiction("--base", "expected a plane for a lithophane, whose thickness is the picture");
+  if (base->kind != BaseKind::plane && options.surface == "reachable")
+    return contradiction("--surface", "expected full with a --base that is not a plane");
   return {};
 }
 

@@ -109,5 +109,16 @@ TEST(Options, EachFieldHasANameOfItsOwnAndHelp) {
   });
 }
 
+TEST(Options, AReachableSurfaceLiesOnAPlane) {
+  ReliefOptions options;
+  options.tool = "ball:2";
+  options.surface = "reachable";
+  EXPECT_TRUE(check(options));
+  options.base = "wave";
+  const auto refused = check(options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().input, "--surface");
+}
+
 }  // namespace
 }  // namespace relievo

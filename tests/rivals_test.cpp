@@ -36,6 +36,20 @@ double misfit(const Surface& surface, const Relief& relief, F f) {
   return (high - low) / relief.height;
 }
 
+TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
+  const auto model =
+      ReliefModel::prepare(find_surface(test::sphere(20000, 1), {}).value(), nullptr, Mode::subspace);
+  ASSERT_TRUE(model);
+  for (const MethodInfo& info : methods) {
+    const auto relief = make_by_method(info.method, *model, .05, default_shape(info.method), 1);
+    const bool needs_all_points = info.method == Method::gradient || info.method == Method::detail;
+    ASSERT_EQ(relief.has_value(), !needs_all_points) << info.name;
+    if (!relief) {
+      EXPECT_EQ(relief.error().kind, ErrorKind::option);
+    }
+  }
+}
+
 TEST(Linear, IsTheDepthScaled) {
   const Surface surface = find_surface(test::sphere(20000, 1), {}).value();
   const Relief relief = linear_relief(surface, .1);

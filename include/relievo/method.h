@@ -42,7 +42,9 @@ inline bool has_shape(Method method) {
 Shape default_shape(Method method);
 
 // Returns the relief of that height by that method: ReliefModel::make_at_height() or a rival with its default
-// options, which take no notice of `shape`. Errors: those of make_at_height().
+// options, which take no notice of `shape`. Errors: those of make_at_height(); kind
+// option for the gradient domain and base and detail, which need the system of all points, if the model has
+// none.
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress = nullptr);
 
