@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "export_file.h"
 #include "files.h"
 #include "flags.h"
 #include "inputs.h"
@@ -86,29 +87,6 @@ Result<void> check_outputs(const MakeArguments& arguments) {
     return std::unexpected(
         Error{ErrorKind::option, arguments.heightmap, {}, "expected a file ending in .png or .tif"});
   return check_places(arguments);
-}
-
-// Of what was bent around a wrap the flat plate is shown, for machines that turn the stock.
-std::vector<std::byte> height_map_file(const MadeRelief& made, const MakeArguments& arguments) {
-  const auto& wrap = made.report.wrap;
-  const Solid& solid = wrap ? made.flat : made.solid;
-  if (ending_of(arguments.heightmap) != "png") {
-    HeightsMm heights = make_heights_mm(solid, arguments.heightmap_px);
-    if (wrap) heights.note = cat("diameter_mm=", wrap->diameter_mm, ", mm_per_degree=", wrap->mm_per_degree);
-    return write_tiff(heights);
-  }
-  const HeightMap map = make_height_map(solid, arguments.heightmap_px);
-  std::vector<std::pair<std::string, std::string>> scale{{"mm_per_pixel", cat(map.mm_per_pixel)},
-                                                         {"mm_per_grey", cat(map.mm_per_grey)}};
-  if (unit_of(arguments) == LengthUnit::inch) {
-    scale.emplace_back("in_per_pixel", cat(map.mm_per_pixel / mm_per_inch));
-    scale.emplace_back("in_per_grey", cat(map.mm_per_grey / mm_per_inch));
-  }
-  if (wrap) {
-    scale.emplace_back("diameter_mm", cat(wrap->diameter_mm));
-    scale.emplace_back("mm_per_degree", cat(wrap->mm_per_degree));
-  }
-  return write_png(map.image, scale, map.mm_per_pixel);
 }
 
 nlohmann::json wrap_json(const std::optional<ReliefReport::Wrapped>& wrap) {
@@ -223,7 +201,10 @@ Result<std::vector<OutputFile>> finished_files(const MakeArguments& arguments, c
   if (!solid) return std::unexpected(solid.error());
   std::vector<OutputFile> files;
   files.push_back({arguments.output, std::move(*solid)});
-  if (!arguments.heightmap.empty()) files.push_back({arguments.heightmap, height_map_file(made, arguments)});
+  const studio::HeightMapOrder map{arguments.heightmap_px, ending_of(arguments.heightmap) != "png",
+                                   unit_of(arguments)};
+  if (!arguments.heightmap.empty())
+    files.push_back({arguments.heightmap, studio::height_map_file(made, map)});
   if (!arguments.preview.empty())
     files.push_back({arguments.preview, write_png(render_preview(made.solid, {}))});
   if (!arguments.tool_picture.empty())

@@ -325,7 +325,7 @@ Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::
     return std::unexpected(Error{ErrorKind::option, "mode", {}, "expected auto, as the model was prepared"});
   const Result<MadeRelief> made = make_relief(*model, options);
   if (!made) return std::unexpected(made.error());
-  return export_file(made->solid, format, heightmap_px);
+  return export_file(*made, format, heightmap_px);
 }
 
 }  // namespace relievo::studio

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
-#include "relievo/solid.h"
+#include "relievo/length.h"
+#include "relievo/make_relief.h"
 
 namespace relievo::studio {
 
@@ -15,8 +17,18 @@ struct ExportedFile {
 // preview.
 bool is_format(const std::string& format);
 
-// Returns the solid as a file of a known format, the bytes that `relievo make` writes. `heightmap_px` is the
+// Returns the relief as a file of a known format, the bytes that `relievo make` writes. `heightmap_px` is the
 // longer side of a height map.
-ExportedFile export_file(const Solid& solid, const std::string& format, int heightmap_px);
+ExportedFile export_file(const MadeRelief& made, const std::string& format, int heightmap_px);
+
+struct HeightMapOrder {
+  int longer_side_px = 1024;
+  bool is_tiff = false;  // else PNG
+  LengthUnit unit = LengthUnit::mm;
+};
+
+// Returns the height map as a file, with its scale. Of what was bent around a wrap the flat plate is shown,
+// for machines that turn the stock.
+std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 
 }  // namespace relievo::studio
