@@ -87,9 +87,9 @@ TEST_F(Cli, MakesEverythingAskedFor) {
   for (const char* file : {"t.stl", "t.png", "h.png", "r.json"})
     EXPECT_GT(fs::file_size(folder_ / file), 100U) << file;
   const std::string report = read_all(folder_ / "r.json");
-  for (const char* key :
-       {"input_points", "visible_points", "rho", "diagonal", "alpha", "beta", "gamma", "height_requested_mm",
-        "height_mm", "seconds", "threads", "version", "model_to_mm", "rotation", "scale", "offset"})
+  for (const char* key : {"input_points", "visible_points", "rho", "diagonal", "alpha", "beta", "gamma",
+                          "height_requested_mm", "height_mm", "seconds", "threads", "version", "model_to_mm",
+                          "rotation", "scale", "offset", "size_mm"})
     EXPECT_NE(report.find('"' + std::string(key) + '"'), std::string::npos) << key;
 }
 

@@ -195,6 +195,12 @@ Result<std::vector<std::byte>> solid_file(const MakeArguments& arguments, const 
   return write(other);
 }
 
+Vec3 size_mm(const Solid& solid) {
+  Box box;
+  for (const Vec3& p : solid.points) box.extend(p);
+  return box.size();
+}
+
 Result<std::vector<OutputFile>> finished_files(const MakeArguments& arguments, const Scene& scene,
                                                const MadeRelief& made, Progress& progress) {
   Result<std::vector<std::byte>> solid = solid_file(arguments, made.solid);
@@ -212,6 +218,8 @@ Result<std::vector<OutputFile>> finished_files(const MakeArguments& arguments, c
   progress.finish();
   if (arguments.report.empty()) return files;
   nlohmann::json report = report_json(made.report, progress);
+  const Vec3 size = size_mm(made.solid);
+  report["size_mm"] = {size.x(), size.y(), size.z()};
   report["units"] = arguments.units;
   report["models"] = models_json(scene, arguments.relief);
   files.push_back({arguments.report, text_bytes(report.dump(2) + "\n")});
@@ -223,6 +231,17 @@ struct Finished {
   std::vector<OutputFile> files;
   std::vector<std::string> lines;
 };
+
+// What was made, in a line and in the unit asked for.
+std::string outcome(const MakeArguments& arguments, const MadeRelief& made) {
+  const auto in_units = [&](double mm) { return std::round(mm / mm_per(unit_of(arguments)) * 1e4) / 1e4; };
+  const ReliefReport& report = made.report;
+  const Vec3 size = size_mm(made.solid);
+  return cat(arguments.output, ": ", report.visible_points, " of ", report.input_points, " points, height ",
+             in_units(report.height_mm), " ", arguments.units, " (", in_units(report.below_ground_mm),
+             " of it below the ground), body ", in_units(size.x()), " x ", in_units(size.y()), " x ",
+             in_units(size.z()), " ", arguments.units);
+}
 
 Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
   const Result<SceneInput> input = load(arguments, progress);
@@ -239,10 +258,7 @@ Result<Finished> run(const MakeArguments& arguments, Progress& progress) {
   finished.files = std::move(*files);
   const ReliefReport& report = made->report;
   finished.lines.insert(finished.lines.end(), report.remarks.begin(), report.remarks.end());
-  const double unit_mm = mm_per(unit_of(arguments));
-  finished.lines.push_back(cat(arguments.output, ": ", report.visible_points, " of ", report.input_points,
-                               " points, height ", report.height_mm / unit_mm, " ", arguments.units, ", ",
-                               report.below_ground_mm / unit_mm, " of it below the ground"));
+  finished.lines.push_back(outcome(arguments, *made));
   return finished;
 }
 
