@@ -1,83 +1,30 @@
-// The program as its users run it: exit codes, what it says and where, what it leaves behind.
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
+// The program as its users run it: what it makes, what it says and where.
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <numbers>
-#include <string>
 
+#include "cli_support.h"
 #include "format_samples.h"
-#include "relievo/io.h"
 #include "relievo/preview.h"
-#include "shapes.h"
 
 namespace relievo {
 namespace {
 
-namespace fs = std::filesystem;
+using namespace test;
 
-std::string read_all(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+using Cli = CliFolder;
+
+// Extent of a binary STL's corners.
+Vec3 stl_size(const std::string& file) {
+  Box box;
+  for (std::size_t at = 84; at + 50 <= file.size(); at += 50) {
+    std::array<float, 9> v{};
+    std::memcpy(v.data(), file.data() + at + 12, sizeof v);
+    for (std::size_t i = 0; i < 9; i += 3) box.extend(Vec3f(v[i], v[i + 1], v[i + 2]).cast<double>());
+  }
+  return box.size();
 }
-
-void write_all(const fs::path& path, std::string_view text) {
-  std::ofstream(path, std::ios::binary) << text;
-}
-
-struct Outcome {
-  int exit_code = 0;
-  std::string out, err;
-};
-
-class Cli : public testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = fs::temp_directory_path() / "relievo-cli-XXXXXX";
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-    const std::vector<std::byte> bytes = write_ply(test::torus(20000, 1, .4));
-    write_all(folder_ / "torus.ply", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  }
-  void TearDown() override {
-    fs::permissions(folder_, fs::perms::owner_all);
-    fs::remove_all(folder_);
-  }
-
-  // Runs `relievo ARGUMENTS` in the test's folder.
-  Outcome run(const std::string& arguments, const std::string& before = "") const {
-    const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
-    const std::string command = "cd '" + folder_.string() + "' && " + before + " '" RELIEVO_CLI "' " +
-                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
-    const int status = std::system(command.c_str());
-    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
-    fs::remove(out);
-    fs::remove(err);
-    return outcome;
-  }
-
-  // Expects failure with one line on stderr that holds `part`, and nothing new in the folder.
-  void expect_refusal(const std::string& arguments, const std::string& part,
-                      const std::string& before = "") const {
-    const auto files = [&] { return std::distance(fs::directory_iterator(folder_), {}); };
-    const auto before_run = files();
-    const Outcome outcome = run(arguments, before);
-    EXPECT_GT(outcome.exit_code, 0) << arguments;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(files(), before_run) << arguments;
-  }
-
-  fs::path folder_;
-};
 
 TEST_F(Cli, MakesEverythingAskedFor) {
   const Outcome outcome =
@@ -107,23 +54,6 @@ TEST_F(Cli, MakesProjects) {
   EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
 }
 
-TEST_F(Cli, RefusesWrongProjects) {
-  const auto refuse = [&](const std::string& project, const std::string& part) {
-    write_all(folder_ / "p.relievo", project);
-    expect_refusal("make p.relievo -o p.stl", part);
-  };
-  refuse("not json", "p.relievo: expected a project in JSON");
-  refuse(R"({"relievo": 2})", "p.relievo, relievo: expected a project of version 1");
-  refuse(R"({"relievo": 1, "options": {}})", "p.relievo, input: expected an object");
-  refuse(R"({"relievo": 1, "input": {}, "options": {}})", "expected either a path or a sample");
-  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"heigth": 1}})", "found 'heigth'");
-  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": "1"}})", "options.height");
-  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": -1}})", "--height");
-  refuse(R"({"relievo": 1, "input": {"path": "torus.ply", "hash": "fnv1a64:0"}, "options": {}})",
-         "expected the file as it was");
-  refuse(R"({"relievo": 1, "input": {"path": "gone.ply"}, "options": {}})", "gone.ply");
-}
-
 TEST_F(Cli, MakesScenes) {
   write_all(folder_ / "wedge.stl", ascii_stl());
   EXPECT_EQ(
@@ -151,42 +81,6 @@ TEST_F(Cli, MakesScenes) {
   expect_refusal("make torus.ply torus.ply -o torus.ply", "torus.ply: expected different files");
   expect_refusal("make scene.json torus.ply -o t.stl", "scene.json: expected a scene file alone");
   expect_refusal("make torus.ply gone.ply -o t.stl", "gone.ply");
-}
-
-TEST_F(Cli, RefusesBrokenScenes) {
-  const auto refuse = [&](const std::string& scene, const std::string& part) {
-    write_all(folder_ / "s.json", scene);
-    expect_refusal("make s.json -o t.stl", "relievo: s.json" + part);
-  };
-  const auto refuse_model = [&](const std::string& rest, const std::string& part) {
-    refuse(R"({"models": [{"file": "torus.ply"}, {"file": "torus.ply", )" + rest + "}]}",
-           ", models[1]" + part);
-  };
-  refuse("", ": expected a scene in JSON");
-  refuse("{\"models\": [", ": expected a scene in JSON");
-  refuse("[]", ": expected a scene in JSON");
-  refuse("{}", ", models: expected a list of at least one model");
-  refuse(R"({"models": []})", ", models: expected a list of at least one model");
-  refuse(R"({"models": {"file": "torus.ply"}})", ", models: expected a list");
-  refuse(R"({"models": [{"file": "torus.ply"}], "model": 1})",
-         ": expected only the key models, found 'model'");
-  refuse(R"({"models": ["torus.ply"]})", ", models[0]: expected an object");
-  refuse(R"({"models": [{"scale": 1}]})", ", models[0].file: expected the name of a file");
-  refuse(R"({"models": [{"file": 1}]})", ", models[0].file: expected the name of a file");
-  refuse(R"({"models": [{"file": "gone.ply"}]})",
-         ", models[0].file: expected a file that is there, found no 'gone.ply'");
-  refuse_model(R"("rotation": [0, 0, 0])",
-               ": expected only the keys file, rotate, translate, scale, mirror, found 'rotation'");
-  refuse_model(R"("rotate": 60)", ".rotate: expected three angles in degrees");
-  refuse_model(R"("rotate": [0, 60])", ".rotate: expected three angles in degrees");
-  refuse_model(R"("rotate": [0, "60", 0])", ".rotate: expected three angles in degrees");
-  refuse_model(R"("translate": [1, 2, null])", ".translate: expected three lengths");
-  refuse_model(R"("scale": "2")", ".scale: expected a number from 1e-06 to 1e+06");
-  refuse_model(R"("scale": 0)", ".scale: expected a number from 1e-06 to 1e+06");
-  refuse_model(R"("mirror": 1)", ".mirror: expected true or false");
-  write_all(folder_ / "cut.ply", "ply\n");
-  write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}, {"file": "cut.ply"}]})");
-  expect_refusal("make s.json -o t.stl", "cut.ply");
 }
 
 TEST_F(Cli, WritesPlyAndObjToo) {
@@ -247,23 +141,6 @@ TEST_F(Cli, StreamsLargeFiles) {
   EXPECT_NE(read_all(folder_ / "r.json").find("\"means\""), std::string::npos);
 }
 
-TEST_F(Cli, TruncatedFilesOfEveryFormatAreRefused) {
-  const std::vector<std::pair<std::string, std::string>> files = {
-      {"a.stl", binary_stl()}, {"b.stl", ascii_stl()},      {"a.off", off()},
-      {"a.glb", glb()},        {"a.gltf", embedded_gltf()}, {"a.pcd", ascii_pcd()},
-      {"b.pcd", binary_pcd()}, {"c.pcd", compressed_pcd()}, {"a.las", las(2)},
-      {"b.las", las(4)}};
-  for (const auto& [name, text] : files) {
-    write_all(folder_ / name, text.substr(0, text.size() * 2 / 3));
-    expect_refusal("make -o t.stl --preview t.png " + name, name);
-  }
-}
-
-TEST_F(Cli, IsSilentWhenToldTo) {
-  const Outcome outcome = run("make torus.ply -o t.stl --quiet");
-  EXPECT_EQ(outcome.out + outcome.err, "");
-}
-
 TEST_F(Cli, TellsWhatIsInAScan) {
   const Outcome outcome = run("info torus.ply");
   EXPECT_EQ(outcome.exit_code, 0);
@@ -305,116 +182,8 @@ TEST_F(Cli, HelpTellsRangesAndDefaults) {
   EXPECT_NE(run("--version").out.find("relievo "), std::string::npos);
 }
 
-TEST_F(Cli, RefusesMisuse) {
-  expect_refusal("", "A subcommand is required");
-  expect_refusal("carve", "carve");
-  expect_refusal("make", "required");
-  expect_refusal("make torus.ply -o t.stl --width -5", "--width");
-  expect_refusal("make torus.ply -o t.stl --height 0", "--height");
-  expect_refusal("make torus.ply -o t.stl --height 3 --alpha 2", "--alpha");
-  expect_refusal("make torus.ply -o t.stl --thickness abc", "--thickness");
-  expect_refusal("make torus.ply -o t.stl --view sideways", "sideways");
-  expect_refusal("make torus.ply -o t.xyz", "t.xyz");
-  expect_refusal("make torus.ply -o t.stl --preview t.jpg", "t.jpg");
-  expect_refusal("sample nothing -o s.ply", "shell");
-  expect_refusal("sample shell -o s.ply --points 3", "points");
-}
-
-TEST_F(Cli, RefusesBadInput) {
-  write_all(folder_ / "empty.ply", "");
-  write_all(folder_ / "huge.ply",
-            "ply\nformat binary_little_endian 1.0\nelement vertex 1152921504606846976\nproperty float "
-            "x\nproperty float y\n"
-            "property float z\nend_header\n");
-  write_all(folder_ / "three.xyz", "0 0 0\n1 0 0\n0 1 0\n");
-  write_all(folder_ / "equal.xyz", "1 2 3\n1 2 3\n1 2 3\n1 2 3\n1 2 3\n");
-  write_all(folder_ / "line.xyz", "0 0 0\n1 1 1\n2 2 2\n3 3 3\n4 4 4\n");
-  const std::string torus = read_all(folder_ / "torus.ply");
-  write_all(folder_ / "cut.ply", torus.substr(0, torus.size() / 2));
-  for (const char* file :
-       {"missing.ply", "empty.ply", "huge.ply", "three.xyz", "equal.xyz", "line.xyz", "cut.ply"})
-    expect_refusal("make " + std::string(file) + " -o t.stl --preview p.png", file);
-  expect_refusal("make torus.ply -o t.stl --height 5000", "at most");
-  expect_refusal("info missing.ply", "missing.ply");
-}
-
-TEST_F(Cli, LeavesOutPointsThatAreNotFiniteAndSaysSo) {
-  std::string text = "nan 0 0\n0 inf 0\n";
-  for (const Vec3& p : test::sphere(3000, 1).points)
-    text += std::to_string(p.x()) + ' ' + std::to_string(p.y()) + ' ' + std::to_string(p.z()) + '\n';
-  write_all(folder_ / "nan.xyz", text);
-  const Outcome outcome = run("make nan.xyz -o t.stl");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("left out 2 points"), std::string::npos) << outcome.err;
-  EXPECT_NE(outcome.err.find("estimated"), std::string::npos) << outcome.err;
-}
-
-TEST_F(Cli, RefusesAPlaceItCannotWriteTo) {
-  expect_refusal("make torus.ply -o nowhere/t.stl", "nowhere");
-  fs::create_directory(folder_ / "folder.stl");
-  expect_refusal("make torus.ply -o folder.stl", "folder");
-  if (::geteuid() == 0) GTEST_SKIP() << "root may write to read-only folders";
-  fs::create_directory(folder_ / "locked");
-  fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
-  expect_refusal("make torus.ply -o locked/t.stl", "locked");
-}
-
-// A limit on the size of files stands for a full disk.
-TEST_F(Cli, LeavesNothingHalfWrittenOnAFullDisk) {
-  expect_refusal("make torus.ply -o t.stl", "t.stl", "trap '' XFSZ; ulimit -f 100;");
-}
-
-// The limit lets the solid pass and stops the height map, which is larger.
-TEST_F(Cli, WritesAllFilesOrNone) {
-  const std::string limit = "trap '' XFSZ; ulimit -f 4000;";
-  EXPECT_EQ(run("make torus.ply -o t.stl", limit).exit_code, 0);
-  fs::remove(folder_ / "t.stl");
-  expect_refusal("make torus.ply -o t.stl --heightmap h.png --heightmap-size 4096", "h.png", limit);
-}
-
-// The signal of a file that grows too large stands for Ctrl-C: it comes in the middle of writing for sure.
-TEST_F(Cli, LeavesNothingHalfWrittenWhenASignalEndsIt) {
-  EXPECT_NE(run("make torus.ply -o t.stl", "ulimit -c 0; ulimit -f 100;").exit_code, 0);
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
-}
-
-TEST_F(Cli, RefusesToOverwriteItsInputOrItsOutputs) {
-  const std::string torus = read_all(folder_ / "torus.ply");
-  expect_refusal("make torus.ply -o torus.ply", "different files");
-  expect_refusal("make torus.ply -o ./../$(basename $PWD)/torus.ply", "different files");
-  expect_refusal("make torus.ply -o t.stl --preview p.png --heightmap ./p.png", "different files");
-  expect_refusal("make torus.ply -o t.stl --report /dev/null", "device");
-  EXPECT_EQ(read_all(folder_ / "torus.ply"), torus);
-}
-
 TEST_F(Cli, TakesDirectionsThatBeginWithAMinus) {
   EXPECT_EQ(run("make torus.ply -o t.stl --view -1,0.5,2 --up -1,0,0").exit_code, 0);
-}
-
-TEST_F(Cli, SaysWhichPointsItLeftOutForTheirNormals) {
-  Cloud cloud = test::torus(20000, 1, .4);
-  cloud.normals[5].setZero();
-  const std::vector<std::byte> bytes = write_ply(cloud);
-  write_all(folder_ / "torus.ply", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  EXPECT_NE(run("make torus.ply -o t.stl").err.find("left out 1 points without a usable normal"),
-            std::string::npos);
-}
-
-TEST_F(Cli, KeepsTheOldFileOnFailure) {
-  write_all(folder_ / "t.stl", "old");
-  EXPECT_GT(run("make torus.ply -o t.stl", "trap '' XFSZ; ulimit -f 100;").exit_code, 0);
-  EXPECT_EQ(read_all(folder_ / "t.stl"), "old");
-}
-
-// Extent of a binary STL's corners.
-Vec3 stl_size(const std::string& file) {
-  Box box;
-  for (std::size_t at = 84; at + 50 <= file.size(); at += 50) {
-    std::array<float, 9> v{};
-    std::memcpy(v.data(), file.data() + at + 12, sizeof v);
-    for (std::size_t i = 0; i < 9; i += 3) box.extend(Vec3f(v[i], v[i + 1], v[i + 2]).cast<double>());
-  }
-  return box.size();
 }
 
 TEST_F(Cli, LengthsCarryAUnitOrAreInThatOfAll) {

@@ -11,20 +11,10 @@
 namespace relievo {
 namespace {
 
+using test::depth_in;
 using test::polygon_area;
 
 const std::vector<Vec2> box = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};
-
-// How far a place lies inside the polygon's nearest side; negative outside.
-double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
-  double depth = 1e9;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 along = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
-    const Vec2 to_place = place - polygon[i];
-    depth = std::min(depth, along.x() * to_place.y() - along.y() * to_place.x());
-  }
-  return depth;
-}
 
 TEST(Inset, OfARectangleIsARectangle) {
   const std::vector<Vec2> inner = inset(box, 5), outer = inset(box, -2);

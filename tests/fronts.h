@@ -90,4 +90,15 @@ inline double polygon_area(const std::vector<Vec2>& polygon) {
   return twice / 2;
 }
 
+// How far a place lies inside the polygon's nearest side; negative outside.
+inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
+  double depth = 1e9;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 along = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
+    const Vec2 to_place = place - polygon[i];
+    depth = std::min(depth, along.x() * to_place.y() - along.y() * to_place.x());
+  }
+  return depth;
+}
+
 }  // namespace relievo::test

@@ -9,6 +9,8 @@
 namespace relievo {
 namespace {
 
+using test::depth_in;
+
 constexpr Outline outlines[] = {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
                                 Outline::hexagon};
 
@@ -34,16 +36,6 @@ std::vector<Vec2> outline_of(const Solid& solid) {
   for (const Vec3& p : solid.points)
     if (p.z() == 0) outline.push_back(p.head<2>());
   return outline;
-}
-
-double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
-  double depth = 1e9;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 along = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
-    const Vec2 to_place = place - polygon[i];
-    depth = std::min(depth, along.x() * to_place.y() - along.y() * to_place.x());
-  }
-  return depth;
 }
 
 TEST(Rim, OfARectangleHasItsClosedFormVolume) {

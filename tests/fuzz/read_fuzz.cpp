@@ -46,17 +46,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 #ifndef RELIEVO_LIBFUZZER
-#include <fstream>
-#include <iterator>
+#include "run_files.h"
 
 int main(int argc, char** argv) {
-  for (int i = 1; i < argc; ++i) {
-    std::ifstream file(argv[i], std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return run_files(argc, argv, [](const std::string& text) {
     for (std::size_t name = 0; name < names.size(); ++name) {
       const std::string input = static_cast<char>(name) + text;
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
     }
-  }
+  });
 }
 #endif

@@ -1,0 +1,48 @@
+// Scenes for tests.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "relievo/scene.h"
+
+namespace relievo::test {
+
+inline const View front = *parse_view("front");
+
+inline SceneModel model_of(Cloud cloud, Pose pose = {}) {
+  return {"cloud", std::make_shared<const CloudFile>(CloudFile{std::move(cloud), "test"}), pose};
+}
+
+inline SceneModel model_of(Mesh mesh, Pose pose = {}) {
+  CloudFile file{{mesh.points, {}}, "test"};
+  file.mesh = std::move(mesh);
+  return {"mesh", std::make_shared<const CloudFile>(std::move(file)), pose};
+}
+
+inline Pose at(double x, double y, double z, const Vec3& rotate_deg = Vec3::Zero()) {
+  return {rotate_deg, Vec3(x, y, z)};
+}
+
+// A wedge, which is its own image under no rotation or reflection.
+inline Mesh wedge() {
+  return {{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+}
+
+inline Cloud moved(Cloud cloud, const Vec3& by) {
+  for (Vec3& p : cloud.points) p += by;
+  return cloud;
+}
+
+inline std::vector<PlacedModel> placed(const Scene& scene, const View& view = front) {
+  const auto places = place_models(scene, view);
+  EXPECT_TRUE(places) << places.error().message();
+  return places.value_or(std::vector<PlacedModel>(scene.models.size()));
+}
+
+inline SeenPoints seen(const Scene& scene, double points = 30000, const View& view = front) {
+  auto result = seen_points(scene, view, points);
+  EXPECT_TRUE(result) << result.error().message();
+  return result.value_or(SeenPoints{std::make_shared<const Cloud>(), 0, {}});
+}
+
+}  // namespace relievo::test
