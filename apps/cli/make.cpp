@@ -278,9 +278,9 @@ Result<void> make(const MakeArguments& arguments) {
 }
 
 // Reads the height image of a base, which is then its shape unless another was asked for.
-Result<void> take_base_image(MakeArguments& arguments) {
+Result<void> take_base_image(MakeArguments& arguments, bool has_base) {
   ReliefOptions& relief = arguments.relief;
-  if (!arguments.base_image.empty() && relief.base == "plane") relief.base = "image";
+  if (!arguments.base_image.empty() && !has_base && relief.base == "plane") relief.base = "image";
   const Result<BaseOptions> base = parse_base(relief.base);
   if (!base) return std::unexpected(base.error());
   const bool is_image = base->kind == BaseKind::image;
@@ -376,7 +376,7 @@ void add_make(CLI::App& program, Result<void>& result) {
     if (const auto tool = parse_tool(arguments->relief.tool, unit_of(*arguments)); tool)
       arguments->relief.tool = text_of(*tool);
     result = take_project(*arguments, command);
-    if (result) result = take_base_image(*arguments);
+    if (result) result = take_base_image(*arguments, command.count("--base") > 0);
     if (result) result = make(*arguments);
   });
 }

@@ -35,7 +35,7 @@ struct ReliefOptions {
   std::string base = "plane";           // that the relief lies on: see parse_base()
   std::shared_ptr<const HeightGrid> base_image;  // of base "image"; not told by visit()
   std::string wrap = "none";                     // that the plate is bent around: see parse_wrap()
-  double points = 3e5;                           // visible points to take from a mesh
+  double points = 3e5;                           // visible points to take from what is no cloud
   std::string form = "relief";                   // or "mirror", "die", "lithophane": see forms.h
   std::string tool;                    // a milling tool to be told of, see parse_tool(); none if empty
   std::string surface = "full";        // or "reachable": what that tool leaves
@@ -125,7 +125,8 @@ void visit(Options& o, F&& f) {
                 "that the finished plate is bent around: cylinder:diameter=60 cylinder:turn=360 "
                 "cone:turn=90,angle=8 sphere:diameter=80,inside; default turn: 180 degrees, sphere 120"},
     o.wrap);
-  f(OptionField{"points", "N", "visible points to take from a mesh", 1000, 1e7}, o.points);
+  f(OptionField{"points", "N", "visible points to take from a mesh, a scene or a depth image", 1000, 1e7},
+    o.points);
   f(OptionField{"form", "FORM",
                 "relief; mirror: left and right swapped; die: the hollow that strikes or casts the relief; "
                 "lithophane: thick where the model is dark"},
