@@ -118,8 +118,9 @@ class DraftSearch {
   }
 
  private:
-  // Beyond e^3 every weight of (6) is 1; beyond 64 times the scale the rivals' reliefs are walls only.
-  static constexpr double largest_log_u = 3, largest_log_scale = 4.2;
+  // Beyond e^4.5 the weights of (6) are nearly 1, of all layers unless detail is large; beyond 64 times the
+  // scale the rivals' reliefs are walls only.
+  static constexpr double largest_log_u = 4.5, largest_log_scale = 4.2;
   // A relief that much too high is scaled down, which keeps the limit.
   static constexpr double window = .003;
   static constexpr int most_reliefs = 24;
@@ -148,7 +149,7 @@ class DraftSearch {
       if (has_high) x = low + (high - low) * (tries % 3 == 2 ? .5 : low_excess / (low_excess - high_excess));
       if (!has_high && x > last - .3) x = last;  // there is little to be had beyond: is it enough?
       if (auto made = make(x); !made) return std::unexpected(made.error());
-      if (excess() < -window && x == last) return too_high();
+      if (excess() < -window && x == last) return at_most();
       if (excess() > 0) {
         high = x, high_excess = excess(), has_high = true;
       } else {

@@ -6,7 +6,7 @@
 
 #include "frame_slopes.h"
 #include "height_span.h"
-#include "height_tails.h"
+#include "membrane.h"
 #include "relievo/parallel.h"
 #include "root.h"
 #include "vertex_normals.h"
@@ -39,6 +39,7 @@ struct FrameMaker::Packed {
       vertex_normal_links(in_plane(surface.points), surface.triangulation, surface.boundary,
                           model.system() ? &model.system()->links() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
+  Membrane::Workspace membrane_workspace = model.membrane().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
   double boundary_width = 0;  // that boundary_weight is for
@@ -61,8 +62,8 @@ struct FrameMaker::Packed {
     });
   }
 
-  SlopeInput slope_input(std::span<const float> rim_weight) const {
-    return {surface.normals, surface.curvature.k, rim_weight, surface.curvature.delta, surface.layers};
+  SlopeInput slope_input() const {
+    return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, surface.layers};
   }
 
   void find_slopes(const Shape& shape) {
@@ -70,31 +71,21 @@ struct FrameMaker::Packed {
     weight.fill(surface.curvature.delta,
                 is_layered ? saturation_alone(shape.compression) : shape.compression);
     if (is_layered)
-      frame_layered_slopes(slope_input(boundary_weight), weight, shape, slopes);
+      frame_layered_slopes(slope_input(), weight, shape, slopes);
     else
-      frame_slopes(slope_input(boundary_weight), weight, shape.max_slope, slopes);
+      frame_slopes(slope_input(), weight, shape.max_slope, slopes);
   }
 
-  // For the frame's shape.
-  RaisedWeights raised_weights(const Shape& shape) {
-    weight.fill(surface.curvature.delta, saturation_alone(shape.compression));
-    const auto scale = static_cast<float>(saturation_scale(shape.compression));
-    const auto share = [&](float k) { return scale * weight(k); };
-    return RaisedWeights::of(shape, mean_share(shape.compression, surface.curvature.k, share));
-  }
-
-  // Heights by the ordinary system, where the two calls find slopes of all points or of the samples of
-  // control points, and the way of those to all.
-  template <typename Slopes, typename Subspace>
-  void find_heights(Frame& frame, Slopes&& find_slopes, Subspace&& solve_subspace) {
+  void find_heights(Frame& frame) {
+    const Shape& shape = frame.options.shape;
     const Stopwatch watch;
     if (const HeightSystem* system = model.system()) {
-      find_slopes();
+      find_slopes(shape);
       system->solve(slopes, frame.heights, std::get<HeightSystem::Workspace>(workspace));
       frame.times.heights_s += watch.seconds();
     } else {
       auto& own = std::get<SubspaceModel::Workspace>(workspace);
-      solve_subspace(*model.subspace(), own);
+      model.subspace()->solve(shape, boundary_weight, own);
       frame.times.heights_s += watch.seconds();
       const Stopwatch mapping;
       model.subspace()->carry(boundary_weight, own, frame.heights);
@@ -115,60 +106,34 @@ struct FrameMaker::Packed {
     return all.size();
   }
 
-  float round_tails(Frame& frame) {
-    const HeightTails<float> tails(frame.heights);
-    return pass(frame.heights, [&](std::size_t, float& z) { z = tails(z); });
+  float span_of_heights(Frame& frame) {
+    return pass(frame.heights, [](std::size_t, float&) {});
   }
 
   float add_detail(Frame& frame) {
-    const float h = pass(frame.heights, [](std::size_t, float&) {});
+    const float h = span_of_heights(frame);
     const float amount = static_cast<float>(frame.options.shape.gamma) * h;
     return pass(frame.heights,
                 [&](std::size_t i, float& z) { z += amount * surface.curvature.k[i] * boundary_weight[i]; });
   }
 
-  // Adds the layers' own heights, and bevels the step at the silhouette.
-  float add_layers(Frame& frame, const RaisedWeights& weights) {
-    const std::vector<LayerHeights>& layers = model.raised_layers().heights;
-    parallel_for(size(), [&](std::size_t i) { frame.heights[i] += weights.height(layers[i]); });
-    const Bevel<float> bevel(frame.heights, surface.boundary, boundary_weight);
-    return pass(frame.heights, [&](std::size_t i, float& z) { z = bevel(i, z); });
-  }
-
-  float raise_layers(Frame& frame) {
-    const Shape& shape = frame.options.shape;
-    const std::vector<float>& fade = model.raised_layers().fade;
-    const Stopwatch weighing;
-    const RaisedWeights weights = raised_weights(shape);
-    frame.times.heights_s += weighing.seconds();
-    find_heights(
-        frame, [&] { frame_raised_slopes(slope_input(fade), weight, shape, weights, slopes); },
-        [&](const SubspaceModel& subspace, SubspaceModel::Workspace& own) {
-          subspace.solve_raised(shape, weights, fade, own);
-        });
-    const Stopwatch watch;
-    const float height = add_layers(frame, weights);
-    frame.times.detail_s += watch.seconds();
-    return height;
-  }
-
-  float raise_slopes(Frame& frame) {
-    const Shape& shape = frame.options.shape;
-    find_heights(
-        frame, [&] { find_slopes(shape); },
-        [&](const SubspaceModel& subspace, SubspaceModel::Workspace& own) {
-          subspace.solve(shape, boundary_weight, own);
-        });
-    const Stopwatch watch;
-    const float height = shape.style == Style::layered ? round_tails(frame) : add_detail(frame);
-    frame.times.detail_s += watch.seconds();
-    return height;
-  }
-
-  // Heights and detail for the frame's shape.
+  // Heights for the frame's shape: with detail, or yet to be held within frame.height.
   void raise(Frame& frame) {
-    const bool is_raised = frame.options.shape.style == Style::raised;
-    frame.height = static_cast<double>(is_raised ? raise_layers(frame) : raise_slopes(frame));
+    const Shape& shape = frame.options.shape;
+    find_heights(frame);
+    const Stopwatch watch;
+    frame.height = shape.style == Style::layered
+                       ? held_share(shape.compression.u) * static_cast<double>(span_of_heights(frame))
+                       : static_cast<double>(add_detail(frame));
+    frame.times.detail_s += watch.seconds();
+  }
+
+  // Gives layered heights the height that they are yet to be held within.
+  void hold(Frame& frame) {
+    if (frame.options.shape.style != Style::layered) return;
+    const Stopwatch watch;
+    model.membrane().hold<float>({frame.heights, boundary_weight, frame.height}, membrane_workspace);
+    frame.times.detail_s += watch.seconds();
   }
 
   // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().
@@ -217,6 +182,7 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
     packed_->raise_to(*options.height, frame);
   else
     packed_->raise(frame);
+  packed_->hold(frame);
 
   const Stopwatch watch;
   if (options.base)
@@ -227,8 +193,8 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
 
 std::size_t FrameMaker::memory() const {
   const std::size_t workspace = std::visit([](const auto& w) { return w.memory(); }, packed_->workspace);
-  return packed_->normal_links.memory() + workspace + packed_->slopes.size() * sizeof(Vec2f) +
-         packed_->boundary_weight.size() * sizeof(float);
+  return packed_->normal_links.memory() + workspace + packed_->membrane_workspace.memory() +
+         packed_->slopes.size() * sizeof(Vec2f) + packed_->boundary_weight.size() * sizeof(float);
 }
 
 }  // namespace relievo

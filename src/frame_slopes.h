@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "raised.h"
 #include "relievo/parallel.h"
+#include "relievo/weights.h"
 #include "weight_table.h"
 
 namespace relievo {
@@ -30,24 +30,12 @@ inline void frame_slopes(const SlopeInput& input, const WeightTable& weight, dou
 // layered_slopes() with the saturation's share from the table, which holds saturation_alone().
 inline void frame_layered_slopes(const SlopeInput& input, const WeightTable& saturation, const Shape& shape,
                                  std::span<Vec2f> slopes) {
-  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma, shape.style);
+  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma);
   const auto scale = static_cast<float>(saturation_scale(shape.compression));
   const auto max_slope = static_cast<float>(shape.max_slope);
   parallel_for(slopes.size(), [&](std::size_t i) {
     const float share = scale * saturation(input.k[i]) * input.boundary_weight[i];
     slopes[i] = layered_slope(input.layers[i], weights, share, max_slope);
-  });
-}
-
-// What the layers' heights of a raised relief leave to the ordinary system; of the table see above. The
-// input's boundary weight is the layers' fade.
-inline void frame_raised_slopes(const SlopeInput& input, const WeightTable& saturation, const Shape& shape,
-                                const RaisedWeights& weights, std::span<Vec2f> slopes) {
-  const auto scale = static_cast<float>(saturation_scale(shape.compression));
-  const auto max_slope = static_cast<float>(shape.max_slope);
-  parallel_for(slopes.size(), [&](std::size_t i) {
-    slopes[i] =
-        weights.rest(input.layers[i], scale * saturation(input.k[i]), input.boundary_weight[i], max_slope);
   });
 }
 

@@ -5,38 +5,29 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <numeric>
 #include <span>
-#include <vector>
 
 #include "height_span.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
 
-struct TailOptions {
-  double share = .01;      // of the points beyond each limit
-  double flattest = .2;    // the curve's slope at the extremes
-  bool keeps_base = true;  // 0 stays where it is; else only differences of heights mean something
-  std::span<const std::uint8_t> left_out = {};  // without a base: not 0 where points do not count; or empty
-};
-
-// A curve over heights: rising everywhere, 1 : 1 in the middle, flatter beyond two limits.
+// A curve over heights: rising everywhere, 1 : 1 in the middle and at the base, 0, flatter beyond two limits,
+// each with `share` of the points beyond it, down to a slope of `flattest` at the extremes.
 template <typename Real>
 class HeightTails {
  public:
-  explicit HeightTails(std::span<const Real> heights, const TailOptions& options = {})
-      : bend_(static_cast<Real>((1 - options.flattest) / 2)) {
-    const HeightSpan<Real> span = counted_span(heights, options);
-    lowest_ = highest_ = lower_ = upper_ = span.lowest;
+  static constexpr double share = .0045, flattest = .2;
+
+  explicit HeightTails(std::span<const Real> heights) {
+    const HeightSpan<Real> span = span_of(heights);
+    lowest_ = lower_ = span.lowest;
+    highest_ = upper_ = span.highest;
     if (!(span.size() > 0)) return;
-    highest_ = span.highest;
-    const Histogram counts = histogram(heights, options.left_out);
-    const double wanted = options.share * std::accumulate(counts.begin(), counts.end(), 0.0);
-    upper_ = highest_ - bins_from_end(counts.rbegin(), counts.rend(), wanted) * bin();
-    lower_ = lowest_ + bins_from_end(counts.begin(), counts.end(), wanted) * bin();
-    if (options.keeps_base) upper_ = std::max(Real(0), upper_), lower_ = std::min(Real(0), lower_);
+    const Histogram counts = histogram(heights);
+    const double wanted = share * static_cast<double>(heights.size()) / stride;
+    upper_ = std::max(Real(0), highest_ - bins_from_end(counts.rbegin(), counts.rend(), wanted) * bin());
+    lower_ = std::min(Real(0), lowest_ + bins_from_end(counts.begin(), counts.end(), wanted) * bin());
   }
 
   Real operator()(Real z) const {
@@ -44,48 +35,25 @@ class HeightTails {
     return z < lower_ ? lower_ - bent(lower_ - z, lower_ - lowest_) : z;
   }
 
-  // Of the heights that count, before the curve.
-  Real lowest() const { return lowest_; }
+  // What is left of the span of the heights, base included.
+  Real span() const { return (*this)(highest_) - (*this)(lowest_); }
 
  private:
-  static constexpr std::size_t bins = 2048;
+  static constexpr std::size_t bins = 2048, stride = 4;  // every fourth height is counted
   using Histogram = std::array<std::uint32_t, bins>;
-
-  static bool counts_at(std::span<const std::uint8_t> left_out, std::size_t i) {
-    return left_out.empty() || !left_out[i];
-  }
-
-  static HeightSpan<Real> counted_span(std::span<const Real> heights, const TailOptions& options) {
-    if (options.keeps_base) return span_of(heights);
-    constexpr Real infinity = std::numeric_limits<Real>::infinity();
-    const HeightSpan<Real> span = parallel_reduce(
-        heights.size(), HeightSpan<Real>{infinity, -infinity},
-        [&](std::size_t begin, std::size_t end) {
-          HeightSpan<Real> part{infinity, -infinity};
-          for (std::size_t i = begin; i < end; ++i)
-            if (counts_at(options.left_out, i)) part.extend(heights[i]);
-          return part;
-        },
-        [](HeightSpan<Real> all, const HeightSpan<Real>& part) {
-          all.extend(part);
-          return all;
-        });
-    return span.lowest <= span.highest ? span : HeightSpan<Real>{};
-  }
 
   Real bin() const { return (highest_ - lowest_) / static_cast<Real>(bins); }
 
   // From 0 with slope 1 to the end of the tail with the flattest slope.
-  Real bent(Real z, Real length) const { return z - bend_ * z * z / length; }
+  static Real bent(Real z, Real length) { return z - static_cast<Real>((1 - flattest) / 2) * z * z / length; }
 
-  Histogram histogram(std::span<const Real> heights, std::span<const std::uint8_t> left_out) const {
+  Histogram histogram(std::span<const Real> heights) const {
     const Real per_unit = 1 / bin();
     return parallel_reduce(
         heights.size(), Histogram{},
         [&](std::size_t begin, std::size_t end) {
           Histogram counts{};
-          for (std::size_t i = begin; i < end; ++i) {
-            if (!counts_at(left_out, i)) continue;
+          for (std::size_t i = begin; i < end; i += stride) {
             const auto at = static_cast<std::size_t>((heights[i] - lowest_) * per_unit);
             ++counts[std::min(at, bins - 1)];
           }
@@ -95,7 +63,7 @@ class HeightTails {
           for (std::size_t b = 0; b < bins; ++b) sum[b] += counts[b];
           return sum;
         },
-        1 << 16);
+        1 << 15);
   }
 
   // How many bins, with a fraction, hold the points wanted.
@@ -109,7 +77,7 @@ class HeightTails {
     return static_cast<Real>(bins);
   }
 
-  Real bend_ = 0, lowest_ = 0, highest_ = 0, lower_ = 0, upper_ = 0;
+  Real lowest_ = 0, highest_ = 0, lower_ = 0, upper_ = 0;
 };
 
 }  // namespace relievo

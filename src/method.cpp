@@ -24,10 +24,10 @@ std::string_view name_of(Method method) {
 }
 
 Shape default_shape(Method method) {
-  if (method != Method::ours && method != Method::raised) return {{1, .01}, .02};
+  if (method != Method::ours) return {{1, .01}, .02};
   Shape shape{{1, 0}, .04};
-  shape.style = method == Method::ours ? Style::layered : Style::raised;
-  shape.boundary_width = method == Method::ours ? .5 : 1;
+  shape.style = Style::layered;
+  shape.boundary_width = .5;
   return shape;
 }
 
@@ -47,7 +47,6 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
     case Method::detail:
       return base_and_detail_relief(model, height);
     case Method::ours:
-    case Method::raised:
     case Method::paper:
       break;
   }

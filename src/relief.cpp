@@ -3,8 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "height_tails.h"
-#include "raised.h"
+#include "membrane.h"
 #include "relievo/detail.h"
 #include "relievo/parallel.h"
 #include "relievo/text.h"
@@ -28,7 +27,7 @@ Mode settle(Mode mode, const Surface& surface) {
 ReliefModel::ReliefModel(Surface surface, Solver solver)
     : surface_(std::move(surface)),
       solver_(std::move(solver)),
-      raised_layers_(std::make_shared<Once<RaisedLayers>>()) {}
+      membrane_(std::make_shared<const Membrane>(surface_)) {}
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
   if (settle(mode, surface) == Mode::subspace) {
@@ -43,76 +42,26 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   return ReliefModel(std::move(surface), std::move(*system));
 }
 
-const RaisedLayers& ReliefModel::raised_layers() const {
-  return raised_layers_->get([&] { return relievo::raised_layers(surface_); });
-}
-
 std::size_t ReliefModel::memory() const {
   const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, solver_);
-  const RaisedLayers* raised = raised_layers_->find();
-  return solver + surface_.memory() + (raised ? raised->memory() : 0);
+  return solver + surface_.memory() + membrane_->memory();
 }
 
 namespace {
 
-// Heights in subspace mode, where `solve` finds those of the control points.
-template <typename Solve>
-std::vector<double> carried_heights(const SubspaceModel& model, std::span<const float> boundary_weight,
-                                    Solve&& solve) {
+std::vector<double> subspace_heights(const SubspaceModel& model, const Shape& shape,
+                                     std::span<const float> boundary_weight) {
   SubspaceModel::Workspace workspace = model.make_workspace();
   std::vector<float> heights(model.size());
-  solve(workspace);
+  model.solve(shape, boundary_weight, workspace);
   model.carry(boundary_weight, workspace, heights);
   return {heights.begin(), heights.end()};
-}
-
-// What the layers' own heights leave, by the ordinary system.
-std::vector<double> raised_rest(const ReliefModel& model, const Shape& shape, const RaisedWeights& weights,
-                                std::span<const float> boundary_weight) {
-  const Surface& surface = model.surface();
-  const std::vector<float>& fade = model.raised_layers().fade;
-  if (const SubspaceModel* subspace = model.subspace())
-    return carried_heights(*subspace, boundary_weight, [&](SubspaceModel::Workspace& workspace) {
-      subspace->solve_raised(shape, weights, fade, workspace);
-    });
-  const SaturationShare share(surface.curvature.delta, shape.compression);
-  std::vector<Vec2> slopes(surface.points.size());
-  parallel_for(slopes.size(), [&](std::size_t i) {
-    slopes[i] = weights.rest(surface.layers[i], share(surface.curvature.k[i]), static_cast<double>(fade[i]),
-                             shape.max_slope);
-  });
-  std::vector<double> heights(slopes.size());
-  model.system()->solve(slopes, heights);
-  return heights;
-}
-
-std::vector<double> raised_heights(const ReliefModel& model, const Shape& shape,
-                                   std::span<const float> boundary_weight) {
-  const Surface& surface = model.surface();
-  const SaturationShare share(surface.curvature.delta, shape.compression);
-  const RaisedWeights weights =
-      RaisedWeights::of(shape, mean_share(shape.compression, surface.curvature.k, share));
-  std::vector<double> heights = raised_rest(model, shape, weights, boundary_weight);
-  const std::vector<LayerHeights>& layers = model.raised_layers().heights;
-  parallel_for(heights.size(),
-               [&](std::size_t i) { heights[i] += static_cast<double>(weights.height(layers[i])); });
-  const Bevel<double> bevel(heights, surface.boundary, boundary_weight);
-  parallel_for(heights.size(), [&](std::size_t i) { heights[i] = bevel(i, heights[i]); });
-  return heights;
-}
-
-void round_tails(std::vector<double>& heights) {
-  const HeightTails<double> tails(heights);
-  parallel_for(heights.size(), [&](std::size_t i) { heights[i] = tails(heights[i]); });
 }
 
 }  // namespace
 
 std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const float> boundary_weight) const {
-  if (const SubspaceModel* model = subspace())
-    return carried_heights(*model, boundary_weight, [&](SubspaceModel::Workspace& workspace) {
-      model->solve(shape, boundary_weight, workspace);
-    });
+  if (const SubspaceModel* model = subspace()) return subspace_heights(*model, shape, boundary_weight);
   std::vector<Vec2> slopes(surface_.points.size());
   const SlopeInput input{surface_.normals, surface_.curvature.k, boundary_weight, surface_.curvature.delta,
                          surface_.layers};
@@ -125,29 +74,46 @@ std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const flo
   return heights;
 }
 
-Relief ReliefModel::make(const Shape& shape) const {
-  const std::vector<float> boundary_weight =
-      boundary_weights(surface_.boundary.distance, surface_.rho * shape.boundary_width / 2);  // (7) has 2 rho
-  const bool is_raised = shape.style == Style::raised;
-  Relief relief{is_raised ? raised_heights(*this, shape, boundary_weight) : heights(shape, boundary_weight),
-                0, shape};
-  if (shape.style == Style::layered) round_tails(relief.heights);
+// Layered heights are yet to be held within relief.height.
+Relief ReliefModel::raise(const Shape& shape, std::span<const float> boundary_weight) const {
+  Relief relief{heights(shape, boundary_weight), 0, shape};
   if (shape.style == Style::paper)
     add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
   relief.height = height_span(relief.heights);
+  if (shape.style == Style::layered) relief.height *= held_share(shape.compression.u);
+  return relief;
+}
+
+void ReliefModel::hold(Relief& relief, std::span<const float> boundary_weight) const {
+  if (relief.shape.style != Style::layered) return;
+  Membrane::Workspace workspace = membrane_->make_workspace();
+  membrane_->hold<double>({relief.heights, boundary_weight, relief.height}, workspace);
+  relief.height = height_span(relief.heights);
+}
+
+std::vector<float> ReliefModel::boundary_weight(const Shape& shape) const {
+  return boundary_weights(surface_.boundary.distance,
+                          surface_.rho * shape.boundary_width / 2);  // (7) has 2 rho
+}
+
+Relief ReliefModel::make(const Shape& shape) const {
+  const std::vector<float> weight = boundary_weight(shape);
+  Relief relief = raise(shape, weight);
+  hold(relief, weight);
   return relief;
 }
 
 Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double unit_mm,
                                            Progress* progress) const {
+  const std::vector<float> weight = boundary_weight(shape);
   shape.compression.u = std::numeric_limits<double>::infinity();
-  Relief relief = make(shape);
+  Relief relief = raise(shape, weight);
   const auto excess = [&] { return std::log(std::max(relief.height, 1e-300) / height); };
   constexpr double tolerance = 1e-5;
   bool is_cancelled = false;
   const auto excess_at = [&](double log_u) {
     shape.compression.u = std::exp(log_u);
-    relief = make(shape);
+    relief = raise(shape, weight);
     is_cancelled = progress && progress->is_cancelled();
     return is_cancelled ? 0 : excess();
   };
@@ -160,6 +126,7 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
               {},
               cat("expected a height that can be reached, at most ", relief.height * unit_mm,
                   " mm for this view and width, found ", height * unit_mm, " mm")});
+  hold(relief, weight);
   // What the search leaves, a part in 10^5 at most, is scaled away.
   for (double& z : relief.heights) z *= height / relief.height;
   relief.height = height;

@@ -4,37 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cubic_stencil.h"
 #include "relievo/parallel.h"
 #include "simd.h"
 
 namespace relievo {
 namespace {
-
-using Row = Eigen::Array4f;
-using ConstRow = Eigen::Map<const Row>;
-
-// Section 3.1: the four uniform cubic B-splines that count at t in [0, 1] of a cell.
-Row basis(float t) {
-  const Row c0(1 / 6.F, 4 / 6.F, 1 / 6.F, 0), c1(-.5F, 0, .5F, 0), c2(.5F, -1, .5F, 0),
-      c3(-1 / 6.F, .5F, -.5F, 1 / 6.F);
-  return c0 + t * (c1 + t * (c2 + t * c3));
-}
-
-// A place's weights in x and y.
-struct Stencil {
-  Row x, y;
-
-  // The sum over 4 x 4 nodes.
-  float operator()(const float* node, std::size_t columns) const {
-    Row sum = y[0] * ConstRow(node);
-    for (int l = 1; l < 4; ++l) sum += y[l] * ConstRow(node + static_cast<std::size_t>(l) * columns);
-    return (sum * x).sum();
-  }
-};
-
-Stencil stencil(const SplinePlace& place) {
-  return {basis(static_cast<float>(place.x) * 0x1p-16F), basis(static_cast<float>(place.y) * 0x1p-16F)};
-}
 
 // Section 4: a node of the lattice of half the cells, from three (at even places) or two of the whole cells.
 float halved(const float* node, bool is_even) {
@@ -114,8 +89,8 @@ void MultilevelSpline::prepare(Level& level, std::span<const Vec2> sites, double
   level.sites.resize(sites.size());
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const Position at = locate(level, sites[i]);
-    Site& site = level.sites[i] = {basis(at.x), basis(at.y), at.node};
-    const Row wx = site.x.square(), wy = site.y.square();
+    Site& site = level.sites[i] = {cubic_basis(at.x), cubic_basis(at.y), at.node};
+    const CubicRow wx = site.x.square(), wy = site.y.square();
     site.scale = weights_[i] / (wx.sum() * wy.sum());
     for (int l = 0; l < 4; ++l)
       for (int k = 0; k < 4; ++k)
@@ -178,14 +153,15 @@ void MultilevelSpline::correct(const Level& level, std::vector<float>& nodes, Wo
   std::fill_n(correction.begin(), size, 0.F);
   for (std::size_t i = 0; i < level.sites.size(); ++i) {
     const Site& site = level.sites[i];
-    const Row x_part = site.x.cube() * (site.scale * workspace.rest[i]), y_part = site.y.cube();
+    const CubicRow x_part = site.x.cube() * (site.scale * workspace.rest[i]), y_part = site.y.cube();
     for (int l = 0; l < 4; ++l)
-      Eigen::Map<Row>(&correction[site.node + static_cast<std::size_t>(l) * columns]) += y_part[l] * x_part;
+      Eigen::Map<CubicRow>(&correction[site.node + static_cast<std::size_t>(l) * columns]) +=
+          y_part[l] * x_part;
   }
   for (std::size_t i = 0; i < size; ++i) nodes[i] += correction[i] *= level.inverse[i];
   for (std::size_t i = 0; i < level.sites.size(); ++i) {
     const Site& site = level.sites[i];
-    workspace.rest[i] -= Stencil{site.x, site.y}(&correction[site.node], columns);
+    workspace.rest[i] -= CubicStencil{site.x, site.y}(&correction[site.node], columns);
   }
 }
 
@@ -205,7 +181,7 @@ void MultilevelSpline::evaluate(const SplineFunction& function, std::span<const 
                                 std::span<float> values) const {
   const std::size_t columns = levels_.back().columns;
   parallel_for(places.size(), [&](std::size_t i) {
-    values[i] = function.mean + stencil(places[i])(&function.nodes[places[i].node], columns);
+    values[i] = function.mean + cubic_stencil(places[i])(&function.nodes[places[i].node], columns);
   });
 }
 

@@ -7,7 +7,6 @@
 #include "control_mesh.h"
 #include "frame_slopes.h"
 #include "memory.h"
-#include "raised.h"
 #include "region_samples.h"
 
 namespace relievo {
@@ -129,9 +128,20 @@ SubspaceModel::Workspace SubspaceModel::make_workspace() const {
   return Workspace(std::move(storage));
 }
 
-// z_c: a control point's slope is the mean of those its region's samples have.
-template <typename SlopeOf>
-void SubspaceModel::solve_means(SlopeOf&& slope_of, Workspace::Storage& storage) const {
+void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_weight,
+                          Workspace& workspace) const {
+  Workspace::Storage& storage = *workspace.storage_;
+  const bool is_layered = shape.style == Style::layered;
+  storage.weight.fill(delta_, is_layered ? saturation_alone(shape.compression) : shape.compression);
+  const LayerWeights layers = LayerWeights::of(shape.compression.u, shape.gamma);
+  const auto scale = static_cast<float>(is_layered ? saturation_scale(shape.compression) : 1);
+  const auto max_slope = static_cast<float>(shape.max_slope);
+  const auto slope_of = [&](std::size_t i) {
+    const float w = scale * storage.weight(samples_.k[i]) * boundary_weight[samples_.points[i]];
+    return is_layered ? layered_slope(samples_.layers[i], layers, w, max_slope)
+                      : frame_slope(samples_.normals[i], w, max_slope);
+  };
+  // A control point's slope is the mean of those its region's samples have.
   const std::size_t per_point = samples_.k.size() / control_.points.size();
   parallel_for(
       control_.points.size(),
@@ -141,36 +151,7 @@ void SubspaceModel::solve_means(SlopeOf&& slope_of, Workspace::Storage& storage)
         storage.slopes[c] = sum / static_cast<float>(per_point);
       },
       512);
-  system_.solve(storage.slopes, storage.heights, storage.system);
-}
-
-void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_weight,
-                          Workspace& workspace) const {
-  Workspace::Storage& storage = *workspace.storage_;
-  const bool is_layered = shape.style == Style::layered;
-  storage.weight.fill(delta_, is_layered ? saturation_alone(shape.compression) : shape.compression);
-  const LayerWeights layers = LayerWeights::of(shape.compression.u, shape.gamma, shape.style);
-  const auto scale = static_cast<float>(is_layered ? saturation_scale(shape.compression) : 1);
-  const auto max_slope = static_cast<float>(shape.max_slope);
-  const auto slope_of = [&](std::size_t i) {
-    const float w = scale * storage.weight(samples_.k[i]) * boundary_weight[samples_.points[i]];
-    return is_layered ? layered_slope(samples_.layers[i], layers, w, max_slope)
-                      : frame_slope(samples_.normals[i], w, max_slope);
-  };
-  solve_means(slope_of, storage);
-}
-
-void SubspaceModel::solve_raised(const Shape& shape, const RaisedWeights& weights,
-                                 std::span<const float> fade, Workspace& workspace) const {
-  Workspace::Storage& storage = *workspace.storage_;
-  storage.weight.fill(delta_, saturation_alone(shape.compression));
-  const auto scale = static_cast<float>(saturation_scale(shape.compression));
-  const auto max_slope = static_cast<float>(shape.max_slope);
-  const auto slope_of = [&](std::size_t i) {
-    return weights.rest(samples_.layers[i], scale * storage.weight(samples_.k[i]), fade[samples_.points[i]],
-                        max_slope);
-  };
-  solve_means(slope_of, storage);
+  system_.solve(storage.slopes, storage.heights, storage.system);  // z_c
 }
 
 // Below a thousandth of the height, where z0_c says nothing about the ratio, it fades to that of all control

@@ -155,7 +155,7 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
   surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
   if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
-  surface.layers = normal_layers(surface.points, surface.normals, surface.triangulation, surface.boundary);
+  surface.layers = normal_layers(surface.points, surface.normals);
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
 }

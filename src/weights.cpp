@@ -78,7 +78,7 @@ double saturation_scale(const Compression& compression) {
 }
 
 void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes) {
-  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma, shape.style);
+  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma);
   const Compression saturation = saturation_alone(shape.compression);
   const double scale = saturation_scale(shape.compression);
   parallel_for(slopes.size(), [&](std::size_t i) {

@@ -154,7 +154,7 @@ TEST_F(Cli, GeneratesSamplesThatItCanRead) {
 }
 
 TEST_F(Cli, MakesReliefsByEveryMethod) {
-  for (const std::string method : {"ours", "raised", "paper", "linear", "equalise", "gradient", "detail"}) {
+  for (const std::string method : {"ours", "paper", "linear", "equalise", "gradient", "detail"}) {
     const Outcome outcome = run("make torus.ply -o t.stl --height 2 --method " + method + " --report r.json");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_NE(read_all(folder_ / "r.json").find("\"method\": \"" + method + '"'), std::string::npos);
@@ -221,8 +221,8 @@ TEST_F(Cli, TellsWhatAToolReaches) {
 }
 
 TEST_F(Cli, KeepsADraftAngleInInchesToo) {
-  ASSERT_EQ(run("make torus.ply -o d.stl --height 9 --draft 40 --units mm --report r.json").exit_code, 0);
-  ASSERT_EQ(run("make torus.ply -o e.stl --height 9mm --width 100mm --draft 40 --units in --quiet").exit_code,
+  ASSERT_EQ(run("make torus.ply -o d.stl --height 8 --draft 40 --units mm --report r.json").exit_code, 0);
+  ASSERT_EQ(run("make torus.ply -o e.stl --height 8mm --width 100mm --draft 40 --units in --quiet").exit_code,
             0);
   const std::string file = read_all(folder_ / "e.stl");
   double steepest = 0;

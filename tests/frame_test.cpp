@@ -94,7 +94,7 @@ TEST(Frame, KeepsALockedHeightInLayers) {
   FrameMaker maker(model());
   Frame frame;
   FrameOptions options;
-  for (const double share : {.05, .0125, .1}) {
+  for (const double share : {.05, .0125, .09}) {
     options.height = share * model().surface().diagonal;
     for (const double gamma : {0.0, .02, .04, .08}) {
       options.shape = {{1, 0}, gamma};

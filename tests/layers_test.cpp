@@ -6,7 +6,6 @@
 #include <limits>
 #include <numbers>
 
-#include "height_tails.h"
 #include "relievo/parallel.h"
 #include "relievo/surface.h"
 #include "relievo/weights.h"
@@ -44,7 +43,7 @@ TEST(Layers, AddUpToTheNormal) {
   for (std::size_t i = 0; i < sphere.points.size(); ++i) {
     if (sphere.normals[i].z() < .6F) continue;
     const PointLayers& l = sphere.layers[i];
-    ASSERT_LT((l.fine + l.middle + l.coarse + sphere.normals[i].head<2>()).norm(), 1e-5);
+    ASSERT_LT((l.fine + l.middle + l.coarse + l.broad + sphere.normals[i].head<2>()).norm(), 1e-5);
   }
 }
 
@@ -55,9 +54,9 @@ TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
     points.emplace_back(10.0 * static_cast<double>(points.size()), static_cast<double>(points.size() % 2), 0);
     normals.push_back(Vec3(-slope, 0, 1).normalized().cast<float>());
   }
-  const auto layers = normal_layers(points, normals, {}, {});
+  const auto layers = normal_layers(points, normals);
   const auto kept = [&](std::size_t i) {
-    return -(layers[i].fine + layers[i].middle + layers[i].coarse).x() / normals[i].x();
+    return -(layers[i].fine + layers[i].middle + layers[i].coarse + layers[i].broad).x() / normals[i].x();
   };
   EXPECT_NEAR(kept(0), 1, 1e-5);
   EXPECT_NEAR(kept(1), .5, 1e-5);
@@ -68,24 +67,13 @@ TEST(Layers, HoldWhatTheirSizeSays) {
   const auto fine = [](const PointLayers& l) { return l.fine; };
   const auto middle = [](const PointLayers& l) { return l.middle; };
   const auto coarse = [](const PointLayers& l) { return l.coarse; };
-  const Surface ripples = wavy(.02), waves = wavy(.15), swell = wavy(2);
+  const auto broad = [](const PointLayers& l) { return l.broad; };
+  const Surface ripples = wavy(.02), waves = wavy(.15), bumps = wavy(1), swell = wavy(8);
   EXPECT_GT(size_of(ripples, fine), 2 * size_of(ripples, middle));
   EXPECT_GT(size_of(waves, middle), 2 * size_of(waves, fine));
   EXPECT_GT(size_of(waves, middle), 2 * size_of(waves, coarse));
-  EXPECT_GT(size_of(swell, coarse), 2 * size_of(swell, middle));
-}
-
-// Two sheets: their normals say nothing, their depths go up from the one to the other.
-TEST(Layers, DepthRisesTowardsWhatIsInFront) {
-  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, 3, 9)));
-  double inwards = 0;
-  for (std::size_t i = 0; i < sheets.points.size(); ++i) {
-    const Vec2 place = sheets.points[i].head<2>();
-    EXPECT_EQ(sheets.layers[i].fine.norm() + sheets.layers[i].coarse.norm(), 0);
-    if (std::abs(place.norm() - .5) < .1)
-      inwards -= place.normalized().dot(sheets.layers[i].depth.cast<double>());
-  }
-  EXPECT_GT(inwards, 0);
+  EXPECT_GT(size_of(bumps, coarse), 2 * size_of(bumps, broad));
+  EXPECT_GT(size_of(swell, broad), 2 * size_of(swell, coarse));
 }
 
 TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
@@ -93,7 +81,7 @@ TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
     set_thread_count(threads);
     const Surface s = surface_of(test::torus(20000, 1, .4));
     std::vector<Vec2f> all;
-    for (const PointLayers& l : s.layers) all.insert(all.end(), {l.fine, l.middle, l.coarse, l.depth});
+    for (const PointLayers& l : s.layers) all.insert(all.end(), {l.fine, l.middle, l.coarse, l.broad});
     return all;
   };
   EXPECT_EQ(layers(1), layers(3));
@@ -102,26 +90,19 @@ TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
 
 TEST(LayerWeights, AreEquationSixLayerByLayer) {
   for (const double u : {.1, 1.0, 5.0}) {
-    const LayerWeights even = LayerWeights::of(u, 0, Style::layered);
+    const LayerWeights even = LayerWeights::of(u, 0);
     EXPECT_FLOAT_EQ(even.fine, static_cast<float>(1 - std::exp(-u)));
+    EXPECT_EQ(even.middle, even.fine);
     EXPECT_EQ(even.coarse, even.fine);
-    const LayerWeights held = LayerWeights::of(u, .04, Style::layered);
+    EXPECT_EQ(even.broad, even.fine);
+    const LayerWeights held = LayerWeights::of(u, .04);
     EXPECT_EQ(held.fine, even.fine);
     EXPECT_LT(held.middle, held.fine);
-    EXPECT_FLOAT_EQ(held.coarse, static_cast<float>(1 - std::exp(-u * std::exp(-1))));
+    EXPECT_LT(held.coarse, held.middle);
+    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(1 - std::exp(-u * std::exp(-1.6))));
   }
-  EXPECT_EQ(LayerWeights::of(infinity, .04, Style::layered).coarse, 1);
-  EXPECT_EQ(LayerWeights::of(0, .04, Style::layered).fine, 0);
-  EXPECT_EQ(LayerWeights::of(0, .04, Style::layered).depth, 0);
-}
-
-TEST(LayerWeights, OfTheRaisedStyleHoldTheCoarseLayerBackMore) {
-  const LayerWeights ours = LayerWeights::of(.5, .04, Style::layered),
-                     raised = LayerWeights::of(.5, .04, Style::raised);
-  EXPECT_EQ(raised.fine, ours.fine);
-  EXPECT_GT(raised.middle, ours.middle);
-  EXPECT_FLOAT_EQ(raised.coarse, static_cast<float>(1 - std::exp(-.5 * std::exp(-1.4))));
-  EXPECT_EQ(LayerWeights::of(.5, 0, Style::raised).coarse, raised.fine);
+  EXPECT_EQ(LayerWeights::of(infinity, .04).broad, 1);
+  EXPECT_EQ(LayerWeights::of(0, .04).fine, 0);
 }
 
 // Kept in full, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
@@ -147,36 +128,6 @@ TEST(LayeredSlope, IsNeverSteeperThanAllowed) {
       EXPECT_LE(slope.norm(), most * (1 + 1e-12)) << x;
       EXPECT_GT(slope.y(), 0);
     }
-  }
-}
-
-TEST(HeightTails, KeepTheMiddleAndRoundTheEnds) {
-  std::vector<double> heights;
-  for (int i = 0; i <= 100000; ++i) heights.push_back(i * 1e-5 - .3);
-  const HeightTails<double> tails{heights};
-  double last = tails(-.3);
-  for (double z = -.285; z < .685; z += .01) EXPECT_EQ(tails(z), z);
-  for (const double z : heights) {
-    EXPECT_GE(tails(z), last);
-    last = tails(z);
-  }
-  // A tail of slope 1 to 0.2 keeps 0.6 of its length.
-  EXPECT_NEAR(tails(.7), .69 + .6 * .01, 1e-4);
-  EXPECT_NEAR(tails(-.3), -.29 - .6 * .01, 1e-4);
-}
-
-TEST(HeightTails, TakeTheHeightOfAFewPoints) {
-  std::vector<float> heights(10000, .5F);
-  heights[7] = 10;
-  const HeightTails<float> tails{heights};
-  EXPECT_EQ(tails(.4F), .4F);
-  EXPECT_LT(tails(10), 6.5F);
-}
-
-TEST(HeightTails, LeaveTheBaseWhereItIs) {
-  for (const std::vector<double>& heights : {std::vector<double>{}, {0, 0}, {1, 2, 3}, {-3, -2}}) {
-    const HeightTails<double> tails{heights};
-    EXPECT_EQ(tails(0), 0);
   }
 }
 

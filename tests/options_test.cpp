@@ -92,7 +92,7 @@ TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
 TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
   ReliefOptions options;
   options.height_mm = 3;
-  for (const Method method : {Method::ours, Method::raised, Method::paper}) {
+  for (const Method method : {Method::ours, Method::paper}) {
     options.method = name_of(method);
     EXPECT_EQ(options.effective_boundary_width(), default_shape(method).boundary_width) << options.method;
   }

@@ -54,24 +54,6 @@ TEST_P(Parallel, NestedCallsComplete) {
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), 0), 64 * 64);
 }
 
-// All ask at about the same time.
-TEST(Once, MakesItsValueOnce) {
-  Once<int> once;
-  std::atomic<int> made = 0;
-  EXPECT_EQ(once.find(), nullptr);
-  std::vector<std::unique_ptr<BackgroundLoop>> askers;
-  for (int i = 0; i < 4; ++i)
-    askers.push_back(std::make_unique<BackgroundLoop>([&] {
-      EXPECT_EQ(once.get([&] { return ++made + 6; }), 7);
-      return false;
-    }));
-  for (const auto& asker : askers) asker->wake();
-  for (const auto& asker : askers) EXPECT_TRUE(asker->wait_until_idle(std::chrono::seconds(10)));
-  EXPECT_EQ(made, 1);
-  ASSERT_NE(once.find(), nullptr);
-  EXPECT_EQ(*once.find(), 7);
-}
-
 INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 4));
 
 }  // namespace

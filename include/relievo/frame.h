@@ -22,7 +22,7 @@ struct FrameOptions {
 
 struct FrameTimes {
   double heights_s = 0;  // t1: weights, slopes, right-hand side, solve; all rounds of a locked height
-  double detail_s = 0;   // t2: detail, and the mapping from control points if there are
+  double detail_s = 0;   // t2: detail, or holding heights within their span; the mapping from control points
   double normals_s = 0;  // t3: normals and shading
   int solves = 0;        // 1, or as many as a locked height took
 };
@@ -47,8 +47,7 @@ class FrameMaker {
   ~FrameMaker();
 
   // Overwrites `frame` with the relief asked for. Same options, same bits, for any number of threads and,
-  // unless the height is locked, whatever was made before; a locked height starts from the last frame's. A
-  // model's first raised frame waits for ReliefModel::raised_layers().
+  // unless the height is locked, whatever was made before; a locked height starts from the last frame's.
   void make(const FrameOptions& options, Frame& frame);
 
   // Bytes held, the model's not included.

@@ -4,38 +4,32 @@
 #include <span>
 #include <vector>
 
-#include "relievo/boundary.h"
-#include "relievo/triangulation.h"
 #include "relievo/types.h"
 
 namespace relievo {
 
-// What a point's normal is made of. The first three add up to -(n_x, n_y), less where it is steeper than
-// about 85 degrees: what a Gaussian along the surface takes away, of 0.6 % and of 5 % of the longer side, and
-// what is left. `depth` is the slope of the depths themselves, across jumps: of their ranks, from 0 for the
-// deepest to 1 longer side for the nearest point, averaged over 1.5 % of the longer side in the view plane.
-// It keeps what is in front in front.
+// What a point's normal is made of. They add up to -(n_x, n_y), less where it is steeper than about 85
+// degrees: what a Gaussian along the surface takes away, of 0.6, 5 and 12 % of the longer side in a row, and
+// what is left.
 struct PointLayers {
-  Vec2f fine = Vec2f::Zero(), middle = Vec2f::Zero(), coarse = Vec2f::Zero(), depth = Vec2f::Zero();
+  Vec2f fine = Vec2f::Zero(), middle = Vec2f::Zero(), coarse = Vec2f::Zero(), broad = Vec2f::Zero();
 };
 
-// Returns the layers of every point of a surface. About 0.15 s for 180k points.
-std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals,
-                                       const Triangulation& triangulation, const Boundary& boundary);
+// Returns the layers of every point of a surface. About 0.1 s for 180k points.
+std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals);
 
 enum class Style {
-  paper,    // equations (5) to (7), and detail added to the heights
-  layered,  // ours: fine layers of the normals kept more than coarse ones, and the heights' tails rounded off
-  raised    // layered, and the figure stands off the base by a step at its silhouette
+  paper,   // equations (5) to (7), and detail added to the heights
+  layered  // ours: fine layers of the normals kept more than coarse ones, heights held within the relief's
 };
 
 // How much of each layer a relief keeps: the paper's w_k = 1 - exp(-u), equation (6), layer by layer.
 struct LayerWeights {
-  float fine = 0, middle = 0, coarse = 0, depth = 0;
+  float fine = 0, middle = 0, coarse = 0, broad = 0;
 
-  // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-25 detail), in
-  // the raised style by exp(-35 detail); 0 is even. Style::paper has no layers: it counts as layered.
-  static LayerWeights of(double u, double detail, Style style);
+  // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-20 detail), the
+  // broad one by exp(-40 detail); 0 is even.
+  static LayerWeights of(double u, double detail);
 };
 
 // The slope whose normal has the x and y that the weighted layers add up to, times `weight`; shortened to at
@@ -44,7 +38,7 @@ template <typename Real>
 Eigen::Vector2<Real> layered_slope(const PointLayers& layers, const LayerWeights& w, Real weight,
                                    Real max_slope) {
   const Vec2f sum =
-      w.fine * layers.fine + w.middle * layers.middle + w.coarse * layers.coarse + w.depth * layers.depth;
+      w.fine * layers.fine + w.middle * layers.middle + w.coarse * layers.coarse + w.broad * layers.broad;
   const Real x = weight * static_cast<Real>(sum.x()), y = weight * static_cast<Real>(sum.y());
   const Real sine_sq = x * x + y * y, most_sq = max_slope * max_slope;
   // tan = sin / cos; beyond the steepest slope the length is given instead.

@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-enum class Method { ours, raised, paper, linear, equalise, gradient, detail };
+enum class Method { ours, paper, linear, equalise, gradient, detail };
 
 struct MethodInfo {
   Method method;
@@ -18,9 +18,8 @@ struct MethodInfo {
   std::string_view help;  // one line
 };
 
-inline constexpr std::array<MethodInfo, 7> methods{
+inline constexpr std::array<MethodInfo, 6> methods{
     {{Method::ours, "ours", "normal space compression in layers"},
-     {Method::raised, "raised", "the same, but the figure stands off the ground by a step at its silhouette"},
      {Method::paper, "paper", "normal space compression as in the paper"},
      {Method::linear, "linear", "depths scaled"},
      {Method::equalise, "equalise", "adaptive histogram equalisation of the depths (Sun et al. 2009)"},
@@ -35,7 +34,7 @@ std::string method_names();
 
 // Whether the method shapes a relief by Shape; the rivals have options of their own.
 inline bool has_shape(Method method) {
-  return method == Method::ours || method == Method::raised || method == Method::paper;
+  return method == Method::ours || method == Method::paper;
 }
 
 // The shape that a method with one starts from, when a height is asked for.

@@ -20,7 +20,7 @@ struct ReliefOptions {
   std::string method;                // see method.h; ours with a height, else the paper's
   std::optional<double> steepest_deg;    // steepest slope of the front, 76 without it
   std::optional<double> draft_deg;       // least lean of walls off the vertical, held by every triangle
-  std::optional<double> boundary_width;  // of (7), in sampling distances; 2, with method ours 0.5, raised 1
+  std::optional<double> boundary_width;  // of (7), in sampling distances; 2, with method ours 0.5
   std::string tone;  // a curve in place of (6), see parse_tone_curve(); empty is the paper's
   std::string mode = "exact";
   std::string view = "front";
@@ -48,7 +48,7 @@ struct ReliefOptions {
   double effective_saturation() const { return saturation.value_or(effective_method() == "paper" ? .01 : 0); }
   double effective_boundary_width() const {
     const std::string ruling = effective_method();
-    return boundary_width.value_or(ruling == "ours" ? .5 : ruling == "raised" ? 1 : 2);
+    return boundary_width.value_or(ruling == "ours" ? .5 : 2);
   }
   double effective_detail() const { return detail.value_or(effective_method() == "paper" ? .02 : .04); }
 };
@@ -76,7 +76,7 @@ void visit(Options& o, F&& f) {
     o.saturation);
   f(OptionField{"detail", "G", "detail coefficient; default 0.02, with height 0.04", 0, 1}, o.detail);
   f(OptionField{"method", "NAME",
-                "ours, raised, paper, linear, equalise, gradient or detail; default ours with a height, else "
+                "ours, paper, linear, equalise, gradient or detail; default ours with a height, else "
                 "paper"},
     o.method);
   f(OptionField{"steepest", "DEG",
@@ -87,8 +87,7 @@ void visit(Options& o, F&& f) {
                 80},
     o.draft_deg);
   f(OptionField{"boundary", "W",
-                "width of the soft rim, in sampling distances; default 2, with method ours 0.5, raised 1", .1,
-                100},
+                "width of the soft rim, in sampling distances; default 2, with method ours 0.5", .1, 100},
     o.boundary_width);
   f(OptionField{"tone", "X,Y;..", "share of slopes kept over the root of curvature, instead of saturation"},
     o.tone);

@@ -103,29 +103,6 @@ class Guarded {
   T value_;
 };
 
-// A value that is made when it is first asked for: by the thread that comes first, the others wait. It must
-// not be asked for within a parallel call.
-template <typename T>
-class Once {
- public:
-  template <typename Make>
-  const T& get(Make&& make) {
-    std::call_once(flag_, [&] {
-      value_ = std::forward<Make>(make)();
-      made_.store(&value_, std::memory_order_release);
-    });
-    return value_;
-  }
-
-  // Null before it is made.
-  const T* find() const { return made_.load(std::memory_order_acquire); }
-
- private:
-  std::once_flag flag_;
-  T value_{};
-  std::atomic<const T*> made_ = nullptr;
-};
-
 // A thread of its own that calls one function again and again, as long as that returns true, and then sleeps
 // until wake(). Its methods may be called from any thread but that one.
 class BackgroundLoop {

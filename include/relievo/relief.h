@@ -13,9 +13,7 @@
 
 namespace relievo {
 
-struct RaisedLayers;
-template <typename T>
-class Once;
+class Membrane;
 
 struct Relief {
   std::vector<double> heights;  // per point of the surface, above the base, in its units
@@ -39,7 +37,8 @@ Result<Mode> parse_mode(std::string_view name);
 // Returns exact or subspace: what `automatic` comes to for that surface, other modes as they are.
 Mode settle(Mode mode, const Surface& surface);
 
-// A surface with its factored system. Const calls may run concurrently.
+// A surface with its factored system, and with what holds layered reliefs within their height. Const calls
+// may run concurrently.
 class ReliefModel {
  public:
   // Takes the surface and factors its system, or that of its control points. Errors: see
@@ -52,9 +51,8 @@ class ReliefModel {
   const HeightSystem* system() const { return std::get_if<HeightSystem>(&solver_); }
   const SubspaceModel* subspace() const { return std::get_if<SubspaceModel>(&solver_); }
 
-  // The heights of the layers, for Style::raised; made when first asked for, which takes about as long as
-  // factoring the system.
-  const RaisedLayers& raised_layers() const;
+  // What holds layered reliefs within their height.
+  const Membrane& membrane() const { return *membrane_; }
 
   // Bytes held.
   std::size_t memory() const;
@@ -74,10 +72,13 @@ class ReliefModel {
 
   ReliefModel(Surface surface, Solver solver);
   std::vector<double> heights(const Shape& shape, std::span<const float> boundary_weight) const;
+  Relief raise(const Shape& shape, std::span<const float> boundary_weight) const;
+  void hold(Relief& relief, std::span<const float> boundary_weight) const;
+  std::vector<float> boundary_weight(const Shape& shape) const;
 
   Surface surface_;
   Solver solver_;
-  std::shared_ptr<Once<RaisedLayers>> raised_layers_;  // a copy's surface is the same
+  std::shared_ptr<const Membrane> membrane_;
 };
 
 }  // namespace relievo

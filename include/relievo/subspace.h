@@ -14,8 +14,6 @@
 
 namespace relievo {
 
-struct RaisedWeights;
-
 struct SubspaceOptions {
   ControlPointOptions control;
   std::size_t normals_per_point = 8;  // whose mean slope stands for the region of a control point, > 0
@@ -68,10 +66,6 @@ class SubspaceModel {
   // shape's boundary width.
   void solve(const Shape& shape, std::span<const float> boundary_weight, Workspace& workspace) const;
 
-  // The same for Style::raised: what the layers' heights leave. `fade` is per point, see RaisedLayers.
-  void solve_raised(const Shape& shape, const RaisedWeights& weights, std::span<const float> fade,
-                    Workspace& workspace) const;
-
   // Carries them to all points: writes their heights above the base, before detail.
   void carry(std::span<const float> boundary_weight, Workspace& workspace, std::span<float> heights) const;
 
@@ -89,8 +83,6 @@ class SubspaceModel {
   };
 
   SubspaceModel(HeightSystem system, Samples samples, double delta);
-  template <typename SlopeOf>
-  void solve_means(SlopeOf&& slope_of, Workspace::Storage& storage) const;
   void fit(Workspace::Storage& storage) const;
   void set_reference(double max_slope, std::span<const float> boundary_weight);
   void set_splines(std::span<const Vec2> sites, std::span<const Vec2> points);

@@ -16,6 +16,6 @@ export const FIELDS = {
 };
 
 // The soft rim that each method starts from.
-export const RIMS = {ours: 0.5, raised: 1, paper: 2};
+export const RIMS = {ours: 0.5, paper: 2};
 
 export const MATERIALS = {plaster: "Plaster", silver: "Struck silver", bronze: "Bronze", walnut: "Walnut", porcelain: "Porcelain, lit from behind"};
