@@ -1,11 +1,21 @@
 // Uniform cubic B-splines in the plane, at packed places. Section 3.1 of Lee, Wolberg and Shin, 1997.
 #pragma once
 
+#include <algorithm>
+
 #include "relievo/spline.h"
 
 namespace relievo {
 
 using CubicRow = Eigen::Array4f;
+
+// A share of a cell as a SplinePlace holds it, and back; [0, 1).
+inline std::uint16_t packed_share(float t) {
+  return static_cast<std::uint16_t>(std::clamp(t * 65536 + .5F, 0.F, 65535.F));
+}
+inline float unpacked_share(std::uint16_t share) {
+  return static_cast<float>(share) * 0x1p-16F;
+}
 
 // The four that count at t in [0, 1] of a cell.
 inline CubicRow cubic_basis(float t) {
@@ -28,8 +38,7 @@ struct CubicStencil {
 };
 
 inline CubicStencil cubic_stencil(const SplinePlace& place) {
-  return {cubic_basis(static_cast<float>(place.x) * 0x1p-16F),
-          cubic_basis(static_cast<float>(place.y) * 0x1p-16F)};
+  return {cubic_basis(unpacked_share(place.x)), cubic_basis(unpacked_share(place.y))};
 }
 
 }  // namespace relievo

@@ -41,10 +41,10 @@ void Lattice::set_places(std::span<const Vec3> points, double cell) {
   share_.resize(width_ * nodes_along(1));
   parallel_for(points.size(), [&](std::size_t i) {
     const Vec2 at = (points[i] - box.min).head<2>() / cell, whole = at.array().floor();
-    const Vec2 share = (65536 * (at - whole)).cwiseMin(65535);
+    const Vec2f share = (at - whole).cast<float>();
     places_[i] = {static_cast<Index>(static_cast<std::size_t>(whole.x()) +
                                      width_ * static_cast<std::size_t>(whole.y())),
-                  static_cast<std::uint16_t>(share.x()), static_cast<std::uint16_t>(share.y())};
+                  packed_share(share.x()), packed_share(share.y())};
   });
 }
 
@@ -66,7 +66,7 @@ void Lattice::count(std::span<const Index> counted) {
 Vec2 Lattice::place(std::size_t point) const {
   const SplinePlace& p = places_[point];
   const std::size_t cell = cell_of(p);
-  return Vec2(cell % width_, cell / width_) + Vec2(p.x, p.y) * 0x1p-16;
+  return Vec2(cell % width_, cell / width_) + Vec2f(unpacked_share(p.x), unpacked_share(p.y)).cast<double>();
 }
 
 void Lattice::mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> marks) const {

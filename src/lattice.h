@@ -76,7 +76,7 @@ class Lattice {
 
   std::size_t cell_of(const SplinePlace& p) const { return p.node + width_ + 1; }
   static Corners weights(const SplinePlace& p) {
-    const float x = static_cast<float>(p.x) * 0x1p-16F, y = static_cast<float>(p.y) * 0x1p-16F;
+    const float x = unpacked_share(p.x), y = unpacked_share(p.y);
     return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
   }
   // `n` is the cell's first node.

@@ -86,7 +86,7 @@ void Membrane::set_limits(float height, Workspace& w) const {
   for (const std::vector<Index>& colour : active_)
     for (const Index n : colour) {
       w.lowest[n] = -infinity, w.highest[n] = infinity, w.wanted[n] = 0;
-      if (!lattice_.is_reached(n)) continue;
+      if (!lattice_.is_reached(n)) continue;  // in a gap: its neighbours bridge it
       const Lattice::Extent rest = rest_around(n, w);
       w.lowest[n] = -w.heights[n] - rest.lowest;
       w.highest[n] = height - w.heights[n] - rest.highest;

@@ -33,8 +33,8 @@ struct PairInput {
 RELIEVO_INLINE void evaluate_pairs(const PairInput& input, const MultilevelSpline::PairValues& values) {
   for (std::size_t i = 0; i < input.places.size(); ++i) {
     const SplinePlace place = input.places[i];
-    const Float8 x = basis_of(Float8{} + static_cast<float>(place.x) * 0x1p-16F);
-    const Float8 y = basis_of(Float8{} + static_cast<float>(place.y) * 0x1p-16F);
+    const Float8 x = basis_of(Float8{} + unpacked_share(place.x));
+    const Float8 y = basis_of(Float8{} + unpacked_share(place.y));
     const float* node = input.nodes + 2 * std::size_t{place.node};
     Float8 sum{};
     for (int l = 0; l < 4; ++l, node += 2 * input.columns)
@@ -167,12 +167,9 @@ void MultilevelSpline::correct(const Level& level, std::vector<float>& nodes, Wo
 
 std::vector<SplinePlace> MultilevelSpline::pack(std::span<const Vec2> points) const {
   std::vector<SplinePlace> places(points.size());
-  const auto packed = [](float t) {
-    return static_cast<std::uint16_t>(std::clamp(t * 65536 + .5F, 0.F, 65535.F));
-  };
   parallel_for(points.size(), [&](std::size_t i) {
     const Position at = locate(levels_.back(), points[i]);
-    places[i] = {at.node, packed(at.x), packed(at.y)};
+    places[i] = {at.node, packed_share(at.x), packed_share(at.y)};
   });
   return places;
 }
