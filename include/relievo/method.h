@@ -19,7 +19,7 @@ struct MethodInfo {
 };
 
 inline constexpr std::array<MethodInfo, 6> methods{
-    {{Method::ours, "ours", "normal space compression in layers"},
+    {{Method::ours, "ours", "normal space compression in layers, held within the height"},
      {Method::paper, "paper", "normal space compression as in the paper"},
      {Method::linear, "linear", "depths scaled"},
      {Method::equalise, "equalise", "adaptive histogram equalisation of the depths (Sun et al. 2009)"},
