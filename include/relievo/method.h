@@ -10,21 +10,26 @@
 
 namespace relievo {
 
-enum class Method { ours, paper, linear, equalise, gradient, detail };
+enum class Method {
+  ours,      // normal space compression in layers, held within the height
+  paper,     // normal space compression as in the paper
+  linear,    // depths scaled
+  equalise,  // adaptive histogram equalisation of the depths (Sun et al. 2009)
+  gradient,  // gradient-domain compression (Weyrich et al. 2007)
+  detail     // linear base with amplified detail (Ji et al. 2014)
+};
 
 struct MethodInfo {
   Method method;
   std::string_view name;  // as typed
-  std::string_view help;  // one line
 };
 
-inline constexpr std::array<MethodInfo, 6> methods{
-    {{Method::ours, "ours", "normal space compression in layers, held within the height"},
-     {Method::paper, "paper", "normal space compression as in the paper"},
-     {Method::linear, "linear", "depths scaled"},
-     {Method::equalise, "equalise", "adaptive histogram equalisation of the depths (Sun et al. 2009)"},
-     {Method::gradient, "gradient", "gradient-domain compression (Weyrich et al. 2007)"},
-     {Method::detail, "detail", "linear base with amplified detail (Ji et al. 2014)"}}};
+inline constexpr std::array<MethodInfo, 6> methods{{{Method::ours, "ours"},
+                                                    {Method::paper, "paper"},
+                                                    {Method::linear, "linear"},
+                                                    {Method::equalise, "equalise"},
+                                                    {Method::gradient, "gradient"},
+                                                    {Method::detail, "detail"}}};
 
 std::optional<Method> parse_method(std::string_view name);
 std::string_view name_of(Method method);
