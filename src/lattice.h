@@ -47,6 +47,12 @@ class Lattice {
   // node.
   void mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> marks) const;
 
+  // Sets to 1 what belongs to the four nodes around a point.
+  void mark_nodes_around(std::size_t point, std::span<std::uint8_t> marks) const {
+    const std::size_t n = cell_of(places_[point]);
+    marks[n] = marks[n + 1] = marks[n + width_] = marks[n + width_ + 1] = 1;
+  }
+
   // Writes to each node the mean of the counted points around it, by the squares of the weights that the node
   // has at them; 0 where there are none. `sums` is scratch; it and `means` have an entry per node.
   template <typename Real>

@@ -11,12 +11,15 @@ namespace relievo {
 namespace {
 
 // Of the longer side: the Gaussians between the layers.
-constexpr double finest = .006, middling = .05, coarsest = .12;
+constexpr double finest = .006, middling = .058, coarsest = .15;
 // The slope, 85 degrees, at which half of a normal's x and y is left.
 constexpr double steepest_kept = 12;
 
 // How far layers are held back, of the exponent 25 detail.
-constexpr double middle_share = .35, coarse_share = .8, broad_share = 1.6;
+constexpr double middle_share = .26, coarse_share = .76, broad_share = 2.85;
+
+// The least of the height that is held, and how fast that grows with u.
+constexpr double least_held = .5, held_growth = .33;
 
 // -(n_x, n_y), which fades out where the surface turns away from the viewer: such slopes spend height and
 // show little.
@@ -50,7 +53,12 @@ LayerWeights LayerWeights::of(double u, double detail) {
   const auto kept = [&](double share) {
     return static_cast<float>(u > 0 ? -std::expm1(-u * std::exp(-25 * detail * share)) : 0);
   };
-  return {kept(0), kept(middle_share), kept(coarse_share), kept(broad_share)};
+  return {kept(0), kept(middle_share), kept(coarse_share), kept(broad_share),
+          static_cast<float>(held_share(u))};
+}
+
+double held_share(double u) {
+  return 1 - (1 - least_held) * std::exp(-held_growth * u);
 }
 
 }  // namespace relievo

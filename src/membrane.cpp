@@ -6,6 +6,7 @@
 
 #include "extent.h"
 #include "height_tails.h"
+#include "jumps.h"
 #include "memory.h"
 #include "relievo/parallel.h"
 
@@ -14,9 +15,8 @@ namespace {
 
 // Cells are as wide as that, of the longer side; in rho, where points are too few for it.
 constexpr double cell_size = .01, least_cell_size = 2;
-constexpr int sweeps = 30, smoothings = 4;
-constexpr float over_relaxation = 1.8F;
-constexpr double least_share = .66, share_growth = .2;
+// Of the bending elsewhere, where it is hinged.
+constexpr float hinge = .01F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 std::vector<Index> free_points(const Boundary& boundary) {
@@ -40,36 +40,65 @@ std::vector<std::uint8_t> is_inside(const Surface& surface, const Lattice& latti
   return inside;
 }
 
+// Per node: at a depth jump.
+std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& lattice) {
+  std::vector<std::uint8_t> marks(lattice.nodes());
+  const std::vector<std::uint8_t> jumps = jump_triangles(surface);
+  for (std::size_t t = 0; t < jumps.size(); ++t) {
+    if (!jumps[t]) continue;
+    const Triangle& corners = surface.triangulation.triangles[t];
+    lattice.mark_nodes_in(corners, marks);
+    for (const Index p : corners) lattice.mark_nodes_around(p, marks);
+  }
+  return marks;
+}
+
+float in_cells_squared(double of_side, const Surface& surface) {
+  return static_cast<float>(std::pow(of_side * longer_side_of(surface.points) / cell_width(surface), 2));
+}
+
+Stiffness stiffness_of(const Surface& surface, const Lattice& lattice) {
+  const std::vector<std::uint8_t> inside = is_inside(surface, lattice), jump = is_at_jump(surface, lattice);
+  const std::size_t row = lattice.width();
+  const float stiff = in_cells_squared(Membrane::stiff_reach, surface);
+  std::vector<float> bending(lattice.nodes());
+  for (std::size_t n = 0; n < bending.size(); ++n) {
+    if (!inside[n]) continue;
+    const bool is_rim = !(inside[n - 1] && inside[n + 1] && inside[n - row] && inside[n + row]);
+    bending[n] = is_rim || jump[n] ? hinge * stiff : stiff;
+  }
+  return {std::move(bending), 1, static_cast<float>(Membrane::anchor),
+          1 / in_cells_squared(Membrane::reach, surface)};
+}
+
 }  // namespace
 
 std::size_t Membrane::Workspace::memory() const {
-  return bytes(sums) + bytes(rests) + bytes(heights) + bytes(lowest) + bytes(highest) + bytes(wanted) +
-         bytes(membrane) + bytes(smoothed);
+  std::size_t sum = bytes(sums) + bytes(rests) + bytes(heights);
+  for (const ElasticSheet::Fields& fields : sheet) sum += fields.memory();
+  return sum;
 }
 
 Membrane::Membrane(const Surface& surface)
-    : lattice_(surface.points, free_points(surface.boundary), cell_width(surface)), ranks_(lattice_.nodes()) {
-  const double side = longer_side_of(surface.points);
-  if (side > 0) pull_ = static_cast<float>(std::pow(cell_width(surface) / (reach * side), 2));
+    : lattice_(surface.points, free_points(surface.boundary), cell_width(surface)),
+      sheet_(lattice_.width(), stiffness_of(surface, lattice_)),
+      pull_(1 / in_cells_squared(reach, surface)),
+      ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);
   lattice_.gather(std::span<const double>(ranks), sums, ranks_);
-  const std::vector<std::uint8_t> is_active = is_inside(surface, lattice_);
-  for (Index n = 0; n < is_active.size(); ++n)
-    if (is_active[n]) active_[(n % lattice_.width() + n / lattice_.width()) % 2].push_back(n);
 }
 
 Membrane::Workspace Membrane::make_workspace() const {
   Workspace w;
   const std::size_t n = lattice_.nodes();
-  w.sums.resize(n), w.rests.resize(n);
-  for (std::vector<float>* values : {&w.heights, &w.lowest, &w.highest, &w.wanted, &w.membrane, &w.smoothed})
-    values->resize(n);
+  w.sums.resize(n), w.rests.resize(n), w.heights.resize(n);
+  w.sheet = sheet_.make_workspace();
   return w;
 }
 
 std::size_t Membrane::memory() const {
-  return lattice_.memory() + bytes(ranks_) + bytes(active_[0]) + bytes(active_[1]);
+  return lattice_.memory() + sheet_.memory() + bytes(ranks_);
 }
 
 // What heights do between nodes in the cells around one.
@@ -83,42 +112,16 @@ Lattice::Extent Membrane::rest_around(std::size_t node, const Workspace& w) cons
 }
 
 void Membrane::set_limits(float height, Workspace& w) const {
-  for (const std::vector<Index>& colour : active_)
-    for (const Index n : colour) {
-      w.lowest[n] = -infinity, w.highest[n] = infinity, w.wanted[n] = 0;
-      if (!lattice_.is_reached(n)) continue;  // in a gap: its neighbours bridge it
-      const Lattice::Extent rest = rest_around(n, w);
-      w.lowest[n] = -w.heights[n] - rest.lowest;
-      w.highest[n] = height - w.heights[n] - rest.highest;
-      if (w.lowest[n] > w.highest[n]) w.lowest[n] = w.highest[n] = (w.lowest[n] + w.highest[n]) / 2;
-      w.wanted[n] = pull_ * (height * ranks_[n] - w.heights[n]);
-    }
-}
-
-// Successive over-relaxation in red and black, each node held within its limits; other nodes are 0.
-void Membrane::relax(Workspace& w) const {
-  const std::size_t row = lattice_.width();
-  std::vector<float>& b = w.membrane;
-  for (const std::vector<Index>& colour : active_)
-    for (const Index n : colour) b[n] = std::clamp(0.F, w.lowest[n], w.highest[n]);
-  for (int sweep = 0; sweep < sweeps; ++sweep)
-    for (const std::vector<Index>& colour : active_)
-      for (const Index n : colour) {
-        const float best = (b[n - 1] + b[n + 1] + b[n - row] + b[n + row] + w.wanted[n]) / (4 + pull_);
-        b[n] = std::clamp(b[n] + over_relaxation * (best - b[n]), w.lowest[n], w.highest[n]);
-      }
-}
-
-// Takes the creases off where it touches its limits.
-void Membrane::smooth(Workspace& w) const {
-  const std::size_t row = lattice_.width();
-  for (int pass = 0; pass < smoothings; ++pass) {
-    const std::vector<float>& b = w.membrane;
-    for (const std::vector<Index>& colour : active_)
-      for (const Index n : colour)
-        w.smoothed[n] = (2 * b[n] + b[n - 1] + b[n + 1] + b[n - row] + b[n + row]) / 6;
-    w.membrane.swap(w.smoothed);
-  }
+  ElasticSheet::Fields& f = w.sheet[0];
+  sheet_.each_free_node([&](Index n) {
+    f.lowest[n] = -infinity, f.highest[n] = infinity, f.wanted[n] = 0;
+    if (!lattice_.is_reached(n)) return;  // in a gap: its neighbours bridge it
+    const Lattice::Extent rest = rest_around(n, w);
+    f.lowest[n] = -w.heights[n] - rest.lowest;
+    f.highest[n] = height - w.heights[n] - rest.highest;
+    if (f.lowest[n] > f.highest[n]) f.lowest[n] = f.highest[n] = (f.lowest[n] + f.highest[n]) / 2;
+    f.wanted[n] = pull_ * (height * ranks_[n] - w.heights[n]);
+  });
 }
 
 template <typename Real>
@@ -126,8 +129,7 @@ void Membrane::spread(std::span<const Real> heights, double height, Workspace& w
   lattice_.gather(heights, w.sums, w.heights);
   lattice_.compare(heights, w.heights, w.rests);
   set_limits(static_cast<float>(height), w);
-  relax(w);
-  smooth(w);
+  sheet_.solve(w.sheet);
 }
 
 template void Membrane::spread(std::span<const float>, double, Workspace&) const;
@@ -150,9 +152,5 @@ void Membrane::hold(const Heights<Real>& heights, Workspace& workspace) const {
 
 template void Membrane::hold(const Heights<float>&, Workspace&) const;
 template void Membrane::hold(const Heights<double>&, Workspace&) const;
-
-double held_share(double u) {
-  return 1 - (1 - least_share) * std::exp(-share_growth * u);
-}
 
 }  // namespace relievo

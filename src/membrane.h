@@ -1,32 +1,34 @@
-// A membrane under a relief, spread between its silhouettes: added to the heights that equation (9) finds, it
-// keeps them within a height asked for and changes their slopes no more than it must.
+// A stiff membrane under a relief, spread between its silhouettes: added to the heights that equation (9)
+// finds, it keeps them within a height asked for and changes their slopes and curvature no more than it must.
 #pragma once
 
-#include <array>
 #include <span>
 #include <vector>
 
+#include "elastic_sheet.h"
 #include "lattice.h"
 #include "relievo/surface.h"
 
 namespace relievo {
 
-// Of all b with 0 <= z + b <= h, 0 from a cell beyond the silhouette on, the membrane is that with the least
-// integral of |grad b|^2 + ((z + b - h r) / reach)^2, where r are the ranks of the depths: an obstacle
-// problem. Where the heights z have room b is smooth, so that the relief keeps their curvature; what is in
-// front is drawn to the front. It lives on a lattice of 1 % of the longer side, coarser where points are few,
-// whose limits leave room for what the heights do between nodes. It is 0 where there are no points. Const
-// calls may run concurrently, each with a workspace of its own.
+// Of all b with 0 <= z + b <= h, 0 from a cell beyond the silhouette on, the membrane is about that with the
+// least integral of (stiff_reach lap b)^2 + |grad b|^2 + ((z + b - h r) / reach)^2, where r are the ranks of
+// the depths: an obstacle problem. Where the heights z have room b is smooth, so that the relief keeps their
+// curvature; along silhouettes and depth jumps it is hinged, for nobody sees it bend there; what is in front
+// is drawn to the front. It lives on a lattice of 1 % of the longer side, coarser where points are few, whose
+// limits leave room for what the heights do between nodes. It is 0 where there are no points. Const calls may
+// run concurrently, each with a workspace of its own.
 class Membrane {
  public:
-  static constexpr double reach = .11;  // of the longer side
+  static constexpr double reach = .082, stiff_reach = .035;  // of the longer side
+  static constexpr double anchor = .15;  // of the tension, towards what lies beyond the silhouette
 
   // What spread() needs besides, and finds, so that it allocates nothing.
   struct Workspace {
-    std::vector<Lattice::Corners> sums;                   // per cell
-    std::vector<Lattice::Extent> rests;                   // per cell
-    std::vector<float> heights, lowest, highest, wanted;  // per node
-    std::vector<float> membrane, smoothed;
+    std::vector<Lattice::Corners> sums;  // per cell
+    std::vector<Lattice::Extent> rests;  // per cell
+    std::vector<float> heights;          // per node
+    ElasticSheet::Workspace sheet;
 
     std::size_t memory() const;
   };
@@ -40,14 +42,14 @@ class Membrane {
   std::size_t memory() const;
 
   // Finds the membrane for heights, one per point, and `height` > 0; the workspace holds it. A few points may
-  // still be a little out of the limits, for it is smoothed, and where heights are rougher than `height` it
+  // still be a little out of the limits, for it is smooth, and where heights are rougher than `height` it
   // shares the excess between both ends. Same bits for any number of threads. For float and double.
   template <typename Real>
   void spread(std::span<const Real> heights, double height, Workspace& workspace) const;
 
   // The membrane's height at a point, for heights that it was spread for.
   float at(std::size_t point, const Workspace& workspace) const {
-    return lattice_.at(point, workspace.membrane);
+    return lattice_.at(point, workspace.sheet[0].b);
   }
 
   // Heights, one per point, with w_b, and the height that they are to have.
@@ -66,18 +68,12 @@ class Membrane {
 
  private:
   void set_limits(float height, Workspace& w) const;
-  void relax(Workspace& w) const;
-  void smooth(Workspace& w) const;
   Lattice::Extent rest_around(std::size_t node, const Workspace& w) const;
 
   Lattice lattice_;
-  float pull_ = 0;                            // towards the ranks: (cell / reach)^2
-  std::vector<float> ranks_;                  // per node
-  std::array<std::vector<Index>, 2> active_;  // nodes, red and black
+  ElasticSheet sheet_;
+  float pull_;                // towards the ranks: (cell / reach)^2
+  std::vector<float> ranks_;  // per node
 };
-
-// The height within which a layered relief is held, of the one that (9) gives its slopes: the less is kept of
-// them, the more of the height is taken. `u` is that of Compression.
-double held_share(double u);
 
 }  // namespace relievo

@@ -99,7 +99,7 @@ TEST(LayerWeights, AreEquationSixLayerByLayer) {
     EXPECT_EQ(held.fine, even.fine);
     EXPECT_LT(held.middle, held.fine);
     EXPECT_LT(held.coarse, held.middle);
-    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(1 - std::exp(-u * std::exp(-1.6))));
+    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(1 - std::exp(-u * std::exp(-2.85))));
   }
   EXPECT_EQ(LayerWeights::of(infinity, .04).broad, 1);
   EXPECT_EQ(LayerWeights::of(0, .04).fine, 0);
@@ -119,12 +119,29 @@ TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   EXPECT_EQ(flat.norm(), 0);
 }
 
+// Of a surface that is all but levelled, x and y are the slope; in between it is as steep as what stays of
+// it.
+TEST(LayeredSlope, ReckonsWithTheMembrane) {
+  PointLayers layers;
+  layers.coarse = {.6F, -.2F};
+  const auto slope = [&](float held) { return layered_slope(layers, {1, 1, 1, 1, held}, 1.0, 100.0); };
+  EXPECT_NEAR((slope(0) - Vec2(.6, -.2)).norm(), 0, 1e-6);
+  EXPECT_NEAR((slope(.5F) - Vec2(.6, -.2) / std::sqrt(1 - .25 * .4)).norm(), 0, 1e-6);
+  EXPECT_EQ(LayerWeights::of(2, .04).held, static_cast<float>(held_share(2)));
+}
+
+TEST(HeldShare, GrowsToAllOfTheHeight) {
+  EXPECT_EQ(held_share(infinity), 1);
+  for (double u = 0; u < 20; u += .5) EXPECT_LT(held_share(u), held_share(u + .5));
+  EXPECT_GT(held_share(0), .3);
+}
+
 TEST(LayeredSlope, IsNeverSteeperThanAllowed) {
   PointLayers layers;
   for (const float x : {.2F, .96F, .9999F, 1.F, 3.F}) {
     layers.coarse = {0, x};
     for (const double most : {.1, 1.0, 4.0}) {
-      const Vec2 slope = layered_slope(layers, {1, 1, 1, 1}, 1.0, most);
+      const Vec2 slope = layered_slope(layers, {1, 1, 1, 1, x}, 1.0, most);
       EXPECT_LE(slope.norm(), most * (1 + 1e-12)) << x;
       EXPECT_GT(slope.y(), 0);
     }

@@ -225,7 +225,8 @@ TEST(StreamFront, MakesTheReliefOfTheWholeCloud) {
   ASSERT_TRUE(direct && by_stream);
   EXPECT_EQ(check_solid(by_stream->solid), "");
   EXPECT_NEAR(by_stream->report.height_mm, 5, .01);
-  EXPECT_NEAR(volume_mm3(by_stream->solid) / volume_mm3(direct->solid), 1, .03);
+  // A grid of means has less of the steep rim.
+  EXPECT_NEAR(volume_mm3(by_stream->solid) / volume_mm3(direct->solid), 1, .05);
 }
 
 }  // namespace

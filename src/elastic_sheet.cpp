@@ -1,0 +1,146 @@
+#include "elastic_sheet.h"
+
+#include <algorithm>
+
+#include "memory.h"
+
+namespace relievo {
+namespace {
+
+// Per level, from fine to coarse: what is long takes more sweeps, which cost less.
+constexpr std::array<int, ElasticSheet::levels> sweeps{12, 40, 150};
+constexpr float over_relaxation = 1.6F;
+
+}  // namespace
+
+std::size_t ElasticSheet::Fields::memory() const {
+  return bytes(lowest) + bytes(highest) + bytes(wanted) + bytes(b) + bytes(moment);
+}
+
+ElasticSheet::Level::Level(std::size_t width, Stiffness stiffness)
+    : width_(width),
+      stiffness_(std::move(stiffness)),
+      own_(stiffness_.bending.size()),
+      diagonal_(stiffness_.bending.size()) {
+  for (Index n = 0; n < diagonal_.size(); ++n)
+    if (stiffness_.bending[n] > 0) couple(n);
+}
+
+void ElasticSheet::Level::couple(std::size_t n) {
+  const std::vector<float>& c = stiffness_.bending;
+  nodes_[(n % width_ + 2 * (n / width_)) % nodes_.size()].push_back(static_cast<Index>(n));
+  own_[n] = stiffness_.pull;
+  diagonal_[n] = 16 * c[n] + 4 * stiffness_.tension;
+  for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_}) {
+    diagonal_[n] += c[side];
+    if (!(c[side] > 0)) own_[n] -= (1 - stiffness_.anchor) * stiffness_.tension;
+  }
+  diagonal_[n] += own_[n];
+}
+
+std::size_t ElasticSheet::Level::memory() const {
+  std::size_t sum = bytes(stiffness_.bending) + bytes(own_) + bytes(diagonal_);
+  for (const std::vector<Index>& colour : nodes_) sum += bytes(colour);
+  return sum;
+}
+
+// Every other node of every other row. What bends easily at a node or next to it does so here, too.
+ElasticSheet::Level ElasticSheet::Level::coarser() const {
+  const std::size_t rows = size() / width_, width = width_ / 2 + 2;
+  Stiffness coarse{std::vector<float>(width * (rows / 2 + 2)), stiffness_.tension,
+                   std::min(2 * stiffness_.anchor, 1.F), 4 * stiffness_.pull};
+  for (std::size_t y = 1; 2 * y + 1 < rows; ++y)
+    for (std::size_t x = 1; 2 * x + 1 < width_; ++x) {
+      const std::size_t n = 2 * (x + y * width_);
+      float least = stiffness_.bending[n];
+      for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_})
+        if (is_free(side)) least = std::min(least, stiffness_.bending[side]);
+      coarse.bending[x + y * width] = least / 4;
+    }
+  return {width, std::move(coarse)};
+}
+
+void ElasticSheet::Level::restrict_from(const Level& finer, const Fields& from, Fields& to) const {
+  const std::size_t row = finer.width_;
+  each_node([&](Index n) {
+    const std::size_t m = 2 * (n % width_ + n / width_ * row);
+    float low = from.lowest[m], high = from.highest[m], wanted = from.wanted[m];
+    for (const std::size_t side : {m - 1, m + 1, m - row, m + row})
+      if (finer.is_free(side)) {
+        low = std::max(low, from.lowest[side]), high = std::min(high, from.highest[side]);
+        wanted += from.wanted[side] / 2;
+      }
+    for (const std::size_t corner : {m - row - 1, m - row + 1, m + row - 1, m + row + 1})
+      if (finer.is_free(corner)) wanted += from.wanted[corner] / 4;
+    if (low > high) low = high = (low + high) / 2;
+    to.lowest[n] = low, to.highest[n] = high, to.wanted[n] = wanted;
+  });
+}
+
+void ElasticSheet::Level::prolong_from(const Level& coarser, const Fields& from, Fields& to) const {
+  each_node([&](Index n) {
+    const std::size_t x = n % width_, y = n / width_;
+    const std::size_t m = x / 2 + y / 2 * coarser.width_, right = x % 2, up = y % 2 * coarser.width_;
+    to.b[n] = (from.b[m] + from.b[m + right] + from.b[m + up] + from.b[m + right + up]) / 4;
+  });
+}
+
+// Puts b within its limits.
+void ElasticSheet::Level::start(Fields& f) const {
+  const std::vector<float>& b = f.b;
+  each_node([&](Index n) { f.b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
+  each_node([&](Index n) {
+    f.moment[n] = stiffness_.bending[n] * (b[n - 1] + b[n + 1] + b[n - width_] + b[n + width_] - 4 * b[n]);
+  });
+}
+
+// Moves one node to where the energy is least, and further, within its limits.
+inline void ElasticSheet::Level::move(Index n, Fields& f) const {
+  float *b = f.b.data() + n, *m = f.moment.data() + n;
+  const float* c = stiffness_.bending.data() + n;
+  const auto row = static_cast<std::ptrdiff_t>(width_);
+  const float lap_b = b[-1] + b[1] + b[-row] + b[row] - 4 * b[0];
+  const float lap_m = m[-1] + m[1] + m[-row] + m[row] - 4 * m[0];
+  const float rise = lap_m - stiffness_.tension * lap_b + own_[n] * b[0] - f.wanted[n];
+  const float next = std::clamp(b[0] - over_relaxation * rise / diagonal_[n], f.lowest[n], f.highest[n]);
+  const float change = next - b[0];
+  b[0] = next;
+  m[0] -= 4 * c[0] * change;
+  for (const std::ptrdiff_t side : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}, -row, row})
+    m[side] += c[side] * change;
+}
+
+void ElasticSheet::Level::relax(int times, Fields& f) const {
+  start(f);
+  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, f); });
+}
+
+ElasticSheet::ElasticSheet(std::size_t width, Stiffness stiffness) {
+  levels_[0] = Level(width, std::move(stiffness));
+  for (std::size_t l = 1; l < levels; ++l) levels_[l] = levels_[l - 1].coarser();
+}
+
+ElasticSheet::Workspace ElasticSheet::make_workspace() const {
+  Workspace w;
+  for (std::size_t l = 0; l < levels; ++l)
+    for (std::vector<float>* values : {&w[l].lowest, &w[l].highest, &w[l].wanted, &w[l].b, &w[l].moment})
+      values->resize(levels_[l].size());
+  return w;
+}
+
+std::size_t ElasticSheet::memory() const {
+  std::size_t sum = 0;
+  for (const Level& level : levels_) sum += level.memory();
+  return sum;
+}
+
+void ElasticSheet::solve(Workspace& w) const {
+  for (std::size_t l = 1; l < levels; ++l) levels_[l].restrict_from(levels_[l - 1], w[l - 1], w[l]);
+  std::ranges::fill(w.back().b, 0.F);
+  for (std::size_t l = levels; l-- > 0;) {
+    if (l + 1 < levels) levels_[l].prolong_from(levels_[l + 1], w[l + 1], w[l]);
+    levels_[l].relax(sweeps[l], w[l]);
+  }
+}
+
+}  // namespace relievo

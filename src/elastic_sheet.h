@@ -1,0 +1,94 @@
+// The smoothest sheet between limits: an obstacle problem on a lattice, solved from coarse to fine.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "relievo/types.h"
+
+namespace relievo {
+
+// What a sheet b on a lattice resists, and by how much. Nodes are numbered row by row; lengths are in cells.
+struct Stiffness {
+  // Per node, of (the sum of its four neighbours less 4 b)^2. Where it is 0 b is 0; nodes on the lattice's
+  // rim have to be such.
+  std::vector<float> bending;
+  float tension = 1;  // of the squared difference between neighbours
+  float anchor = 1;   // of the tension, towards neighbours that are fixed
+  float pull = 0;     // of b^2
+};
+
+// Of all b with lowest <= b <= highest, one near the least energy: half of the sum of bending, tension and
+// pull, less that of wanted b. Successive over-relaxation on lattices of 4, 2 and 1 cells, each starting from
+// what the coarser one found. Const calls may run concurrently, each with a workspace of its own.
+class ElasticSheet {
+ public:
+  static constexpr std::size_t levels = 3;
+
+  // Per node of a level.
+  struct Fields {
+    std::vector<float> lowest, highest, wanted, b;
+    std::vector<float> moment;  // bending times the second differences of b
+
+    std::size_t memory() const;
+  };
+
+  // From fine to coarse.
+  using Workspace = std::array<Fields, levels>;
+
+  // `width` nodes make a row.
+  ElasticSheet(std::size_t width, Stiffness stiffness);
+
+  Workspace make_workspace() const;
+
+  // Bytes held, workspaces not counted.
+  std::size_t memory() const;
+
+  // Calls f(node) for every node that is not fixed, in an order that never changes.
+  template <typename F>
+  void each_free_node(F&& f) const {
+    levels_[0].each_node(f);
+  }
+
+  // Finds the finest b for the finest limits and what is wanted; of fixed nodes they do not matter.
+  void solve(Workspace& workspace) const;
+
+ private:
+  class Level {
+   public:
+    Level() = default;
+    Level(std::size_t width, Stiffness stiffness);
+
+    std::size_t size() const { return diagonal_.size(); }
+    std::size_t memory() const;
+    Level coarser() const;
+    bool is_free(std::size_t node) const { return diagonal_[node] > 0; }
+    template <typename F>
+    void each_node(F&& f) const {
+      for (const std::vector<Index>& colour : nodes_)
+        for (const Index n : colour) f(n);
+    }
+
+    // Fields of the level from the next finer one's.
+    void restrict_from(const Level& finer, const Fields& from, Fields& to) const;
+    // b from the next coarser level's.
+    void prolong_from(const Level& coarser, const Fields& from, Fields& to) const;
+    void relax(int sweeps, Fields& f) const;
+
+   private:
+    void couple(std::size_t n);
+    void start(Fields& f) const;
+    void move(Index n, Fields& f) const;
+
+    std::size_t width_ = 0;
+    Stiffness stiffness_;
+    // A colour's nodes are so far apart that none moves what another reads.
+    std::array<std::vector<Index>, 5> nodes_;
+    std::vector<float> own_;       // per node: of b^2, besides four neighbours' full tension
+    std::vector<float> diagonal_;  // per node: of the energy's matrix; 0 where b is fixed
+  };
+
+  std::array<Level, levels> levels_;
+};
+
+}  // namespace relievo

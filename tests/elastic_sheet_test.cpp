@@ -1,0 +1,157 @@
+#include "elastic_sheet.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t width = 40, height = 30;
+constexpr float far = 1e6F;
+
+bool is_rim(std::size_t n) {
+  const std::size_t x = n % width, y = n / width;
+  return x == 0 || y == 0 || x == width - 1 || y == height - 1;
+}
+
+// Free but for the lattice's rim.
+Stiffness even(float bending, float pull) {
+  Stiffness s{std::vector<float>(width * height, bending), 1, 1, pull};
+  for (std::size_t n = 0; n < s.bending.size(); ++n)
+    if (is_rim(n)) s.bending[n] = 0;
+  return s;
+}
+
+// What draws a bump up on the left and down on the right.
+float load(std::size_t n) {
+  const double x = static_cast<double>(n % width) / width, y = static_cast<double>(n / width) / height;
+  return static_cast<float>(.02 * std::sin(6.283 * x) * std::sin(3.1416 * y) + .004 * std::sin(40 * x * y));
+}
+
+struct Problem {
+  ElasticSheet sheet;
+  ElasticSheet::Workspace workspace = sheet.make_workspace();
+
+  Problem(Stiffness s, float lowest, float highest) : sheet(width, std::move(s)) {
+    ElasticSheet::Fields& f = workspace[0];
+    std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
+    for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
+  }
+  const std::vector<float>& solved() {
+    sheet.solve(workspace);
+    return workspace[0].b;
+  }
+};
+
+// The energy's matrix: L' C L + tension + pull, rows of fixed nodes those of the identity.
+Eigen::MatrixXd matrix(const Stiffness& s) {
+  const auto n = static_cast<Eigen::Index>(s.bending.size());
+  Eigen::MatrixXd lap = Eigen::MatrixXd::Zero(n, n), a = lap;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(s.bending[static_cast<std::size_t>(i)] > 0)) continue;
+    lap(i, i) = -4, a(i, i) = static_cast<double>(s.pull);
+    for (const Eigen::Index side :
+         {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
+      const bool is_fixed = !(s.bending[static_cast<std::size_t>(i + side)] > 0);
+      const double tension = static_cast<double>(s.tension * (is_fixed ? s.anchor : 1));
+      a(i, i) += tension;
+      if (is_fixed) continue;
+      lap(i, i + side) = 1, a(i, i + side) = -tension;
+    }
+  }
+  const Eigen::VectorXd c = Eigen::Map<const Eigen::VectorXf>(s.bending.data(), n).cast<double>();
+  a += lap.transpose() * c.asDiagonal() * lap;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!(c[i] > 0)) a(i, i) = 1;
+  return a;
+}
+
+Eigen::VectorXd loads(const Stiffness& s) {
+  Eigen::VectorXd f(static_cast<Eigen::Index>(s.bending.size()));
+  for (std::size_t n = 0; n < s.bending.size(); ++n)
+    f[static_cast<Eigen::Index>(n)] = s.bending[n] > 0 ? static_cast<double>(load(n)) : 0;
+  return f;
+}
+
+double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vector<float>& b) {
+  const Eigen::VectorXd x =
+      Eigen::Map<const Eigen::VectorXf>(b.data(), static_cast<Eigen::Index>(b.size())).cast<double>();
+  return .5 * x.dot(a * x) - f.dot(x);
+}
+
+// Without limits the least energy is that of a linear system.
+TEST(ElasticSheet, ComesNearTheLeastEnergy) {
+  Stiffness hinged = even(10, .02F), loose = even(10, .02F);
+  for (std::size_t n = 0; n < hinged.bending.size(); ++n)
+    if (n % width == width / 3 && !is_rim(n)) hinged.bending[n] = .1F;
+  loose.anchor = .1F;
+  for (const Stiffness& s : {even(1, .1F), even(10, .02F), even(10, 0), hinged, loose}) {
+    const Eigen::MatrixXd a = matrix(s);
+    const Eigen::VectorXd f = loads(s), exact = a.llt().solve(f);
+    Problem problem(s, -far, far);
+    const double least = -.5 * f.dot(exact);
+    EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
+    EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
+  }
+}
+
+TEST(ElasticSheet, StaysWithinItsLimits) {
+  Problem problem(even(4, .02F), -.1F, .2F);
+  const std::vector<float>& b = problem.solved();
+  EXPECT_EQ(*std::ranges::min_element(b), -.1F);
+  EXPECT_EQ(*std::ranges::max_element(b), .2F);
+  for (std::size_t n = 0; n < b.size(); ++n)
+    if (is_rim(n)) {
+      ASSERT_EQ(b[n], 0);
+    }
+}
+
+// Limits cost energy; of what keeps to them it is better than the free sheet cut off.
+TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
+  const Stiffness s = even(4, .02F);
+  const Eigen::MatrixXd a = matrix(s);
+  const Eigen::VectorXd f = loads(s);
+  Problem unlimited(s, -far, far), limited(s, -.1F, .2F);
+  std::vector<float> cut = unlimited.solved();
+  const double least = energy(a, f, cut);
+  for (float& b : cut) b = std::clamp(b, -.1F, .2F);
+  const double held = energy(a, f, limited.solved());
+  EXPECT_GT(held, least);
+  EXPECT_LT(held, energy(a, f, cut) - .05 * std::abs(least));
+}
+
+// Pushed from both sides, a node stays where its limits meet.
+TEST(ElasticSheet, TakesLimitsThatMeet) {
+  Problem problem(even(4, .02F), .05F, .05F);
+  const std::vector<float>& b = problem.solved();
+  for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
+}
+
+// Bends at a hinge: there the second difference is greater than where it is stiff.
+TEST(ElasticSheet, BendsAtAHinge) {
+  Stiffness s = even(50, 0);
+  const std::size_t middle = width / 2;
+  for (std::size_t n = 0; n < s.bending.size(); ++n)
+    if (n % width == middle && !is_rim(n)) s.bending[n] = .05F;
+  Problem problem(s, -far, far);
+  for (std::size_t n = 0; n < problem.workspace[0].wanted.size(); ++n) problem.workspace[0].wanted[n] = .01F;
+  const std::vector<float>& b = problem.solved();
+  const std::size_t n = middle + height / 2 * width;
+  const auto bend = [&](std::size_t at) { return std::abs(b[at - 1] + b[at + 1] - 2 * b[at]); };
+  EXPECT_GT(bend(n), 5 * bend(n - 4));
+  EXPECT_GT(bend(n), 5 * bend(n + 4));
+}
+
+TEST(ElasticSheet, HasNothingToDoWhereAllIsFixed) {
+  Problem problem(Stiffness{std::vector<float>(width * height), 1, 1, 0}, -1, 1);
+  EXPECT_EQ(problem.solved(), std::vector<float>(width * height));
+  int free = 0;
+  problem.sheet.each_free_node([&](Index) { ++free; });
+  EXPECT_EQ(free, 0);
+}
+
+}  // namespace
+}  // namespace relievo
