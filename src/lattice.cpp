@@ -26,6 +26,7 @@ bool is_in(const Vec2& p, const std::array<Vec2, 3>& corners) {
 Lattice::Lattice(std::span<const Vec3> points, std::span<const Index> counted, double cell)
     : places_(points.size()) {
   set_places(points, cell);
+  set_first_nodes();
   count(counted);
   std::vector<Corners> sums(nodes());
   share_.assign(nodes(), 1);
@@ -46,6 +47,13 @@ void Lattice::set_places(std::span<const Vec3> points, double cell) {
                                      width_ * static_cast<std::size_t>(whole.y())),
                   packed_share(share.x()), packed_share(share.y())};
   });
+}
+
+void Lattice::set_first_nodes() {
+  std::vector<std::uint8_t> is_first(nodes());
+  for (const SplinePlace& p : places_) is_first[p.node] = 1;
+  for (Index n = 0; n < is_first.size(); ++n)
+    if (is_first[n]) first_nodes_.push_back(n);
 }
 
 void Lattice::count(std::span<const Index> counted) {
@@ -80,7 +88,7 @@ void Lattice::mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> ma
 }
 
 std::size_t Lattice::memory() const {
-  return bytes(places_) + bytes(counted_) + bytes(begin_) + bytes(share_);
+  return bytes(places_) + bytes(first_nodes_) + bytes(counted_) + bytes(begin_) + bytes(share_);
 }
 
 // Calls f(cell, its counted points), concurrently.
@@ -90,6 +98,24 @@ void Lattice::for_cells(F&& f) const {
   parallel_for(
       nodes(),
       [&](std::size_t c) { f(c, std::span(counted_).subspan(begin_[c], begin_[c + 1] - begin_[c])); }, grain);
+}
+
+void Lattice::refine(std::span<const float> nodes, std::span<Tile> tiles) const {
+  const std::array basis{cubic_basis(0), cubic_basis(.25F), cubic_basis(.5F), cubic_basis(.75F),
+                         cubic_basis(1)};
+  parallel_for(
+      first_nodes_.size(),
+      [&](std::size_t i) {
+        const Index first = first_nodes_[i];
+        std::array<CubicRow, 4> row;
+        for (std::size_t l = 0; l < 4; ++l) row[l] = Eigen::Map<const CubicRow>(&nodes[first + l * width_]);
+        for (std::size_t y = 0; y < 5; ++y) {
+          CubicRow mean = basis[y][0] * row[0];
+          for (Eigen::Index l = 1; l < 4; ++l) mean += basis[y][l] * row[static_cast<std::size_t>(l)];
+          for (std::size_t x = 0; x < 5; ++x) tiles[first][5 * y + x] = (mean * basis[x]).sum();
+        }
+      },
+      256);
 }
 
 template <typename Real>

@@ -36,11 +36,20 @@ class Lattice {
   // Bytes held.
   std::size_t memory() const;
 
-  // The value at a point, counted or not, by cubic B-splines, which have no creases between cells: a weighted
-  // mean of the 4 x 4 nodes around it.
-  float at(std::size_t point, std::span<const float> nodes) const {
+  // Values at 5 x 5 places of a cell, its rim included.
+  using Tile = std::array<float, 25>;
+
+  // Writes to the tiles, one per node, what cubic B-splines, which have no creases between cells, make of the
+  // nodes: weighted means of the 4 x 4 around a place. Of cells without points they are left as they are.
+  void refine(std::span<const float> nodes, std::span<Tile> tiles) const;
+
+  // The value at a point, counted or not, of nodes that have been refined: bilinear in quarters of a cell.
+  float at(std::size_t point, std::span<const Tile> tiles) const {
     const SplinePlace& p = places_[point];
-    return cubic_stencil(p)(nodes.data() + p.node, width_);
+    const float* t = tiles[p.node].data() + 5 * (p.y >> quarter_bits) + (p.x >> quarter_bits);
+    const float x = share_of_quarter(p.x), y = share_of_quarter(p.y);
+    const float below = t[0] + x * (t[1] - t[0]), above = t[5] + x * (t[6] - t[5]);
+    return below + y * (above - below);
   }
 
   // Sets to 1 what belongs to the nodes in a triangle of points, which runs counter-clockwise; one entry per
@@ -80,6 +89,12 @@ class Lattice {
     SplinePlace place;
   };
 
+  // Of the 16 of a share.
+  static constexpr int quarter_bits = 14;
+  static float share_of_quarter(std::uint16_t share) {
+    return static_cast<float>(share & ((1 << quarter_bits) - 1)) * 0x1p-14F;
+  }
+
   std::size_t cell_of(const SplinePlace& p) const { return p.node + width_ + 1; }
   static Corners weights(const SplinePlace& p) {
     const float x = unpacked_share(p.x), y = unpacked_share(p.y);
@@ -91,12 +106,14 @@ class Lattice {
   }
   Vec2 place(std::size_t point) const;
   void set_places(std::span<const Vec3> points, double cell);
+  void set_first_nodes();
   void count(std::span<const Index> counted);
   template <typename F>
   void for_cells(F&& f) const;
 
   std::size_t width_ = 0;
   std::vector<SplinePlace> places_;  // of all points
+  std::vector<Index> first_nodes_;   // of the 4 x 4 around cells with points, each once
   std::vector<Counted> counted_;     // by cell
   std::vector<Index> begin_;         // of the points of a cell in counted_
   std::vector<float> share_;         // per node: 1 / the sum of the squared weights, 0 if that is 0

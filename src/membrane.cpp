@@ -74,7 +74,7 @@ Stiffness stiffness_of(const Surface& surface, const Lattice& lattice) {
 }  // namespace
 
 std::size_t Membrane::Workspace::memory() const {
-  std::size_t sum = bytes(sums) + bytes(rests) + bytes(heights);
+  std::size_t sum = bytes(sums) + bytes(rests) + bytes(heights) + bytes(tiles);
   for (const ElasticSheet::Fields& fields : sheet) sum += fields.memory();
   return sum;
 }
@@ -92,7 +92,7 @@ Membrane::Membrane(const Surface& surface)
 Membrane::Workspace Membrane::make_workspace() const {
   Workspace w;
   const std::size_t n = lattice_.nodes();
-  w.sums.resize(n), w.rests.resize(n), w.heights.resize(n);
+  w.sums.resize(n), w.rests.resize(n), w.heights.resize(n), w.tiles.resize(n);
   w.sheet = sheet_.make_workspace();
   return w;
 }
@@ -130,6 +130,7 @@ void Membrane::spread(std::span<const Real> heights, double height, Workspace& w
   lattice_.compare(heights, w.heights, w.rests);
   set_limits(static_cast<float>(height), w);
   sheet_.solve(w.sheet);
+  lattice_.refine(w.sheet[0].b, w.tiles);
 }
 
 template void Membrane::spread(std::span<const float>, double, Workspace&) const;

@@ -29,6 +29,7 @@ class Membrane {
     std::vector<Lattice::Extent> rests;  // per cell
     std::vector<float> heights;          // per node
     ElasticSheet::Workspace sheet;
+    std::vector<Lattice::Tile> tiles;  // per node
 
     std::size_t memory() const;
   };
@@ -49,7 +50,7 @@ class Membrane {
 
   // The membrane's height at a point, for heights that it was spread for.
   float at(std::size_t point, const Workspace& workspace) const {
-    return lattice_.at(point, workspace.sheet[0].b);
+    return lattice_.at(point, workspace.tiles);
   }
 
   // Heights, one per point, with w_b, and the height that they are to have.
