@@ -44,7 +44,8 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   const std::vector<Vec2f> smooth = smoothed(kept, finest), smoother = smoothed(smooth, middling),
                            smoothest = smoothed(smoother, coarsest);
   parallel_for(layers.size(), [&](std::size_t i) {
-    layers[i] = {kept[i] - smooth[i], smooth[i] - smoother[i], smoother[i] - smoothest[i], smoothest[i]};
+    layers[i] = {Vec2f(kept[i] - smooth[i]), Vec2f(smooth[i] - smoother[i]),
+                 Vec2f(smoother[i] - smoothest[i]), smoothest[i]};
   });
   return layers;
 }

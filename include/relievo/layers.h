@@ -1,6 +1,9 @@
 // Normals in layers, by the size of what they show: our method compresses coarse layers more than fine ones.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -8,11 +11,30 @@
 
 namespace relievo {
 
+// The x and y of one layer, between -2 and 2, to a part in 16384: a frame's time goes into reading them.
+class LayerXy {
+ public:
+  static constexpr float part = 0x1p-14F;
+
+  LayerXy() = default;
+  LayerXy(const Vec2f& xy) : x_(in_parts(xy.x())), y_(in_parts(xy.y())) {}
+  operator Vec2f() const { return part * parts(); }
+
+  Vec2f parts() const { return {static_cast<float>(x_), static_cast<float>(y_)}; }
+
+ private:
+  static std::int16_t in_parts(float value) {
+    return static_cast<std::int16_t>(std::lround(std::clamp(value / part, -32767.F, 32767.F)));
+  }
+
+  std::int16_t x_ = 0, y_ = 0;
+};
+
 // What a point's normal is made of. They add up to -(n_x, n_y), less where it is steeper than about 85
 // degrees: what a Gaussian along the surface takes away, of 0.6, 5.8 and 15 % of the longer side in a row,
 // and what is left.
 struct PointLayers {
-  Vec2f fine = Vec2f::Zero(), middle = Vec2f::Zero(), coarse = Vec2f::Zero(), broad = Vec2f::Zero();
+  LayerXy fine, middle, coarse, broad;
 };
 
 // Returns the layers of every point of a surface. About 0.1 s for 180k points.
@@ -43,8 +65,8 @@ double held_share(double u);
 template <typename Real>
 Eigen::Vector2<Real> layered_slope(const PointLayers& layers, const LayerWeights& w, Real weight,
                                    Real max_slope) {
-  const Vec2f sum =
-      w.fine * layers.fine + w.middle * layers.middle + w.coarse * layers.coarse + w.broad * layers.broad;
+  const Vec2f sum = LayerXy::part * (w.fine * layers.fine.parts() + w.middle * layers.middle.parts() +
+                                     w.coarse * layers.coarse.parts() + w.broad * layers.broad.parts());
   const Real x = weight * static_cast<Real>(sum.x()), y = weight * static_cast<Real>(sum.y());
   const Real sine_sq = x * x + y * y, most_sq = max_slope * max_slope;
   const Real held_sq = sine_sq * static_cast<Real>(w.held * w.held);
