@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -18,9 +20,7 @@ class LayerXy {
 
   LayerXy() = default;
   LayerXy(const Vec2f& xy) : x_(in_parts(xy.x())), y_(in_parts(xy.y())) {}
-  operator Vec2f() const { return part * parts(); }
-
-  Vec2f parts() const { return {static_cast<float>(x_), static_cast<float>(y_)}; }
+  operator Vec2f() const { return part * Vec2f(static_cast<float>(x_), static_cast<float>(y_)); }
 
  private:
   static std::int16_t in_parts(float value) {
@@ -59,14 +59,25 @@ struct LayerWeights {
 // them, the more of the height is taken. `u` is that of Compression.
 double held_share(double u);
 
+// What the layers add up to, each times its weight. All eight numbers at once: a frame does it for every
+// point.
+inline Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
+  const auto parts = std::bit_cast<std::array<std::int16_t, 8>>(layers);
+  const std::array<float, 8> weights{w.fine,   w.fine,   w.middle, w.middle,
+                                     w.coarse, w.coarse, w.broad,  w.broad};
+  std::array<float, 8> kept;
+  for (std::size_t i = 0; i < 8; ++i) kept[i] = weights[i] * static_cast<float>(parts[i]);
+  return LayerXy::part *
+         Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
+}
+
 // The slope that shows the x and y that the weighted layers add up to, times `weight`, once the relief is
 // held: if all of it stays that of the normal with this x and y, if little, which leaves surfaces all but
 // level, x and y themselves. Shortened to at most `max_slope`.
 template <typename Real>
 Eigen::Vector2<Real> layered_slope(const PointLayers& layers, const LayerWeights& w, Real weight,
                                    Real max_slope) {
-  const Vec2f sum = LayerXy::part * (w.fine * layers.fine.parts() + w.middle * layers.middle.parts() +
-                                     w.coarse * layers.coarse.parts() + w.broad * layers.broad.parts());
+  const Vec2f sum = weighted_sum(layers, w);
   const Real x = weight * static_cast<Real>(sum.x()), y = weight * static_cast<Real>(sum.y());
   const Real sine_sq = x * x + y * y, most_sq = max_slope * max_slope;
   const Real held_sq = sine_sq * static_cast<Real>(w.held * w.held);
