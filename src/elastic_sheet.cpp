@@ -1,6 +1,7 @@
 #include "elastic_sheet.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "memory.h"
 
@@ -87,8 +88,8 @@ void ElasticSheet::Level::prolong_from(const Level& coarser, const Fields& from,
 
 // Puts b within its limits.
 void ElasticSheet::Level::start(Fields& f) const {
-  const std::vector<float>& b = f.b;
-  each_node([&](Index n) { f.b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
+  std::vector<float>& b = f.b;
+  each_node([&](Index n) { b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
   each_node([&](Index n) {
     f.moment[n] = stiffness_.bending[n] * (b[n - 1] + b[n + 1] + b[n - width_] + b[n + width_] - 4 * b[n]);
   });

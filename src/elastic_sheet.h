@@ -50,7 +50,8 @@ class ElasticSheet {
     levels_[0].each_node(f);
   }
 
-  // Finds the finest b for the finest limits and what is wanted; of fixed nodes they do not matter.
+  // Finds the finest b for the finest limits, lowest <= highest, and what is wanted; of fixed nodes they do
+  // not matter, but b and moment there have to be 0, as make_workspace() leaves them.
   void solve(Workspace& workspace) const;
 
  private:
@@ -69,11 +70,11 @@ class ElasticSheet {
         for (const Index n : colour) f(n);
     }
 
-    // Fields of the level from the next finer one's.
+    // Limits and what is wanted from the next finer level's. Limits that cross meet in the middle.
     void restrict_from(const Level& finer, const Fields& from, Fields& to) const;
     // b from the next coarser level's.
     void prolong_from(const Level& coarser, const Fields& from, Fields& to) const;
-    void relax(int sweeps, Fields& f) const;
+    void relax(int times, Fields& f) const;
 
    private:
     void couple(std::size_t n);

@@ -46,7 +46,7 @@ class Lattice {
   // The value at a point, counted or not, of nodes that have been refined: bilinear in quarters of a cell.
   float at(std::size_t point, std::span<const Tile> tiles) const {
     const SplinePlace& p = places_[point];
-    const float* t = tiles[p.node].data() + 5 * (p.y >> quarter_bits) + (p.x >> quarter_bits);
+    const float* t = tiles[p.node].data() + 5 * (p.y >> bits_in_quarter) + (p.x >> bits_in_quarter);
     const float x = share_of_quarter(p.x), y = share_of_quarter(p.y);
     const float below = t[0] + x * (t[1] - t[0]), above = t[5] + x * (t[6] - t[5]);
     return below + y * (above - below);
@@ -89,10 +89,11 @@ class Lattice {
     SplinePlace place;
   };
 
-  // Of the 16 of a share.
-  static constexpr int quarter_bits = 14;
+  // A share's two first bits are the quarter, the others the share of it.
+  static constexpr int bits_in_quarter = 14;
   static float share_of_quarter(std::uint16_t share) {
-    return static_cast<float>(share & ((1 << quarter_bits) - 1)) * 0x1p-14F;
+    constexpr int whole = 1 << bits_in_quarter;
+    return static_cast<float>(share & (whole - 1)) / whole;
   }
 
   std::size_t cell_of(const SplinePlace& p) const { return p.node + width_ + 1; }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "extent.h"
 #include "height_tails.h"
@@ -53,8 +54,14 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
+// 0 for a surface without extent.
 float in_cells_squared(double of_side, const Surface& surface) {
   return static_cast<float>(std::pow(of_side * longer_side_of(surface.points) / cell_width(surface), 2));
+}
+
+float pull_of(const Surface& surface) {
+  const float reach = in_cells_squared(Membrane::reach, surface);
+  return reach > 0 ? 1 / reach : 0;
 }
 
 Stiffness stiffness_of(const Surface& surface, const Lattice& lattice) {
@@ -67,8 +74,7 @@ Stiffness stiffness_of(const Surface& surface, const Lattice& lattice) {
     const bool is_rim = !(inside[n - 1] && inside[n + 1] && inside[n - row] && inside[n + row]);
     bending[n] = is_rim || jump[n] ? hinge * stiff : stiff;
   }
-  return {std::move(bending), 1, static_cast<float>(Membrane::anchor),
-          1 / in_cells_squared(Membrane::reach, surface)};
+  return {std::move(bending), 1, static_cast<float>(Membrane::anchor), pull_of(surface)};
 }
 
 }  // namespace
@@ -82,7 +88,7 @@ std::size_t Membrane::Workspace::memory() const {
 Membrane::Membrane(const Surface& surface)
     : lattice_(surface.points, free_points(surface.boundary), cell_width(surface)),
       sheet_(lattice_.width(), stiffness_of(surface, lattice_)),
-      pull_(1 / in_cells_squared(reach, surface)),
+      pull_(pull_of(surface)),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);
@@ -115,7 +121,7 @@ void Membrane::set_limits(float height, Workspace& w) const {
   ElasticSheet::Fields& f = w.sheet[0];
   sheet_.each_free_node([&](Index n) {
     f.lowest[n] = -infinity, f.highest[n] = infinity, f.wanted[n] = 0;
-    if (!lattice_.is_reached(n)) return;  // in a gap: its neighbours bridge it
+    if (!lattice_.is_reached(n)) return;  // in a gap: no heights to hold
     const Lattice::Extent rest = rest_around(n, w);
     f.lowest[n] = -w.heights[n] - rest.lowest;
     f.highest[n] = height - w.heights[n] - rest.highest;

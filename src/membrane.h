@@ -62,7 +62,7 @@ class Membrane {
   };
 
   // Spreads the membrane, adds it to the heights, rounds off the few that are highest or lowest and gives
-  // them just the height, base included. Heights that are all 0 and a height of 0 change nothing. For float
+  // them just the height, base included. A height of 0 changes nothing. For float
   // and double.
   template <typename Real>
   void hold(const Heights<Real>& heights, Workspace& workspace) const;

@@ -139,6 +139,21 @@ TEST(Lattice, KnowsTheCellsAroundANode) {
   s.lattice.each_cell(0, [](std::size_t c, std::size_t) { EXPECT_EQ(c, 0U); });
 }
 
+TEST(Lattice, FindsTheNodesAroundAPoint) {
+  const Scattered s;
+  for (const std::size_t point : {0U, 77U, 2999U}) {
+    std::vector<std::uint8_t> marks(s.lattice.nodes());
+    s.lattice.mark_nodes_around(point, marks);
+    for (std::size_t n = 0; n < marks.size(); ++n) {
+      const Vec2 away = s.place(point) - Vec2(n % s.lattice.width(), n / s.lattice.width());
+      const bool is_around = away.x() >= 0 && away.x() < 1 && away.y() >= 0 && away.y() < 1;
+      const bool is_next = std::abs(away.x()) <= 1 && std::abs(away.y()) <= 1;
+      EXPECT_TRUE(marks[n] ? is_next : !is_around) << point << ' ' << n;
+    }
+    EXPECT_EQ(std::ranges::count(marks, 1), 4);
+  }
+}
+
 // The place of a node is where at() gives its column and row.
 TEST(Lattice, FindsTheNodesInATriangle) {
   const Scattered s;

@@ -139,6 +139,29 @@ TEST(Membrane, DrawsToTheFrontWhatIsInFront) {
   EXPECT_GT(near / near_points, far / far_points + .03);
 }
 
+// Where the nearer sheet ends there is a jump: what draws it to the front bends the membrane there, and
+// hardly anywhere else.
+TEST(Membrane, IsHingedAtJumps) {
+  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
+  const std::vector<double> z = held(sheets, std::vector<double>(sheets.points.size(), .05), .1);
+  constexpr double step = .02;
+  std::vector<double> sum(40), points(40);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const Vec2 p = sheets.points[i].head<2>();
+    const auto bin = static_cast<std::size_t>(std::max(p.x(), 0.0) / step);
+    if (p.x() > 0 && bin < sum.size() && std::abs(p.y()) < .2) sum[bin] += z[i], ++points[bin];
+  }
+  const auto bend = [&](std::size_t first, std::size_t last) {
+    double most = 0;
+    for (std::size_t b = first; b <= last; ++b)
+      most = std::max(
+          most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
+    return most;
+  };
+  EXPECT_GT(bend(18, 21), 2 * bend(5, 15));
+  EXPECT_GT(bend(18, 21), 2 * bend(24, 34));
+}
+
 TEST(Membrane, IsTheSameInSinglePrecision) {
   const Surface surface = bumpy();
   const std::vector<double> z = depths(surface), exact = held(surface, z, .1);

@@ -13,7 +13,7 @@
 
 namespace relievo {
 
-// The x and y of one layer, between -2 and 2, to a part in 16384: a frame's time goes into reading them.
+// The x and y of one layer to a part in 16384, in half the memory of floats. What is beyond 2 is 2.
 class LayerXy {
  public:
   static constexpr float part = 0x1p-14F;
@@ -55,8 +55,8 @@ struct LayerWeights {
   static LayerWeights of(double u, double detail);
 };
 
-// The height within which a layered relief is held, of the one that (9) gives its slopes: the less is kept of
-// them, the more of the height is taken. `u` is that of Compression.
+// Returns the share, from .5 at u = 0 to 1 at infinity, of the height that (9) gives layered slopes within
+// which the relief is held. `u` is that of Compression.
 double held_share(double u);
 
 // What the layers add up to, each times its weight. All eight numbers at once: a frame does it for every
