@@ -27,10 +27,18 @@ std::vector<Index> free_points(const Boundary& boundary) {
   return found;
 }
 
-double cell_width(const Surface& surface) {
-  const double side = longer_side_of(surface.points);
-  return side > 0 ? std::max(cell_size * side, least_cell_size * surface.rho) : 1;
-}
+struct Scale {
+  double side, cell;
+
+  Scale(double longer_side, double rho)
+      : side(longer_side), cell(side > 0 ? std::max(cell_size * side, least_cell_size * rho) : 1) {}
+
+  // 0 for a surface without extent.
+  float in_cells_squared(double of_side) const {
+    return static_cast<float>(std::pow(of_side * side / cell, 2));
+  }
+  float pull() const { return side > 0 ? 1 / in_cells_squared(Membrane::reach) : 0; }
+};
 
 // Per node: near a point, or in a gap between points.
 std::vector<std::uint8_t> is_inside(const Surface& surface, const Lattice& lattice) {
@@ -54,27 +62,17 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
-// 0 for a surface without extent.
-float in_cells_squared(double of_side, const Surface& surface) {
-  return static_cast<float>(std::pow(of_side * longer_side_of(surface.points) / cell_width(surface), 2));
-}
-
-float pull_of(const Surface& surface) {
-  const float reach = in_cells_squared(Membrane::reach, surface);
-  return reach > 0 ? 1 / reach : 0;
-}
-
-Stiffness stiffness_of(const Surface& surface, const Lattice& lattice) {
+Stiffness stiffness_of(const Surface& surface, const Lattice& lattice, const Scale& scale) {
   const std::vector<std::uint8_t> inside = is_inside(surface, lattice), jump = is_at_jump(surface, lattice);
   const std::size_t row = lattice.width();
-  const float stiff = in_cells_squared(Membrane::stiff_reach, surface);
+  const float stiff = scale.in_cells_squared(Membrane::stiff_reach);
   std::vector<float> bending(lattice.nodes());
   for (std::size_t n = 0; n < bending.size(); ++n) {
     if (!inside[n]) continue;
     const bool is_rim = !(inside[n - 1] && inside[n + 1] && inside[n - row] && inside[n + row]);
     bending[n] = is_rim || jump[n] ? hinge * stiff : stiff;
   }
-  return {std::move(bending), 1, static_cast<float>(Membrane::anchor), pull_of(surface)};
+  return {std::move(bending), 1, static_cast<float>(Membrane::anchor), scale.pull()};
 }
 
 }  // namespace
@@ -85,10 +83,12 @@ std::size_t Membrane::Workspace::memory() const {
   return sum;
 }
 
-Membrane::Membrane(const Surface& surface)
-    : lattice_(surface.points, free_points(surface.boundary), cell_width(surface)),
-      sheet_(lattice_.width(), stiffness_of(surface, lattice_)),
-      pull_(pull_of(surface)),
+Membrane::Membrane(const Surface& surface) : Membrane(surface, longer_side_of(surface.points)) {}
+
+Membrane::Membrane(const Surface& surface, double side)
+    : lattice_(surface.points, free_points(surface.boundary), Scale(side, surface.rho).cell),
+      sheet_(lattice_.width(), stiffness_of(surface, lattice_, Scale(side, surface.rho))),
+      pull_(Scale(side, surface.rho).pull()),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);

@@ -21,7 +21,8 @@ namespace relievo {
 class Membrane {
  public:
   static constexpr double reach = .082, stiff_reach = .035;  // of the longer side
-  static constexpr double anchor = .15;  // of the tension, towards what lies beyond the silhouette
+  // Of the tension, towards what lies beyond the silhouette: what is in front may stand off the ground there.
+  static constexpr double anchor = .15;
 
   // What spread() needs besides, and finds, so that it allocates nothing.
   struct Workspace {
@@ -62,12 +63,12 @@ class Membrane {
   };
 
   // Spreads the membrane, adds it to the heights, rounds off the few that are highest or lowest and gives
-  // them just the height, base included. A height of 0 changes nothing. For float
-  // and double.
+  // them just the height, base included. A height of 0 changes nothing. For float and double.
   template <typename Real>
   void hold(const Heights<Real>& heights, Workspace& workspace) const;
 
  private:
+  Membrane(const Surface& surface, double longer_side);
   void set_limits(float height, Workspace& w) const;
   Lattice::Extent rest_around(std::size_t node, const Workspace& w) const;
 
