@@ -11,11 +11,14 @@ namespace relievo {
 namespace {
 
 constexpr int most_sweeps = 4000;
-constexpr std::size_t most_visits = 10;  // per triangle of the field, on average
+constexpr std::size_t most_visits = 10;  // per triangle of the field, besides one in every sweep
 // A triangle is made a little flatter than it must be, more so the longer it takes: else neighbours would
-// push each other over the limit by ever less, but for ever. Far flatter would push more of them over it; but
-// needles need as much as rounding takes.
-constexpr double least_spare = 2e-5, most_spare = 1e-3, most_spare_of_rounded = .1;
+// push each other over the limit by ever less, but for ever. Far flatter would push more of them over it.
+constexpr double least_spare = 2e-5, most_spare = 1e-3;
+// Of two needles on one short edge each may take back what the other does to its ends, and both wait for
+// their far corners, which least squares hardly move. So now and then a triangle is scaled instead, by a
+// little: that leaves less for the two to settle, but moves points farther than it must.
+constexpr int sweeps_to_scaling = 64;
 
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -60,21 +63,24 @@ struct Fans {
 class Flattener {
  public:
   Flattener(const SteepField& field, double max_slope, Rounding rounding, std::span<double> heights)
-      : field_(field), max_slope_(max_slope), rounding_(rounding), heights_(heights) {}
+      : field_(field),
+        max_slope_(max_slope),
+        rounding_(rounding),
+        heights_(heights),
+        exact_(heights.begin(), heights.end()) {}
 
   bool run() {
     std::vector<Index> steep = all_steep();
     if (steep.empty()) return true;
     const Fans fans(field_);
-    const bool is_rounded = rounding_ == Rounding::single_precision;
     std::size_t visits = 0;
     for (int sweep = 0; sweep < most_sweeps && !steep.empty(); ++sweep) {
       visits += steep.size();
-      if (visits > most_visits * field_.triangles.size()) return false;
-      const double spare = std::min(is_rounded ? most_spare_of_rounded : most_spare,
-                                    least_spare * (1 + sweep / 10) * (is_rounded ? 1 + sweep : 1));
+      if (visits > most_visits * field_.triangles.size() + most_sweeps) return false;
+      const bool is_scaling = sweep % sweeps_to_scaling == sweeps_to_scaling - 1;
+      const double wanted = max_slope_ * (1 - std::min(most_spare, least_spare * (1 + sweep / 10)));
       for (const Index t : steep)
-        if (is_steep(t)) flatten_one(field_.triangles[t], max_slope_ * (1 - spare));
+        if (is_steep(t)) flatten_one(field_.triangles[t], wanted, is_scaling);
       steep = steep_around(steep, fans);
     }
     return steep.empty();
@@ -111,10 +117,12 @@ class Flattener {
     return around;
   }
 
-  void flatten_one(const Triangle& t, double wanted) {
+  void flatten_one(const Triangle& t, double wanted, bool is_scaling) {
     const Vec2 slope = triangle_slope(field_, t, heights_);
-    if (!slope.allFinite()) return;
     const double steepness = slope.norm();
+    if (!slope.allFinite() || steepness < wanted) return;  // overturned, which no slope mends
+    if (is_scaling && std::ranges::count_if(t, [&](Index i) { return field_.is_fixed[i]; }) < 2)
+      return scale(t, std::max(wanted / steepness, 1 - most_spare));
     const std::array<Vec2, 3> gradients = hat_gradients(field_, t);
     std::array<double, 3> pull{};
     double sum_sq = 0;
@@ -128,15 +136,26 @@ class Flattener {
       if (pull[i] != 0) move(t[i], (wanted - steepness) * pull[i] / sum_sq);
   }
 
+  // About the corner that stays, if one does.
+  void scale(const Triangle& t, double share) {
+    double centre = (heights_[t[0]] + heights_[t[1]] + heights_[t[2]]) / 3;
+    for (const Index i : t)
+      if (field_.is_fixed[i]) centre = heights_[i];
+    for (const Index i : t)
+      if (!field_.is_fixed[i]) move(i, (share - 1) * (heights_[i] - centre));
+  }
+
   void move(Index i, double by) {
-    const double z = heights_[i] + by;
-    heights_[i] = rounding_ == Rounding::none ? z : static_cast<double>(static_cast<float>(z));
+    exact_[i] += by;
+    heights_[i] =
+        rounding_ == Rounding::none ? exact_[i] : static_cast<double>(static_cast<float>(exact_[i]));
   }
 
   SteepField field_;
   double max_slope_;
   Rounding rounding_;
   std::span<double> heights_;
+  std::vector<double> exact_;  // before rounding, which would for ever take all of a move below half a step
 };
 
 }  // namespace

@@ -26,7 +26,8 @@ double steepest_of(const SteepField& field, std::span<const double> heights);
 
 // Changes heights until no triangle is steeper than the limit: each that is moves its free corners by the
 // least squares that make it flat enough, again and again as its neighbours do (projections onto convex
-// sets). With Rounding::single_precision every height stays a float. Returns whether it got there.
+// sets), scaled in between where that hardly gets anywhere. With Rounding::single_precision every height
+// stays a float. Returns whether it got there.
 bool flatten(const SteepField& field, double max_slope, Rounding rounding, std::span<double> heights);
 
 }  // namespace relievo
