@@ -65,8 +65,8 @@ Result<double> hold_draft(Solid& solid, double max_slope) {
     return std::unexpected(Error{ErrorKind::geometry,
                                  "--draft",
                                  {},
-                                 "expected points that single precision can tell apart, found some that it "
-                                 "cannot: fewer of them help, as --tolerance leaves"});
+                                 "expected triangles that keep the limit in single precision, found some "
+                                 "that do not: fewer points help, as --tolerance leaves"});
   double largest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (front.heights[i] == before[i]) continue;

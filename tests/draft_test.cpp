@@ -355,7 +355,24 @@ TEST(HoldDraft, RefusesAFrontThatIsTooSteep) {
   Front peak = test::flat_front({10, 10, 2, 2});
   peak.points[4].z() = 50;
   Solid solid = make_plate(peak, {}).value();
+  const std::vector<Vec3> before = solid.points;
   EXPECT_EQ(hold_draft(solid, 1).error().kind, ErrorKind::geometry);
+  EXPECT_EQ(solid.points, before);
+}
+
+TEST(HoldDraft, RefusesWhatRoundingDoesBetweenPointsThatStay) {
+  Solid solid;  // walls stand under all of the front
+  solid.points = {{20.0011017003, 20.0058829037, 3.00011886031},
+                  {20.0012021058, 20.0057975004, 3},
+                  {20.0012861059, 20.0059675612, 3.00011886031}};
+  solid.triangles = {{0, 1, 2}, {0, 2, 1}};
+  solid.front_triangles = 1;
+  ASSERT_LT(slope_of(solid.points[0], solid.points[1], solid.points[2]).slope.norm(), .995);
+  ASSERT_GT(steepest_slope(solid), 1);
+  const auto moved = hold_draft(solid, 1);
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().kind, ErrorKind::geometry);
+  EXPECT_NE(moved.error().message().find("single precision"), std::string::npos);
 }
 
 }  // namespace

@@ -48,8 +48,10 @@ Result<Relief> make_with_draft(const ReliefModel& model, const DraftOrder& order
 
 // Moves points of the solid's front up or down, by what rounding to single precision takes, until none of its
 // triangles is steeper than the limit in a file; returns the largest move in mm, a few micrometres as a rule.
-// The ground, the highest and the lowest points stay. Errors: kind geometry if that cannot be had: the front
-// was steeper before, or has points that single precision cannot tell apart.
+// The ground, the highest and the lowest points stay. Errors: kind geometry, and the solid as it was, if no
+// such moves are found: the front was steeper before, or rounding does what they cannot make up for, to
+// triangles between points that stay, or to points a few steps of single precision from each other or from an
+// edge.
 Result<double> hold_draft(Solid& solid, double max_slope);
 
 }  // namespace relievo
