@@ -17,7 +17,7 @@ namespace relievo {
 template <typename Real>
 class HeightTails {
  public:
-  static constexpr double share = .005, flattest = .12;
+  static constexpr double share = .002, flattest = .12;
 
   explicit HeightTails(std::span<const Real> heights) {
     const HeightSpan<Real> span = span_of(heights);

@@ -15,7 +15,7 @@ namespace relievo {
 namespace {
 
 // Cells are as wide as that, of the longer side; in rho, where points are too few for it.
-constexpr double cell_size = .01, least_cell_size = 2;
+constexpr double cell_size = .008, least_cell_size = 2;
 // Of the bending elsewhere, where it is hinged.
 constexpr float hinge = .01F;
 constexpr float infinity = std::numeric_limits<float>::infinity();

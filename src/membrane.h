@@ -15,14 +15,14 @@ namespace relievo {
 // least integral of (stiff_reach lap b)^2 + |grad b|^2 + ((z + b - h r) / reach)^2, where r are the ranks of
 // the depths: an obstacle problem. Where the heights z have room b is smooth, so that the relief keeps their
 // curvature; along silhouettes and depth jumps it is hinged, for nobody sees it bend there; what is in front
-// is drawn to the front. It lives on a lattice of 1 % of the longer side, coarser where points are few, whose
-// limits leave room for what the heights do between nodes. It is 0 where there are no points. Const calls may
-// run concurrently, each with a workspace of its own.
+// is drawn to the front. It lives on a lattice of .8 % of the longer side, coarser where points are few,
+// whose limits leave room for what the heights do between nodes. It is 0 where there are no points. Const
+// calls may run concurrently, each with a workspace of its own.
 class Membrane {
  public:
-  static constexpr double reach = .082, stiff_reach = .035;  // of the longer side
+  static constexpr double reach = .085, stiff_reach = .028;  // of the longer side
   // Of the tension, towards what lies beyond the silhouette: what is in front may stand off the ground there.
-  static constexpr double anchor = .15;
+  static constexpr double anchor = .1;
 
   // What spread() needs besides, and finds, so that it allocates nothing.
   struct Workspace {

@@ -99,10 +99,11 @@ TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-TEST(LayerWeights, AreEquationSixLayerByLayer) {
+TEST(LayerWeights, AreEquationSixLayerByLayerTimesWhatLevellingHides) {
   for (const double u : {.1, 1.0, 5.0}) {
     const LayerWeights even = LayerWeights::of(u, 0);
-    EXPECT_FLOAT_EQ(even.fine, static_cast<float>(1 - std::exp(-u)));
+    const double more = 2 - held_share(u);
+    EXPECT_FLOAT_EQ(even.fine, static_cast<float>(more * (1 - std::exp(-u))));
     EXPECT_EQ(even.middle, even.fine);
     EXPECT_EQ(even.coarse, even.fine);
     EXPECT_EQ(even.broad, even.fine);
@@ -110,10 +111,19 @@ TEST(LayerWeights, AreEquationSixLayerByLayer) {
     EXPECT_EQ(held.fine, even.fine);
     EXPECT_LT(held.middle, held.fine);
     EXPECT_LT(held.coarse, held.middle);
-    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(1 - std::exp(-u * std::exp(-2.85))));
+    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-3)))));
   }
   EXPECT_EQ(LayerWeights::of(infinity, .04).broad, 1);
   EXPECT_EQ(LayerWeights::of(0, .04).fine, 0);
+}
+
+// The weights may fall as u grows, the height that they are held to may not.
+TEST(LayerWeights, AskForMoreHeightAsUGrows) {
+  for (double u = 0; u < 20; u += .25) {
+    const LayerWeights low = LayerWeights::of(u, .04), high = LayerWeights::of(u + .25, .04);
+    EXPECT_LT(low.held * low.fine, high.held * high.fine) << u;
+    EXPECT_LT(low.held * low.broad, high.held * high.broad) << u;
+  }
 }
 
 // Kept in full, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
@@ -144,7 +154,7 @@ TEST(LayeredSlope, ReckonsWithTheMembrane) {
 TEST(HeldShare, GrowsToAllOfTheHeight) {
   EXPECT_EQ(held_share(infinity), 1);
   for (double u = 0; u < 20; u += .5) EXPECT_LT(held_share(u), held_share(u + .5));
-  EXPECT_NEAR(held_share(0), .5, 1e-12);
+  EXPECT_NEAR(held_share(0), .375, 1e-12);
 }
 
 TEST(LayeredSlope, IsNeverSteeperThanAllowed) {

@@ -31,7 +31,7 @@ class LayerXy {
 };
 
 // What a point's normal is made of. They add up to -(n_x, n_y), less where it is steeper than about 85
-// degrees: what a Gaussian along the surface takes away, of 0.6, 5.8 and 15 % of the longer side in a row,
+// degrees: what a Gaussian along the surface takes away, of 0.45, 5.8 and 12 % of the longer side in a row,
 // and what is left.
 struct PointLayers {
   LayerXy fine, middle, coarse, broad;
@@ -45,17 +45,18 @@ enum class Style {
   layered  // ours: fine layers of the normals kept more than coarse ones, heights held within the relief's
 };
 
-// How much of each layer a relief keeps: the paper's w_k = 1 - exp(-u), equation (6), layer by layer.
+// How much of each layer a relief keeps: the paper's w_k = 1 - exp(-u), equation (6), layer by layer, times
+// 2 - held, since what the membrane levels shows less.
 struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, broad = 0;
   float held = 1;  // held_share()
 
-  // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-19 detail), the
-  // broad one by exp(-71 detail); 0 is even.
+  // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-20 detail), the
+  // broad one by exp(-75 detail); 0 is even.
   static LayerWeights of(double u, double detail);
 };
 
-// Returns the share, from .5 at u = 0 to 1 at infinity, of the height that (9) gives layered slopes within
+// Returns the share, from .375 at u = 0 to 1 at infinity, of the height that (9) gives layered slopes within
 // which the relief is held. `u` is that of Compression.
 double held_share(double u);
 
