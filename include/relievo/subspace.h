@@ -25,8 +25,9 @@ struct SubspaceOptions {
 // reference heights, z_c / z0_c, both solved on the control points; the offset d is what a smooth ratio
 // leaves of z_c, above all where z0 passes 0. Multilevel B-splines carry both to all points.
 //
-// Reliefs are within about 1 % (root mean square, of the height) of the exact ones, layered ones within 3.3
-// %: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of its own.
+// Reliefs are within about 1 % (root mean square, of the height) of the exact ones, layered ones within 1 to
+// 4 %, low ones most: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of
+// its own.
 class SubspaceModel {
  public:
   // What a relief needs besides the model, so that frames allocate nothing.
