@@ -6,6 +6,7 @@
 
 #include "jumps.h"
 #include "model_picture.h"
+#include "plane_measures.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
@@ -24,17 +25,6 @@ Vec3f light_direction(int i) {
       .cast<float>();
 }
 
-// SplitMix64, for pairs of pixels that are the same everywhere.
-struct Random {
-  std::uint64_t state = 1;
-  std::size_t below(std::size_t n) {
-    std::uint64_t z = state += 0x9E3779B97F4A7C15U;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBU;
-    return static_cast<std::size_t>((z ^ z >> 31) % n);
-  }
-};
-
 Plane lambert(const NormalPicture& n, const Vec3f& light) {
   Plane out(n.x.size());
   for (std::size_t i = 0; i < out.size(); ++i)
@@ -46,18 +36,6 @@ Plane product(const Plane& a, const Plane& b) {
   Plane out(a.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] * b[i];
   return out;
-}
-
-double correlation(const Plane& a, const Plane& b, const std::vector<Index>& at) {
-  double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
-  for (const Index i : at) ma += static_cast<double>(a[i]), mb += static_cast<double>(b[i]);
-  const auto n = static_cast<double>(at.size());
-  ma /= n, mb /= n;
-  for (const Index i : at) {
-    const double da = static_cast<double>(a[i]) - ma, db = static_cast<double>(b[i]) - mb;
-    aa += da * da, bb += db * db, ab += da * db;
-  }
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
 Image8 to_grey(const Plane& light, int width) {
@@ -86,8 +64,8 @@ struct Judge::Truth : ModelPicture {
   };
 
   std::vector<Shading> shadings;
-  std::array<Plane, 3> curvature;      // smoothed
-  std::array<Plane, 3> smooth_weight;  // what of a Gaussian lies on measured pixels
+  std::vector<MeasuredGaussian> smoothing;  // per scale of the detail
+  std::array<Plane, 3> curvature;           // smoothed
   Steps steps;
   GaussianFilter window{1.5, safe_distance_px};
 
@@ -96,7 +74,7 @@ struct Judge::Truth : ModelPicture {
     shadings.resize(lights);
     parallel_for(
         lights, [&](std::size_t i) { shadings[i] = shading_of(normals, static_cast<int>(i)); }, 1);
-    set_smooth_weights();
+    for (const int s : detail_scales_px) smoothing.emplace_back(s, 3 * s, measured);
     curvature = smoothed_curvature(normals);
     find_steps(surface);
   }
@@ -130,13 +108,13 @@ struct Judge::Truth : ModelPicture {
     Plane ab = product(a.light, b.light);
     window.apply(ab, width());
     double sum = 0;
-    for (const Index i : measured) {
+    for (const Index i : measured.pixels) {
       const double ma = static_cast<double>(a.mean[i]), mb = static_cast<double>(b.mean[i]);
       const double va = static_cast<double>(a.variance[i]), vb = static_cast<double>(b.variance[i]);
       const double cov = static_cast<double>(ab[i]) - ma * mb;
       sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
     }
-    return sum / static_cast<double>(measured.size());
+    return sum / static_cast<double>(measured.pixels.size());
   }
 
   double shading(const NormalPicture& n) const {
@@ -151,52 +129,20 @@ struct Judge::Truth : ModelPicture {
 
   double angle_deg(const NormalPicture& n) const {
     double sum = 0;
-    for (const Index i : measured) {
+    for (const Index i : measured.pixels) {
       const double cosine =
           static_cast<double>(n.x[i] * normals.x[i] + n.y[i] * normals.y[i] + n.z[i] * normals.z[i]);
       sum += std::acos(std::clamp(cosine, -1.0, 1.0));
     }
-    return sum / static_cast<double>(measured.size()) * 180 / std::numbers::pi;
+    return sum / static_cast<double>(measured.pixels.size()) * 180 / std::numbers::pi;
   }
 
-  void set_smooth_weights() {
-    for (std::size_t s = 0; s < detail_scales_px.size(); ++s) {
-      smooth_weight[s].assign(is_measured.begin(), is_measured.end());
-      GaussianFilter(detail_scales_px[s], 3 * detail_scales_px[s]).apply(smooth_weight[s], width());
-    }
-  }
-
-  // div n, averaged over measured pixels alone: at others differences reach across walls.
   std::array<Plane, 3> smoothed_curvature(const NormalPicture& n) const {
-    Plane divergence(n.x.size(), 0.F);
-    const auto w = static_cast<std::size_t>(width());
-    for (std::size_t i = w; i + w < divergence.size(); ++i)
-      if (is_measured[i]) divergence[i] = (n.x[i + 1] - n.x[i - 1] + n.y[i - w] - n.y[i + w]) / 2;
     std::array<Plane, 3> smoothed;
+    smoothed.fill(divergence(n.x, n.y, measured));
     parallel_for(
-        smoothed.size(),
-        [&](std::size_t s) {
-          smoothed[s] = divergence;
-          GaussianFilter(detail_scales_px[s], 3 * detail_scales_px[s]).apply(smoothed[s], width());
-          for (const Index i : measured) smoothed[s][i] /= smooth_weight[s][i];
-        },
-        1);
+        smoothed.size(), [&](std::size_t s) { smoothing[s].apply(smoothed[s], measured); }, 1);
     return smoothed;
-  }
-
-  double order(const Plane& z) const {
-    const auto [low, high] = std::minmax_element(measured.begin(), measured.end(),
-                                                 [&](Index a, Index b) { return depth[a] < depth[b]; });
-    const float least = .01F * (depth[*high] - depth[*low]);
-    Random random;
-    std::size_t counted = 0, kept = 0;
-    for (std::size_t pair = 0; pair < pairs; ++pair) {
-      const Index a = measured[random.below(measured.size())], b = measured[random.below(measured.size())];
-      if (!(std::abs(depth[a] - depth[b]) > least)) continue;
-      ++counted;
-      kept += (depth[a] > depth[b]) == (z[a] > z[b]) && z[a] != z[b];
-    }
-    return counted > 0 ? static_cast<double>(kept) / static_cast<double>(counted) : 0;
   }
 
   // What the relief does where the measures do not look.
@@ -235,7 +181,7 @@ Judge::Judge(Judge&&) noexcept = default;
 Judge::~Judge() = default;
 
 std::size_t Judge::pixels() const {
-  return truth_->measured.size();
+  return truth_->measured.pixels.size();
 }
 
 Measures Judge::measure(std::span<const double> heights) const {
@@ -245,19 +191,19 @@ Measures Judge::measure(std::span<const double> heights) const {
   m.height = std::max(high, 0.0) - std::min(low, 0.0);
   if (!(m.height > 0)) return m;
   const Plane z = truth_->heights_in_pixels(heights);
-  const NormalPicture n = truth_->normals_of(z);
+  const NormalPicture n = normals_of(z, truth_->width());
   m.shading = truth_->shading(n);
   m.angle_deg = truth_->angle_deg(n);
   const std::array<Plane, 3> curvature = truth_->smoothed_curvature(n);
   for (std::size_t s = 0; s < curvature.size(); ++s)
     m.detail[s] = correlation(curvature[s], truth_->curvature[s], truth_->measured);
-  m.order = truth_->order(z);
+  m.order = order_kept(z, truth_->depth, truth_->measured, pairs);
   truth_->guard(z, n, heights, m);
   return m;
 }
 
 Image8 Judge::shade(std::span<const double> heights, const Vec3f& light) const {
-  const NormalPicture n = truth_->normals_of(truth_->heights_in_pixels(heights));
+  const NormalPicture n = normals_of(truth_->heights_in_pixels(heights), truth_->width());
   return to_grey(lambert(n, light.normalized()), truth_->width());
 }
 

@@ -6,16 +6,6 @@
 #include "relievo/parallel.h"
 
 namespace relievo {
-namespace {
-
-std::vector<Index> where(const std::vector<std::uint8_t>& mask) {
-  std::vector<Index> places;
-  for (Index i = 0; i < mask.size(); ++i)
-    if (mask[i]) places.push_back(i);
-  return places;
-}
-
-}  // namespace
 
 ModelPicture::ModelPicture(const Surface& surface, int longer_side_px, int margin_px)
     : grid(surface.points, surface.triangulation, longer_side_px, margin_px) {
@@ -34,12 +24,12 @@ void ModelPicture::classify(const Surface& surface) {
   }
   is_inside.resize(grid.pixels());
   const std::vector<std::uint8_t> is_unsafe = widened(is_broken, width(), safe_distance_px);
-  is_measured.resize(grid.pixels());
+  std::vector<std::uint8_t> is_measured(grid.pixels());
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
     is_inside[i] = !is_outside[i];
     is_measured[i] = !is_unsafe[i];
   }
-  measured = where(is_measured);
+  measured = Measured(width(), std::move(is_measured));
 }
 
 void ModelPicture::draw(const Surface& surface) {
@@ -69,15 +59,12 @@ Plane ModelPicture::heights_in_pixels(std::span<const double> heights) const {
   return z;
 }
 
-NormalPicture ModelPicture::normals_of(const Plane& z) const {
+NormalPicture normals_of(const Plane& z, int width) {
   NormalPicture n{Plane(z.size(), 0.F), Plane(z.size(), 0.F), Plane(z.size(), 1.F)};
-  const int w = width(), h = grid.height();
-  for (int row = 1; row + 1 < h; ++row)
-    for (int column = 1; column + 1 < w; ++column) {
-      const std::size_t i =
-          static_cast<std::size_t>(row) * static_cast<std::size_t>(w) + static_cast<std::size_t>(column);
-      const float dx = (z[i + 1] - z[i - 1]) / 2,
-                  dy = (z[i - static_cast<std::size_t>(w)] - z[i + static_cast<std::size_t>(w)]) / 2;
+  const auto w = static_cast<std::size_t>(width);
+  for (std::size_t row = w; row + w < z.size(); row += w)
+    for (std::size_t i = row + 1; i + 1 < row + w; ++i) {
+      const float dx = (z[i + 1] - z[i - 1]) / 2, dy = (z[i - w] - z[i + w]) / 2;
       const float scale = 1 / std::sqrt(1 + dx * dx + dy * dy);
       n.x[i] = -dx * scale, n.y[i] = -dy * scale, n.z[i] = scale;
     }

@@ -1,0 +1,43 @@
+// What a relief keeps of its model, measured on planes: pictures, or nodes of a lattice. Rows run down, as in
+// pictures.
+#pragma once
+
+#include <vector>
+
+#include "picture.h"
+
+namespace relievo {
+
+// Where planes are looked at.
+struct Measured {
+  int width = 0;
+  std::vector<std::uint8_t> is_measured;  // per pixel; none in the first and last row and column
+  std::vector<Index> pixels;              // those that are
+
+  Measured() = default;
+  Measured(int width, std::vector<std::uint8_t> is_measured);
+};
+
+// div (x, y) at measured pixels, where all neighbours count, 0 elsewhere.
+Plane divergence(const Plane& x, const Plane& y, const Measured& where);
+
+// A Gaussian's average over measured pixels alone.
+class MeasuredGaussian {
+ public:
+  MeasuredGaussian(double sigma, int reach, const Measured& where);
+  // Values at other pixels have to be 0, and come out as anything.
+  void apply(Plane& plane, const Measured& where) const;
+
+ private:
+  GaussianFilter filter_;
+  Plane weight_;  // what of it lies on measured pixels
+};
+
+// Of values at measured pixels; 0 if all of a plane's are equal.
+double correlation(const Plane& a, const Plane& b, const Measured& where);
+
+// Returns the share of random pairs of measured pixels, the same ones every time and further apart in depth
+// than 1 % of the depth range, whose order the heights z keep; 0 if there are none.
+double order_kept(const Plane& z, const Plane& depth, const Measured& where, std::size_t pairs);
+
+}  // namespace relievo
