@@ -30,7 +30,6 @@ ElasticSheet::Level::Level(std::size_t width, Stiffness stiffness)
 void ElasticSheet::Level::couple(std::size_t n) {
   const std::vector<float>& c = stiffness_.bending;
   nodes_[(n % width_ + 2 * (n / width_)) % nodes_.size()].push_back(static_cast<Index>(n));
-  own_[n] = stiffness_.pull;
   diagonal_[n] = 16 * c[n] + 4 * stiffness_.tension;
   for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_}) {
     diagonal_[n] += c[side];
@@ -49,7 +48,7 @@ std::size_t ElasticSheet::Level::memory() const {
 ElasticSheet::Level ElasticSheet::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2;
   Stiffness coarse{std::vector<float>(width * (rows / 2 + 2)), stiffness_.tension,
-                   std::min(2 * stiffness_.anchor, 1.F), 4 * stiffness_.pull};
+                   std::min(2 * stiffness_.anchor, 1.F)};
   for (std::size_t y = 1; 2 * y + 1 < rows; ++y)
     for (std::size_t x = 1; 2 * x + 1 < width_; ++x) {
       const std::size_t n = 2 * (x + y * width_);
@@ -96,14 +95,15 @@ void ElasticSheet::Level::start(Fields& f) const {
 }
 
 // Moves one node to where the energy is least, and further, within its limits.
-inline void ElasticSheet::Level::move(Index n, Fields& f) const {
+inline void ElasticSheet::Level::move(Index n, float pull, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float* c = stiffness_.bending.data() + n;
   const auto row = static_cast<std::ptrdiff_t>(width_);
   const float lap_b = b[-1] + b[1] + b[-row] + b[row] - 4 * b[0];
   const float lap_m = m[-1] + m[1] + m[-row] + m[row] - 4 * m[0];
-  const float rise = lap_m - stiffness_.tension * lap_b + own_[n] * b[0] - f.wanted[n];
-  const float next = std::clamp(b[0] - over_relaxation * rise / diagonal_[n], f.lowest[n], f.highest[n]);
+  const float rise = lap_m - stiffness_.tension * lap_b + (own_[n] + pull) * b[0] - f.wanted[n];
+  const float step = over_relaxation * rise / (diagonal_[n] + pull);
+  const float next = std::clamp(b[0] - step, f.lowest[n], f.highest[n]);
   const float change = next - b[0];
   b[0] = next;
   m[0] -= 4 * c[0] * change;
@@ -111,9 +111,9 @@ inline void ElasticSheet::Level::move(Index n, Fields& f) const {
     m[side] += c[side] * change;
 }
 
-void ElasticSheet::Level::relax(int times, Fields& f) const {
+void ElasticSheet::Level::relax(int times, float pull, Fields& f) const {
   start(f);
-  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, f); });
+  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, pull, f); });
 }
 
 ElasticSheet::ElasticSheet(std::size_t width, Stiffness stiffness) {
@@ -135,12 +135,12 @@ std::size_t ElasticSheet::memory() const {
   return sum;
 }
 
-void ElasticSheet::solve(Workspace& w) const {
+void ElasticSheet::solve(float pull, Workspace& w) const {
   for (std::size_t l = 1; l < levels; ++l) levels_[l].restrict_from(levels_[l - 1], w[l - 1], w[l]);
   std::ranges::fill(w.back().b, 0.F);
   for (std::size_t l = levels; l-- > 0;) {
     if (l + 1 < levels) levels_[l].prolong_from(levels_[l + 1], w[l + 1], w[l]);
-    levels_[l].relax(sweeps[l], w[l]);
+    levels_[l].relax(sweeps[l], pull * static_cast<float>(1 << 2 * l), w[l]);
   }
 }
 

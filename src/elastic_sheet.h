@@ -15,12 +15,11 @@ struct Stiffness {
   std::vector<float> bending;
   float tension = 1;  // of the squared difference between neighbours
   float anchor = 1;   // of the tension, towards neighbours that are fixed
-  float pull = 0;     // of b^2
 };
 
 // Of all b with lowest <= b <= highest, one near the least energy: half of the sum of bending, tension and
-// pull, less that of wanted b. Successive over-relaxation on lattices of 4, 2 and 1 cells, each starting from
-// what the coarser one found. Const calls may run concurrently, each with a workspace of its own.
+// pull b^2, less that of wanted b. Successive over-relaxation on lattices of 4, 2 and 1 cells, each starting
+// from what the coarser one found. Const calls may run concurrently, each with a workspace of its own.
 class ElasticSheet {
  public:
   static constexpr std::size_t levels = 3;
@@ -50,9 +49,9 @@ class ElasticSheet {
     levels_[0].each_node(f);
   }
 
-  // Finds the finest b for the finest limits, lowest <= highest, and what is wanted; of fixed nodes they do
-  // not matter, but b and moment there have to be 0, as make_workspace() leaves them.
-  void solve(Workspace& workspace) const;
+  // Finds the finest b for the finest limits, lowest <= highest, what is wanted, and a pull >= 0; of fixed
+  // nodes they do not matter, but b and moment there have to be 0, as make_workspace() leaves them.
+  void solve(float pull, Workspace& workspace) const;
 
  private:
   class Level {
@@ -74,12 +73,12 @@ class ElasticSheet {
     void restrict_from(const Level& finer, const Fields& from, Fields& to) const;
     // b from the next coarser level's.
     void prolong_from(const Level& coarser, const Fields& from, Fields& to) const;
-    void relax(int times, Fields& f) const;
+    void relax(int times, float pull, Fields& f) const;
 
    private:
     void couple(std::size_t n);
     void start(Fields& f) const;
-    void move(Index n, Fields& f) const;
+    void move(Index n, float pull, Fields& f) const;
 
     std::size_t width_ = 0;
     Stiffness stiffness_;
@@ -87,7 +86,7 @@ class ElasticSheet {
     // wait for one before the next: 2.6 times as fast as row by row.
     std::array<std::vector<Index>, 5> nodes_;
     std::vector<float> own_;       // per node: of b^2, besides four neighbours' full tension
-    std::vector<float> diagonal_;  // per node: of the energy's matrix; 0 where b is fixed
+    std::vector<float> diagonal_;  // per node: of the energy's matrix without pull; 0 where b is fixed
   };
 
   std::array<Level, levels> levels_;

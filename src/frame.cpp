@@ -42,7 +42,8 @@ struct FrameMaker::Packed {
   Membrane::Workspace membrane_workspace = model.membrane().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
   std::vector<float> boundary_weight{std::vector<float>(surface.points.size())};
-  double boundary_width = 0;  // that boundary_weight is for
+  bool is_hold_given = false;  // by the shape asked for
+  double boundary_width = 0;   // that boundary_weight is for
   WeightTable weight;
   std::vector<HeightSpan<float>> spans{(surface.points.size() + default_grain - 1) / default_grain};
   // Where the last locked height was found, and by how much ln h changes with ln u there.
@@ -119,12 +120,13 @@ struct FrameMaker::Packed {
 
   // Heights for the frame's shape: with detail, or yet to be held within frame.height.
   void raise(Frame& frame) {
-    const Shape& shape = frame.options.shape;
+    Shape& shape = frame.options.shape;
+    const bool is_layered = shape.style == Style::layered;
+    if (is_layered && !is_hold_given) shape.hold = model.hold_at(shape.compression.u);
     find_heights(frame);
     const Stopwatch watch;
-    frame.height = shape.style == Style::layered
-                       ? held_share(shape.compression.u) * static_cast<double>(span_of_heights(frame))
-                       : static_cast<double>(add_detail(frame));
+    frame.height = is_layered ? shape.hold->share * static_cast<double>(span_of_heights(frame))
+                              : static_cast<double>(add_detail(frame));
     frame.times.detail_s += watch.seconds();
   }
 
@@ -132,7 +134,8 @@ struct FrameMaker::Packed {
   void hold(Frame& frame) {
     if (frame.options.shape.style != Style::layered) return;
     const Stopwatch watch;
-    model.membrane().hold<float>({frame.heights, boundary_weight, frame.height}, membrane_workspace);
+    const Membrane::Limits limits{frame.height, frame.options.shape.hold->reach};
+    model.membrane().hold<float>({frame.heights, boundary_weight, limits}, membrane_workspace);
     frame.times.detail_s += watch.seconds();
   }
 
@@ -177,6 +180,7 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   frame.shading.resize(packed_->size());
   frame.times = {};
   frame.is_height_met = true;
+  packed_->is_hold_given = options.shape.hold.has_value();
   packed_->set_boundary_width(options.shape.boundary_width);
   if (options.height)
     packed_->raise_to(*options.height, frame);

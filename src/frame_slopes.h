@@ -30,7 +30,7 @@ inline void frame_slopes(const SlopeInput& input, const WeightTable& weight, dou
 // layered_slopes() with the saturation's share from the table, which holds saturation_alone().
 inline void frame_layered_slopes(const SlopeInput& input, const WeightTable& saturation, const Shape& shape,
                                  std::span<Vec2f> slopes) {
-  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma);
+  const LayerWeights weights = layer_weights(shape);
   const auto scale = static_cast<float>(saturation_scale(shape.compression));
   const auto max_slope = static_cast<float>(shape.max_slope);
   parallel_for(slopes.size(), [&](std::size_t i) {

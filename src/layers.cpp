@@ -16,10 +16,7 @@ constexpr double finest = .0045, middling = .058, coarsest = .12;
 constexpr double steepest_kept = 12;
 
 // How far layers are held back, of the exponent 25 detail.
-constexpr double middle_share = .32, coarse_share = .82, broad_share = 3;
-
-// The least of the height that is held, and how fast that grows with u.
-constexpr double least_held = .375, held_growth = .33;
+constexpr double middle_share = .4, coarse_share = .82, broad_share = 2.5;
 
 // -(n_x, n_y), which fades out where the surface turns away from the viewer: such slopes spend height and
 // show little.
@@ -50,16 +47,11 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   return layers;
 }
 
-LayerWeights LayerWeights::of(double u, double detail) {
-  const double held = held_share(u);
+LayerWeights LayerWeights::of(double u, double detail, double held) {
   const auto kept = [&](double share) {
     return static_cast<float>(u > 0 ? (held - 2) * std::expm1(-u * std::exp(-25 * detail * share)) : 0);
   };
   return {kept(0), kept(middle_share), kept(coarse_share), kept(broad_share), static_cast<float>(held)};
-}
-
-double held_share(double u) {
-  return 1 - (1 - least_held) * std::exp(-held_growth * u);
 }
 
 }  // namespace relievo

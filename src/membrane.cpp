@@ -37,7 +37,6 @@ struct Scale {
   float in_cells_squared(double of_side) const {
     return static_cast<float>(std::pow(of_side * side / cell, 2));
   }
-  float pull() const { return side > 0 ? 1 / in_cells_squared(Membrane::reach) : 0; }
 };
 
 // Per node: near a point, or in a gap between points.
@@ -72,7 +71,7 @@ Stiffness stiffness_of(const Surface& surface, const Lattice& lattice, const Sca
     const bool is_rim = !(inside[n - 1] && inside[n + 1] && inside[n - row] && inside[n + row]);
     bending[n] = is_rim || jump[n] ? hinge * stiff : stiff;
   }
-  return {std::move(bending), 1, static_cast<float>(Membrane::anchor), scale.pull()};
+  return {std::move(bending), 1, static_cast<float>(Membrane::anchor)};
 }
 
 }  // namespace
@@ -86,9 +85,10 @@ std::size_t Membrane::Workspace::memory() const {
 Membrane::Membrane(const Surface& surface) : Membrane(surface, longer_side_of(surface.points)) {}
 
 Membrane::Membrane(const Surface& surface, double side)
-    : lattice_(surface.points, free_points(surface.boundary), Scale(side, surface.rho).cell),
+    : side_(side),
+      cell_(Scale(side, surface.rho).cell),
+      lattice_(surface.points, free_points(surface.boundary), cell_),
       sheet_(lattice_.width(), stiffness_of(surface, lattice_, Scale(side, surface.rho))),
-      pull_(Scale(side, surface.rho).pull()),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);
@@ -117,7 +117,7 @@ Lattice::Extent Membrane::rest_around(std::size_t node, const Workspace& w) cons
   return rest;
 }
 
-void Membrane::set_limits(float height, Workspace& w) const {
+void Membrane::set_limits(float height, float pull, Workspace& w) const {
   ElasticSheet::Fields& f = w.sheet[0];
   sheet_.each_free_node([&](Index n) {
     f.lowest[n] = -infinity, f.highest[n] = infinity, f.wanted[n] = 0;
@@ -126,34 +126,47 @@ void Membrane::set_limits(float height, Workspace& w) const {
     f.lowest[n] = -w.heights[n] - rest.lowest;
     f.highest[n] = height - w.heights[n] - rest.highest;
     if (f.lowest[n] > f.highest[n]) f.lowest[n] = f.highest[n] = (f.lowest[n] + f.highest[n]) / 2;
-    f.wanted[n] = pull_ * (height * ranks_[n] - w.heights[n]);
+    f.wanted[n] = pull * (height * ranks_[n] - w.heights[n]);
   });
 }
 
 template <typename Real>
-void Membrane::spread(std::span<const Real> heights, double height, Workspace& w) const {
+void Membrane::gather(std::span<const Real> heights, Workspace& w) const {
   lattice_.gather(heights, w.sums, w.heights);
   lattice_.compare(heights, w.heights, w.rests);
-  set_limits(static_cast<float>(height), w);
-  sheet_.solve(w.sheet);
+}
+
+void Membrane::settle(const Limits& limits, Workspace& w) const {
+  const double cells = cell_ / (limits.reach * side_);
+  const auto pull = static_cast<float>(side_ > 0 ? cells * cells : 0);
+  set_limits(static_cast<float>(limits.height), pull, w);
+  sheet_.solve(pull, w.sheet);
+}
+
+template <typename Real>
+void Membrane::spread(std::span<const Real> heights, const Limits& limits, Workspace& w) const {
+  gather(heights, w);
+  settle(limits, w);
   lattice_.refine(w.sheet[0].b, w.tiles);
 }
 
-template void Membrane::spread(std::span<const float>, double, Workspace&) const;
-template void Membrane::spread(std::span<const double>, double, Workspace&) const;
+template void Membrane::gather(std::span<const float>, Workspace&) const;
+template void Membrane::gather(std::span<const double>, Workspace&) const;
+template void Membrane::spread(std::span<const float>, const Limits&, Workspace&) const;
+template void Membrane::spread(std::span<const double>, const Limits&, Workspace&) const;
 
 template <typename Real>
 void Membrane::hold(const Heights<Real>& heights, Workspace& workspace) const {
   const std::span<Real> z = heights.values;
-  if (!(heights.height > 0)) return;
-  spread<Real>(z, heights.height, workspace);
+  if (!(heights.limits.height > 0)) return;
+  spread<Real>(z, heights.limits, workspace);
   // The membrane need not be 0 at the silhouette.
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] = static_cast<Real>(heights.boundary_weight[i]) * (z[i] + static_cast<Real>(at(i, workspace)));
   });
   const HeightTails<Real> tails(z);
   if (!(tails.span() > 0)) return;
-  const Real scale = static_cast<Real>(heights.height) / tails.span();
+  const Real scale = static_cast<Real>(heights.limits.height) / tails.span();
   parallel_for(z.size(), [&](std::size_t i) { z[i] = scale * tails(z[i]); });
 }
 

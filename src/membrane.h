@@ -20,7 +20,7 @@ namespace relievo {
 // calls may run concurrently, each with a workspace of its own.
 class Membrane {
  public:
-  static constexpr double reach = .085, stiff_reach = .028;  // of the longer side
+  static constexpr double stiff_reach = .028;  // of the longer side
   // Of the tension, towards what lies beyond the silhouette: what is in front may stand off the ground there.
   static constexpr double anchor = .1;
 
@@ -43,11 +43,25 @@ class Membrane {
   // Bytes held, workspaces not counted.
   std::size_t memory() const;
 
-  // Finds the membrane for heights, one per point, and `height` > 0; the workspace holds it. A few points may
-  // still be a little out of the limits, for it is smooth, and where heights are rougher than `height` it
-  // shares the excess between both ends. Same bits for any number of threads. For float and double.
+  // Between what heights are to be held, and how hard they are drawn towards the ranks.
+  struct Limits {
+    double height;  // > 0
+    double reach;   // of the longer side, > 0
+  };
+
+  // Finds the membrane for heights, one per point; the workspace holds it. A few points may still be a little
+  // out of the limits, for it is smooth, and where heights are rougher than `height` it shares the excess
+  // between both ends. Same bits for any number of threads. For float and double.
   template <typename Real>
-  void spread(std::span<const Real> heights, double height, Workspace& workspace) const;
+  void spread(std::span<const Real> heights, const Limits& limits, Workspace& workspace) const;
+
+  // The two halves of spread() that come first, for several limits of the same heights: what nodes need to
+  // know of them, and the membrane at nodes, workspace.sheet[0].b.
+  template <typename Real>
+  void gather(std::span<const Real> heights, Workspace& workspace) const;
+  void settle(const Limits& limits, Workspace& workspace) const;
+
+  const Lattice& lattice() const { return lattice_; }
 
   // The membrane's height at a point, for heights that it was spread for.
   float at(std::size_t point, const Workspace& workspace) const {
@@ -59,7 +73,7 @@ class Membrane {
   struct Heights {
     std::span<Real> values;
     std::span<const float> boundary_weight;
-    double height;
+    Limits limits;
   };
 
   // Spreads the membrane, adds it to the heights, rounds off the few that are highest or lowest and gives
@@ -69,12 +83,12 @@ class Membrane {
 
  private:
   Membrane(const Surface& surface, double longer_side);
-  void set_limits(float height, Workspace& w) const;
+  void set_limits(float height, float pull, Workspace& w) const;
   Lattice::Extent rest_around(std::size_t node, const Workspace& w) const;
 
+  double side_, cell_;
   Lattice lattice_;
   ElasticSheet sheet_;
-  float pull_;                // towards the ranks: (cell / reach)^2
   std::vector<float> ranks_;  // per node
 };
 

@@ -24,11 +24,7 @@ std::string_view name_of(Method method) {
 }
 
 Shape default_shape(Method method) {
-  if (method != Method::ours) return {{1, .01}, .02};
-  Shape shape{{1, 0}, .04};
-  shape.style = Style::layered;
-  shape.boundary_width = .5;
-  return shape;
+  return method == Method::ours ? layered_shape() : Shape{{1, .01}, .02};
 }
 
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "grip.h"
 #include "membrane.h"
 #include "relievo/detail.h"
 #include "relievo/parallel.h"
@@ -24,22 +25,32 @@ Mode settle(Mode mode, const Surface& surface) {
   return surface.points.size() > most_exact_points ? Mode::subspace : Mode::exact;
 }
 
-ReliefModel::ReliefModel(Surface surface, Solver solver)
+ReliefModel::ReliefModel(Surface surface, Solver solver, std::shared_ptr<const Membrane> membrane,
+                         const Grip& grip)
     : surface_(std::move(surface)),
       solver_(std::move(solver)),
-      membrane_(std::make_shared<const Membrane>(surface_)) {}
+      membrane_(std::move(membrane)),
+      grip_(std::make_shared<const Grip>(grip)) {}
+
+Hold ReliefModel::hold_at(double u) const {
+  return grip_->at(u);
+}
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
-  if (settle(mode, surface) == Mode::subspace) {
-    Result<SubspaceModel> subspace = SubspaceModel::prepare(surface, {}, {}, progress);
-    if (!subspace) return std::unexpected(subspace.error());
-    return ReliefModel(std::move(surface), std::move(*subspace));
-  }
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
   Result<HeightSystem> system =
       HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary);
   if (!system) return std::unexpected(system.error());
-  return ReliefModel(std::move(surface), std::move(*system));
+  if (auto go = begin_stage(progress, "hold", .8); !go) return std::unexpected(go.error());
+  auto membrane = std::make_shared<const Membrane>(surface);
+  const Grip grip = Grip::find(surface, *membrane, *system);
+  if (settle(mode, surface) == Mode::exact)
+    return ReliefModel(std::move(surface), std::move(*system), std::move(membrane), grip);
+  const SubspaceOptions options;
+  const std::vector<double> reference = reference_heights(surface, *system, options.max_slope);
+  Result<SubspaceModel> subspace = SubspaceModel::prepare(surface, options, reference, progress);
+  if (!subspace) return std::unexpected(subspace.error());
+  return ReliefModel(std::move(surface), std::move(*subspace), std::move(membrane), grip);
 }
 
 std::size_t ReliefModel::memory() const {
@@ -75,19 +86,21 @@ std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const flo
 }
 
 // Layered heights are yet to be held within relief.height.
-Relief ReliefModel::raise(const Shape& shape, std::span<const float> boundary_weight) const {
+Relief ReliefModel::raise(Shape shape, std::span<const float> boundary_weight) const {
+  const bool is_layered = shape.style == Style::layered;
+  if (is_layered && !shape.hold) shape.hold = hold_at(shape.compression.u);
   Relief relief{heights(shape, boundary_weight), 0, shape};
-  if (shape.style == Style::paper)
-    add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
+  if (!is_layered) add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
   relief.height = height_span(relief.heights);
-  if (shape.style == Style::layered) relief.height *= held_share(shape.compression.u);
+  if (is_layered) relief.height *= shape.hold->share;
   return relief;
 }
 
 void ReliefModel::hold(Relief& relief, std::span<const float> boundary_weight) const {
   if (relief.shape.style != Style::layered) return;
   Membrane::Workspace workspace = membrane_->make_workspace();
-  membrane_->hold<double>({relief.heights, boundary_weight, relief.height}, workspace);
+  const Membrane::Limits limits{relief.height, relief.shape.hold->reach};
+  membrane_->hold<double>({relief.heights, boundary_weight, limits}, workspace);
   relief.height = height_span(relief.heights);
 }
 

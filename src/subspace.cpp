@@ -21,19 +21,6 @@ std::vector<T> pick(const std::vector<T>& from, std::span<const Index> which) {
   return out;
 }
 
-// z0: equation (9) with w_k = 1.
-Result<std::vector<double>> solve_reference(const Surface& surface, std::span<const Vec2> points,
-                                            std::span<const float> boundary_weight, double max_slope) {
-  const auto system = HeightSystem::build(points, surface.triangulation, surface.boundary);
-  if (!system) return std::unexpected(system.error());
-  std::vector<Vec2> slopes(points.size());
-  compressed_slopes({surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta},
-                    keep_all, max_slope, slopes);
-  std::vector<double> heights(points.size());
-  system->solve(slopes, heights);
-  return heights;
-}
-
 // Ratio and offset share their lattices, with cells from 12 radii of the control points down to 3/4. The
 // ratio is fitted on the first, the offset on the others.
 constexpr int last_ratio_level = 1;
@@ -53,6 +40,16 @@ SplineOptions spline_options(std::span<const Vec2> points, double radius) {
 }
 
 }  // namespace
+
+std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope) {
+  const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
+  std::vector<Vec2> slopes(surface.points.size());
+  compressed_slopes({surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta},
+                    keep_all, max_slope, slopes);
+  std::vector<double> heights(slopes.size());
+  system.solve(slopes, heights);
+  return heights;
+}
 
 struct SubspaceModel::Workspace::Storage {
   explicit Storage(HeightSystem::Workspace s) : system(std::move(s)) {}
@@ -80,14 +77,14 @@ SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
 
 Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const SubspaceOptions& options,
                                              std::span<const double> reference, Progress* progress) {
-  if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
   const std::vector<Vec2> points = in_plane(surface.points);
   const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
-  Result<std::vector<double>> solved;
+  std::vector<double> solved;
   if (reference.empty()) {
-    solved = solve_reference(surface, points, boundary_weight, options.max_slope);
-    if (!solved) return std::unexpected(solved.error());
-    reference = *solved;
+    if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
+    const auto all = HeightSystem::build(points, surface.triangulation, surface.boundary);
+    if (!all) return std::unexpected(all.error());
+    reference = solved = reference_heights(surface, *all, options.max_slope);
   }
 
   if (auto go = begin_stage(progress, "control points", .85); !go) return std::unexpected(go.error());
@@ -133,7 +130,7 @@ void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_we
   Workspace::Storage& storage = *workspace.storage_;
   const bool is_layered = shape.style == Style::layered;
   storage.weight.fill(delta_, is_layered ? saturation_alone(shape.compression) : shape.compression);
-  const LayerWeights layers = LayerWeights::of(shape.compression.u, shape.gamma);
+  const LayerWeights layers = layer_weights(shape);
   const auto scale = static_cast<float>(is_layered ? saturation_scale(shape.compression) : 1);
   const auto max_slope = static_cast<float>(shape.max_slope);
   const auto slope_of = [&](std::size_t i) {

@@ -77,8 +77,19 @@ double saturation_scale(const Compression& compression) {
   return compression.curve ? 1 : -1 / std::expm1(-1.0);
 }
 
+Shape layered_shape() {
+  Shape shape{{1, 0}, .04};
+  shape.style = Style::layered;
+  shape.boundary_width = .5;
+  return shape;
+}
+
+LayerWeights layer_weights(const Shape& shape) {
+  return LayerWeights::of(shape.compression.u, shape.gamma, shape.hold.value_or(Hold{}).share);
+}
+
 void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes) {
-  const LayerWeights weights = LayerWeights::of(shape.compression.u, shape.gamma);
+  const LayerWeights weights = layer_weights(shape);
   const Compression saturation = saturation_alone(shape.compression);
   const double scale = saturation_scale(shape.compression);
   parallel_for(slopes.size(), [&](std::size_t i) {

@@ -18,8 +18,8 @@ bool is_rim(std::size_t n) {
 }
 
 // Free but for the lattice's rim.
-Stiffness even(float bending, float pull) {
-  Stiffness s{std::vector<float>(width * height, bending), 1, 1, pull};
+Stiffness even(float bending) {
+  Stiffness s{std::vector<float>(width * height, bending), 1, 1};
   for (std::size_t n = 0; n < s.bending.size(); ++n)
     if (is_rim(n)) s.bending[n] = 0;
   return s;
@@ -32,27 +32,28 @@ float load(std::size_t n) {
 }
 
 struct Problem {
+  float pull;
   ElasticSheet sheet;
   ElasticSheet::Workspace workspace = sheet.make_workspace();
 
-  Problem(Stiffness s, float lowest, float highest) : sheet(width, std::move(s)) {
+  Problem(Stiffness s, float p, float lowest, float highest) : pull(p), sheet(width, std::move(s)) {
     ElasticSheet::Fields& f = workspace[0];
     std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
     for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
   }
   const std::vector<float>& solved() {
-    sheet.solve(workspace);
+    sheet.solve(pull, workspace);
     return workspace[0].b;
   }
 };
 
 // The energy's matrix: L' C L + tension + pull, rows of fixed nodes those of the identity.
-Eigen::MatrixXd matrix(const Stiffness& s) {
+Eigen::MatrixXd matrix(const Stiffness& s, float pull) {
   const auto n = static_cast<Eigen::Index>(s.bending.size());
   Eigen::MatrixXd lap = Eigen::MatrixXd::Zero(n, n), a = lap;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!(s.bending[static_cast<std::size_t>(i)] > 0)) continue;
-    lap(i, i) = -4, a(i, i) = static_cast<double>(s.pull);
+    lap(i, i) = -4, a(i, i) = static_cast<double>(pull);
     for (const Eigen::Index side :
          {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
       const bool is_fixed = !(s.bending[static_cast<std::size_t>(i + side)] > 0);
@@ -84,14 +85,16 @@ double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vec
 
 // Without limits the least energy is that of a linear system.
 TEST(ElasticSheet, ComesNearTheLeastEnergy) {
-  Stiffness hinged = even(10, .02F), loose = even(10, .02F);
+  Stiffness hinged = even(10), loose = even(10);
   for (std::size_t n = 0; n < hinged.bending.size(); ++n)
     if (n % width == width / 3 && !is_rim(n)) hinged.bending[n] = .1F;
   loose.anchor = .1F;
-  for (const Stiffness& s : {even(1, .1F), even(10, .02F), even(10, 0), hinged, loose}) {
-    const Eigen::MatrixXd a = matrix(s);
+  using Case = std::pair<Stiffness, float>;  // with its pull
+  for (const auto& [s, pull] :
+       {Case{even(1), .1F}, {even(10), .02F}, {even(10), 0}, {hinged, .02F}, {loose, .02F}}) {
+    const Eigen::MatrixXd a = matrix(s, pull);
     const Eigen::VectorXd f = loads(s), exact = a.llt().solve(f);
-    Problem problem(s, -far, far);
+    Problem problem(s, pull, -far, far);
     const double least = -.5 * f.dot(exact);
     EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
     EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
@@ -99,7 +102,7 @@ TEST(ElasticSheet, ComesNearTheLeastEnergy) {
 }
 
 TEST(ElasticSheet, StaysWithinItsLimits) {
-  Problem problem(even(4, .02F), -.1F, .2F);
+  Problem problem(even(4), .02F, -.1F, .2F);
   const std::vector<float>& b = problem.solved();
   EXPECT_EQ(*std::ranges::min_element(b), -.1F);
   EXPECT_EQ(*std::ranges::max_element(b), .2F);
@@ -111,10 +114,11 @@ TEST(ElasticSheet, StaysWithinItsLimits) {
 
 // Limits cost energy; of what keeps to them it is better than the free sheet cut off.
 TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
-  const Stiffness s = even(4, .02F);
-  const Eigen::MatrixXd a = matrix(s);
+  constexpr float pull = .02F;
+  const Stiffness s = even(4);
+  const Eigen::MatrixXd a = matrix(s, pull);
   const Eigen::VectorXd f = loads(s);
-  Problem unlimited(s, -far, far), limited(s, -.1F, .2F);
+  Problem unlimited(s, pull, -far, far), limited(s, pull, -.1F, .2F);
   std::vector<float> cut = unlimited.solved();
   const double least = energy(a, f, cut);
   for (float& b : cut) b = std::clamp(b, -.1F, .2F);
@@ -125,18 +129,18 @@ TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
 
 // Pushed from both sides, a node stays where its limits meet.
 TEST(ElasticSheet, TakesLimitsThatMeet) {
-  Problem problem(even(4, .02F), .05F, .05F);
+  Problem problem(even(4), .02F, .05F, .05F);
   const std::vector<float>& b = problem.solved();
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
 // Bends at a hinge: there the second difference is greater than where it is stiff.
 TEST(ElasticSheet, BendsAtAHinge) {
-  Stiffness s = even(50, 0);
+  Stiffness s = even(50);
   const std::size_t middle = width / 2;
   for (std::size_t n = 0; n < s.bending.size(); ++n)
     if (n % width == middle && !is_rim(n)) s.bending[n] = .05F;
-  Problem problem(s, -far, far);
+  Problem problem(s, 0, -far, far);
   for (std::size_t n = 0; n < problem.workspace[0].wanted.size(); ++n) problem.workspace[0].wanted[n] = .01F;
   const std::vector<float>& b = problem.solved();
   const std::size_t n = middle + height / 2 * width;
@@ -146,7 +150,7 @@ TEST(ElasticSheet, BendsAtAHinge) {
 }
 
 TEST(ElasticSheet, HasNothingToDoWhereAllIsFixed) {
-  Problem problem(Stiffness{std::vector<float>(width * height), 1, 1, 0}, -1, 1);
+  Problem problem(Stiffness{std::vector<float>(width * height), 1, 1}, 0, -1, 1);
   EXPECT_EQ(problem.solved(), std::vector<float>(width * height));
   int free = 0;
   problem.sheet.each_free_node([&](Index) { ++free; });

@@ -101,29 +101,21 @@ TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
 
 TEST(LayerWeights, AreEquationSixLayerByLayerTimesWhatLevellingHides) {
   for (const double u : {.1, 1.0, 5.0}) {
-    const LayerWeights even = LayerWeights::of(u, 0);
-    const double more = 2 - held_share(u);
+    const double share = .3 + .1 * u, more = 2 - share;
+    const LayerWeights even = LayerWeights::of(u, 0, share);
     EXPECT_FLOAT_EQ(even.fine, static_cast<float>(more * (1 - std::exp(-u))));
     EXPECT_EQ(even.middle, even.fine);
     EXPECT_EQ(even.coarse, even.fine);
     EXPECT_EQ(even.broad, even.fine);
-    const LayerWeights held = LayerWeights::of(u, .04);
+    const LayerWeights held = LayerWeights::of(u, .04, share);
     EXPECT_EQ(held.fine, even.fine);
     EXPECT_LT(held.middle, held.fine);
     EXPECT_LT(held.coarse, held.middle);
-    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-3)))));
+    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-2.5)))));
   }
-  EXPECT_EQ(LayerWeights::of(infinity, .04).broad, 1);
-  EXPECT_EQ(LayerWeights::of(0, .04).fine, 0);
-}
-
-// The weights may fall as u grows, the height that they are held to may not.
-TEST(LayerWeights, AskForMoreHeightAsUGrows) {
-  for (double u = 0; u < 20; u += .25) {
-    const LayerWeights low = LayerWeights::of(u, .04), high = LayerWeights::of(u + .25, .04);
-    EXPECT_LT(low.held * low.fine, high.held * high.fine) << u;
-    EXPECT_LT(low.held * low.broad, high.held * high.broad) << u;
-  }
+  EXPECT_EQ(LayerWeights::of(infinity, .04, 1).broad, 1);
+  EXPECT_EQ(LayerWeights::of(0, .04, .5).fine, 0);
+  EXPECT_EQ(LayerWeights::of(2, .04, .5).held, .5F);
 }
 
 // Kept in full, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
@@ -148,13 +140,6 @@ TEST(LayeredSlope, ReckonsWithTheMembrane) {
   const auto slope = [&](float held) { return layered_slope(layers, {1, 1, 1, 1, held}, 1.0, 100.0); };
   EXPECT_NEAR((slope(0) - Vec2(.6, -.2)).norm(), 0, 2 * rounding);
   EXPECT_NEAR((slope(.5F) - Vec2(.6, -.2) / std::sqrt(1 - .25 * .4)).norm(), 0, 2 * rounding);
-  EXPECT_EQ(LayerWeights::of(2, .04).held, static_cast<float>(held_share(2)));
-}
-
-TEST(HeldShare, GrowsToAllOfTheHeight) {
-  EXPECT_EQ(held_share(infinity), 1);
-  for (double u = 0; u < 20; u += .5) EXPECT_LT(held_share(u), held_share(u + .5));
-  EXPECT_NEAR(held_share(0), .375, 1e-12);
 }
 
 TEST(LayeredSlope, IsNeverSteeperThanAllowed) {

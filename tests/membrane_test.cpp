@@ -41,11 +41,13 @@ std::vector<double> depths(const Surface& surface) {
   return z;
 }
 
+constexpr double reach = .085;
+
 template <typename Real>
 std::vector<Real> held(const Surface& surface, std::vector<Real> heights, double height) {
   const Membrane membrane(surface);
   Membrane::Workspace workspace = membrane.make_workspace();
-  membrane.spread(std::span<const Real>(heights), height, workspace);
+  membrane.spread(std::span<const Real>(heights), {height, reach}, workspace);
   for (std::size_t i = 0; i < heights.size(); ++i)
     if (!surface.boundary.is_boundary[i]) heights[i] += static_cast<Real>(membrane.at(i, workspace));
   return heights;
@@ -55,7 +57,7 @@ std::vector<Real> held(const Surface& surface, std::vector<Real> heights, double
 // off, u = z + b solves l^2 u'''' - u'' + u / R^2 = 0; away from the rim the slower of its solutions,
 // cosh(k x), is left, whatever the rim does. Relaxation stops near it.
 TEST(Membrane, SolvesItsEquationWhereItHasRoom) {
-  constexpr double side = 2, z = .1, R = Membrane::reach * side, l = Membrane::stiff_reach * side;
+  constexpr double side = 2, z = .1, R = reach * side, l = Membrane::stiff_reach * side;
   const double k = std::sqrt((1 - std::sqrt(1 - 4 * l * l / (R * R))) / (2 * l * l));
   const Surface level = strip(.4);
   const std::vector<double> u = held(level, std::vector<double>(level.points.size(), z), 1);
@@ -139,6 +141,28 @@ TEST(Membrane, DrawsToTheFrontWhatIsInFront) {
   EXPECT_GT(near / near_points, far / far_points + .03);
 }
 
+// The shorter the reach, the nearer heights come to their ranks: .1 in front, 0 behind.
+TEST(Membrane, DrawsHarderWithLessReach) {
+  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
+  const Membrane membrane(sheets);
+  Membrane::Workspace workspace = membrane.make_workspace();
+  const std::vector<double> z(sheets.points.size(), .05);
+  double last = 1;
+  for (const double r : {.4, .1, .05, .02}) {
+    membrane.spread(std::span(z), {.1, r}, workspace);
+    double square = 0, points = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const double away = sheets.points[i].head<2>().cwiseAbs().maxCoeff();
+      if (away > .8 || (away > .3 && away < .5)) continue;
+      const double off = z[i] + static_cast<double>(membrane.at(i, workspace)) - (away < .3 ? .1 : 0);
+      square += off * off, ++points;
+    }
+    EXPECT_LT(std::sqrt(square / points), last) << r;
+    last = std::sqrt(square / points);
+  }
+  EXPECT_LT(last, .02);
+}
+
 // Where the nearer sheet ends there is a jump: what draws it to the front bends the membrane there, and
 // hardly anywhere else.
 TEST(Membrane, IsHingedAtJumps) {
@@ -176,7 +200,7 @@ TEST(Membrane, GivesHeightsTheirHeight) {
   Membrane::Workspace workspace = membrane.make_workspace();
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
-  membrane.hold<double>({z, weight, .15}, workspace);
+  membrane.hold<double>({z, weight, {.15, reach}}, workspace);
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);
   for (std::size_t i = 0; i < z.size(); ++i)
@@ -191,10 +215,10 @@ TEST(Membrane, LeavesWhatHasNoHeight) {
   Membrane::Workspace workspace = membrane.make_workspace();
   const std::vector<float> weight(surface.points.size(), 1);
   std::vector<float> flat(surface.points.size(), 0), some(surface.points.size(), .1F);
-  membrane.hold<float>({flat, weight, .1}, workspace);
+  membrane.hold<float>({flat, weight, {.1, reach}}, workspace);
   EXPECT_EQ(flat, std::vector<float>(flat.size(), 0));
   const std::vector<float> before = some;
-  membrane.hold<float>({some, weight, 0}, workspace);
+  membrane.hold<float>({some, weight, {0, reach}}, workspace);
   EXPECT_EQ(some, before);
 }
 

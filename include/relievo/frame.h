@@ -28,7 +28,7 @@ struct FrameTimes {
 };
 
 struct Frame {
-  FrameOptions options;        // what it was made with, the compression that was found included
+  FrameOptions options;        // what it was made with, compression and hold that were found included
   std::vector<float> heights;  // per point of the surface, in the cloud's units, base included
   std::vector<Vec3f> normals;  // unit length: the mean of the triangles around the point, by their areas
   std::vector<float> shading;  // cosine of the angle to the light, 0 where turned away

@@ -49,16 +49,20 @@ enum class Style {
 // 2 - held, since what the membrane levels shows less.
 struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, broad = 0;
-  float held = 1;  // held_share()
+  float held = 1;  // Hold::share
 
   // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-20 detail), the
-  // broad one by exp(-75 detail); 0 is even.
-  static LayerWeights of(double u, double detail);
+  // broad one by exp(-63 detail); 0 is even. `held` in [0, 1].
+  static LayerWeights of(double u, double detail, double held);
 };
 
-// Returns the share, from .375 at u = 0 to 1 at infinity, of the height that (9) gives layered slopes within
-// which the relief is held. `u` is that of Compression.
-double held_share(double u);
+// How tightly layered heights are held within the relief's.
+struct Hold {
+  double share = 1;     // of the height that (9) gives the slopes, (0, 1]; 1 leaves them as they are
+  double reach = .085;  // of the longer side, > 0: less draws what is in front more to the front
+
+  bool operator==(const Hold&) const = default;
+};
 
 // What the layers add up to, each times its weight. All eight numbers at once: a frame does it for every
 // point.

@@ -13,6 +13,7 @@
 
 namespace relievo {
 
+class Grip;
 class Membrane;
 
 struct Relief {
@@ -54,6 +55,11 @@ class ReliefModel {
   // What holds layered reliefs within their height.
   const Membrane& membrane() const { return *membrane_; }
 
+  // Returns how tightly layered reliefs are held at u, unless their shape says it: as tightly as they may be
+  // without losing more of the model's detail and of the order of its depths than gradient-domain
+  // compression.
+  Hold hold_at(double u) const;
+
   // Bytes held.
   std::size_t memory() const;
 
@@ -70,15 +76,16 @@ class ReliefModel {
  private:
   using Solver = std::variant<HeightSystem, SubspaceModel>;
 
-  ReliefModel(Surface surface, Solver solver);
+  ReliefModel(Surface surface, Solver solver, std::shared_ptr<const Membrane> membrane, const Grip& grip);
   std::vector<double> heights(const Shape& shape, std::span<const float> boundary_weight) const;
-  Relief raise(const Shape& shape, std::span<const float> boundary_weight) const;
+  Relief raise(Shape shape, std::span<const float> boundary_weight) const;
   void hold(Relief& relief, std::span<const float> boundary_weight) const;
   std::vector<float> boundary_weight(const Shape& shape) const;
 
   Surface surface_;
   Solver solver_;
   std::shared_ptr<const Membrane> membrane_;
+  std::shared_ptr<const Grip> grip_;
 };
 
 }  // namespace relievo

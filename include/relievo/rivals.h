@@ -39,6 +39,10 @@ struct GradientOptions {
   std::vector<double> band_weights{1, 1, .8, .6};
   double finest_band = .01;  // the first Gaussian's standard deviation, of the surface's longer side
 };
+
+// The slopes that are integrated, per point.
+std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions& options = {});
+
 Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options = {});
 
 // sign(g) log(1 + a |g|) / a along the gradient's direction.

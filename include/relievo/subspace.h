@@ -20,6 +20,9 @@ struct SubspaceOptions {
   double max_slope = 4;               // of the reference heights, see Shape
 };
 
+// Returns z0, the heights of all points that (9) gives for w_k = 1, found by the system of all points.
+std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
+
 // Control points with their factored system, and the way from their heights to those of all points: z = r z0
 // + d. z0 are the reference heights, (9) with w_k = 1. The compression ratio r is that of compressed and
 // reference heights, z_c / z0_c, both solved on the control points; the offset d is what a smooth ratio
@@ -47,9 +50,9 @@ class SubspaceModel {
     std::unique_ptr<Storage> storage_;
   };
 
-  // Copies what it needs of the surface. `reference` holds z0 per point, the exact heights for
-  // compression {infinity, 0} and the same greatest slope; if it is empty, z0 is solved for, which takes most
-  // of the time and memory. Errors: see HeightSystem::build(); kind cancelled.
+  // Copies what it needs of the surface. `reference` holds reference_heights() for the same greatest slope;
+  // if it is empty, they are solved for, which takes most of the time and memory. Errors: see
+  // HeightSystem::build(); kind cancelled.
   static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {},
                                        std::span<const double> reference = {}, Progress* progress = nullptr);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct Shape {
   double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
   double boundary_width = 2;  // of (7), in rho, > 0: more softens the rim
   Style style = Style::paper;
+  std::optional<Hold> hold = {};  // of layered heights; unless set, the model's: ReliefModel::hold_at()
 
   bool operator==(const Shape&) const = default;
 };
@@ -65,7 +67,13 @@ struct SlopeInput {
 void compressed_slopes(const SlopeInput& input, const Compression& compression, double max_slope,
                        std::span<Vec2> slopes);
 
-// The same in layers: layered_slope() with LayerWeights::of(u, gamma), times w_b and the saturation's share.
+// What our method starts from: even compression, coarse layers held back a little.
+Shape layered_shape();
+
+// Of a layered shape; without a hold nothing is levelled.
+LayerWeights layer_weights(const Shape& shape);
+
+// The same in layers: layered_slope() with layer_weights(shape), times w_b and the saturation's share.
 void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // The compression whose weight, times saturation_scale(), is the share of a point's slope that saturation or

@@ -31,8 +31,7 @@ Vec2 attenuated(const Vec2& gradient, double a) {
   return length > 0 ? Vec2(gradient * (std::log1p(a * length) / (a * length))) : Vec2(Vec2::Zero());
 }
 
-Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options) {
-  const Surface& surface = model.surface();
+std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions& options) {
   std::vector<Vec2f> field(surface.points.size());
   parallel_for(field.size(), [&](std::size_t i) {
     const Vec2 g = slope_of(surface.normals[i]);
@@ -42,9 +41,14 @@ Relief gradient_relief(const ReliefModel& model, double height, const GradientOp
   if (options.band_weights.size() > 1) weigh_bands(field, surface, options);
   std::vector<Vec2> slopes(field.size());
   for (std::size_t i = 0; i < field.size(); ++i) slopes[i] = field[i].cast<double>();
+  return slopes;
+}
+
+Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options) {
+  const std::vector<Vec2> slopes = gradient_slopes(model.surface(), options);
   std::vector<double> heights(slopes.size());
   model.system()->solve(slopes, heights);
-  return scaled_relief(std::move(heights), surface, height);
+  return scaled_relief(std::move(heights), model.surface(), height);
 }
 
 }  // namespace relievo

@@ -1,0 +1,148 @@
+#include "grip.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "extent.h"
+#include "relievo/measures.h"
+#include "relievo/parallel.h"
+#include "relievo/rivals.h"
+#include "relievo/sample.h"
+#include "shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Cloud figure() {
+  return make_sample("shell", {60000}).value();
+}
+
+ReliefModel model_of(const Cloud& cloud, Mode mode = Mode::exact) {
+  return ReliefModel::prepare(find_surface(cloud, {}).value(), nullptr, mode).value();
+}
+
+const ReliefModel& model() {
+  static const ReliefModel it = model_of(figure());
+  return it;
+}
+
+Relief relief_of(const ReliefModel& model, double height, std::optional<Hold> hold = {}) {
+  Shape shape = layered_shape();
+  shape.hold = hold;
+  return model.make_at_height(height, shape, 1).value();
+}
+
+// What it is for, by the full measures.
+TEST(Grip, KeepsDetailAndOrderOfGradientDomainCompression) {
+  const Judge judge(model().surface());
+  const double side = longer_side_of(model().surface().points);
+  for (const double share : {.0125, .025, .05}) {
+    const double height = share * side;
+    const Measures ours = judge.measure(relief_of(model(), height).heights);
+    const Measures rival = judge.measure(gradient_relief(model(), height).heights);
+    EXPECT_GT(ours.detail[2], rival.detail[2] - .001) << height;
+    EXPECT_GT(ours.order, rival.order - .01) << height;
+    EXPECT_GT(ours.shading, rival.shading) << height;
+  }
+}
+
+// Unless it is the tightest of all, one a fifth tighter loses detail or order.
+TEST(Grip, HoldsAsTightlyAsItMay) {
+  const Judge judge(model().surface());
+  for (const double share : {.0125, .025}) {
+    const double height = share * longer_side_of(model().surface().points);
+    const Relief relief = relief_of(model(), height);
+    const Hold hold = *relief.shape.hold, tighter{.8 * hold.share, hold.reach};
+    const Measures held = judge.measure(relief.heights),
+                   more = judge.measure(relief_of(model(), height, tighter).heights),
+                   rival = judge.measure(gradient_relief(model(), height).heights);
+    EXPECT_TRUE(more.detail[2] < rival.detail[2] + .002 || more.order < rival.order + .01) << height;
+    EXPECT_LT(more.detail[2], held.detail[2]);
+  }
+}
+
+TEST(Grip, HoldsLessAsHeightsGrow) {
+  EXPECT_EQ(model().hold_at(infinity).share, 1);
+  const auto span = [&](double u) {
+    Shape shape = layered_shape();
+    shape.compression.u = u;
+    return model().make(shape).height;
+  };
+  double last = 0;
+  for (double u = .05; u < 10; u *= 1.3) {
+    const Hold hold = model().hold_at(u);
+    EXPECT_GT(hold.share, .2);
+    EXPECT_LT(hold.share, 1);
+    EXPECT_GT(hold.reach, .049);
+    EXPECT_LT(hold.reach, .201);
+    EXPECT_GT(span(u), last) << u;
+    last = span(u);
+  }
+}
+
+// Below and above the u that it was found for it changes no more, but for what grows with u.
+TEST(Grip, IsContinuous) {
+  EXPECT_NEAR(model().hold_at(0).share, model().hold_at(1e-9).share, 1e-8);
+  for (double u = .01; u < 20; u *= 1.1) {
+    const Hold a = model().hold_at(u), b = model().hold_at(1.001 * u);
+    EXPECT_NEAR(a.share, b.share, 2e-3) << u;
+    EXPECT_NEAR(a.reach, b.reach, 1e-3) << u;
+  }
+}
+
+TEST(Grip, GivesWayToTheShapesHold) {
+  const Hold hold{.6, .1};
+  const Relief relief = relief_of(model(), .05, hold);
+  EXPECT_EQ(relief.shape.hold, hold);
+  EXPECT_NE(relief.heights, relief_of(model(), .05).heights);
+  const Hold found = *relief_of(model(), .05).shape.hold;
+  EXPECT_EQ(relief_of(model(), .05, found).shape.hold, found);
+}
+
+TEST(Grip, IsNotForThePapersStyle) {
+  EXPECT_FALSE(model().make({{1, .01}, .02}).shape.hold);
+}
+
+TEST(Grip, DoesNotDependOnScale) {
+  Cloud cloud = figure();
+  for (Vec3& p : cloud.points) p *= 1024;
+  const ReliefModel large = model_of(cloud);
+  for (const double u : {.3, 1.0, 3.0}) {
+    EXPECT_NEAR(large.hold_at(u).share, model().hold_at(u).share, 1e-3);
+    EXPECT_NEAR(large.hold_at(u).reach, model().hold_at(u).reach, 1e-3);
+  }
+}
+
+TEST(Grip, IsTheSameInTheSubspace) {
+  const ReliefModel subspace = model_of(figure(), Mode::subspace);
+  for (const double u : {.3, 1.0, 3.0}) EXPECT_EQ(subspace.hold_at(u), model().hold_at(u)) << u;
+}
+
+// Nothing to measure by: loosely, and without an error.
+TEST(Grip, IsLooseWhereNothingIsToBeSeen) {
+  Cloud strip = test::sheet(3000, 1, 0);
+  for (Vec3& p : strip.points) p.x() *= .005;
+  EXPECT_NEAR(model_of(strip).hold_at(0).share, .7, 1e-12);
+  EXPECT_GT(model_of(test::sheet(3000, 1, 0)).hold_at(1).share, .7);
+}
+
+TEST(Grip, HasTheSameBitsForAnyNumberOfThreads) {
+  const auto holds = [](int threads) {
+    set_thread_count(threads);
+    const ReliefModel m = model_of(test::torus(30000, 1, .4));
+    std::vector<Hold> all;
+    for (const double u : {.1, .4, 1.0, 5.0}) all.push_back(m.hold_at(u));
+    return all;
+  };
+  const std::vector<Hold> one = holds(1);
+  EXPECT_EQ(one, holds(3));
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace relievo
