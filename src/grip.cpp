@@ -40,39 +40,25 @@ struct Found {
   bool is_bound_by_order = false;
 };
 
-}  // namespace
+// A model, and gradient-domain compression of it to measure by.
+struct Yardstick {
+  const Surface& surface;
+  const HeightSystem& system;
+  QuickJudge judge{surface};
+  Plane compressed;  // drawn
+  double compressed_span = 0;
 
-class Grip::Search {
- public:
-  Search(const Surface& surface, const Membrane& membrane, const HeightSystem& system)
-      : surface_(surface),
-        membrane_(membrane),
-        system_(system),
-        judge_(surface),
-        workspace_(membrane.make_workspace()),
-        boundary_weight_(
-            boundary_weights(surface.boundary.distance, surface.rho * layered_shape().boundary_width / 2)),
-        membrane_heights_(surface.points.size()) {
+  Yardstick(const Surface& s, const HeightSystem& h) : surface(s), system(h) {
     const std::vector<double> heights = solved(gradient_slopes(surface));
-    compressed_ = judge_.draw(heights);
-    compressed_span_ = span_of(heights);
+    compressed = judge.draw(heights);
+    compressed_span = span_of(heights);
   }
 
-  bool is_possible() const { return judge_.pixels() >= least_pixels && compressed_span_ > 0; }
-  double span() const { return span_; }
+  bool is_of_use() const { return judge.pixels() >= least_pixels && compressed_span > 0; }
 
-  // For u, the least share at u = 0.
-  Hold tightest(double u) {
-    take(u);
-    if (const auto hold = tightest()) return *hold;
-    asked_.order = 0;
-    return tightest().value_or(Hold{most_share, std::sqrt(least_reach * most_reach)});
-  }
-
- private:
   std::vector<double> solved(std::span<const Vec2> slopes) const {
     std::vector<double> heights(slopes.size());
-    system_.solve(slopes, heights);
+    system.solve(slopes, heights);
     return heights;
   }
 
@@ -80,26 +66,47 @@ class Grip::Search {
     Shape shape = layered_shape();
     shape.compression.u = u;
     shape.hold = Hold{usual_share};
-    std::vector<Vec2> slopes(surface_.points.size());
-    layered_slopes(
-        {surface_.normals, surface_.curvature.k, boundary_weight_, surface_.curvature.delta, surface_.layers},
-        shape, slopes);
+    const std::vector<float> weight =
+        boundary_weights(surface.boundary.distance, surface.rho * shape.boundary_width / 2);
+    std::vector<Vec2> slopes(surface.points.size());
+    layered_slopes({surface.normals, surface.curvature.k, weight, surface.curvature.delta, surface.layers},
+                   shape, slopes);
     return solved(slopes);
   }
 
-  // Makes u the one that holds are tried for.
-  void take(double u) {
-    u_ = u;
-    const std::vector<double> heights = layered_heights(u);
+  // What compression as high as that keeps, and a little more.
+  Kept asked(double span) const {
+    Plane as_high = compressed;
+    for (float& z : as_high) z *= static_cast<float>(span / compressed_span);
+    return {judge.detail(as_high) + detail_margin, judge.order(compressed) + order_margin};
+  }
+};
+
+// Of the holds for one u.
+class Search {
+ public:
+  Search(const Yardstick& yardstick, const Membrane& membrane, double u)
+      : judge_(yardstick.judge),
+        membrane_(membrane),
+        u_(u),
+        workspace_(membrane.make_workspace()),
+        membrane_heights_(yardstick.surface.points.size()) {
+    const std::vector<double> heights = yardstick.layered_heights(u);
     membrane_.gather(std::span(heights), workspace_);
     heights_ = judge_.draw(heights);
     span_ = span_of(heights);
-    Plane as_high = compressed_;
-    const auto scale = static_cast<float>(share_at(u, usual_share) * span_ / compressed_span_);
-    for (float& z : as_high) z *= scale;
-    asked_ = {judge_.detail(as_high) + detail_margin, judge_.order(compressed_) + order_margin};
+    asked_ = yardstick.asked(share_at(u, usual_share) * span_);
   }
 
+  double span() const { return span_; }
+
+  Hold tightest() {
+    if (const auto hold = tightest_of_all()) return *hold;
+    asked_.order = 0;
+    return tightest_of_all().value_or(Hold{most_share, std::sqrt(least_reach * most_reach)});
+  }
+
+ private:
   Kept kept(double share, double reach) {
     membrane_.settle({share * span_, reach}, workspace_);
     membrane_.lattice().refine(workspace_.sheet[0].b, workspace_.tiles);
@@ -132,7 +139,7 @@ class Grip::Search {
   }
 
   // Less reach keeps more of the order and less of the detail.
-  std::optional<Hold> tightest() {
+  std::optional<Hold> tightest_of_all() {
     std::optional<Hold> best;
     double low = least_reach, high = most_reach, reach = most_reach;
     for (int i = 0; i <= reach_steps; ++i) {
@@ -145,27 +152,29 @@ class Grip::Search {
     return best;
   }
 
-  const Surface& surface_;
+  const QuickJudge& judge_;
   const Membrane& membrane_;
-  const HeightSystem& system_;
-  QuickJudge judge_;
+  double u_, span_ = 0;
   Membrane::Workspace workspace_;
-  std::vector<float> boundary_weight_, membrane_heights_;  // per point
-  Plane compressed_, heights_;                             // drawn: the rival's, and those for u
-  double compressed_span_ = 0, span_ = 0, u_ = 0;
+  std::vector<float> membrane_heights_;  // per point
+  Plane heights_;                        // drawn
   Kept asked_;
 };
+
+}  // namespace
 
 Grip Grip::find(const Surface& surface, const Membrane& membrane, const HeightSystem& system) {
   Grip grip;
   grip.holds_.fill({most_share, most_reach});
-  Search search(surface, membrane, system);
-  if (!search.is_possible()) return grip;
+  const Yardstick yardstick(surface, system);
+  if (!yardstick.is_of_use()) return grip;
   std::array<double, knots.size()> spans;
-  for (std::size_t k = 0; k < knots.size(); ++k) {
-    grip.holds_[k] = search.tightest(knots[k]);
+  const auto find_hold = [&](std::size_t k) {
+    Search search(yardstick, membrane, knots[k]);
+    grip.holds_[k] = search.tightest();
     spans[k] = search.span();
-  }
+  };
+  parallel_for(knots.size(), find_hold, 1);
   // The height that they are held to has to grow with u.
   for (std::size_t k = knots.size() - 1; k-- > 0;) {
     const double most = share_at(knots[k + 1], grip.holds_[k + 1].share) * spans[k + 1] / spans[k] / 1.1;

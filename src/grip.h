@@ -24,7 +24,6 @@ class Grip {
  private:
   // Of u; between them in proportion to log u.
   static constexpr std::array<double, 5> knots{.25, .5, 1, 2, 4};
-  class Search;
 
   std::array<Hold, knots.size()> holds_;  // share as for u = 0
 };
