@@ -22,12 +22,13 @@ void each_half(const PictureGrid& grid, F&& f) {
 
 Measured half_measured(const ModelPicture& picture) {
   const auto row = static_cast<std::size_t>(picture.width());
-  std::vector<std::uint8_t> measured(picture.grid.pixels() / 4);
+  const int width = picture.width() / 2, height = picture.grid.height() / 2;
+  std::vector<std::uint8_t> measured(static_cast<std::size_t>(width * height));
   each_half(picture.grid, [&](std::size_t i, std::size_t first) {
     const std::uint8_t* m = &picture.measured.is_measured[first];
     measured[i] = m[0] && m[1] && m[row] && m[row + 1];
   });
-  return {picture.width() / 2, std::move(measured)};
+  return {width, std::move(measured)};
 }
 
 }  // namespace
