@@ -5,8 +5,9 @@
 #include <optional>
 
 #include "quick_judge.h"
+#include "relievo/detail.h"
+#include "relievo/gradient_slopes.h"
 #include "relievo/parallel.h"
-#include "relievo/rivals.h"
 
 namespace relievo {
 namespace {
@@ -19,16 +20,13 @@ constexpr double detail_margin = .0015, order_margin = .005;
 constexpr std::size_t least_pixels = 100;
 // How fast the share grows with u.
 constexpr double growth = .33;
+// Where nothing can be measured, or no hold keeps the detail.
+constexpr Hold loosest{most_share, .1};
 // That layered heights are found for; with others, what (9) gives is about as many times 2 - share.
 constexpr double usual_share = .5;
 
 double share_at(double u, double share) {
   return 1 - (1 - share) * std::exp(-growth * u);
-}
-
-double span_of(std::span<const double> heights) {
-  const auto [low, high] = std::ranges::minmax(heights);
-  return high - low;
 }
 
 struct Kept {
@@ -51,7 +49,7 @@ struct Yardstick {
   Yardstick(const Surface& s, const HeightSystem& h) : surface(s), system(h) {
     const std::vector<double> heights = solved(gradient_slopes(surface));
     compressed = judge.draw(heights);
-    compressed_span = span_of(heights);
+    compressed_span = height_span(heights);
   }
 
   bool is_of_use() const { return judge.pixels() >= least_pixels && compressed_span > 0; }
@@ -94,7 +92,7 @@ class Search {
     const std::vector<double> heights = yardstick.layered_heights(u);
     membrane_.gather(std::span(heights), workspace_);
     heights_ = judge_.draw(heights);
-    span_ = span_of(heights);
+    span_ = height_span(heights);
     asked_ = yardstick.asked(share_at(u, usual_share) * span_);
   }
 
@@ -103,13 +101,12 @@ class Search {
   Hold tightest() {
     if (const auto hold = tightest_of_all()) return *hold;
     asked_.order = 0;
-    return tightest_of_all().value_or(Hold{most_share, std::sqrt(least_reach * most_reach)});
+    return tightest_of_all().value_or(loosest);
   }
 
  private:
   Kept kept(double share, double reach) {
     membrane_.settle({share * span_, reach}, workspace_);
-    membrane_.lattice().refine(workspace_.sheet[0].b, workspace_.tiles);
     parallel_for(membrane_heights_.size(),
                  [&](std::size_t i) { membrane_heights_[i] = membrane_.at(i, workspace_); });
     Plane z = judge_.draw_smooth(membrane_heights_);
@@ -163,18 +160,21 @@ class Search {
 
 }  // namespace
 
-Grip Grip::find(const Surface& surface, const Membrane& membrane, const HeightSystem& system) {
+Grip Grip::find(const Surface& surface, const Membrane& membrane, const HeightSystem& system,
+                const Progress* progress) {
   Grip grip;
-  grip.holds_.fill({most_share, most_reach});
+  grip.holds_.fill(loosest);
   const Yardstick yardstick(surface, system);
   if (!yardstick.is_of_use()) return grip;
   std::array<double, knots.size()> spans;
   const auto find_hold = [&](std::size_t k) {
+    if (progress && progress->is_cancelled()) return;
     Search search(yardstick, membrane, knots[k]);
     grip.holds_[k] = search.tightest();
     spans[k] = search.span();
   };
   parallel_for(knots.size(), find_hold, 1);
+  if (progress && progress->is_cancelled()) return grip;
   // The height that they are held to has to grow with u.
   for (std::size_t k = knots.size() - 1; k-- > 0;) {
     const double most = share_at(knots[k + 1], grip.holds_[k + 1].share) * spans[k + 1] / spans[k] / 1.1;

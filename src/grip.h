@@ -14,11 +14,13 @@ namespace relievo {
 class Grip {
  public:
   // Finds the holds by bisection, at five u, measured by QuickJudge: for layered_shape(), and used for
-  // others. Where no hold keeps the order, it keeps the detail; where none keeps that, it is the loosest. 0.2
-  // s for 180k points.
-  static Grip find(const Surface& surface, const Membrane& membrane, const HeightSystem& system);
+  // others. `system` is that of all points. Where no hold keeps the order, it keeps the detail; where none
+  // keeps that, or there is too little to measure, it is loose. A little tighter, where heights would else
+  // fall as u grows. Anything, once cancelled. 0.2 s for 180k points.
+  static Grip find(const Surface& surface, const Membrane& membrane, const HeightSystem& system,
+                   const Progress* progress = nullptr);
 
-  // The hold at u in [0, infinity]: its share comes to 1, and its share of what (9) gives grows with u.
+  // The hold at u in [0, infinity]. Its share comes to 1; the height that it holds (9) to grows with u.
   Hold at(double u) const;
 
  private:

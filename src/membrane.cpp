@@ -141,13 +141,13 @@ void Membrane::settle(const Limits& limits, Workspace& w) const {
   const auto pull = static_cast<float>(side_ > 0 ? cells * cells : 0);
   set_limits(static_cast<float>(limits.height), pull, w);
   sheet_.solve(pull, w.sheet);
+  lattice_.refine(w.sheet[0].b, w.tiles);
 }
 
 template <typename Real>
 void Membrane::spread(std::span<const Real> heights, const Limits& limits, Workspace& w) const {
   gather(heights, w);
   settle(limits, w);
-  lattice_.refine(w.sheet[0].b, w.tiles);
 }
 
 template void Membrane::gather(std::span<const float>, Workspace&) const;

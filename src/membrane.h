@@ -55,20 +55,17 @@ class Membrane {
   template <typename Real>
   void spread(std::span<const Real> heights, const Limits& limits, Workspace& workspace) const;
 
-  // The two halves of spread() that come first, for several limits of the same heights: what nodes need to
-  // know of them, and the membrane at nodes, workspace.sheet[0].b.
+  // The two halves of spread(), to find it for several limits of the same heights.
   template <typename Real>
   void gather(std::span<const Real> heights, Workspace& workspace) const;
   void settle(const Limits& limits, Workspace& workspace) const;
-
-  const Lattice& lattice() const { return lattice_; }
 
   // The membrane's height at a point, for heights that it was spread for.
   float at(std::size_t point, const Workspace& workspace) const {
     return lattice_.at(point, workspace.tiles);
   }
 
-  // Heights, one per point, with w_b, and the height that they are to have.
+  // Heights, one per point, with w_b, and what they are to be held within: a height of 0, too.
   template <typename Real>
   struct Heights {
     std::span<Real> values;

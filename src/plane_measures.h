@@ -1,5 +1,4 @@
-// What a relief keeps of its model, measured on planes: pictures, or nodes of a lattice. Rows run down, as in
-// pictures.
+// What a relief keeps of its model, measured on pictures.
 #pragma once
 
 #include <vector>

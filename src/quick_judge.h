@@ -9,6 +9,7 @@
 
 namespace relievo {
 
+// Const calls may run concurrently. Without pixels to look at all measures are 0.
 class QuickJudge {
  public:
   explicit QuickJudge(const Surface& surface);

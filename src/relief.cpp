@@ -43,11 +43,16 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   if (!system) return std::unexpected(system.error());
   if (auto go = begin_stage(progress, "hold", .8); !go) return std::unexpected(go.error());
   auto membrane = std::make_shared<const Membrane>(surface);
-  const Grip grip = Grip::find(surface, *membrane, *system);
+  const Grip grip = Grip::find(surface, *membrane, *system, progress);
+  if (progress && progress->is_cancelled())
+    return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
   if (settle(mode, surface) == Mode::exact)
     return ReliefModel(std::move(surface), std::move(*system), std::move(membrane), grip);
   const SubspaceOptions options;
-  const std::vector<double> reference = reference_heights(surface, *system, options.max_slope);
+  const auto reference = [&] {
+    const HeightSystem all = std::move(*system);  // most of the memory, needed no more
+    return reference_heights(surface, all, options.max_slope);
+  }();
   Result<SubspaceModel> subspace = SubspaceModel::prepare(surface, options, reference, progress);
   if (!subspace) return std::unexpected(subspace.error());
   return ReliefModel(std::move(surface), std::move(*subspace), std::move(membrane), grip);

@@ -90,6 +90,21 @@ TEST(Frame, AgreesWithTheExactReliefInLayersToo) {
     }
 }
 
+TEST(Frame, AreHeldAsTheirShapeSays) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  options.shape = layered_shape();
+  for (const std::optional<Hold>& hold : {std::optional<Hold>(), {{.6, .1}}, {{.9, .06}}, {}}) {
+    options.shape.hold = hold;
+    maker.make(options, frame);
+    EXPECT_EQ(frame.options.shape.hold, hold.value_or(model().hold_at(1)));
+    const Relief exact = model().make(options.shape);
+    for (std::size_t i = 0; i < exact.heights.size(); ++i)
+      ASSERT_NEAR(static_cast<double>(frame.heights[i]), exact.heights[i], 1e-4 * exact.height);
+  }
+}
+
 TEST(Frame, KeepsALockedHeightInLayers) {
   FrameMaker maker(model());
   Frame frame;

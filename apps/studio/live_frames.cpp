@@ -13,6 +13,7 @@ using namespace std::chrono_literals;
 double elasticity_between(const Frame& a, const Frame& b, double before) {
   Shape same = a.options.shape;
   same.compression.u = b.options.shape.compression.u;
+  same.hold = b.options.shape.hold;  // the model's own depends on u
   const double change = std::log(b.options.shape.compression.u / a.options.shape.compression.u);
   if (!(same == b.options.shape) || !(std::abs(change) > 1e-4) || !(a.height > 0 && b.height > 0))
     return before;

@@ -42,7 +42,8 @@ Mode settle(Mode mode, const Surface& surface);
 // may run concurrently.
 class ReliefModel {
  public:
-  // Takes the surface and factors its system, or that of its control points. Errors: see
+  // Takes the surface, factors its system, finds how tightly layered reliefs are held, and in subspace mode
+  // goes on to that of the control points. Errors: see
   // HeightSystem::build(); kind cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
 
@@ -55,9 +56,9 @@ class ReliefModel {
   // What holds layered reliefs within their height.
   const Membrane& membrane() const { return *membrane_; }
 
-  // Returns how tightly layered reliefs are held at u, unless their shape says it: as tightly as they may be
-  // without losing more of the model's detail and of the order of its depths than gradient-domain
-  // compression.
+  // Returns how tightly layered reliefs are held at u in [0, infinity], unless their shape says it: as
+  // tightly as they may be without losing more of the model's detail and of the order of its depths than
+  // gradient-domain compression.
   Hold hold_at(double u) const;
 
   // Bytes held.

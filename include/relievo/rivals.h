@@ -2,6 +2,7 @@
 // height system as ours, and with the parameters that served it best on our scans (docs/quality.md).
 #pragma once
 
+#include "relievo/gradient_slopes.h"
 #include "relievo/relief.h"
 
 namespace relievo {
@@ -25,28 +26,8 @@ struct EqualiseOptions {
 };
 Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options = {});
 
-// Gradient-domain compression: gradients of silhouettes removed, attenuated by log(1 + a |g|) / a, their
-// frequency bands weighted, and integrated with the background held at the base. After Weyrich, Deng, Barnes,
-// Rusinkiewicz and Finkelstein, Digital bas-relief from 3D scenes, 2007.
-//
-// The gradients come from the scan's normals, not from differences of a height map: free of its noise, and
-// with nothing to remove across a depth jump.
-struct GradientOptions {
-  double attenuation = 5;  // a, > 0
-  double silhouette = 10;  // gradients steeper than this are removed
-  // Weights of the bands, from the finest: each holds what a Gaussian of twice the last one's width takes
-  // away; the last holds the rest.
-  std::vector<double> band_weights{1, 1, .8, .6};
-  double finest_band = .01;  // the first Gaussian's standard deviation, of the surface's longer side
-};
-
-// The slopes that are integrated, per point.
-std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions& options = {});
-
+// Gradient-domain compression: gradient_slopes() integrated with the background held at the base.
 Relief gradient_relief(const ReliefModel& model, double height, const GradientOptions& options = {});
-
-// sign(g) log(1 + a |g|) / a along the gradient's direction.
-Vec2 attenuated(const Vec2& gradient, double a);
 
 // A linearly compressed base with the detail amplified: what a Gaussian in the view plane takes from the
 // heights that the normals give. After Ji, Sun, Li and Wang, Real-time bas-relief generation from

@@ -67,14 +67,14 @@ struct SlopeInput {
 void compressed_slopes(const SlopeInput& input, const Compression& compression, double max_slope,
                        std::span<Vec2> slopes);
 
+// The same in layers: layered_slope() with layer_weights(shape), times w_b and the saturation's share.
+void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
+
 // What our method starts from: even compression, coarse layers held back a little.
 Shape layered_shape();
 
 // Of a layered shape; without a hold nothing is levelled.
 LayerWeights layer_weights(const Shape& shape);
-
-// The same in layers: layered_slope() with layer_weights(shape), times w_b and the saturation's share.
-void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
 
 // The compression whose weight, times saturation_scale(), is the share of a point's slope that saturation or
 // tone curve leave in layers; for saturation 0 it is 1 everywhere.

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "extent.h"
 #include "relievo/parallel.h"
 #include "relievo/rivals.h"
 #include "scaled.h"
@@ -37,7 +38,8 @@ Relief base_and_detail_relief(const ReliefModel& model, double height, const Det
   const std::vector<Vec2> slopes = moderate_slopes(surface);
   std::vector<double> heights(slopes.size());
   model.system()->solve(slopes, heights);
-  const std::vector<Vec2f> smooth = smoothed(heights, surface, options.scale * longer_side(surface));
+  const std::vector<Vec2f> smooth =
+      smoothed(heights, surface, options.scale * longer_side_of(surface.points));
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
     z[i] += options.amplification * (heights[i] - static_cast<double>(smooth[i].x()));

@@ -25,15 +25,4 @@ std::vector<double> depths(const Surface& surface) {
   return z;
 }
 
-double longer_side(const Surface& surface) {
-  Box box;
-  for (const Vec3& p : surface.points) box.extend(p);
-  return std::max(box.size().x(), box.size().y());
-}
-
-Vec2 slope_of(const Vec3f& normal) {
-  const Vec3 n = normal.cast<double>();
-  return -n.head<2>() / std::max(n.z(), 1e-3);
-}
-
 }  // namespace relievo
