@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "extent.h"
 #include "quick_judge.h"
 #include "relievo/detail.h"
 #include "relievo/gradient_slopes.h"
@@ -20,10 +21,12 @@ constexpr double detail_margin = .0015, order_margin = .005;
 constexpr std::size_t least_pixels = 100;
 // How fast the share grows with u.
 constexpr double growth = .33;
-// Where nothing can be measured, or no hold keeps the detail.
-constexpr Hold loosest{most_share, .1};
+// Of the longer side: between points further apart there is no such detail as is measured, 4 px of 512.
+constexpr double coarsest_rho = 4. / 512;
+// Where no hold keeps the detail; where nothing can be measured.
+constexpr Hold loosest{most_share, .1}, usual{.5, .1};
 // That layered heights are found for; with others, what (9) gives is about as many times 2 - share.
-constexpr double usual_share = .5;
+constexpr double usual_share = usual.share;
 
 double share_at(double u, double share) {
   return 1 - (1 - share) * std::exp(-growth * u);
@@ -163,7 +166,8 @@ class Search {
 Grip Grip::find(const Surface& surface, const Membrane& membrane, const HeightSystem& system,
                 const Progress* progress) {
   Grip grip;
-  grip.holds_.fill(loosest);
+  grip.holds_.fill(usual);
+  if (surface.rho > coarsest_rho * longer_side_of(surface.points)) return grip;
   const Yardstick yardstick(surface, system);
   if (!yardstick.is_of_use()) return grip;
   std::array<double, knots.size()> spans;

@@ -15,8 +15,8 @@ class Grip {
  public:
   // Finds the holds by bisection, at five u, measured by QuickJudge: for layered_shape(), and used for
   // others. `system` is that of all points. Where no hold keeps the order, it keeps the detail; where none
-  // keeps that, or there is too little to measure, it is loose. A little tighter, where heights would else
-  // fall as u grows. Anything, once cancelled. 0.2 s for 180k points.
+  // keeps that, it is loose; where points are too few to measure by, usual. A little tighter, where heights
+  // would else fall as u grows. Anything, once cancelled. 0.2 s for 180k points.
   static Grip find(const Surface& surface, const Membrane& membrane, const HeightSystem& system,
                    const Progress* progress = nullptr);
 

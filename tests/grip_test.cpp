@@ -154,18 +154,18 @@ TEST(Grip, CanBeCancelled) {
   }
 }
 
-// Nothing to measure by: loosely, and without an error.
-TEST(Grip, IsLooseWhereNothingIsToBeSeen) {
+// Too narrow, too few points, level: no errors.
+TEST(Grip, IsTheUsualWhereNothingCanBeMeasured) {
   Cloud strip = test::sheet(3000, 1, 0);
   for (Vec3& p : strip.points) p.x() *= .005;
-  EXPECT_NEAR(model_of(strip).hold_at(0).share, .7, 1e-12);
-  EXPECT_GT(model_of(test::sheet(3000, 1, 0)).hold_at(1).share, .7);
+  for (const Cloud& cloud : {strip, test::sheet(3000, 1, 0), test::sheet(60000, 1, 0)})
+    EXPECT_NEAR(model_of(cloud).hold_at(0).share, .5, 1e-12);
 }
 
 TEST(Grip, HasTheSameBitsForAnyNumberOfThreads) {
   const auto holds = [](int threads) {
     set_thread_count(threads);
-    const ReliefModel m = model_of(test::torus(30000, 1, .4));
+    const ReliefModel m = model_of(test::torus(60000, 1, .4));
     std::vector<Hold> all;
     for (const double u : {.1, .4, 1.0, 5.0}) all.push_back(m.hold_at(u));
     return all;
