@@ -9,6 +9,7 @@
 #include "membrane.h"
 #include "relievo/parallel.h"
 #include "root.h"
+#include "slope_input.h"
 #include "vertex_normals.h"
 
 namespace relievo {
@@ -56,25 +57,22 @@ struct FrameMaker::Packed {
   void set_boundary_width(double width) {
     if (width == boundary_width) return;
     boundary_width = width;
-    const double rho = surface.rho * width / 2;  // (7) has 2 rho
+    const double rho = boundary_rho(surface, width);
     parallel_for(size(), [&](std::size_t i) {
       const auto distance = static_cast<double>(surface.boundary.distance[i]);
       boundary_weight[i] = static_cast<float>(relievo::boundary_weight(distance, rho));
     });
   }
 
-  SlopeInput slope_input() const {
-    return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, surface.layers};
-  }
-
   void find_slopes(const Shape& shape) {
     const bool is_layered = shape.style == Style::layered;
     weight.fill(surface.curvature.delta,
                 is_layered ? saturation_alone(shape.compression) : shape.compression);
+    const SlopeInput input = slope_input(surface, boundary_weight);
     if (is_layered)
-      frame_layered_slopes(slope_input(), weight, shape, slopes);
+      frame_layered_slopes(input, weight, shape, slopes);
     else
-      frame_slopes(slope_input(), weight, shape.max_slope, slopes);
+      frame_slopes(input, weight, shape.max_slope, slopes);
   }
 
   void find_heights(Frame& frame) {

@@ -9,6 +9,7 @@
 #include "relievo/detail.h"
 #include "relievo/gradient_slopes.h"
 #include "relievo/parallel.h"
+#include "slope_input.h"
 
 namespace relievo {
 namespace {
@@ -24,9 +25,7 @@ constexpr double growth = .33;
 // Of the longer side: between points further apart there is no such detail as is measured, 4 px of 512.
 constexpr double coarsest_rho = 4. / 512;
 // Where no hold keeps the detail; where nothing can be measured.
-constexpr Hold loosest{most_share, .1}, usual{.5, .1};
-// That layered heights are found for; with others, what (9) gives is about as many times 2 - share.
-constexpr double usual_share = usual.share;
+constexpr Hold loosest{most_share}, usual{.5};
 
 double share_at(double u, double share) {
   return 1 - (1 - share) * std::exp(-growth * u);
@@ -46,13 +45,17 @@ struct Yardstick {
   const Surface& surface;
   const HeightSystem& system;
   QuickJudge judge{surface};
+  std::vector<float> boundary_weight;
   Plane compressed;  // drawn
-  double compressed_span = 0;
+  double compressed_span = 0, compressed_order = 0;
 
   Yardstick(const Surface& s, const HeightSystem& h) : surface(s), system(h) {
+    const double rho = boundary_rho(surface, layered_shape().boundary_width);
+    boundary_weight = boundary_weights(surface.boundary.distance, rho);
     const std::vector<double> heights = solved(gradient_slopes(surface));
     compressed = judge.draw(heights);
     compressed_span = height_span(heights);
+    compressed_order = judge.order(compressed);
   }
 
   bool is_of_use() const { return judge.pixels() >= least_pixels && compressed_span > 0; }
@@ -63,15 +66,13 @@ struct Yardstick {
     return heights;
   }
 
+  // For the usual hold; for others, what (9) gives is about as many times 2 - share.
   std::vector<double> layered_heights(double u) const {
     Shape shape = layered_shape();
     shape.compression.u = u;
-    shape.hold = Hold{usual_share};
-    const std::vector<float> weight =
-        boundary_weights(surface.boundary.distance, surface.rho * shape.boundary_width / 2);
+    shape.hold = usual;
     std::vector<Vec2> slopes(surface.points.size());
-    layered_slopes({surface.normals, surface.curvature.k, weight, surface.curvature.delta, surface.layers},
-                   shape, slopes);
+    layered_slopes(slope_input(surface, boundary_weight), shape, slopes);
     return solved(slopes);
   }
 
@@ -79,7 +80,7 @@ struct Yardstick {
   Kept asked(double span) const {
     Plane as_high = compressed;
     for (float& z : as_high) z *= static_cast<float>(span / compressed_span);
-    return {judge.detail(as_high) + detail_margin, judge.order(compressed) + order_margin};
+    return {judge.detail(as_high) + detail_margin, compressed_order + order_margin};
   }
 };
 
@@ -96,7 +97,7 @@ class Search {
     membrane_.gather(std::span(heights), workspace_);
     heights_ = judge_.draw(heights);
     span_ = height_span(heights);
-    asked_ = yardstick.asked(share_at(u, usual_share) * span_);
+    asked_ = yardstick.asked(share_at(u, usual.share) * span_);
   }
 
   double span() const { return span_; }
@@ -113,7 +114,7 @@ class Search {
     parallel_for(membrane_heights_.size(),
                  [&](std::size_t i) { membrane_heights_[i] = membrane_.at(i, workspace_); });
     Plane z = judge_.draw_smooth(membrane_heights_);
-    const auto scale = static_cast<float>((2 - share) / (2 - usual_share));
+    const auto scale = static_cast<float>((2 - share) / (2 - usual.share));
     for (std::size_t i = 0; i < z.size(); ++i) z[i] = scale * (z[i] + heights_[i]);
     return {judge_.detail(z), judge_.order(z)};
   }
@@ -163,22 +164,23 @@ class Search {
 
 }  // namespace
 
-Grip Grip::find(const Surface& surface, const Membrane& membrane, const HeightSystem& system,
-                const Progress* progress) {
+Result<Grip> Grip::find(const Surface& surface, const Membrane& membrane, const HeightSystem& system,
+                        const Progress* progress) {
   Grip grip;
   grip.holds_.fill(usual);
   if (surface.rho > coarsest_rho * longer_side_of(surface.points)) return grip;
   const Yardstick yardstick(surface, system);
   if (!yardstick.is_of_use()) return grip;
   std::array<double, knots.size()> spans;
+  const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
   const auto find_hold = [&](std::size_t k) {
-    if (progress && progress->is_cancelled()) return;
+    if (is_cancelled()) return;
     Search search(yardstick, membrane, knots[k]);
     grip.holds_[k] = search.tightest();
     spans[k] = search.span();
   };
   parallel_for(knots.size(), find_hold, 1);
-  if (progress && progress->is_cancelled()) return grip;
+  if (is_cancelled()) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
   // The height that they are held to has to grow with u.
   for (std::size_t k = knots.size() - 1; k-- > 0;) {
     const double most = share_at(knots[k + 1], grip.holds_[k + 1].share) * spans[k + 1] / spans[k] / 1.1;

@@ -17,7 +17,7 @@ struct Measured {
   Measured(int width, std::vector<std::uint8_t> is_measured);
 };
 
-// div (x, y) at measured pixels, where all neighbours count, 0 elsewhere.
+// div (x, y) at measured pixels, where all neighbours count, 0 elsewhere. y points up, rows run down.
 Plane divergence(const Plane& x, const Plane& y, const Measured& where);
 
 // A Gaussian's average over measured pixels alone.

@@ -9,6 +9,7 @@
 #include "relievo/parallel.h"
 #include "relievo/text.h"
 #include "root.h"
+#include "slope_input.h"
 
 namespace relievo {
 
@@ -43,11 +44,11 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   if (!system) return std::unexpected(system.error());
   if (auto go = begin_stage(progress, "hold", .8); !go) return std::unexpected(go.error());
   auto membrane = std::make_shared<const Membrane>(surface);
-  const Grip grip = Grip::find(surface, *membrane, *system, progress);
-  if (progress && progress->is_cancelled())
-    return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  const Result<Grip> grip = Grip::find(surface, *membrane, *system, progress);
+  if (!grip) return std::unexpected(grip.error());
   if (settle(mode, surface) == Mode::exact)
-    return ReliefModel(std::move(surface), std::move(*system), std::move(membrane), grip);
+    return ReliefModel(std::move(surface), std::move(*system), std::move(membrane), *grip);
+  if (auto go = begin_stage(progress, "reference heights", .83); !go) return std::unexpected(go.error());
   const SubspaceOptions options;
   const auto reference = [&] {
     const HeightSystem all = std::move(*system);  // most of the memory, needed no more
@@ -55,7 +56,7 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   }();
   Result<SubspaceModel> subspace = SubspaceModel::prepare(surface, options, reference, progress);
   if (!subspace) return std::unexpected(subspace.error());
-  return ReliefModel(std::move(surface), std::move(*subspace), std::move(membrane), grip);
+  return ReliefModel(std::move(surface), std::move(*subspace), std::move(membrane), *grip);
 }
 
 std::size_t ReliefModel::memory() const {
@@ -79,8 +80,7 @@ std::vector<double> subspace_heights(const SubspaceModel& model, const Shape& sh
 std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const float> boundary_weight) const {
   if (const SubspaceModel* model = subspace()) return subspace_heights(*model, shape, boundary_weight);
   std::vector<Vec2> slopes(surface_.points.size());
-  const SlopeInput input{surface_.normals, surface_.curvature.k, boundary_weight, surface_.curvature.delta,
-                         surface_.layers};
+  const SlopeInput input = slope_input(surface_, boundary_weight);
   if (shape.style == Style::layered)
     layered_slopes(input, shape, slopes);
   else
@@ -110,8 +110,7 @@ void ReliefModel::hold(Relief& relief, std::span<const float> boundary_weight) c
 }
 
 std::vector<float> ReliefModel::boundary_weight(const Shape& shape) const {
-  return boundary_weights(surface_.boundary.distance,
-                          surface_.rho * shape.boundary_width / 2);  // (7) has 2 rho
+  return boundary_weights(surface_.boundary.distance, boundary_rho(surface_, shape.boundary_width));
 }
 
 Relief ReliefModel::make(const Shape& shape) const {

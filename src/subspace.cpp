@@ -8,6 +8,7 @@
 #include "frame_slopes.h"
 #include "memory.h"
 #include "region_samples.h"
+#include "slope_input.h"
 
 namespace relievo {
 namespace {
@@ -44,8 +45,7 @@ SplineOptions spline_options(std::span<const Vec2> points, double radius) {
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope) {
   const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<Vec2> slopes(surface.points.size());
-  compressed_slopes({surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta},
-                    keep_all, max_slope, slopes);
+  compressed_slopes(slope_input(surface, boundary_weight), keep_all, max_slope, slopes);
   std::vector<double> heights(slopes.size());
   system.solve(slopes, heights);
   return heights;

@@ -58,8 +58,8 @@ struct LayerWeights {
 
 // How tightly layered heights are held within the relief's.
 struct Hold {
-  double share = 1;     // of the height that (9) gives the slopes, (0, 1]; 1 leaves them as they are
-  double reach = .085;  // of the longer side, > 0: less draws what is in front more to the front
+  double share = 1;   // of the height that (9) gives the slopes, (0, 1]; 1 leaves them as they are
+  double reach = .1;  // of the longer side, > 0: less draws what is in front more to the front
 
   bool operator==(const Hold&) const = default;
 };
