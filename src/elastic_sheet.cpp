@@ -9,7 +9,7 @@ namespace relievo {
 namespace {
 
 // Per level, from fine to coarse: what is long takes more sweeps, which cost less.
-constexpr std::array<int, ElasticSheet::levels> sweeps{8, 14, 40};
+constexpr std::array<int, ElasticSheet::levels> sweeps{8, 14, 30, 40};
 constexpr float over_relaxation = 1.6F;
 
 }  // namespace
@@ -18,28 +18,24 @@ std::size_t ElasticSheet::Fields::memory() const {
   return bytes(lowest) + bytes(highest) + bytes(wanted) + bytes(b) + bytes(moment);
 }
 
-ElasticSheet::Level::Level(std::size_t width, Stiffness stiffness)
-    : width_(width),
-      stiffness_(std::move(stiffness)),
-      own_(stiffness_.bending.size()),
-      diagonal_(stiffness_.bending.size()) {
+ElasticSheet::Level::Level(std::size_t width, std::vector<float> bending)
+    : width_(width), bending_(std::move(bending)), fixed_(bending_.size()), diagonal_(bending_.size()) {
   for (Index n = 0; n < diagonal_.size(); ++n)
-    if (stiffness_.bending[n] > 0) couple(n);
+    if (is_free(n)) couple(n);
 }
 
 void ElasticSheet::Level::couple(std::size_t n) {
-  const std::vector<float>& c = stiffness_.bending;
   nodes_[(n % width_ + 2 * (n / width_)) % nodes_.size()].push_back(static_cast<Index>(n));
-  diagonal_[n] = 16 * c[n] + 4 * stiffness_.tension;
+  diagonal_[n] = 16 * bending_[n] + 4;
   for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_}) {
-    diagonal_[n] += c[side];
-    if (!(c[side] > 0)) own_[n] -= (1 - stiffness_.anchor) * stiffness_.tension;
+    diagonal_[n] += bending_[side];
+    if (!is_free(side)) fixed_[n] += 1;
   }
-  diagonal_[n] += own_[n];
+  diagonal_[n] -= fixed_[n];
 }
 
 std::size_t ElasticSheet::Level::memory() const {
-  std::size_t sum = bytes(stiffness_.bending) + bytes(own_) + bytes(diagonal_);
+  std::size_t sum = bytes(bending_) + bytes(fixed_) + bytes(diagonal_);
   for (const std::vector<Index>& colour : nodes_) sum += bytes(colour);
   return sum;
 }
@@ -47,15 +43,14 @@ std::size_t ElasticSheet::Level::memory() const {
 // Every other node of every other row. What bends easily at a node or next to it does so here, too.
 ElasticSheet::Level ElasticSheet::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2;
-  Stiffness coarse{std::vector<float>(width * (rows / 2 + 2)), stiffness_.tension,
-                   std::min(2 * stiffness_.anchor, 1.F)};
+  std::vector<float> coarse(width * (rows / 2 + 2));
   for (std::size_t y = 1; 2 * y + 1 < rows; ++y)
     for (std::size_t x = 1; 2 * x + 1 < width_; ++x) {
       const std::size_t n = 2 * (x + y * width_);
-      float least = stiffness_.bending[n];
+      float least = bending_[n];
       for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_})
-        if (is_free(side)) least = std::min(least, stiffness_.bending[side]);
-      coarse.bending[x + y * width] = least / 4;
+        if (is_free(side)) least = std::min(least, bending_[side]);
+      coarse[x + y * width] = least / 4;
     }
   return {width, std::move(coarse)};
 }
@@ -90,19 +85,20 @@ void ElasticSheet::Level::start(Fields& f) const {
   std::vector<float>& b = f.b;
   each_node([&](Index n) { b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
   each_node([&](Index n) {
-    f.moment[n] = stiffness_.bending[n] * (b[n - 1] + b[n + 1] + b[n - width_] + b[n + width_] - 4 * b[n]);
+    f.moment[n] = bending_[n] * (b[n - 1] + b[n + 1] + b[n - width_] + b[n + width_] - 4 * b[n]);
   });
 }
 
 // Moves one node to where the energy is least, and further, within its limits.
-inline void ElasticSheet::Level::move(Index n, float pull, Fields& f) const {
+inline void ElasticSheet::Level::move(Index n, const Ties& ties, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
-  const float* c = stiffness_.bending.data() + n;
+  const float* c = bending_.data() + n;
   const auto row = static_cast<std::ptrdiff_t>(width_);
   const float lap_b = b[-1] + b[1] + b[-row] + b[row] - 4 * b[0];
   const float lap_m = m[-1] + m[1] + m[-row] + m[row] - 4 * m[0];
-  const float rise = lap_m - stiffness_.tension * lap_b + (own_[n] + pull) * b[0] - f.wanted[n];
-  const float step = over_relaxation * rise / (diagonal_[n] + pull);
+  const float tied = ties.pull + ties.anchor * fixed_[n];
+  const float rise = lap_m - lap_b + (tied - fixed_[n]) * b[0] - f.wanted[n];
+  const float step = over_relaxation * rise / (diagonal_[n] + tied);
   const float next = std::clamp(b[0] - step, f.lowest[n], f.highest[n]);
   const float change = next - b[0];
   b[0] = next;
@@ -111,13 +107,13 @@ inline void ElasticSheet::Level::move(Index n, float pull, Fields& f) const {
     m[side] += c[side] * change;
 }
 
-void ElasticSheet::Level::relax(int times, float pull, Fields& f) const {
+void ElasticSheet::Level::relax(int times, const Ties& ties, Fields& f) const {
   start(f);
-  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, pull, f); });
+  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, ties, f); });
 }
 
-ElasticSheet::ElasticSheet(std::size_t width, Stiffness stiffness) {
-  levels_[0] = Level(width, std::move(stiffness));
+ElasticSheet::ElasticSheet(std::size_t width, std::vector<float> bending) {
+  levels_[0] = Level(width, std::move(bending));
   for (std::size_t l = 1; l < levels; ++l) levels_[l] = levels_[l - 1].coarser();
 }
 
@@ -135,12 +131,15 @@ std::size_t ElasticSheet::memory() const {
   return sum;
 }
 
-void ElasticSheet::solve(float pull, Workspace& w) const {
+void ElasticSheet::solve(const Ties& ties, Workspace& w) const {
   for (std::size_t l = 1; l < levels; ++l) levels_[l].restrict_from(levels_[l - 1], w[l - 1], w[l]);
   std::ranges::fill(w.back().b, 0.F);
   for (std::size_t l = levels; l-- > 0;) {
     if (l + 1 < levels) levels_[l].prolong_from(levels_[l + 1], w[l + 1], w[l]);
-    levels_[l].relax(sweeps[l], pull * static_cast<float>(1 << 2 * l), w[l]);
+    // A node stands for 4^l of the finest, and along a rim for 2^l; more than fixed it cannot be.
+    const Ties here{ties.pull * static_cast<float>(1 << 2 * l),
+                    std::min(ties.anchor * static_cast<float>(1 << l), 1.F)};
+    levels_[l].relax(sweeps[l], here, w[l]);
   }
 }
 

@@ -8,21 +8,20 @@
 
 namespace relievo {
 
-// What a sheet b on a lattice resists, and by how much. Nodes are numbered row by row; lengths are in cells.
-struct Stiffness {
-  // Per node, of (the sum of its four neighbours less 4 b)^2. Where it is 0 b is 0; nodes on the lattice's
-  // rim have to be such.
-  std::vector<float> bending;
-  float tension = 1;  // of the squared difference between neighbours
-  float anchor = 1;   // of the tension, towards neighbours that are fixed
+// What draws a sheet b to 0.
+struct Ties {
+  float pull = 0;    // of b^2, >= 0
+  float anchor = 1;  // of its squared difference from neighbours that are fixed, (0, 1]
 };
 
-// Of all b with lowest <= b <= highest, one near the least energy: half of the sum of bending, tension and
-// pull b^2, less that of wanted b. Successive over-relaxation on lattices of 4, 2 and 1 cells, each starting
-// from what the coarser one found. Const calls may run concurrently, each with a workspace of its own.
+// Of all b with lowest <= b <= highest on a lattice, one near the least energy: half of the sum of bending
+// (lap b)^2, squared differences between neighbours and ties, less that of wanted b. lap b is the sum of the
+// four neighbours less 4 b. Where bending is 0 b is fixed at 0; nodes on the lattice's rim have to be such.
+// Successive over-relaxation on lattices of 8, 4, 2 and 1 cells, each starting from what the coarser one
+// found. Const calls may run concurrently, each with a workspace of its own.
 class ElasticSheet {
  public:
-  static constexpr std::size_t levels = 3;
+  static constexpr std::size_t levels = 4;
 
   // Per node of a level.
   struct Fields {
@@ -35,8 +34,8 @@ class ElasticSheet {
   // From fine to coarse.
   using Workspace = std::array<Fields, levels>;
 
-  // `width` nodes make a row.
-  ElasticSheet(std::size_t width, Stiffness stiffness);
+  // Bending per node, row by row; `width` nodes make a row.
+  ElasticSheet(std::size_t width, std::vector<float> bending);
 
   Workspace make_workspace() const;
 
@@ -49,20 +48,20 @@ class ElasticSheet {
     levels_[0].each_node(f);
   }
 
-  // Finds the finest b for the finest limits, lowest <= highest, what is wanted, and a pull >= 0; of fixed
-  // nodes they do not matter, but b and moment there have to be 0, as make_workspace() leaves them.
-  void solve(float pull, Workspace& workspace) const;
+  // Finds the finest b for the finest limits, lowest <= highest, and what is wanted; of fixed nodes they do
+  // not matter, but b and moment there have to be 0, as make_workspace() leaves them.
+  void solve(const Ties& ties, Workspace& workspace) const;
 
  private:
   class Level {
    public:
     Level() = default;
-    Level(std::size_t width, Stiffness stiffness);
+    Level(std::size_t width, std::vector<float> bending);
 
     std::size_t size() const { return diagonal_.size(); }
     std::size_t memory() const;
     Level coarser() const;
-    bool is_free(std::size_t node) const { return diagonal_[node] > 0; }
+    bool is_free(std::size_t node) const { return bending_[node] > 0; }
     template <typename F>
     void each_node(F&& f) const {
       for (const std::vector<Index>& colour : nodes_)
@@ -73,20 +72,20 @@ class ElasticSheet {
     void restrict_from(const Level& finer, const Fields& from, Fields& to) const;
     // b from the next coarser level's.
     void prolong_from(const Level& coarser, const Fields& from, Fields& to) const;
-    void relax(int times, float pull, Fields& f) const;
+    void relax(int times, const Ties& ties, Fields& f) const;
 
    private:
     void couple(std::size_t n);
     void start(Fields& f) const;
-    void move(Index n, float pull, Fields& f) const;
+    void move(Index n, const Ties& ties, Fields& f) const;
 
     std::size_t width_ = 0;
-    Stiffness stiffness_;
+    std::vector<float> bending_;
     // A colour's nodes are so far apart that none moves what another reads, so that the processor need not
     // wait for one before the next: 2.6 times as fast as row by row.
     std::array<std::vector<Index>, 5> nodes_;
-    std::vector<float> own_;       // per node: of b^2, besides four neighbours' full tension
-    std::vector<float> diagonal_;  // per node: of the energy's matrix without pull; 0 where b is fixed
+    std::vector<float> fixed_;     // per node: how many of its neighbours
+    std::vector<float> diagonal_;  // per node: of the energy's matrix without ties
   };
 
   std::array<Level, levels> levels_;

@@ -132,7 +132,7 @@ struct FrameMaker::Packed {
   void hold(Frame& frame) {
     if (frame.options.shape.style != Style::layered) return;
     const Stopwatch watch;
-    const Membrane::Limits limits{frame.height, frame.options.shape.hold->reach};
+    const Membrane::Limits limits = Membrane::Limits::of(frame.height, *frame.options.shape.hold);
     model.membrane().hold<float>({frame.heights, boundary_weight, limits}, membrane_workspace);
     frame.times.detail_s += watch.seconds();
   }

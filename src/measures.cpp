@@ -13,8 +13,6 @@ namespace relievo {
 namespace {
 
 constexpr int lights = 16;
-constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
-constexpr std::size_t pairs = 200000;
 
 // Azimuths of 45 degrees, first at 30, then at 55 degrees above the plane.
 Vec3f light_direction(int i) {
@@ -74,7 +72,7 @@ struct Judge::Truth : ModelPicture {
     shadings.resize(lights);
     parallel_for(
         lights, [&](std::size_t i) { shadings[i] = shading_of(normals, static_cast<int>(i)); }, 1);
-    for (const int s : detail_scales_px) smoothing.emplace_back(s, 3 * s, measured);
+    for (const int s : detail_scales_px) smoothing.emplace_back(detail_gaussian(s, measured));
     curvature = smoothed_curvature(normals);
     find_steps(surface);
   }
@@ -197,7 +195,7 @@ Measures Judge::measure(std::span<const double> heights) const {
   const std::array<Plane, 3> curvature = truth_->smoothed_curvature(n);
   for (std::size_t s = 0; s < curvature.size(); ++s)
     m.detail[s] = correlation(curvature[s], truth_->curvature[s], truth_->measured);
-  m.order = order_kept(z, truth_->depth, truth_->measured, pairs);
+  m.order = order_kept(z, truth_->depth, truth_->measured, order_pairs);
   truth_->guard(z, n, heights, m);
   return m;
 }

@@ -15,9 +15,9 @@ namespace relievo {
 namespace {
 
 // Cells are as wide as that, of the longer side; in rho, where points are too few for it.
-constexpr double cell_size = .008, least_cell_size = 2;
+constexpr double cell_size = .007, least_cell_size = 2;
 // Of the bending elsewhere, where it is hinged.
-constexpr float hinge = .01F;
+constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 std::vector<Index> free_points(const Boundary& boundary) {
@@ -61,7 +61,7 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
-Stiffness stiffness_of(const Surface& surface, const Lattice& lattice, const Scale& scale) {
+std::vector<float> bending_of(const Surface& surface, const Lattice& lattice, const Scale& scale) {
   const std::vector<std::uint8_t> inside = is_inside(surface, lattice), jump = is_at_jump(surface, lattice);
   const std::size_t row = lattice.width();
   const float stiff = scale.in_cells_squared(Membrane::stiff_reach);
@@ -71,7 +71,7 @@ Stiffness stiffness_of(const Surface& surface, const Lattice& lattice, const Sca
     const bool is_rim = !(inside[n - 1] && inside[n + 1] && inside[n - row] && inside[n + row]);
     bending[n] = is_rim || jump[n] ? hinge * stiff : stiff;
   }
-  return {std::move(bending), 1, static_cast<float>(Membrane::anchor)};
+  return bending;
 }
 
 }  // namespace
@@ -82,13 +82,19 @@ std::size_t Membrane::Workspace::memory() const {
   return sum;
 }
 
+// What is held tightly needs the height and may stand off the ground at the silhouette.
+Membrane::Limits Membrane::Limits::of(double height, const Hold& hold) {
+  constexpr double least = .1, fall = 4;
+  return {height, hold.reach, std::max(1 - fall * (1 - hold.share), least)};
+}
+
 Membrane::Membrane(const Surface& surface) : Membrane(surface, longer_side_of(surface.points)) {}
 
 Membrane::Membrane(const Surface& surface, double side)
     : side_(side),
       cell_(Scale(side, surface.rho).cell),
       lattice_(surface.points, free_points(surface.boundary), cell_),
-      sheet_(lattice_.width(), stiffness_of(surface, lattice_, Scale(side, surface.rho))),
+      sheet_(lattice_.width(), bending_of(surface, lattice_, Scale(side, surface.rho))),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);
@@ -140,7 +146,7 @@ void Membrane::settle(const Limits& limits, Workspace& w) const {
   const double cells = cell_ / (limits.reach * side_);
   const auto pull = static_cast<float>(side_ > 0 ? cells * cells : 0);
   set_limits(static_cast<float>(limits.height), pull, w);
-  sheet_.solve(pull, w.sheet);
+  sheet_.solve({pull, static_cast<float>(limits.anchor)}, w.sheet);
   lattice_.refine(w.sheet[0].b, w.tiles);
 }
 

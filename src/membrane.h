@@ -7,22 +7,22 @@
 
 #include "elastic_sheet.h"
 #include "lattice.h"
+#include "relievo/layers.h"
 #include "relievo/surface.h"
 
 namespace relievo {
 
 // Of all b with 0 <= z + b <= h, 0 from a cell beyond the silhouette on, the membrane is about that with the
 // least integral of (stiff_reach lap b)^2 + |grad b|^2 + ((z + b - h r) / reach)^2, where r are the ranks of
-// the depths: an obstacle problem. Where the heights z have room b is smooth, so that the relief keeps their
-// curvature; along silhouettes and depth jumps it is hinged, for nobody sees it bend there; what is in front
-// is drawn to the front. It lives on a lattice of .8 % of the longer side, coarser where points are few,
-// whose limits leave room for what the heights do between nodes. It is 0 where there are no points. Const
-// calls may run concurrently, each with a workspace of its own.
+// the depths: an obstacle problem. Of |grad b|^2 across the silhouette only `anchor` counts. Where the
+// heights z have room b is smooth, so that the relief keeps their curvature; along silhouettes and depth
+// jumps it is hinged, for nobody sees it bend there; what is in front is drawn to the front. It lives on a
+// lattice of .7 % of the longer side, coarser where points are few, whose limits leave room for what the
+// heights do between nodes. It is 0 where there are no points. Const calls may run concurrently, each with a
+// workspace of its own.
 class Membrane {
  public:
   static constexpr double stiff_reach = .028;  // of the longer side
-  // Of the tension, towards what lies beyond the silhouette: what is in front may stand off the ground there.
-  static constexpr double anchor = .1;
 
   // What spread() needs besides, and finds, so that it allocates nothing.
   struct Workspace {
@@ -43,10 +43,15 @@ class Membrane {
   // Bytes held, workspaces not counted.
   std::size_t memory() const;
 
-  // Between what heights are to be held, and how hard they are drawn towards the ranks.
+  // Between what heights are to be held, how hard they are drawn towards the ranks and, at the silhouette,
+  // to the ground.
   struct Limits {
-    double height;  // > 0
-    double reach;   // of the longer side, > 0
+    double height;      // > 0
+    double reach;       // of the longer side, > 0
+    double anchor = 1;  // (0, 1]
+
+    // As the hold asks.
+    static Limits of(double height, const Hold& hold);
   };
 
   // Finds the membrane for heights, one per point; the workspace holds it. A few points may still be a little

@@ -1,6 +1,7 @@
 // What a relief keeps of its model, measured on pictures.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "picture.h"
@@ -31,6 +32,15 @@ class MeasuredGaussian {
   GaussianFilter filter_;
   Plane weight_;  // what of it lies on measured pixels
 };
+
+// Judge's: what detail is smoothed by, in pixels, and how many pairs tell the order.
+inline constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
+inline constexpr std::size_t order_pairs = 200000;
+
+// What curvature is smoothed by, to tell the detail of a scale.
+inline MeasuredGaussian detail_gaussian(int scale_px, const Measured& where) {
+  return {static_cast<double>(scale_px), 3 * scale_px, where};
+}
 
 // Of values at measured pixels; 0 if all of a plane's are equal.
 double correlation(const Plane& a, const Plane& b, const Measured& where);

@@ -9,16 +9,7 @@ namespace {
 // than 2.
 constexpr double sigma_px = 1.87;
 constexpr int reach_px = 6;
-constexpr std::size_t pairs = 20000;
-
-// Calls f(pixel, the first of the four it is made of), row by row.
-template <typename F>
-void each_half(const PictureGrid& grid, F&& f) {
-  const int width = grid.width() / 2;
-  for (int y = 0; y < grid.height() / 2; ++y)
-    for (int x = 0; x < width; ++x)
-      f(static_cast<std::size_t>(y * width + x), static_cast<std::size_t>(2 * (y * grid.width() + x)));
-}
+constexpr std::size_t fewer_pairs = 20000;
 
 Measured half_measured(const ModelPicture& picture) {
   const auto row = static_cast<std::size_t>(picture.width());
@@ -31,15 +22,23 @@ Measured half_measured(const ModelPicture& picture) {
   return {width, std::move(measured)};
 }
 
+Plane smoothed_curvature(const NormalPicture& n, const MeasuredGaussian& smoothing, const Measured& where) {
+  Plane sum = divergence(n.x, n.y, where);
+  smoothing.apply(sum, where);
+  return sum;
+}
+
 }  // namespace
 
 QuickJudge::QuickJudge(const Surface& surface)
     : picture_(surface, Judge::longer_side_px, Judge::margin_px),
       where_(half_measured(picture_)),
       smoothing_(sigma_px, reach_px, where_),
+      whole_smoothing_(detail_gaussian(detail_scales_px.back(), picture_.measured)),
       depth_(halved(picture_.depth)) {
   const NormalPicture& n = picture_.normals;
-  curvature_ = smoothed_curvature({halved(n.x), halved(n.y), {}});
+  curvature_ = smoothed_curvature({halved(n.x), halved(n.y), {}}, smoothing_, where_);
+  whole_curvature_ = smoothed_curvature(n, whole_smoothing_, picture_.measured);
 }
 
 Plane QuickJudge::halved(const Plane& fine) const {
@@ -59,31 +58,17 @@ Plane QuickJudge::draw(std::span<const double> heights) const {
   return half;
 }
 
-// Two of the four, across.
-Plane QuickJudge::draw_smooth(std::span<const float> heights) const {
-  Plane half(where_.is_measured.size());
-  const PictureGrid& grid = picture_.grid;
-  const auto across = static_cast<std::size_t>(grid.width()) + 1;
-  const auto scale = static_cast<float>(1 / (4 * grid.units_per_pixel()));
-  const auto height = [&](Index p) { return heights[p]; };
-  each_half(grid, [&](std::size_t i, std::size_t first) {
-    half[i] = scale * (grid.at(first, height, 0) + grid.at(first + across, height, 0));
-  });
-  return half;
+Kept QuickJudge::kept(const Plane& z) const {
+  const Plane curvature = smoothed_curvature(normals_of(z, where_.width), smoothing_, where_);
+  return {correlation(curvature, curvature_, where_), order_kept(z, depth_, where_, fewer_pairs)};
 }
 
-Plane QuickJudge::smoothed_curvature(const NormalPicture& n) const {
-  Plane sum = divergence(n.x, n.y, where_);
-  smoothing_.apply(sum, where_);
-  return sum;
-}
-
-double QuickJudge::detail(const Plane& z) const {
-  return correlation(smoothed_curvature(normals_of(z, where_.width)), curvature_, where_);
-}
-
-double QuickJudge::order(const Plane& z) const {
-  return order_kept(z, depth_, where_, pairs);
+Kept QuickJudge::kept_by_whole(std::span<const double> heights) const {
+  const Plane z = picture_.heights_in_pixels(heights);
+  const Measured& measured = picture_.measured;
+  const Plane curvature = smoothed_curvature(normals_of(z, picture_.width()), whole_smoothing_, measured);
+  return {correlation(curvature, whole_curvature_, measured),
+          order_kept(z, picture_.depth, measured, order_pairs)};
 }
 
 }  // namespace relievo

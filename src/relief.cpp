@@ -104,7 +104,7 @@ Relief ReliefModel::raise(Shape shape, std::span<const float> boundary_weight) c
 void ReliefModel::hold(Relief& relief, std::span<const float> boundary_weight) const {
   if (relief.shape.style != Style::layered) return;
   Membrane::Workspace workspace = membrane_->make_workspace();
-  const Membrane::Limits limits{relief.height, relief.shape.hold->reach};
+  const Membrane::Limits limits = Membrane::Limits::of(relief.height, *relief.shape.hold);
   membrane_->hold<double>({relief.heights, boundary_weight, limits}, workspace);
   relief.height = height_span(relief.heights);
 }

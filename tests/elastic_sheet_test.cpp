@@ -18,11 +18,11 @@ bool is_rim(std::size_t n) {
 }
 
 // Free but for the lattice's rim.
-Stiffness even(float bending) {
-  Stiffness s{std::vector<float>(width * height, bending), 1, 1};
-  for (std::size_t n = 0; n < s.bending.size(); ++n)
-    if (is_rim(n)) s.bending[n] = 0;
-  return s;
+std::vector<float> even(float bending) {
+  std::vector<float> all(width * height, bending);
+  for (std::size_t n = 0; n < all.size(); ++n)
+    if (is_rim(n)) all[n] = 0;
+  return all;
 }
 
 // What draws a bump up on the left and down on the right.
@@ -32,48 +32,49 @@ float load(std::size_t n) {
 }
 
 struct Problem {
-  float pull;
+  Ties ties;
   ElasticSheet sheet;
   ElasticSheet::Workspace workspace = sheet.make_workspace();
 
-  Problem(Stiffness s, float p, float lowest, float highest) : pull(p), sheet(width, std::move(s)) {
+  Problem(std::vector<float> bending, const Ties& t, float lowest, float highest)
+      : ties(t), sheet(width, std::move(bending)) {
     ElasticSheet::Fields& f = workspace[0];
     std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
     for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
   }
   const std::vector<float>& solved() {
-    sheet.solve(pull, workspace);
+    sheet.solve(ties, workspace);
     return workspace[0].b;
   }
 };
 
-// The energy's matrix: L' C L + tension + pull, rows of fixed nodes those of the identity.
-Eigen::MatrixXd matrix(const Stiffness& s, float pull) {
-  const auto n = static_cast<Eigen::Index>(s.bending.size());
+// The energy's matrix: L' C L + tension + ties, rows of fixed nodes those of the identity.
+Eigen::MatrixXd matrix(const std::vector<float>& bending, const Ties& ties) {
+  const auto n = static_cast<Eigen::Index>(bending.size());
   Eigen::MatrixXd lap = Eigen::MatrixXd::Zero(n, n), a = lap;
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (!(s.bending[static_cast<std::size_t>(i)] > 0)) continue;
-    lap(i, i) = -4, a(i, i) = static_cast<double>(pull);
+    if (!(bending[static_cast<std::size_t>(i)] > 0)) continue;
+    lap(i, i) = -4, a(i, i) = static_cast<double>(ties.pull);
     for (const Eigen::Index side :
          {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
-      const bool is_fixed = !(s.bending[static_cast<std::size_t>(i + side)] > 0);
-      const double tension = static_cast<double>(s.tension * (is_fixed ? s.anchor : 1));
+      const bool is_fixed = !(bending[static_cast<std::size_t>(i + side)] > 0);
+      const double tension = static_cast<double>(is_fixed ? ties.anchor : 1.F);
       a(i, i) += tension;
       if (is_fixed) continue;
       lap(i, i + side) = 1, a(i, i + side) = -tension;
     }
   }
-  const Eigen::VectorXd c = Eigen::Map<const Eigen::VectorXf>(s.bending.data(), n).cast<double>();
+  const Eigen::VectorXd c = Eigen::Map<const Eigen::VectorXf>(bending.data(), n).cast<double>();
   a += lap.transpose() * c.asDiagonal() * lap;
   for (Eigen::Index i = 0; i < n; ++i)
     if (!(c[i] > 0)) a(i, i) = 1;
   return a;
 }
 
-Eigen::VectorXd loads(const Stiffness& s) {
-  Eigen::VectorXd f(static_cast<Eigen::Index>(s.bending.size()));
-  for (std::size_t n = 0; n < s.bending.size(); ++n)
-    f[static_cast<Eigen::Index>(n)] = s.bending[n] > 0 ? static_cast<double>(load(n)) : 0;
+Eigen::VectorXd loads(const std::vector<float>& bending) {
+  Eigen::VectorXd f(static_cast<Eigen::Index>(bending.size()));
+  for (std::size_t n = 0; n < bending.size(); ++n)
+    f[static_cast<Eigen::Index>(n)] = bending[n] > 0 ? static_cast<double>(load(n)) : 0;
   return f;
 }
 
@@ -85,16 +86,18 @@ double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vec
 
 // Without limits the least energy is that of a linear system.
 TEST(ElasticSheet, ComesNearTheLeastEnergy) {
-  Stiffness hinged = even(10), loose = even(10);
-  for (std::size_t n = 0; n < hinged.bending.size(); ++n)
-    if (n % width == width / 3 && !is_rim(n)) hinged.bending[n] = .1F;
-  loose.anchor = .1F;
-  using Case = std::pair<Stiffness, float>;  // with its pull
-  for (const auto& [s, pull] :
-       {Case{even(1), .1F}, {even(10), .02F}, {even(10), 0}, {hinged, .02F}, {loose, .02F}}) {
-    const Eigen::MatrixXd a = matrix(s, pull);
-    const Eigen::VectorXd f = loads(s), exact = a.llt().solve(f);
-    Problem problem(s, pull, -far, far);
+  std::vector<float> hinged = even(10);
+  for (std::size_t n = 0; n < hinged.size(); ++n)
+    if (n % width == width / 3 && !is_rim(n)) hinged[n] = .1F;
+  using Case = std::pair<std::vector<float>, Ties>;
+  for (const auto& [bending, ties] : {Case{even(1), {.1F}},
+                                      {even(10), {.02F}},
+                                      {even(10), {}},
+                                      {hinged, {.02F}},
+                                      {even(10), {.02F, .1F}}}) {
+    const Eigen::MatrixXd a = matrix(bending, ties);
+    const Eigen::VectorXd f = loads(bending), exact = a.llt().solve(f);
+    Problem problem(bending, ties, -far, far);
     const double least = -.5 * f.dot(exact);
     EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
     EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
@@ -102,7 +105,7 @@ TEST(ElasticSheet, ComesNearTheLeastEnergy) {
 }
 
 TEST(ElasticSheet, StaysWithinItsLimits) {
-  Problem problem(even(4), .02F, -.1F, .2F);
+  Problem problem(even(4), {.02F}, -.1F, .2F);
   const std::vector<float>& b = problem.solved();
   EXPECT_EQ(*std::ranges::min_element(b), -.1F);
   EXPECT_EQ(*std::ranges::max_element(b), .2F);
@@ -114,11 +117,11 @@ TEST(ElasticSheet, StaysWithinItsLimits) {
 
 // Limits cost energy; of what keeps to them it is better than the free sheet cut off.
 TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
-  constexpr float pull = .02F;
-  const Stiffness s = even(4);
-  const Eigen::MatrixXd a = matrix(s, pull);
-  const Eigen::VectorXd f = loads(s);
-  Problem unlimited(s, pull, -far, far), limited(s, pull, -.1F, .2F);
+  constexpr Ties ties{.02F};
+  const std::vector<float> bending = even(4);
+  const Eigen::MatrixXd a = matrix(bending, ties);
+  const Eigen::VectorXd f = loads(bending);
+  Problem unlimited(bending, ties, -far, far), limited(bending, ties, -.1F, .2F);
   std::vector<float> cut = unlimited.solved();
   const double least = energy(a, f, cut);
   for (float& b : cut) b = std::clamp(b, -.1F, .2F);
@@ -129,18 +132,18 @@ TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
 
 // Pushed from both sides, a node stays where its limits meet.
 TEST(ElasticSheet, TakesLimitsThatMeet) {
-  Problem problem(even(4), .02F, .05F, .05F);
+  Problem problem(even(4), {.02F}, .05F, .05F);
   const std::vector<float>& b = problem.solved();
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
 // Bends at a hinge: there the second difference is greater than where it is stiff.
 TEST(ElasticSheet, BendsAtAHinge) {
-  Stiffness s = even(50);
+  std::vector<float> bending = even(50);
   const std::size_t middle = width / 2;
-  for (std::size_t n = 0; n < s.bending.size(); ++n)
-    if (n % width == middle && !is_rim(n)) s.bending[n] = .05F;
-  Problem problem(s, 0, -far, far);
+  for (std::size_t n = 0; n < bending.size(); ++n)
+    if (n % width == middle && !is_rim(n)) bending[n] = .05F;
+  Problem problem(bending, {}, -far, far);
   for (std::size_t n = 0; n < problem.workspace[0].wanted.size(); ++n) problem.workspace[0].wanted[n] = .01F;
   const std::vector<float>& b = problem.solved();
   const std::size_t n = middle + height / 2 * width;
@@ -150,7 +153,7 @@ TEST(ElasticSheet, BendsAtAHinge) {
 }
 
 TEST(ElasticSheet, HasNothingToDoWhereAllIsFixed) {
-  Problem problem(Stiffness{std::vector<float>(width * height), 1, 1}, 0, -1, 1);
+  Problem problem(std::vector<float>(width * height), {}, -1, 1);
   EXPECT_EQ(problem.solved(), std::vector<float>(width * height));
   int free = 0;
   problem.sheet.each_free_node([&](Index) { ++free; });

@@ -73,6 +73,29 @@ TEST(Membrane, SolvesItsEquationWhereItHasRoom) {
   EXPECT_GT(middle, .05 * z);
 }
 
+// Drawn down inside, it is the further from 0 at the silhouette, the less it is anchored there.
+TEST(Membrane, KeepsToTheGroundAsItsAnchorDraws) {
+  const Surface surface = strip(.4);
+  const Membrane membrane(surface);
+  Membrane::Workspace workspace = membrane.make_workspace();
+  const std::vector<double> z(surface.points.size(), .1);
+  double last = 0;
+  for (const double anchor : {1.0, .5, .1}) {
+    membrane.spread(std::span<const double>(z), {1, reach, anchor}, workspace);
+    double off = 0;
+    for (std::size_t i = 0; i < z.size(); ++i)
+      if (std::abs(surface.points[i].x()) > .38) off -= static_cast<double>(membrane.at(i, workspace));
+    EXPECT_GT(off, 1.02 * last) << anchor;
+    last = off;
+  }
+}
+
+TEST(Membrane, AnchorsWhatIsHeldLoosely) {
+  EXPECT_EQ(Membrane::Limits::of(.1, {1, .2}).anchor, 1);
+  EXPECT_NEAR(Membrane::Limits::of(.1, {.9, .2}).anchor, .6, 1e-12);
+  EXPECT_EQ(Membrane::Limits::of(.1, {.3, .2}).anchor, .1);
+}
+
 TEST(Membrane, HoldsHeightsBetweenTheBaseAndTheirHeight) {
   const Surface surface = bumpy();
   for (const double height : {.15, .2, .4}) {

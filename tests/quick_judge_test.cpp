@@ -42,8 +42,19 @@ TEST(QuickJudge, MeasuresWhatJudgeDoes) {
   for (const std::vector<double>& heights : reliefs(surface)) {
     const Measures whole = judge.measure(heights);
     const Plane z = quick.draw(heights);
-    EXPECT_NEAR(quick.detail(z), whole.detail[2], .0005 + .08 * (1 - whole.detail[2]));
-    EXPECT_NEAR(quick.order(z), whole.order, .008);
+    EXPECT_NEAR(quick.kept(z).detail, whole.detail[2], .0005 + .08 * (1 - whole.detail[2]));
+    EXPECT_NEAR(quick.kept(z).order, whole.order, .008);
+  }
+}
+
+TEST(QuickJudge, MeasuresWholePicturesExactlyAsJudgeDoes) {
+  const Surface surface = figure();
+  const Judge judge(surface);
+  const QuickJudge quick(surface);
+  for (const std::vector<double>& heights : reliefs(surface)) {
+    const Measures whole = judge.measure(heights);
+    EXPECT_EQ(quick.kept_by_whole(heights).detail, whole.detail[2]);
+    EXPECT_EQ(quick.kept_by_whole(heights).order, whole.order);
   }
 }
 
@@ -53,7 +64,7 @@ TEST(QuickJudge, DrawsSmoothHeightsAlike) {
   std::vector<double> heights;
   for (const Vec3& p : surface.points) heights.push_back(.1 * std::sin(3 * p.x()) + .05 * p.y() * p.y());
   const Plane a = quick.draw(heights),
-              b = quick.draw_smooth(std::vector<float>(heights.begin(), heights.end()));
+              b = quick.draw_smooth([&](Index i) { return static_cast<float>(heights[i]); });
   ASSERT_EQ(a.size(), b.size());
   // In pixels; but at silhouettes, where some of the four lie outside.
   std::size_t unlike = 0, inside = 0;
@@ -65,8 +76,8 @@ TEST(QuickJudge, KnowsALevelReliefShowsNothing) {
   const Surface surface = figure();
   const QuickJudge quick(surface);
   const Plane level = quick.draw(std::vector<double>(surface.points.size()));
-  EXPECT_EQ(quick.detail(level), 0);
-  EXPECT_EQ(quick.order(level), 0);
+  EXPECT_EQ(quick.kept(level).detail, 0);
+  EXPECT_EQ(quick.kept(level).order, 0);
 }
 
 TEST(QuickJudge, HasNothingToLookAtOnAThinStrip) {

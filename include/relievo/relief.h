@@ -58,7 +58,7 @@ class ReliefModel {
 
   // Returns how tightly layered reliefs are held at u in [0, infinity], unless their shape says it: as
   // tightly as they may be without losing more of the model's detail and of the order of its depths than
-  // gradient-domain compression.
+  // gradient-domain compression, where that can be.
   Hold hold_at(double u) const;
 
   // Bytes held.
