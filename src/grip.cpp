@@ -18,8 +18,8 @@
 namespace relievo {
 namespace {
 
-// Shares, as for u = 0, and reaches that are tried. Beyond the usual most,
-// shading and angle of thin figures fall behind equalisation's, so that only order is worth it.
+// Shares, as for u = 0, and reaches that are tried. Beyond the usual most, shading and angle of thin figures
+// fall behind equalisation's, so that only order is worth it.
 constexpr double least_share = .2, usual_most_share = .75, most_share = 1, least_reach = .035,
                  most_reach = .2;
 // How finely: halved that often. Before each search estimates are set right by a whole relief.
@@ -132,6 +132,7 @@ class Search {
     for (int i = 0; i <= reach_steps; ++i) {
       const auto [share, bound] = least_share_with(reach, best ? best->share : most_share);
       if (share && (!best || *share < best->share)) best = Hold{*share, reach};
+      // Where neither is kept, less reach keeps no more; but of the most there is only less.
       const bool is_less_better = bound.order && (share || !bound.detail || i == 0);
       if (i == 0 && !is_less_better) break;
       (is_less_better ? high : low) = reach;
@@ -148,7 +149,7 @@ class Search {
   Plane drawn_;
   Kept asked_;
   Hold nearest_;
-  double least_shortfall_;
+  double least_shortfall_ = 0;
 };
 
 }  // namespace
