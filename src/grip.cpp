@@ -67,8 +67,9 @@ class Search {
     Hold hold = usual;
     for (const int steps : share_steps) {
       steps_ = steps;
-      ask_as_lacking(hold, hold == usual ? usual_heights_ : yardstick_.heights(u_, held(hold)));
-      hold = tightest_by_estimate(hold);
+      const Lacks lacking =
+          set_right_by(hold, hold == usual ? usual_heights_ : yardstick_.heights(u_, held(hold)));
+      hold = tightest_by_estimate(lacking.any() ? std::nullopt : std::optional(hold));
     }
     return held(hold);
   }
@@ -87,15 +88,19 @@ class Search {
     return judge.kept(z);
   }
 
-  // Asks for what that hold's estimates are, and what its relief lacks.
-  void ask_as_lacking(const Hold& hold, std::vector<double> heights) {
+  // Has estimates of that hold lack what its relief does, and returns that.
+  Lacks set_right_by(const Hold& hold, std::vector<double> heights) {
     const Kept lacking = yardstick_.lacking(std::move(heights), held(hold)), estimate = kept(hold);
     asked_ = {estimate.detail + lacking.detail + margin.detail,
               estimate.order + lacking.order + margin.order};
+    least_shortfall_ = std::numeric_limits<double>::infinity();
+    return compared(hold, estimate);
   }
 
-  Lacks lacks(const Hold& hold) {
-    const Kept k = kept(hold);
+  Lacks lacks(const Hold& hold) { return compared(hold, kept(hold)); }
+
+  // With what is asked.
+  Lacks compared(const Hold& hold, const Kept& k) {
     const double detail = std::max(asked_.detail - k.detail, 0.0),
                  order = std::max(asked_.order - k.order, 0.0);
     const double shortfall = detail / margin.detail + order / margin.order;
@@ -122,12 +127,9 @@ class Search {
     return {high, bound};
   }
 
-  // Less reach keeps more of the order and less of the detail. Where nothing keeps both, what comes nearest.
-  // `known` is tried first, for what cannot be tighter is soon told.
-  Hold tightest_by_estimate(const Hold& known) {
-    least_shortfall_ = std::numeric_limits<double>::infinity();
-    std::optional<Hold> best;
-    if (!lacks(known).any()) best = known;
+  // From the best that is known, if any does: what cannot be tighter is soon told. Less reach keeps more of
+  // the order and less of the detail. Where nothing keeps both, what comes nearest.
+  Hold tightest_by_estimate(std::optional<Hold> best) {
     double low = least_reach, high = most_reach, reach = most_reach;
     for (int i = 0; i <= reach_steps; ++i) {
       const auto [share, bound] = least_share_with(reach, best ? best->share : most_share);
@@ -182,7 +184,7 @@ Result<Grip> Grip::find(const Surface& surface, const Membrane& membrane, const 
 Hold Grip::at(double u) const {
   const Hold& last = holds_.back();
   if (u > knots.back()) return {share_at(u - knots.back(), last.share), last.reach};
-  const double at = std::max(std::log(u / knots[0]) / std::log(ratio), 0.0);
+  const double at = std::max(std::log(u / knots[0]) / std::log(knots[1] / knots[0]), 0.0);
   const auto k = std::min(static_cast<std::size_t>(at), knots.size() - 2);
   const double part = at - static_cast<double>(k);
   const Hold &before = holds_[k], &after = holds_[k + 1];
