@@ -58,7 +58,7 @@ struct LayerWeights {
 
 // How tightly layered heights are held within the relief's.
 struct Hold {
-  double share = 1;   // of the height that (9) gives the slopes, (0, 1]; 1 leaves them as they are
+  double share = 1;   // of the height that (9) gives the slopes, (0, 1]; at 1 nothing is above the relief's
   double reach = .1;  // of the longer side, > 0: less draws what is in front more to the front
 
   bool operator==(const Hold&) const = default;
