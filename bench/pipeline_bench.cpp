@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "jumps.h"
 #include "relievo/io.h"
 #include "relievo/make_relief.h"
 #include "relievo/relief.h"
@@ -61,7 +62,8 @@ void boundary(benchmark::State& state) {
 
 void factorisation(benchmark::State& state) {
   for (const Prepared& p = prepared(state); auto _ : state)
-    benchmark::DoNotOptimize(HeightSystem::build(p.xy, p.surface.triangulation, p.surface.boundary));
+    benchmark::DoNotOptimize(
+        HeightSystem::build(p.xy, p.surface.triangulation, p.surface.boundary, jump_weights(p.surface)));
 }
 
 void one_relief(benchmark::State& state) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "jumps.h"
 #include "relievo/control_points.h"
 
 namespace relievo {
@@ -32,7 +33,8 @@ std::vector<Index> all_points(const Surface& surface) {
 }
 
 HeightEquations equations_of(const Surface& surface) {
-  return height_equations(in_plane(surface.points), surface.triangulation, surface.boundary);
+  return height_equations(in_plane(surface.points), surface.triangulation, surface.boundary,
+                          jump_weights(surface));
 }
 
 std::array<double, 4> basis(double t) {
@@ -139,8 +141,12 @@ StockPipeline::StockPipeline(const Surface& surface)
 StockPipeline::StockPipeline(const Surface& surface, const ControlPoints& control) : StockPipeline(surface) {
   reference_ = heights_->solve(keep_all);
   const ControlMesh mesh = mesh_control_points(surface, control);
-  heights_ = std::make_unique<StockHeights>(height_equations(mesh.points, mesh.triangulation, mesh.boundary),
-                                            surface, control.points);
+  const std::vector<float> weights = jump_weights(surface);
+  std::vector<float> control_weights;
+  for (const Index p : control.points) control_weights.push_back(weights[p]);
+  heights_ = std::make_unique<StockHeights>(
+      height_equations(mesh.points, mesh.triangulation, mesh.boundary, control_weights), surface,
+      control.points);
   control_reference_ = heights_->solve(keep_all);
   spline_ = std::make_unique<StockSpline>(mesh.points, 12 * control.radius, 5);
 }

@@ -31,11 +31,11 @@ class Limiter {
  public:
   static Result<Limiter> prepare(const ReliefModel& model, const DraftOptions& options) {
     Limiter limiter(model, options);
-    if (model.system()) return limiter;
+    // Not the model's: here all slopes count alike.
     Result<HeightSystem> system =
         HeightSystem::build(limiter.plane_, model.surface().triangulation, model.surface().boundary);
     if (!system) return std::unexpected(system.error());
-    limiter.own_system_ = std::make_unique<HeightSystem>(std::move(*system));
+    limiter.system_ = std::make_unique<HeightSystem>(std::move(*system));
     return limiter;
   }
 
@@ -81,10 +81,8 @@ class Limiter {
   }
 
   NearestDraft& nearest() {
-    if (!nearest_) {
-      const HeightSystem& system = own_system_ ? *own_system_ : *model_->system();
-      nearest_.emplace(model_->surface(), system, options_.base, solved_share * options_.max_slope);
-    }
+    if (!nearest_)
+      nearest_.emplace(model_->surface(), *system_, options_.base, solved_share * options_.max_slope);
     return *nearest_;
   }
 
@@ -95,8 +93,8 @@ class Limiter {
   const ReliefModel* model_;
   DraftOptions options_;
   std::vector<Vec2> plane_;
-  std::vector<Triangle> triangles_;           // of the relief; around it is the base
-  std::unique_ptr<HeightSystem> own_system_;  // where the model has none of all points
+  std::vector<Triangle> triangles_;  // of the relief; around it is the base
+  std::unique_ptr<const HeightSystem> system_;
   std::optional<NearestDraft> nearest_;
 };
 

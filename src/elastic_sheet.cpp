@@ -18,39 +18,45 @@ std::size_t ElasticSheet::Fields::memory() const {
   return bytes(lowest) + bytes(highest) + bytes(wanted) + bytes(b) + bytes(moment);
 }
 
-ElasticSheet::Level::Level(std::size_t width, std::vector<float> bending)
-    : width_(width), bending_(std::move(bending)), fixed_(bending_.size()), diagonal_(bending_.size()) {
+ElasticSheet::Level::Level(std::size_t width, Stiffness stiffness)
+    : width_(width),
+      stiffness_(std::move(stiffness)),
+      fixed_(stiffness_.bending.size()),
+      diagonal_(stiffness_.bending.size()) {
   for (Index n = 0; n < diagonal_.size(); ++n)
     if (is_free(n)) couple(n);
 }
 
 void ElasticSheet::Level::couple(std::size_t n) {
   nodes_[(n % width_ + 2 * (n / width_)) % nodes_.size()].push_back(static_cast<Index>(n));
-  diagonal_[n] = 16 * bending_[n] + 4;
+  const auto& [bending, tension] = stiffness_;
+  diagonal_[n] = 16 * bending[n];
   for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_}) {
-    diagonal_[n] += bending_[side];
-    if (!is_free(side)) fixed_[n] += 1;
+    diagonal_[n] += bending[side];
+    (is_free(side) ? diagonal_ : fixed_)[n] += (tension[n] + tension[side]) / 2;
   }
-  diagonal_[n] -= fixed_[n];
 }
 
 std::size_t ElasticSheet::Level::memory() const {
-  std::size_t sum = bytes(bending_) + bytes(fixed_) + bytes(diagonal_);
+  std::size_t sum = bytes(stiffness_.bending) + bytes(stiffness_.tension) + bytes(fixed_) + bytes(diagonal_);
   for (const std::vector<Index>& colour : nodes_) sum += bytes(colour);
   return sum;
 }
 
-// Every other node of every other row. What bends easily at a node or next to it does so here, too.
+// Every other node of every other row. What yields easily at a node or next to it does so here, too.
 ElasticSheet::Level ElasticSheet::Level::coarser() const {
-  const std::size_t rows = size() / width_, width = width_ / 2 + 2;
-  std::vector<float> coarse(width * (rows / 2 + 2));
+  const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
+  const auto& [bending, tension] = stiffness_;
+  Stiffness coarse{std::vector<float>(nodes), std::vector<float>(nodes, 1)};
   for (std::size_t y = 1; 2 * y + 1 < rows; ++y)
     for (std::size_t x = 1; 2 * x + 1 < width_; ++x) {
       const std::size_t n = 2 * (x + y * width_);
-      float least = bending_[n];
-      for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_})
-        if (is_free(side)) least = std::min(least, bending_[side]);
-      coarse[x + y * width] = least / 4;
+      float least = bending[n], yielding = 1 / tension[n];
+      for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_}) {
+        if (is_free(side)) least = std::min(least, bending[side]);
+        yielding += 1 / tension[side];
+      }
+      coarse.bending[x + y * width] = least / 4, coarse.tension[x + y * width] = 5 / yielding;
     }
   return {width, std::move(coarse)};
 }
@@ -85,19 +91,20 @@ void ElasticSheet::Level::start(Fields& f) const {
   std::vector<float>& b = f.b;
   each_node([&](Index n) { b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
   each_node([&](Index n) {
-    f.moment[n] = bending_[n] * (b[n - 1] + b[n + 1] + b[n - width_] + b[n + width_] - 4 * b[n]);
+    f.moment[n] = stiffness_.bending[n] * (b[n - 1] + b[n + 1] + b[n - width_] + b[n + width_] - 4 * b[n]);
   });
 }
 
 // Moves one node to where the energy is least, and further, within its limits.
 inline void ElasticSheet::Level::move(Index n, const Ties& ties, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
-  const float* c = bending_.data() + n;
+  const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;
   const auto row = static_cast<std::ptrdiff_t>(width_);
-  const float lap_b = b[-1] + b[1] + b[-row] + b[row] - 4 * b[0];
+  const auto pull = [&](std::ptrdiff_t side) { return (t[0] + t[side]) * (b[side] - b[0]); };
+  const float tense = (pull(-1) + pull(1) + pull(-row) + pull(row)) / 2;
   const float lap_m = m[-1] + m[1] + m[-row] + m[row] - 4 * m[0];
   const float tied = ties.pull + ties.anchor * fixed_[n];
-  const float rise = lap_m - lap_b + (tied - fixed_[n]) * b[0] - f.wanted[n];
+  const float rise = lap_m - tense + (tied - fixed_[n]) * b[0] - f.wanted[n];
   const float step = over_relaxation * rise / (diagonal_[n] + tied);
   const float next = std::clamp(b[0] - step, f.lowest[n], f.highest[n]);
   const float change = next - b[0];
@@ -112,8 +119,8 @@ void ElasticSheet::Level::relax(int times, const Ties& ties, Fields& f) const {
   for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, ties, f); });
 }
 
-ElasticSheet::ElasticSheet(std::size_t width, std::vector<float> bending) {
-  levels_[0] = Level(width, std::move(bending));
+ElasticSheet::ElasticSheet(std::size_t width, Stiffness stiffness) {
+  levels_[0] = Level(width, std::move(stiffness));
   for (std::size_t l = 1; l < levels; ++l) levels_[l] = levels_[l - 1].coarser();
 }
 

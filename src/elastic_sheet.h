@@ -11,12 +11,18 @@ namespace relievo {
 // What draws a sheet b to 0.
 struct Ties {
   float pull = 0;    // of b^2, >= 0
-  float anchor = 1;  // of its squared difference from neighbours that are fixed, (0, 1]
+  float anchor = 1;  // of the tension to neighbours that are fixed, (0, 1]
+};
+
+// What resists, per node of a lattice, row by row.
+struct Stiffness {
+  std::vector<float> bending;  // to second differences; where it is 0 b is fixed at 0
+  std::vector<float> tension;  // > 0; to the difference between two neighbours, the mean of theirs
 };
 
 // Of all b with lowest <= b <= highest on a lattice, one near the least energy: half of the sum of bending
-// (lap b)^2, squared differences between neighbours and ties, less that of wanted b. lap b is the sum of the
-// four neighbours less 4 b. Where bending is 0 b is fixed at 0; nodes on the lattice's rim have to be such.
+// (lap b)^2, tension times squared differences between neighbours and ties, less that of wanted b. lap b is
+// the sum of the four neighbours less 4 b. Nodes on the lattice's rim have to be fixed.
 // Successive over-relaxation on lattices of 8, 4, 2 and 1 cells, each starting from what the coarser one
 // found. Const calls may run concurrently, each with a workspace of its own.
 class ElasticSheet {
@@ -34,8 +40,8 @@ class ElasticSheet {
   // From fine to coarse.
   using Workspace = std::array<Fields, levels>;
 
-  // Bending per node, row by row; `width` nodes make a row.
-  ElasticSheet(std::size_t width, std::vector<float> bending);
+  // `width` nodes make a row.
+  ElasticSheet(std::size_t width, Stiffness stiffness);
 
   Workspace make_workspace() const;
 
@@ -56,12 +62,12 @@ class ElasticSheet {
   class Level {
    public:
     Level() = default;
-    Level(std::size_t width, std::vector<float> bending);
+    Level(std::size_t width, Stiffness stiffness);
 
     std::size_t size() const { return diagonal_.size(); }
     std::size_t memory() const;
     Level coarser() const;
-    bool is_free(std::size_t node) const { return bending_[node] > 0; }
+    bool is_free(std::size_t node) const { return stiffness_.bending[node] > 0; }
     template <typename F>
     void each_node(F&& f) const {
       for (const std::vector<Index>& colour : nodes_)
@@ -80,11 +86,11 @@ class ElasticSheet {
     void move(Index n, const Ties& ties, Fields& f) const;
 
     std::size_t width_ = 0;
-    std::vector<float> bending_;
+    Stiffness stiffness_;
     // A colour's nodes are so far apart that none moves what another reads, so that the processor need not
     // wait for one before the next: 2.6 times as fast as row by row.
     std::array<std::vector<Index>, 5> nodes_;
-    std::vector<float> fixed_;     // per node: how many of its neighbours
+    std::vector<float> fixed_;     // per node: tension to neighbours that are fixed
     std::vector<float> diagonal_;  // per node: of the energy's matrix without ties
   };
 

@@ -29,7 +29,7 @@ constexpr std::array<int, 2> share_steps{3, 6};
 // may be wrong between the u that they are found for.
 constexpr Kept margin{.0003, .002};
 // How fast the share grows with u.
-constexpr double growth = .33;
+constexpr double growth = .25;
 // Of the longer side: between points further apart there is no such detail as is measured.
 constexpr double coarsest_rho = static_cast<double>(detail_scales_px.back()) / Judge::longer_side_px;
 // Where the search starts, and what stays where nothing can be measured.

@@ -25,16 +25,20 @@ double cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
 // Both directions of each triangle's edges, ordered by end points; an edge of two triangles stands twice in a
 // row.
 std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulation& mesh,
-                                 const Boundary& boundary) {
+                                 const Boundary& boundary, std::span<const float> weights) {
   std::vector<HalfEdge> edges;
   edges.reserve(mesh.triangles.size() * 6);
+  const auto mean_weight = [&](Index a, Index b) {
+    return weights.empty() ? 1.F : (weights[a] + weights[b]) / 2;
+  };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!boundary.is_inside[t]) continue;
     for (int corner = 0; corner < 3; ++corner) {
       const Index apex = mesh.triangles[t][corner];
       const Index a = mesh.triangles[t][(corner + 1) % 3], b = mesh.triangles[t][(corner + 2) % 3];
       const auto half =
-          static_cast<float>(.5 * std::clamp(cotangent(points[apex], points[a], points[b]), -1e6, 1e6));
+          static_cast<float>(.5 * std::clamp(cotangent(points[apex], points[a], points[b]), -1e6, 1e6)) *
+          mean_weight(a, b);
       edges.push_back({a, b, half});
       edges.push_back({b, a, half});
     }
@@ -121,7 +125,7 @@ void add_pulls(std::span<const Vec2> points, const Adjacency& adjacency, std::sp
 }  // namespace
 
 HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
-                                 const Boundary& boundary) {
+                                 const Boundary& boundary, std::span<const float> weights) {
   HeightEquations equations;
   std::vector<Index> unknown(points.size(), no_index);
   for (Index i = 0; i < points.size(); ++i) {
@@ -129,7 +133,7 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
     unknown[i] = static_cast<Index>(equations.free_points.size());
     equations.free_points.push_back(i);
   }
-  const Adjacency adjacency = gather(half_edges(points, triangulation, boundary), points.size());
+  const Adjacency adjacency = gather(half_edges(points, triangulation, boundary, weights), points.size());
   equations.A = laplacian(adjacency, unknown, equations.free_points);
   add_pulls(points, adjacency, unknown, equations);
   return equations;

@@ -22,7 +22,8 @@ struct HeightEquations {
   std::vector<PointLink> edges;
 };
 
+// Weights as for HeightSystem::build().
 HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
-                                 const Boundary& boundary);
+                                 const Boundary& boundary, std::span<const float> weights = {});
 
 }  // namespace relievo

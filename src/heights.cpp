@@ -5,8 +5,8 @@
 namespace relievo {
 
 Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Triangulation& triangulation,
-                                         const Boundary& boundary) {
-  const HeightEquations equations = height_equations(points, triangulation, boundary);
+                                         const Boundary& boundary, std::span<const float> weights) {
+  const HeightEquations equations = height_equations(points, triangulation, boundary, weights);
   std::vector<Vec2> positions;
   positions.reserve(equations.free_points.size());
   for (const Index i : equations.free_points) positions.push_back(points[i]);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "extent.h"
+#include "neighbours.h"
 #include "relievo/parallel.h"
 
 namespace relievo {
@@ -12,6 +14,21 @@ namespace {
 double rise(const Vec3f& normal, const Vec2& step) {
   const Vec3 n = normal.cast<double>();
   return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1);
+}
+
+constexpr double least_weight = .2;
+// Of the longer side.
+constexpr double weighted_reach = .008;
+
+std::vector<Vec2> points_at_jumps(const Surface& surface) {
+  const std::vector<std::uint8_t> jumps = jump_triangles(surface);
+  std::vector<std::uint8_t> marks(surface.points.size());
+  for (std::size_t t = 0; t < jumps.size(); ++t)
+    for (const Index p : surface.triangulation.triangles[t]) marks[p] |= jumps[t];
+  std::vector<Vec2> marked;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i]) marked.push_back(surface.points[i].head<2>());
+  return marked;
 }
 
 }  // namespace
@@ -31,6 +48,21 @@ std::vector<std::uint8_t> jump_triangles(const Surface& surface) {
                     (is_jump(surface, a, b) || is_jump(surface, b, c) || is_jump(surface, c, a));
   });
   return is_jumping;
+}
+
+std::vector<float> jump_weights(const Surface& surface) {
+  const double reach = weighted_reach * longer_side_of(surface.points);
+  const std::vector<Vec2> jumps = points_at_jumps(surface);
+  const KdTree<Vec2> tree(jumps);
+  std::vector<float> weights(surface.points.size(), 1);
+  parallel_for(weights.size(), [&](std::size_t i) {
+    Index nearest;
+    double distance_sq;
+    if (!tree.nearest(surface.points[i].head<2>(), 1, &nearest, &distance_sq)) return;
+    const double share = std::min(std::sqrt(distance_sq) / reach, 1.0);
+    weights[i] = static_cast<float>(std::pow(least_weight, 1 - share));
+  });
+  return weights;
 }
 
 }  // namespace relievo

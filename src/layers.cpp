@@ -16,7 +16,7 @@ constexpr double finest = .0045, middling = .058, coarsest = .12;
 constexpr double steepest_kept = 12;
 
 // How far layers are held back, of the exponent 25 detail.
-constexpr double middle_share = .4, coarse_share = .82, broad_share = 2.5;
+constexpr double middle_share = .4, coarse_share = .82, broad_share = 2.2;
 
 // -(n_x, n_y), which fades out where the surface turns away from the viewer: such slopes spend height and
 // show little.

@@ -61,6 +61,17 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
+// What slopes count for in (9), without which that would have to be spread again.
+std::vector<float> tension_of(const Surface& surface, const Lattice& lattice) {
+  const std::vector<float> weights = jump_weights(surface);
+  std::vector<float> yielding(weights.size()), tension(lattice.nodes());
+  for (std::size_t i = 0; i < yielding.size(); ++i) yielding[i] = 1 / weights[i];
+  std::vector<Lattice::Corners> sums(lattice.nodes());
+  lattice.gather(std::span<const float>(yielding), sums, tension);
+  for (std::size_t n = 0; n < tension.size(); ++n) tension[n] = lattice.is_reached(n) ? 1 / tension[n] : 1;
+  return tension;
+}
+
 std::vector<float> bending_of(const Surface& surface, const Lattice& lattice, const Scale& scale) {
   const std::vector<std::uint8_t> inside = is_inside(surface, lattice), jump = is_at_jump(surface, lattice);
   const std::size_t row = lattice.width();
@@ -94,7 +105,8 @@ Membrane::Membrane(const Surface& surface, double side)
     : side_(side),
       cell_(Scale(side, surface.rho).cell),
       lattice_(surface.points, free_points(surface.boundary), cell_),
-      sheet_(lattice_.width(), bending_of(surface, lattice_, Scale(side, surface.rho))),
+      sheet_(lattice_.width(),
+             {bending_of(surface, lattice_, Scale(side, surface.rho)), tension_of(surface, lattice_)}),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);

@@ -12,12 +12,13 @@ namespace relievo {
 
 // Solves, over triangles, the least squares of (slope - slope given) under |slope + slope of the base| <=
 // limit by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and Eckstein,
-// 2011): slopes are cut triangle by triangle, heights fit them by the system that is factored already, and
+// 2011): slopes are cut triangle by triangle, heights fit them by a system that is factored once, and
 // what a cut took is carried over until both agree. Starts from where the last call ended. Not for concurrent
 // use.
 class NearestDraft {
  public:
-  // The system is that of the surface; both must outlive this. `base`: heights per point, or empty.
+  // The system is that of the surface, without weights; both must outlive this. `base`: heights per point, or
+  // empty.
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "grip.h"
+#include "jumps.h"
 #include "membrane.h"
 #include "relievo/detail.h"
 #include "relievo/parallel.h"
@@ -39,8 +40,8 @@ Hold ReliefModel::hold_at(double u) const {
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
-  Result<HeightSystem> system =
-      HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary);
+  Result<HeightSystem> system = HeightSystem::build(in_plane(surface.points), surface.triangulation,
+                                                    surface.boundary, jump_weights(surface));
   if (!system) return std::unexpected(system.error());
   if (auto go = begin_stage(progress, "hold", .8); !go) return std::unexpected(go.error());
   auto membrane = std::make_shared<const Membrane>(surface);

@@ -6,6 +6,7 @@
 
 #include "control_mesh.h"
 #include "frame_slopes.h"
+#include "jumps.h"
 #include "memory.h"
 #include "region_samples.h"
 #include "slope_input.h"
@@ -78,11 +79,12 @@ SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
 Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const SubspaceOptions& options,
                                              std::span<const double> reference, Progress* progress) {
   const std::vector<Vec2> points = in_plane(surface.points);
-  const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
+  const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho),
+                           weights = jump_weights(surface);
   std::vector<double> solved;
   if (reference.empty()) {
     if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
-    const auto all = HeightSystem::build(points, surface.triangulation, surface.boundary);
+    const auto all = HeightSystem::build(points, surface.triangulation, surface.boundary, weights);
     if (!all) return std::unexpected(all.error());
     reference = solved = reference_heights(surface, *all, options.max_slope);
   }
@@ -90,7 +92,8 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
   if (auto go = begin_stage(progress, "control points", .85); !go) return std::unexpected(go.error());
   ControlPoints control = grow_control_points(points, surface.boundary.distance, options.control);
   const ControlMesh mesh = mesh_control_points(surface, control);
-  Result<HeightSystem> system = HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary);
+  Result<HeightSystem> system =
+      HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary, pick(weights, control.points));
   if (!system) return std::unexpected(system.error());
   const std::vector<Index> samples = sample_regions(surface, control, options.normals_per_point);
 

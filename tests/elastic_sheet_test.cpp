@@ -18,10 +18,18 @@ bool is_rim(std::size_t n) {
 }
 
 // Free but for the lattice's rim.
-std::vector<float> even(float bending) {
-  std::vector<float> all(width * height, bending);
-  for (std::size_t n = 0; n < all.size(); ++n)
-    if (is_rim(n)) all[n] = 0;
+Stiffness even(float bending) {
+  Stiffness all{std::vector<float>(width * height, bending), std::vector<float>(width * height, 1)};
+  for (std::size_t n = 0; n < all.bending.size(); ++n)
+    if (is_rim(n)) all.bending[n] = 0;
+  return all;
+}
+
+// The same, but for two columns of nodes.
+Stiffness yielding(float bending, std::size_t column, float hinge, float tension) {
+  Stiffness all = even(bending);
+  for (std::size_t n = 0; n < all.bending.size(); ++n)
+    if (n % width / 2 == column / 2 && !is_rim(n)) all.bending[n] = hinge, all.tension[n] = tension;
   return all;
 }
 
@@ -36,8 +44,8 @@ struct Problem {
   ElasticSheet sheet;
   ElasticSheet::Workspace workspace = sheet.make_workspace();
 
-  Problem(std::vector<float> bending, const Ties& t, float lowest, float highest)
-      : ties(t), sheet(width, std::move(bending)) {
+  Problem(Stiffness stiffness, const Ties& t, float lowest, float highest)
+      : ties(t), sheet(width, std::move(stiffness)) {
     ElasticSheet::Fields& f = workspace[0];
     std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
     for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
@@ -49,7 +57,8 @@ struct Problem {
 };
 
 // The energy's matrix: L' C L + tension + ties, rows of fixed nodes those of the identity.
-Eigen::MatrixXd matrix(const std::vector<float>& bending, const Ties& ties) {
+Eigen::MatrixXd matrix(const Stiffness& stiffness, const Ties& ties) {
+  const auto& [bending, tensions] = stiffness;
   const auto n = static_cast<Eigen::Index>(bending.size());
   Eigen::MatrixXd lap = Eigen::MatrixXd::Zero(n, n), a = lap;
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -58,7 +67,9 @@ Eigen::MatrixXd matrix(const std::vector<float>& bending, const Ties& ties) {
     for (const Eigen::Index side :
          {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
       const bool is_fixed = !(bending[static_cast<std::size_t>(i + side)] > 0);
-      const double tension = static_cast<double>(is_fixed ? ties.anchor : 1.F);
+      const float mean =
+          (tensions[static_cast<std::size_t>(i)] + tensions[static_cast<std::size_t>(i + side)]) / 2;
+      const auto tension = static_cast<double>(is_fixed ? ties.anchor * mean : mean);
       a(i, i) += tension;
       if (is_fixed) continue;
       lap(i, i + side) = 1, a(i, i + side) = -tension;
@@ -71,7 +82,8 @@ Eigen::MatrixXd matrix(const std::vector<float>& bending, const Ties& ties) {
   return a;
 }
 
-Eigen::VectorXd loads(const std::vector<float>& bending) {
+Eigen::VectorXd loads(const Stiffness& stiffness) {
+  const std::vector<float>& bending = stiffness.bending;
   Eigen::VectorXd f(static_cast<Eigen::Index>(bending.size()));
   for (std::size_t n = 0; n < bending.size(); ++n)
     f[static_cast<Eigen::Index>(n)] = bending[n] > 0 ? static_cast<double>(load(n)) : 0;
@@ -86,18 +98,17 @@ double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vec
 
 // Without limits the least energy is that of a linear system.
 TEST(ElasticSheet, ComesNearTheLeastEnergy) {
-  std::vector<float> hinged = even(10);
-  for (std::size_t n = 0; n < hinged.size(); ++n)
-    if (n % width == width / 3 && !is_rim(n)) hinged[n] = .1F;
-  using Case = std::pair<std::vector<float>, Ties>;
-  for (const auto& [bending, ties] : {Case{even(1), {.1F}},
-                                      {even(10), {.02F}},
-                                      {even(10), {}},
-                                      {hinged, {.02F}},
-                                      {even(10), {.02F, .1F}}}) {
-    const Eigen::MatrixXd a = matrix(bending, ties);
-    const Eigen::VectorXd f = loads(bending), exact = a.llt().solve(f);
-    Problem problem(bending, ties, -far, far);
+  using Case = std::pair<Stiffness, Ties>;
+  for (const auto& [stiffness, ties] : {Case{even(1), {.1F}},
+                                        {even(10), {.02F}},
+                                        {even(10), {}},
+                                        {yielding(10, width / 3, .1F, 1), {.02F}},
+                                        {yielding(10, width / 3, .1F, .2F), {.02F}},
+                                        {yielding(10, width - 3, 10, .2F), {.02F, .1F}},
+                                        {even(10), {.02F, .1F}}}) {
+    const Eigen::MatrixXd a = matrix(stiffness, ties);
+    const Eigen::VectorXd f = loads(stiffness), exact = a.llt().solve(f);
+    Problem problem(stiffness, ties, -far, far);
     const double least = -.5 * f.dot(exact);
     EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
     EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
@@ -118,10 +129,10 @@ TEST(ElasticSheet, StaysWithinItsLimits) {
 // Limits cost energy; of what keeps to them it is better than the free sheet cut off.
 TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
   constexpr Ties ties{.02F};
-  const std::vector<float> bending = even(4);
-  const Eigen::MatrixXd a = matrix(bending, ties);
-  const Eigen::VectorXd f = loads(bending);
-  Problem unlimited(bending, ties, -far, far), limited(bending, ties, -.1F, .2F);
+  const Stiffness stiffness = even(4);
+  const Eigen::MatrixXd a = matrix(stiffness, ties);
+  const Eigen::VectorXd f = loads(stiffness);
+  Problem unlimited(stiffness, ties, -far, far), limited(stiffness, ties, -.1F, .2F);
   std::vector<float> cut = unlimited.solved();
   const double least = energy(a, f, cut);
   for (float& b : cut) b = std::clamp(b, -.1F, .2F);
@@ -139,11 +150,8 @@ TEST(ElasticSheet, TakesLimitsThatMeet) {
 
 // Bends at a hinge: there the second difference is greater than where it is stiff.
 TEST(ElasticSheet, BendsAtAHinge) {
-  std::vector<float> bending = even(50);
-  const std::size_t middle = width / 2;
-  for (std::size_t n = 0; n < bending.size(); ++n)
-    if (n % width == middle && !is_rim(n)) bending[n] = .05F;
-  Problem problem(bending, {}, -far, far);
+  constexpr std::size_t middle = width / 2;
+  Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);
   for (std::size_t n = 0; n < problem.workspace[0].wanted.size(); ++n) problem.workspace[0].wanted[n] = .01F;
   const std::vector<float>& b = problem.solved();
   const std::size_t n = middle + height / 2 * width;
@@ -152,8 +160,22 @@ TEST(ElasticSheet, BendsAtAHinge) {
   EXPECT_GT(bend(n), 5 * bend(n + 4));
 }
 
+// Where it is hinged and tension is low, it is all but torn: what pulls on one side leaves the other alone.
+TEST(ElasticSheet, KeepsApartWhatYields) {
+  const auto step_at_middle = [](float tension) {
+    constexpr std::size_t middle = width / 2;
+    Problem problem(yielding(50, middle, .05F, tension), {}, -far, far);
+    std::vector<float>& wanted = problem.workspace[0].wanted;
+    for (std::size_t n = 0; n < wanted.size(); ++n) wanted[n] = n % width < middle ? .01F : -.01F;
+    const float* b = problem.solved().data() + middle + height / 2 * width;
+    return (b[-1] - b[2]) / (b[-6] - b[7]);
+  };
+  EXPECT_GT(step_at_middle(.01F), .9F);
+  EXPECT_LT(step_at_middle(1), .7F);
+}
+
 TEST(ElasticSheet, HasNothingToDoWhereAllIsFixed) {
-  Problem problem(std::vector<float>(width * height), {}, -1, 1);
+  Problem problem(even(0), {}, -1, 1);
   EXPECT_EQ(problem.solved(), std::vector<float>(width * height));
   int free = 0;
   problem.sheet.each_free_node([&](Index) { ++free; });

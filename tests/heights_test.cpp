@@ -36,7 +36,16 @@ struct DiscCase {
     std::fill_n(boundary.is_boundary.begin(), rim, std::uint8_t{1});
   }
 
-  HeightSystem system() const { return HeightSystem::build(points, mesh, boundary).value(); }
+  HeightSystem system(const std::vector<float>& weights = {}) const {
+    return HeightSystem::build(points, mesh, boundary, weights).value();
+  }
+  // From .1 to 1.
+  std::vector<float> uneven() const {
+    test::Random random(7);
+    std::vector<float> weights;
+    while (weights.size() < points.size()) weights.push_back(static_cast<float>(random.uniform(.1, 1)));
+    return weights;
+  }
 };
 
 template <typename F>
@@ -52,13 +61,15 @@ std::vector<double> heights_of(const HeightSystem& system, const std::vector<Vec
   return z;
 }
 
-// The mean of two slopes is exact along an edge for a quadratic: the paraboloid comes back to rounding.
+// The mean of two slopes is exact along an edge for a quadratic: the paraboloid comes back to rounding,
+// whatever edges count for.
 TEST(Heights, OfAParaboloidAreExact) {
   const DiscCase disc(5000);
-  const HeightSystem system = disc.system();
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
-  const std::vector<double> z = heights_of(system, slopes);
-  for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(z[i], 1 - disc.points[i].squaredNorm(), 1e-6);
+  for (const std::vector<float>& weights : {std::vector<float>(), disc.uneven()}) {
+    const std::vector<double> z = heights_of(disc.system(weights), slopes);
+    for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(z[i], 1 - disc.points[i].squaredNorm(), 1e-6);
+  }
 }
 
 TEST(Heights, InSinglePrecisionAgreeWithDouble) {
@@ -95,8 +106,11 @@ TEST(Heights, AreLinearInTheSlopes) {
 }
 
 // Against the dense least-squares problem, assembled from equation (9) edge by edge.
-TEST(Heights, MinimiseEquationNine) {
+void expect_least_squares(const std::vector<float>& weights) {
   const DiscCase disc(40, 20);
+  const auto weight_of = [&](Index p, Index q) {
+    return weights.empty() ? 1 : static_cast<double>(weights[p] + weights[q]) / 2;
+  };
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(p.y() + .3, p.x() * p.x()); });
   const auto n = static_cast<Eigen::Index>(disc.points.size());
   std::vector<Eigen::RowVectorXd> rows;
@@ -107,7 +121,7 @@ TEST(Heights, MinimiseEquationNine) {
       const Vec2 u = disc.points[p] - disc.points[apex], v = disc.points[q] - disc.points[apex];
       // Half the cotangent from this side: the two sides of an edge add up. Complex where it is negative: use
       // A directly.
-      const double weight = .5 * u.dot(v) / (u.x() * v.y() - u.y() * v.x());
+      const double weight = .5 * weight_of(p, q) * u.dot(v) / (u.x() * v.y() - u.y() * v.x());
       Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n + 1);
       row[p] = 1, row[q] = -1, row[n] = weight;
       rows.push_back(row);
@@ -126,8 +140,16 @@ TEST(Heights, MinimiseEquationNine) {
     b[i] = 0;
   }
   const Eigen::VectorXd truth = A.fullPivLu().solve(b);
-  const std::vector<double> z = heights_of(disc.system(), slopes);
+  const std::vector<double> z = heights_of(disc.system(weights), slopes);
   for (Eigen::Index i = 0; i < n; ++i) EXPECT_NEAR(z[static_cast<std::size_t>(i)], truth[i], 1e-4);
+}
+
+TEST(Heights, MinimiseEquationNine) {
+  expect_least_squares({});
+}
+
+TEST(Heights, MinimiseItWithWeights) {
+  expect_least_squares(DiscCase(40, 20).uneven());
 }
 
 TEST(Heights, HaveTheSameBitsForAnyNumberOfThreads) {

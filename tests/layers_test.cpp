@@ -111,7 +111,7 @@ TEST(LayerWeights, AreEquationSixLayerByLayerTimesWhatLevellingHides) {
     EXPECT_EQ(held.fine, even.fine);
     EXPECT_LT(held.middle, held.fine);
     EXPECT_LT(held.coarse, held.middle);
-    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-2.5)))));
+    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-2.2)))));
   }
   EXPECT_EQ(LayerWeights::of(infinity, .04, 1).broad, 1);
   EXPECT_EQ(LayerWeights::of(0, .04, .5).fine, 0);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "jumps.h"
 #include "relievo/detail.h"
 #include "relievo/measures.h"
 #include "relievo/relief.h"
@@ -18,7 +19,7 @@ namespace {
 HeightSystem system_of(const Surface& surface) {
   std::vector<Vec2> plane;
   for (const Vec3& p : surface.points) plane.push_back(p.head<2>());
-  return HeightSystem::build(plane, surface.triangulation, surface.boundary).value();
+  return HeightSystem::build(plane, surface.triangulation, surface.boundary, jump_weights(surface)).value();
 }
 
 // With what it views.

@@ -26,10 +26,11 @@ class HeightSystem {
   HeightSystem& operator=(HeightSystem&&) noexcept;
   ~HeightSystem();
 
-  // Copies what it needs of its arguments. Errors: those of Cholesky::factor(), which a Delaunay
+  // Copies what it needs of its arguments. Edges count for the mean of their ends' weights, one per point,
+  // in (0, 1]; without weights for 1. Errors: those of Cholesky::factor(), which a Delaunay
   // triangulation with its boundary does not cause.
   static Result<HeightSystem> build(std::span<const Vec2> points, const Triangulation& triangulation,
-                                    const Boundary& boundary);
+                                    const Boundary& boundary, std::span<const float> weights = {});
 
   // Number of points, of slopes and of heights.
   std::size_t size() const;

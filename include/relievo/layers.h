@@ -52,7 +52,7 @@ struct LayerWeights {
   float held = 1;  // Hold::share
 
   // u in [0, infinity]. `detail` >= 0 holds the coarser layers back, the coarse one by exp(-20 detail), the
-  // broad one by exp(-63 detail); 0 is even. `held` in [0, 1].
+  // broad one by exp(-55 detail); 0 is even. `held` in [0, 1].
   static LayerWeights of(double u, double detail, double held);
 };
 

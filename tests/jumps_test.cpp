@@ -1,0 +1,63 @@
+#include "jumps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "shapes.h"
+
+namespace relievo {
+namespace {
+
+// A level square of side .8 before one of side 2, 3 apart: the depth jumps at |x| or |y| = .4.
+Surface sheets() {
+  const Cloud cloud = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9));
+  return find_surface(cloud, {}).value();
+}
+
+double distance_to_jump(const Vec3& p) {
+  const Vec2 a = p.head<2>().cwiseAbs();
+  const double outside = (a - Vec2(.4, .4)).cwiseMax(0).norm();
+  return outside > 0 ? outside : .4 - a.maxCoeff();
+}
+
+TEST(Jumps, AreWhereTheNearerSheetEnds) {
+  const Surface surface = sheets();
+  const std::vector<std::uint8_t> jumps = jump_triangles(surface);
+  EXPECT_GT(std::ranges::count(jumps, 1), 100);
+  for (std::size_t t = 0; t < jumps.size(); ++t)
+    for (const Index p : surface.triangulation.triangles[t])
+      if (jumps[t]) {
+        EXPECT_LT(distance_to_jump(surface.points[p]), 5 * surface.rho);
+      }
+}
+
+// A fifth at the jump, rising by equal factors to 1 at .8 % of the side: by brute force.
+TEST(Jumps, CountLessTheNearer) {
+  const Surface surface = sheets();
+  const std::vector<std::uint8_t> jumps = jump_triangles(surface);
+  std::vector<Vec2> ends;
+  for (std::size_t t = 0; t < jumps.size(); ++t)
+    for (const Index p : surface.triangulation.triangles[t])
+      if (jumps[t]) ends.push_back(surface.points[p].head<2>());
+  const std::vector<float> weights = jump_weights(surface);
+  int below = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    double nearest = 1;
+    for (const Vec2& end : ends) nearest = std::min(nearest, (surface.points[i].head<2>() - end).norm());
+    const double share = std::min(nearest / (.008 * 2), 1.0);
+    ASSERT_NEAR(static_cast<double>(weights[i]), std::pow(.2, 1 - share), 1e-3);
+    below += weights[i] > .21F && weights[i] < .99F;
+  }
+  EXPECT_GT(below, 100);
+}
+
+TEST(Jumps, OfASmoothSurfaceAreNone) {
+  const Surface surface = find_surface(test::sheet(20000, 1, 0), {}).value();
+  EXPECT_EQ(std::ranges::count(jump_triangles(surface), 1), 0);
+  EXPECT_EQ(jump_weights(surface), std::vector<float>(surface.points.size(), 1));
+}
+
+}  // namespace
+}  // namespace relievo
