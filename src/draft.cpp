@@ -29,14 +29,11 @@ double draft_deg_of(double slope) {
 // Keeps reliefs of one model under one limit.
 class Limiter {
  public:
-  static Result<Limiter> prepare(const ReliefModel& model, const DraftOptions& options) {
-    Limiter limiter(model, options);
-    // Not the model's: here all slopes count alike.
-    Result<HeightSystem> system =
-        HeightSystem::build(limiter.plane_, model.surface().triangulation, model.surface().boundary);
-    if (!system) return std::unexpected(system.error());
-    limiter.system_ = std::make_unique<HeightSystem>(std::move(*system));
-    return limiter;
+  Limiter(const ReliefModel& model, const DraftOptions& options)
+      : model_(&model), options_(options), plane_(in_plane(model.surface().points)) {
+    const Surface& surface = model.surface();
+    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+      if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
   }
 
   // Whether the limit is kept, with the thousandth to spare.
@@ -49,7 +46,8 @@ class Limiter {
       return fail(cat("expected a base that leans by at least ", draft_deg_of(options_.max_slope),
                       " degrees off the vertical everywhere, found a steeper one"));
     const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
-    nearest().apply(relief.heights, is_cancelled);
+    if (auto built = build_nearest(); !built) return built;
+    nearest_->apply(relief.heights, is_cancelled);
     if (is_cancelled()) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
     for (int tries = 0; tries < most_tries; ++tries) {
       std::vector<double> whole = with_base(relief.heights);
@@ -63,13 +61,6 @@ class Limiter {
   }
 
  private:
-  Limiter(const ReliefModel& model, const DraftOptions& options)
-      : model_(&model), options_(options), plane_(in_plane(model.surface().points)) {
-    const Surface& surface = model.surface();
-    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-      if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
-  }
-
   SteepField field() const { return {plane_, triangles_, model_->surface().boundary.is_boundary}; }
 
   double base(std::size_t i) const { return options_.base.empty() ? 0 : options_.base[i]; }
@@ -80,10 +71,15 @@ class Limiter {
     return whole;
   }
 
-  NearestDraft& nearest() {
-    if (!nearest_)
-      nearest_.emplace(model_->surface(), *system_, options_.base, solved_share * options_.max_slope);
-    return *nearest_;
+  // Once. Not by the model's system: splitting needs the one in which all slopes count alike.
+  Result<void> build_nearest() {
+    if (nearest_) return {};
+    const Surface& surface = model_->surface();
+    Result<HeightSystem> system = HeightSystem::build(plane_, surface.triangulation, surface.boundary);
+    if (!system) return std::unexpected(system.error());
+    system_.emplace(std::move(*system));
+    nearest_.emplace(surface, *system_, options_.base, solved_share * options_.max_slope);
+    return {};
   }
 
   // Where the least squares end far from the limit, as with walls a hundred times too steep, less height is
@@ -94,7 +90,7 @@ class Limiter {
   DraftOptions options_;
   std::vector<Vec2> plane_;
   std::vector<Triangle> triangles_;  // of the relief; around it is the base
-  std::unique_ptr<const HeightSystem> system_;
+  std::optional<HeightSystem> system_;
   std::optional<NearestDraft> nearest_;
 };
 
@@ -195,22 +191,20 @@ double slope_at_draft(double draft_deg) {
 
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress) {
-  Result<Limiter> limiter = Limiter::prepare(model, options);
-  if (!limiter) return std::unexpected(limiter.error());
-  if (limiter->holds(relief.heights)) return relief;
-  if (auto done = limiter->limit(relief, progress); !done) return std::unexpected(done.error());
+  Limiter limiter(model, options);
+  if (limiter.holds(relief.heights)) return relief;
+  if (auto done = limiter.limit(relief, progress); !done) return std::unexpected(done.error());
   return relief;
 }
 
 Result<Relief> make_with_draft(const ReliefModel& model, const DraftOrder& order, const DraftOptions& options,
                                Progress* progress) {
-  Result<Limiter> limiter = Limiter::prepare(model, options);
-  if (!limiter) return std::unexpected(limiter.error());
+  Limiter limiter(model, options);
   Result<Relief> free =
       make_by_method(order.method, model, order.height, order.shape, order.unit_mm, progress);
   if (!free && (free.error().kind != ErrorKind::geometry || !has_shape(order.method))) return free;
-  if (free && limiter->holds(free->heights)) return free;
-  return DraftSearch(model, order, *limiter, progress).run(free ? &*free : nullptr);
+  if (free && limiter.holds(free->heights)) return free;
+  return DraftSearch(model, order, limiter, progress).run(free ? &*free : nullptr);
 }
 
 }  // namespace relievo

@@ -17,7 +17,7 @@ struct Ties {
 // What resists, per node of a lattice, row by row.
 struct Stiffness {
   std::vector<float> bending;  // to second differences; where it is 0 b is fixed at 0
-  std::vector<float> tension;  // > 0; to the difference between two neighbours, the mean of theirs
+  std::vector<float> tension;  // > 0, at fixed nodes, too; to the difference of two neighbours: their mean
 };
 
 // Of all b with lowest <= b <= highest on a lattice, one near the least energy: half of the sum of bending

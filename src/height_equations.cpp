@@ -14,7 +14,7 @@ constexpr float least_weight = 1e-4F;
 
 struct HalfEdge {
   Index from, to;
-  float cotangent;
+  float weight;  // half the cotangent, times what it counts for
 };
 
 double cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
@@ -25,20 +25,16 @@ double cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
 // Both directions of each triangle's edges, ordered by end points; an edge of two triangles stands twice in a
 // row.
 std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulation& mesh,
-                                 const Boundary& boundary, std::span<const float> weights) {
+                                 const Boundary& boundary) {
   std::vector<HalfEdge> edges;
   edges.reserve(mesh.triangles.size() * 6);
-  const auto mean_weight = [&](Index a, Index b) {
-    return weights.empty() ? 1.F : (weights[a] + weights[b]) / 2;
-  };
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!boundary.is_inside[t]) continue;
     for (int corner = 0; corner < 3; ++corner) {
       const Index apex = mesh.triangles[t][corner];
       const Index a = mesh.triangles[t][(corner + 1) % 3], b = mesh.triangles[t][(corner + 2) % 3];
       const auto half =
-          static_cast<float>(.5 * std::clamp(cotangent(points[apex], points[a], points[b]), -1e6, 1e6)) *
-          mean_weight(a, b);
+          static_cast<float>(.5 * std::clamp(cotangent(points[apex], points[a], points[b]), -1e6, 1e6));
       edges.push_back({a, b, half});
       edges.push_back({b, a, half});
     }
@@ -52,7 +48,7 @@ struct Adjacency {
   std::vector<HalfEdge> edges;
 };
 
-Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points) {
+Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points, std::span<const float> weights) {
   std::vector<std::size_t> begin(points + 1, 0);
   for (const HalfEdge& e : all) ++begin[e.from + 1];
   for (std::size_t i = 0; i < points; ++i) begin[i + 1] += begin[i];
@@ -70,13 +66,16 @@ Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points) {
     std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.to < b.to; });
     for (auto e = first; e != last; ++e) {
       if (e != first && e->to == result.edges.back().to)
-        result.edges.back().cotangent += e->cotangent;
+        result.edges.back().weight += e->weight;
       else
         result.edges.push_back(*e);
     }
   }
   result.begin.push_back(static_cast<Index>(result.edges.size()));
-  for (HalfEdge& e : result.edges) e.cotangent = std::clamp(e.cotangent, least_weight, largest_weight);
+  for (HalfEdge& e : result.edges) {
+    e.weight = std::clamp(e.weight, least_weight, largest_weight);
+    if (!weights.empty()) e.weight *= (weights[e.from] + weights[e.to]) / 2;
+  }
   return result;
 }
 
@@ -90,7 +89,7 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
     double diagonal = 0;
     for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
       const HalfEdge& edge = adjacency.edges[e];
-      const auto weight = static_cast<double>(edge.cotangent);
+      const auto weight = static_cast<double>(edge.weight);
       diagonal += weight;
       const Index other = unknown[edge.to];
       if (other != no_index && other < f)
@@ -113,7 +112,7 @@ void add_pulls(std::span<const Vec2> points, const Adjacency& adjacency, std::sp
     for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
       const Index other = adjacency.edges[e].to;
       if (!has_itself && other > i) equations.edges.push_back({i}), has_itself = true;
-      const double half = is_free ? .5 * static_cast<double>(adjacency.edges[e].cotangent) : 0;
+      const double half = is_free ? .5 * static_cast<double>(adjacency.edges[e].weight) : 0;
       const Vec2 pull = half * (points[i] - points[other]);
       equations.edges.push_back({other, pull.cast<float>()});
     }
@@ -133,7 +132,7 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
     unknown[i] = static_cast<Index>(equations.free_points.size());
     equations.free_points.push_back(i);
   }
-  const Adjacency adjacency = gather(half_edges(points, triangulation, boundary, weights), points.size());
+  const Adjacency adjacency = gather(half_edges(points, triangulation, boundary), points.size(), weights);
   equations.A = laplacian(adjacency, unknown, equations.free_points);
   add_pulls(points, adjacency, unknown, equations);
   return equations;

@@ -13,10 +13,10 @@ namespace relievo {
 
 struct HeightEquations {
   std::vector<Index> free_points;  // point of each unknown: those that are not on the boundary
-  Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the cotangent Laplacian
+  Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
   // Edges of point i are edges[begin[i]] up to edges[begin[i + 1]], in ascending order of the others;
   // boundary points have one to themselves, too. The right-hand side is their divergence: see PointLinks.
-  // Pull: half the cotangent weight times the step from the other point; 0 at boundary points, whose heights
+  // Pull: half the weight times the step from the other point; 0 at boundary points, whose heights
   // are 0.
   std::vector<Index> begin = {0};
   std::vector<PointLink> edges;

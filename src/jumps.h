@@ -13,9 +13,9 @@ bool is_jump(const Surface& surface, Index a, Index b);
 // Per triangle: one of its edges is a jump.
 std::vector<std::uint8_t> jump_triangles(const Surface& surface);
 
-// Returns how much the slopes of each point count, in (0, 1]: a fifth where the depth jumps, all from .8 % of
-// the longer side on. The slopes around a jump fit no surface that has none; where all count alike, the
-// misfit tilts what lies between jumps, so most of it is left where it comes from.
+// Returns, per point, how much its edges count in (9): .2 where the depth jumps, rising by equal factors to 1
+// at .8 % of the longer side. No surface without the jump fits the slopes of both its sides; that misfit
+// would tilt all around, so most of it is left at the jump.
 std::vector<float> jump_weights(const Surface& surface);
 
 }  // namespace relievo

@@ -61,9 +61,8 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
-// What slopes count for in (9), without which that would have to be spread again.
-std::vector<float> tension_of(const Surface& surface, const Lattice& lattice) {
-  const std::vector<float> weights = jump_weights(surface);
+// As little as slopes count for in (9): a tighter sheet would spread what that left at jumps.
+std::vector<float> tension_of(std::span<const float> weights, const Lattice& lattice) {
   std::vector<float> yielding(weights.size()), tension(lattice.nodes());
   for (std::size_t i = 0; i < yielding.size(); ++i) yielding[i] = 1 / weights[i];
   std::vector<Lattice::Corners> sums(lattice.nodes());
@@ -99,14 +98,15 @@ Membrane::Limits Membrane::Limits::of(double height, const Hold& hold) {
   return {height, hold.reach, std::max(1 - fall * (1 - hold.share), least)};
 }
 
-Membrane::Membrane(const Surface& surface) : Membrane(surface, longer_side_of(surface.points)) {}
+Membrane::Membrane(const Surface& surface, std::span<const float> jump_weights)
+    : Membrane(surface, jump_weights, longer_side_of(surface.points)) {}
 
-Membrane::Membrane(const Surface& surface, double side)
+Membrane::Membrane(const Surface& surface, std::span<const float> jump_weights, double side)
     : side_(side),
       cell_(Scale(side, surface.rho).cell),
       lattice_(surface.points, free_points(surface.boundary), cell_),
       sheet_(lattice_.width(),
-             {bending_of(surface, lattice_, Scale(side, surface.rho)), tension_of(surface, lattice_)}),
+             {bending_of(surface, lattice_, Scale(side, surface.rho)), tension_of(jump_weights, lattice_)}),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);

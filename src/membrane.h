@@ -13,13 +13,13 @@
 namespace relievo {
 
 // Of all b with 0 <= z + b <= h, 0 from a cell beyond the silhouette on, the membrane is about that with the
-// least integral of (stiff_reach lap b)^2 + |grad b|^2 + ((z + b - h r) / reach)^2, where r are the ranks of
-// the depths: an obstacle problem. Of |grad b|^2 across the silhouette only `anchor` counts. Where the
-// heights z have room b is smooth, so that the relief keeps their curvature; along silhouettes and depth
-// jumps it is hinged, for nobody sees it bend there; what is in front is drawn to the front. It lives on a
-// lattice of .7 % of the longer side, coarser where points are few, whose limits leave room for what the
-// heights do between nodes. It is 0 where there are no points. Const calls may run concurrently, each with a
-// workspace of its own.
+// least integral of (stiff_reach lap b)^2 + w |grad b|^2 + ((z + b - h r) / reach)^2, where r are the ranks
+// of the depths and w what slopes count for in (9), less than 1 near jumps: an obstacle problem. Of |grad
+// b|^2 across the silhouette only `anchor` counts. Where the heights z have room b is smooth, so that the
+// relief keeps their curvature; along silhouettes and depth jumps it is hinged, for nobody sees it bend
+// there; what is in front is drawn to the front. It lives on a lattice of .7 % of the longer side, coarser
+// where points are few, whose limits leave room for what the heights do between nodes. It is 0 where there
+// are no points. Const calls may run concurrently, each with a workspace of its own.
 class Membrane {
  public:
   static constexpr double stiff_reach = .028;  // of the longer side
@@ -35,8 +35,8 @@ class Membrane {
     std::size_t memory() const;
   };
 
-  // Copies what it needs of the surface.
-  explicit Membrane(const Surface& surface);
+  // Copies what it needs of the surface and of jump_weights() of it.
+  Membrane(const Surface& surface, std::span<const float> jump_weights);
 
   Workspace make_workspace() const;
 
@@ -84,7 +84,7 @@ class Membrane {
   void hold(const Heights<Real>& heights, Workspace& workspace) const;
 
  private:
-  Membrane(const Surface& surface, double longer_side);
+  Membrane(const Surface& surface, std::span<const float> jump_weights, double longer_side);
   void set_limits(float height, float pull, Workspace& w) const;
   Lattice::Extent rest_around(std::size_t node, const Workspace& w) const;
 

@@ -40,11 +40,12 @@ Hold ReliefModel::hold_at(double u) const {
 
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
-  Result<HeightSystem> system = HeightSystem::build(in_plane(surface.points), surface.triangulation,
-                                                    surface.boundary, jump_weights(surface));
+  const std::vector<float> weights = jump_weights(surface);
+  Result<HeightSystem> system =
+      HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights);
   if (!system) return std::unexpected(system.error());
   if (auto go = begin_stage(progress, "hold", .8); !go) return std::unexpected(go.error());
-  auto membrane = std::make_shared<const Membrane>(surface);
+  auto membrane = std::make_shared<const Membrane>(surface, weights);
   const Result<Grip> grip = Grip::find(surface, *membrane, *system, progress);
   if (!grip) return std::unexpected(grip.error());
   if (settle(mode, surface) == Mode::exact)

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "membrane.h"
+#include "relievo/relief.h"
 #include "shapes.h"
 
 namespace relievo {
@@ -51,6 +53,49 @@ TEST(Jumps, CountLessTheNearer) {
     below += weights[i] > .21F && weights[i] < .99F;
   }
   EXPECT_GT(below, 100);
+}
+
+TEST(Jumps, AreWhatModelsHeightsAndMembranesYieldAt) {
+  const Surface surface = sheets();
+  const std::size_t n = surface.points.size();
+  const ReliefModel model = ReliefModel::prepare(surface).value();
+  const auto heights = [&](const std::vector<float>& weights) {
+    std::vector<Vec2> slopes(n);
+    for (std::size_t i = 0; i < n; ++i)
+      slopes[i] = {std::sin(9 * surface.points[i].y()), surface.points[i].z()};
+    std::vector<double> z(n);
+    HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights)
+        .value()
+        .solve(slopes, z);
+    std::vector<double> own(n);
+    model.system()->solve(slopes, own);
+    double most = 0;
+    for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::abs(z[i] - own[i]));
+    return most;
+  };
+  EXPECT_EQ(heights(jump_weights(surface)), 0);
+  EXPECT_GT(heights({}), 1e-3);
+}
+
+// Drawn to the front in the middle and to the base around it, it leaves more of a step where it yields.
+TEST(Jumps, LetTheMembraneStep) {
+  const Surface surface = sheets();
+  const auto step = [&](std::span<const float> weights) {
+    const Membrane membrane(surface, weights);
+    Membrane::Workspace workspace = membrane.make_workspace();
+    const std::vector<double> z(surface.points.size(), .05);
+    membrane.spread(std::span(z), {.1, .085}, workspace);
+    double inside = 0, outside = 0, insiders = 0, outsiders = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const double far = surface.points[i].head<2>().cwiseAbs().maxCoeff();
+      const auto b = static_cast<double>(membrane.at(i, workspace));
+      if (far > .35 && far < .37) inside += b, ++insiders;
+      if (far > .43 && far < .45) outside += b, ++outsiders;
+    }
+    return inside / insiders - outside / outsiders;
+  };
+  const std::vector<float> even(surface.points.size(), 1);
+  EXPECT_GT(step(jump_weights(surface)), 1.2 * step(even));
 }
 
 TEST(Jumps, OfASmoothSurfaceAreNone) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "jumps.h"
 #include "relievo/parallel.h"
 #include "relievo/weights.h"
 #include "shapes.h"
@@ -45,7 +46,7 @@ constexpr double reach = .085;
 
 template <typename Real>
 std::vector<Real> held(const Surface& surface, std::vector<Real> heights, double height) {
-  const Membrane membrane(surface);
+  const Membrane membrane(surface, jump_weights(surface));
   Membrane::Workspace workspace = membrane.make_workspace();
   membrane.spread(std::span<const Real>(heights), {height, reach}, workspace);
   for (std::size_t i = 0; i < heights.size(); ++i)
@@ -76,7 +77,7 @@ TEST(Membrane, SolvesItsEquationWhereItHasRoom) {
 // Drawn down inside, it is the further from 0 at the silhouette, the less it is anchored there.
 TEST(Membrane, KeepsToTheGroundAsItsAnchorDraws) {
   const Surface surface = strip(.4);
-  const Membrane membrane(surface);
+  const Membrane membrane(surface, jump_weights(surface));
   Membrane::Workspace workspace = membrane.make_workspace();
   const std::vector<double> z(surface.points.size(), .1);
   double last = 0;
@@ -167,7 +168,7 @@ TEST(Membrane, DrawsToTheFrontWhatIsInFront) {
 // The shorter the reach, the nearer heights come to their ranks: .1 in front, 0 behind.
 TEST(Membrane, DrawsHarderWithLessReach) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
-  const Membrane membrane(sheets);
+  const Membrane membrane(sheets, jump_weights(sheets));
   Membrane::Workspace workspace = membrane.make_workspace();
   const std::vector<double> z(sheets.points.size(), .05);
   double last = 1;
@@ -219,7 +220,7 @@ TEST(Membrane, IsTheSameInSinglePrecision) {
 // Rims end as w_b says, and the height is just the one asked for.
 TEST(Membrane, GivesHeightsTheirHeight) {
   const Surface surface = bumpy();
-  const Membrane membrane(surface);
+  const Membrane membrane(surface, jump_weights(surface));
   Membrane::Workspace workspace = membrane.make_workspace();
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
@@ -234,7 +235,7 @@ TEST(Membrane, GivesHeightsTheirHeight) {
 
 TEST(Membrane, LeavesWhatHasNoHeight) {
   const Surface surface = strip(.5);
-  const Membrane membrane(surface);
+  const Membrane membrane(surface, jump_weights(surface));
   Membrane::Workspace workspace = membrane.make_workspace();
   const std::vector<float> weight(surface.points.size(), 1);
   std::vector<float> flat(surface.points.size(), 0), some(surface.points.size(), .1F);

@@ -27,7 +27,7 @@ struct Figure {
   explicit Figure(const Cloud& cloud) : surface(find_surface(cloud, {}).value()) {}
 
   Surface surface;
-  Membrane membrane{surface};
+  Membrane membrane{surface, jump_weights(surface)};
   HeightSystem system = system_of(surface);
   Yardstick yardstick{surface, membrane, system};
 };

@@ -58,7 +58,7 @@ class HeightSystem {
   HeightSystem(Cholesky factor, PointLinks edges);
 
   Cholesky factor_;
-  // Pull: half the cotangent weight times the step from the other point; 0 at boundary points.
+  // Pull: half the weight times the step from the other point; 0 at boundary points.
   std::unique_ptr<const PointLinks> edges_;
 };
 
