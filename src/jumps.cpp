@@ -17,14 +17,23 @@ double rise(const Vec3f& normal, const Vec2& step) {
 }
 
 constexpr double least_weight = .2;
-// Of the longer side.
-constexpr double weighted_reach = .008;
+// Of the longer side. Jumps that are lower misfit little, and may be noise.
+constexpr double weighted_reach = .008, least_weighted_height = .02;
 
-std::vector<Vec2> points_at_jumps(const Surface& surface) {
+double depth_range(const Surface& surface, const Triangle& t) {
+  const auto [low, high] =
+      std::minmax({surface.points[t[0]].z(), surface.points[t[1]].z(), surface.points[t[2]].z()});
+  return high - low;
+}
+
+std::vector<Vec2> points_at_high_jumps(const Surface& surface, double least_height) {
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
   std::vector<std::uint8_t> marks(surface.points.size());
-  for (std::size_t t = 0; t < jumps.size(); ++t)
-    for (const Index p : surface.triangulation.triangles[t]) marks[p] |= jumps[t];
+  for (std::size_t t = 0; t < jumps.size(); ++t) {
+    const Triangle& corners = surface.triangulation.triangles[t];
+    if (!jumps[t] || depth_range(surface, corners) < least_height) continue;
+    for (const Index p : corners) marks[p] = 1;
+  }
   std::vector<Vec2> marked;
   for (std::size_t i = 0; i < marks.size(); ++i)
     if (marks[i]) marked.push_back(surface.points[i].head<2>());
@@ -51,8 +60,8 @@ std::vector<std::uint8_t> jump_triangles(const Surface& surface) {
 }
 
 std::vector<float> jump_weights(const Surface& surface) {
-  const double reach = weighted_reach * longer_side_of(surface.points);
-  const std::vector<Vec2> jumps = points_at_jumps(surface);
+  const double side = longer_side_of(surface.points), reach = weighted_reach * side;
+  const std::vector<Vec2> jumps = points_at_high_jumps(surface, least_weighted_height * side);
   const KdTree<Vec2> tree(jumps);
   std::vector<float> weights(surface.points.size(), 1);
   parallel_for(weights.size(), [&](std::size_t i) {
