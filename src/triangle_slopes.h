@@ -27,8 +27,7 @@ class TriangleSlopes {
   }
 
   // sums[i] = sum over the triangles around point i of area times field . gradient of i's hat function; 0 at
-  // boundary points. Of a field of slopes that is the right-hand side of equation (9)
-  // without weights.
+  // boundary points. Of a field of slopes that is the right-hand side of equation (9) without weights.
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:

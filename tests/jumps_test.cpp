@@ -12,9 +12,9 @@
 namespace relievo {
 namespace {
 
-// A level square of side .8 before one of side 2, 3 apart: the depth jumps at |x| or |y| = .4.
-Surface sheets() {
-  const Cloud cloud = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9));
+// A level square of side .8 before one of side 2: the depth jumps at |x| or |y| = .4.
+Surface sheets(double apart = 3) {
+  const Cloud cloud = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, apart, 9));
   return find_surface(cloud, {}).value();
 }
 
@@ -53,6 +53,15 @@ TEST(Jumps, CountLessTheNearer) {
     below += weights[i] > .21F && weights[i] < .99F;
   }
   EXPECT_GT(below, 100);
+}
+
+// By less than 2 % of the side, .04.
+TEST(Jumps, ThatAreLowCountInFull) {
+  const Surface low = sheets(.036), high = sheets(.044);
+  for (const Surface* surface : {&low, &high})
+    EXPECT_GT(std::ranges::count(jump_triangles(*surface), 1), 100);
+  EXPECT_EQ(jump_weights(low), std::vector<float>(low.points.size(), 1));
+  EXPECT_NE(jump_weights(high), std::vector<float>(high.points.size(), 1));
 }
 
 TEST(Jumps, AreWhatModelsHeightsAndMembranesYieldAt) {

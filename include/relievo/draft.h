@@ -34,8 +34,8 @@ struct DraftOrder {
 // Returns the relief with no triangle steeper than the limit that is nearest to the one given: over all
 // triangles the least squares of what changes in their slopes, of which more than twice the limit counts as
 // that, boundary points on the base. A relief that keeps the limit is returned as it is, bit for bit. What is
-// returned keeps it with a thousandth to spare, so that it still does in single precision. About a second
-// for 160k points. Errors: kind geometry if the base alone is steeper; those of HeightSystem::build(); kind
+// returned keeps it with a thousandth to spare, so that it still does in single precision. About 0.5 s for
+// 160k points. Errors: kind geometry if the base alone is steeper; those of HeightSystem::build(); kind
 // cancelled.
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress = nullptr);
