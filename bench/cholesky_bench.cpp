@@ -6,9 +6,9 @@
 #include <cmath>
 #include <map>
 
-#include "relievo/cholesky.h"
-#include "relievo/parallel.h"
-#include "relievo/triangulation.h"
+#include "relievo/core/parallel.h"
+#include "relievo/geometry/triangulation.h"
+#include "relievo/solver/cholesky.h"
 
 #if defined(RELIEVO_BENCH_CHOLMOD)
 #include "cholmod_system.h"

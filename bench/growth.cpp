@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "frame_figures.h"
-#include "relievo/parallel.h"
-#include "relievo/progress.h"
-#include "relievo/sample.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/progress.h"
+#include "relievo/samples/sample.h"
 
 namespace relievo {
 namespace {

@@ -7,7 +7,7 @@
 #include "relievo/io.h"
 #include "relievo/make_relief.h"
 #include "relievo/relief.h"
-#include "relievo/sample.h"
+#include "relievo/samples/sample.h"
 
 namespace relievo {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "relievo/sample.h"
+#include "relievo/samples/sample.h"
 
 namespace relievo {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "frame_figures.h"
+#include "relievo/core/parallel.h"
 #include "relievo/io.h"
-#include "relievo/parallel.h"
-#include "relievo/subspace.h"
+#include "relievo/relief/subspace.h"
 #include "stock_pipeline.h"
 
 namespace relievo {

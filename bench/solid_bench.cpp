@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "relievo/plate/solid.h"
 #include "relievo/preview.h"
-#include "relievo/solid.h"
 
 namespace relievo {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "jumps.h"
-#include "relievo/control_points.h"
+#include "relievo/relief/control_points.h"
 
 namespace relievo {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cholmod_system.h"
-#include "control_mesh.h"
-#include "height_equations.h"
-#include "relievo/surface.h"
+#include "relief/height_equations.h"
+#include "relief/subspace/control_mesh.h"
+#include "relievo/scan/surface.h"
 #include "relievo/weights.h"
 
 namespace relievo {

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "relievo/relief.h"
-#include "relievo/sample.h"
-#include "relievo/subspace.h"
+#include "relievo/relief/subspace.h"
+#include "relievo/samples/sample.h"
 
 namespace relievo {
 namespace {

@@ -1,4 +1,4 @@
-#include "relievo/triangulation.h"
+#include "relievo/geometry/triangulation.h"
 
 #include <benchmark/benchmark.h>
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "graph.h"
+#include "solver/graph.h"
 
 namespace relievo {
 

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "plate_rings.h"
-#include "relievo/solid.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "large_array.h"
-#include "relievo/cholesky.h"
-#include "relievo/types.h"
-#include "supernodes.h"
+#include "core/large_array.h"
+#include "relievo/core/types.h"
+#include "relievo/solver/cholesky.h"
+#include "solver/supernodes.h"
 #include "trapezoid.h"
 
 namespace relievo {

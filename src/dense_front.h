@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "relievo/types.h"
+#include "relievo/core/types.h"
 
 namespace relievo {
 

@@ -1,8 +1,8 @@
 // A depth image as heights over its pixels, before they become points.
 #pragma once
 
-#include "depth_smooth.h"
 #include "relievo/depth_image.h"
+#include "scan/depth_smooth.h"
 
 namespace relievo {
 

@@ -5,7 +5,7 @@
 
 #include "io/pictures.h"
 #include "io/text.h"
-#include "relievo/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo {
 namespace {

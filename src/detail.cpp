@@ -1,6 +1,6 @@
 #include "relievo/detail.h"
 
-#include "height_span.h"
+#include "relief/height_span.h"
 
 namespace relievo {
 

@@ -1,7 +1,7 @@
 // An order of elimination for planar graphs: geometric nested dissection.
 #pragma once
 
-#include "graph.h"
+#include "solver/graph.h"
 
 namespace relievo {
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/parallel.h"
+#include "relief/weight_table.h"
+#include "relievo/core/parallel.h"
 #include "relievo/weights.h"
-#include "weight_table.h"
 
 namespace relievo {
 

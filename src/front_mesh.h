@@ -2,7 +2,7 @@
 #pragma once
 
 #include "relievo/mesh.h"
-#include "relievo/spacing.h"
+#include "relievo/scan/spacing.h"
 
 namespace relievo {
 

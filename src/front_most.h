@@ -1,7 +1,7 @@
 // A coarse look at a cloud from +Z: which points are in front, cell by cell. For guesses, not for the relief.
 #pragma once
 
-#include "relievo/cloud.h"
+#include "relievo/scan/cloud.h"
 
 namespace relievo {
 

@@ -8,11 +8,11 @@
 #include <utility>
 #include <vector>
 
-#include "extent.h"
-#include "plane_measures.h"
+#include "geometry/extent.h"
+#include "quality/plane_measures.h"
+#include "relievo/core/parallel.h"
 #include "relievo/detail.h"
-#include "relievo/measures.h"
-#include "relievo/parallel.h"
+#include "relievo/quality/measures.h"
 #include "yardstick.h"
 
 namespace relievo {

@@ -5,9 +5,9 @@
 #include <array>
 
 #include "membrane.h"
-#include "relievo/heights.h"
-#include "relievo/progress.h"
-#include "relievo/surface.h"
+#include "relievo/core/progress.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
 #include "relievo/weights.h"
 
 namespace relievo {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "bend.h"
-#include "relievo/solid.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

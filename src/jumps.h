@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "relievo/surface.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 

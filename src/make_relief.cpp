@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "plate_of.h"
-#include "relievo/draft.h"
-#include "relievo/forms.h"
+#include "relievo/core/text.h"
 #include "relievo/mesh.h"
 #include "relievo/method.h"
+#include "relievo/plate/forms.h"
+#include "relievo/relief/draft.h"
 #include "relievo/simplify.h"
-#include "relievo/text.h"
 #include "relievo/view.h"
 #include "silhouette.h"
 

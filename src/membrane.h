@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "elastic_sheet.h"
-#include "lattice.h"
-#include "relievo/layers.h"
-#include "relievo/surface.h"
+#include "geometry/lattice.h"
+#include "relievo/relief/layers.h"
+#include "relievo/scan/surface.h"
+#include "solver/obstacle_solver.h"
 
 namespace relievo {
 

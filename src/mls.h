@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "relievo/types.h"
+#include "relievo/core/types.h"
 
 namespace relievo {
 

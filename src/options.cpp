@@ -1,11 +1,11 @@
 #include "relievo/options.h"
 
-#include "relievo/forms.h"
+#include "relievo/core/text.h"
 #include "relievo/method.h"
-#include "relievo/outline.h"
-#include "relievo/text.h"
-#include "relievo/tool.h"
-#include "relievo/wrap.h"
+#include "relievo/plate/forms.h"
+#include "relievo/plate/outline.h"
+#include "relievo/plate/tool.h"
+#include "relievo/plate/wrap.h"
 
 namespace relievo {
 namespace {

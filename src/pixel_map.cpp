@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/parallel.h"
+#include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "raster.h"
+#include "geometry/raster.h"
 
 namespace relievo {
 

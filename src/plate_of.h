@@ -1,10 +1,10 @@
 // The plate that the options of a relief ask for.
 #pragma once
 
-#include "relievo/forms.h"
 #include "relievo/options.h"
+#include "relievo/plate/forms.h"
+#include "relievo/plate/solid.h"
 #include "relievo/simplify.h"
-#include "relievo/solid.h"
 
 namespace relievo {
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "relievo/solid.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

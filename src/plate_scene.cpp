@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "relievo/parallel.h"
-#include "relievo/solid.h"
+#include "relievo/core/parallel.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 namespace {

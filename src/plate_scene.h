@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "pixel_map.h"
-#include "relievo/render.h"
+#include "relievo/picture/render.h"
 
 namespace relievo {
 

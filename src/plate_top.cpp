@@ -10,7 +10,7 @@
 #include "bend.h"
 #include "ground_mesh.h"
 #include "plate_ground.h"
-#include "relievo/parallel.h"
+#include "relievo/core/parallel.h"
 #include "relievo/simplify.h"
 
 namespace relievo {

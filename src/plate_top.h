@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "plate_rings.h"
-#include "relievo/solid.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

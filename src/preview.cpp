@@ -7,10 +7,10 @@
 #include <numbers>
 
 #include "blur.h"
-#include "light_map.h"
-#include "raster.h"
+#include "geometry/raster.h"
+#include "picture/light_map.h"
+#include "relievo/core/parallel.h"
 #include "relievo/mesh.h"
-#include "relievo/parallel.h"
 
 namespace relievo {
 namespace {

@@ -1,13 +1,13 @@
-#include "relievo/render.h"
+#include "relievo/picture/render.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "blur.h"
+#include "picture/shading.h"
 #include "plate_scene.h"
-#include "relievo/parallel.h"
-#include "shading.h"
+#include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {

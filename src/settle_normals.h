@@ -1,8 +1,8 @@
 // Normals as the pipeline needs them, whatever the file has.
 #pragma once
 
-#include "relievo/cloud.h"
-#include "relievo/spacing.h"
+#include "relievo/scan/cloud.h"
+#include "relievo/scan/spacing.h"
 
 namespace relievo {
 

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "relievo/solid.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

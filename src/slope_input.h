@@ -1,7 +1,7 @@
 // What of a surface its slopes depend on.
 #pragma once
 
-#include "relievo/surface.h"
+#include "relievo/scan/surface.h"
 #include "relievo/weights.h"
 
 namespace relievo {

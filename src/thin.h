@@ -1,8 +1,8 @@
 // Fewer points of the same surface.
 #pragma once
 
-#include "relievo/cloud.h"
-#include "relievo/spacing.h"
+#include "relievo/scan/cloud.h"
+#include "relievo/scan/spacing.h"
 
 namespace relievo {
 

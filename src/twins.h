@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "relievo/solid.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

@@ -1,8 +1,8 @@
 #include "yardstick.h"
 
+#include "relievo/core/parallel.h"
 #include "relievo/detail.h"
-#include "relievo/gradient_slopes.h"
-#include "relievo/parallel.h"
+#include "relievo/relief/gradient_slopes.h"
 #include "slope_input.h"
 
 namespace relievo {

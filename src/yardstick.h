@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "membrane.h"
-#include "quick_judge.h"
-#include "relievo/heights.h"
-#include "relievo/surface.h"
+#include "quality/fast_metrics.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 

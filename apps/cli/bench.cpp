@@ -7,11 +7,11 @@
 #include "commands.h"
 #include "files.h"
 #include "frame_figures.h"
-#include "inputs.h"
+#include "read_inputs.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/core/version.h"
 #include "relievo/io.h"
-#include "relievo/parallel.h"
-#include "relievo/text.h"
-#include "relievo/version.h"
 
 namespace relievo::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "relievo/error.h"
+#include "relievo/core/error.h"
 
 namespace relievo::cli {
 

@@ -8,9 +8,9 @@
 #include <optional>
 #include <string>
 
-#include "relievo/length.h"
+#include "relievo/core/length.h"
+#include "relievo/core/text.h"
 #include "relievo/options.h"
-#include "relievo/text.h"
 
 namespace relievo::cli {
 

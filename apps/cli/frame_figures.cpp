@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "relievo/frame.h"
-#include "relievo/parallel.h"
+#include "relievo/core/parallel.h"
+#include "relievo/relief/frame.h"
 
 namespace relievo::cli {
 

@@ -6,12 +6,12 @@
 
 #include "commands.h"
 #include "files.h"
-#include "inputs.h"
+#include "read_inputs.h"
+#include "relievo/core/text.h"
 #include "relievo/depth_image.h"
 #include "relievo/io.h"
 #include "relievo/normals.h"
-#include "relievo/spacing.h"
-#include "relievo/text.h"
+#include "relievo/scan/spacing.h"
 #include "relievo/view.h"
 
 namespace relievo::cli {

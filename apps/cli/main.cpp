@@ -3,7 +3,7 @@
 
 #include "commands.h"
 #include "files.h"
-#include "relievo/version.h"
+#include "relievo/core/version.h"
 
 int main(int argc, char** argv) {
   CLI::App program{"Relievo turns a 3D scan into a bas-relief.", "relievo"};

@@ -3,9 +3,9 @@
 
 #include "commands.h"
 #include "files.h"
+#include "relievo/core/text.h"
 #include "relievo/io.h"
-#include "relievo/sample.h"
-#include "relievo/text.h"
+#include "relievo/samples/sample.h"
 
 namespace relievo::cli {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "relievo/progress.h"
+#include "relievo/core/progress.h"
 
 namespace relievo::cli {
 

@@ -6,9 +6,9 @@
 #include <mutex>
 
 #include "live_frames.h"
-#include "open_scan.h"
-#include "relievo/parallel.h"
-#include "relievo/text.h"
+#include "loaded_scan.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
 
 namespace relievo::studio {
 namespace {

@@ -9,7 +9,7 @@
 #include "export_file.h"
 #include "project.h"
 #include "relievo/make_relief.h"
-#include "relievo/render.h"
+#include "relievo/picture/render.h"
 #include "relievo/session.h"
 
 namespace relievo::studio {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "relievo/length.h"
+#include "relievo/core/length.h"
 #include "relievo/make_relief.h"
 
 namespace relievo::studio {

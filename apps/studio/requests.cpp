@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "relievo/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::studio {
 namespace {

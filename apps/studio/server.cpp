@@ -10,11 +10,11 @@
 #include <thread>
 
 #include "files.h"
-#include "guard.h"
 #include "page_files.h"
-#include "relievo/sample.h"
-#include "relievo/text.h"
-#include "relievo/version.h"
+#include "relievo/core/text.h"
+#include "relievo/core/version.h"
+#include "relievo/samples/sample.h"
+#include "request_guard.h"
 #include "requests.h"
 
 namespace relievo::studio {

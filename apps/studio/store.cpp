@@ -7,7 +7,7 @@
 #include <span>
 
 #include "files.h"
-#include "relievo/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::studio {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "relievo/triangulation.h"
+#include "relievo/geometry/triangulation.h"
 
 namespace relievo {
 

@@ -9,9 +9,9 @@
 #include <type_traits>
 #include <vector>
 
-#include "relievo/cloud.h"
+#include "relievo/core/progress.h"
 #include "relievo/options.h"
-#include "relievo/progress.h"
+#include "relievo/scan/cloud.h"
 
 namespace relievo {
 

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "relievo/cloud.h"
-#include "relievo/error.h"
+#include "relievo/core/error.h"
 #include "relievo/mesh.h"
+#include "relievo/scan/cloud.h"
 
 namespace relievo {
 

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "relievo/cloud.h"
+#include "relievo/core/progress.h"
 #include "relievo/io.h"
 #include "relievo/options.h"
-#include "relievo/progress.h"
+#include "relievo/plate/solid.h"
+#include "relievo/plate/tool.h"
 #include "relievo/relief.h"
-#include "relievo/solid.h"
-#include "relievo/tool.h"
+#include "relievo/scan/cloud.h"
 
 namespace relievo {
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
-#include "relievo/cloud.h"
-#include "relievo/progress.h"
+#include "relievo/core/progress.h"
+#include "relievo/scan/cloud.h"
 #include "relievo/view.h"
 
 namespace relievo {

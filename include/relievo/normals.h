@@ -3,8 +3,8 @@
 
 #include <span>
 
-#include "relievo/cloud.h"
-#include "relievo/spacing.h"
+#include "relievo/scan/cloud.h"
+#include "relievo/scan/spacing.h"
 
 namespace relievo {
 

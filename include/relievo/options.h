@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "relievo/base.h"
-#include "relievo/error.h"
+#include "relievo/core/error.h"
+#include "relievo/plate/base.h"
 
 namespace relievo {
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "relievo/solid.h"
-#include "relievo/types.h"
+#include "relievo/core/types.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

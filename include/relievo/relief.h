@@ -6,9 +6,9 @@
 #include <variant>
 #include <vector>
 
-#include "relievo/heights.h"
-#include "relievo/subspace.h"
-#include "relievo/surface.h"
+#include "relievo/relief/heights.h"
+#include "relievo/relief/subspace.h"
+#include "relievo/scan/surface.h"
 #include "relievo/weights.h"
 
 namespace relievo {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "relievo/frame.h"
+#include "relievo/relief/frame.h"
 
 namespace relievo {
 

@@ -3,8 +3,8 @@
 
 #include <limits>
 
-#include "relievo/progress.h"
-#include "relievo/solid.h"
+#include "relievo/core/progress.h"
+#include "relievo/plate/solid.h"
 
 namespace relievo {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-#include "relievo/cloud.h"
+#include "relievo/scan/cloud.h"
 
 namespace relievo {
 

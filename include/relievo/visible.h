@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "relievo/cloud.h"
-#include "relievo/spacing.h"
+#include "relievo/scan/cloud.h"
+#include "relievo/scan/spacing.h"
 
 namespace relievo {
 

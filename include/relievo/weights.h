@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "relievo/layers.h"
-#include "relievo/tone_curve.h"
-#include "relievo/types.h"
+#include "relievo/core/types.h"
+#include "relievo/relief/layers.h"
+#include "relievo/relief/tone_curve.h"
 
 namespace relievo {
 

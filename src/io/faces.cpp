@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "weld.h"
+#include "geometry/weld.h"
 
 namespace relievo::io {
 namespace {

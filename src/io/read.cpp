@@ -3,7 +3,7 @@
 
 #include "io/readers.h"
 #include "io/text.h"
-#include "relievo/parallel.h"
+#include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace io {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/readers.h"
-#include "relievo/parallel.h"
+#include "relievo/core/parallel.h"
 
 namespace relievo::io {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "io/numbers.h"
-#include "relievo/cloud.h"
+#include "relievo/scan/cloud.h"
 
 namespace relievo::io {
 

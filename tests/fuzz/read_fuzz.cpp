@@ -4,9 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "io_support.h"
 #include "relievo/depth_image.h"
-#include "relievo/stream.h"
+#include "relievo/io/stream.h"
+#include "support/read_text.h"
 
 namespace {
 
@@ -46,7 +46,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 #ifndef RELIEVO_LIBFUZZER
-#include "run_files.h"
+#include "fuzz/run_files.h"
 
 int main(int argc, char** argv) {
   return run_files(argc, argv, [](const std::string& text) {

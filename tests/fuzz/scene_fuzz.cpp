@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 #ifndef RELIEVO_LIBFUZZER
-#include "run_files.h"
+#include "fuzz/run_files.h"
 
 int main(int argc, char** argv) {
   return run_files(argc, argv, [](const std::string& text) {

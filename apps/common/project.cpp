@@ -1,0 +1,162 @@
+#include "project.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "files.h"
+#include "read_inputs.h"
+#include "relievo/core/text.h"
+#include "relievo/samples/sample.h"
+
+namespace relievo::studio {
+namespace {
+
+using Json = nlohmann::json;
+
+std::unexpected<Error> fail(std::string_view name, std::string_view place, std::string expected) {
+  return std::unexpected(Error{ErrorKind::input, std::string(name), std::string(place), std::move(expected)});
+}
+
+std::string text_or_nothing(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+// Takes one field from the JSON if it is there; remembers the first of a wrong type.
+struct FieldReader {
+  const Json& json;
+  std::string wrong;
+  std::size_t taken = 0;
+
+  void operator()(const OptionField& field, double& value) { take(field, value, json_number); }
+  void operator()(const OptionField& field, std::optional<double>& value) { take(field, value, json_number); }
+  void operator()(const OptionField& field, std::string& value) {
+    take(field, value, [](const Json& j) { return j.is_string(); });
+  }
+
+  static bool json_number(const Json& j) { return j.is_number(); }
+
+  template <typename T, typename IsRight>
+  void take(const OptionField& field, T& value, IsRight is_right) {
+    using Value = std::conditional_t<std::is_same_v<T, std::string>, std::string, double>;
+    const auto found = json.find(field.name);
+    if (found == json.end()) return;
+    ++taken;
+    if (is_right(*found)) {
+      value = found->template get<Value>();
+    } else if (wrong.empty()) {
+      wrong = field.name;
+    }
+  }
+};
+
+std::string unknown_name(const Json& json) {
+  const ReliefOptions defaults;
+  for (const auto& [key, value] : json.items()) {
+    bool is_known = false;
+    visit(defaults, [&](const OptionField& field, const auto&) { is_known |= field.name == key; });
+    if (!is_known) return key;
+  }
+  return {};
+}
+
+}  // namespace
+
+Json to_json(const ReliefOptions& options) {
+  Json json = Json::object();
+  visit(options, [&]<typename T>(const OptionField& field, const T& value) {
+    const std::string key(field.name);
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+      if (value) json[key] = *value;
+    } else if constexpr (std::is_same_v<T, std::string>) {
+      if (!value.empty()) json[key] = value;
+    } else {
+      json[key] = value;
+    }
+  });
+  return json;
+}
+
+Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
+  if (!json.is_object()) return fail(name, "options", "expected an object");
+  ReliefOptions options;
+  FieldReader reader{json, {}};
+  visit(options, reader);
+  if (!reader.wrong.empty()) return fail(name, cat("options.", reader.wrong), "expected a value of its type");
+  if (reader.taken != json.size())
+    return fail(name, "options", cat("expected known options, found '", unknown_name(json), "'"));
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  return options;
+}
+
+Json to_json(const Input& input) {
+  if (!input.sample.empty()) return {{"sample", input.sample}, {"name", input.name}};
+  return {{"path", input.path}, {"name", input.name}, {"hash", input.hash}};
+}
+
+Result<Input> input_from_json(const Json& json, std::string_view name) {
+  if (!json.is_object()) return fail(name, "input", "expected an object");
+  Input input{text_or_nothing(json, "sample"), text_or_nothing(json, "path"), text_or_nothing(json, "name"),
+              text_or_nothing(json, "hash")};
+  if (input.sample.empty() == input.path.empty())
+    return fail(name, "input", "expected either a path or a sample");
+  if (input.name.empty())
+    input.name = input.sample.empty() ? std::filesystem::path(input.path).filename().string() : input.sample;
+  return input;
+}
+
+Result<Project> read_project(std::string_view text, std::string_view name) {
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return fail(name, {}, "expected a project in JSON");
+  if (!json.contains("relievo") || json["relievo"] != 1)
+    return fail(name, "relievo", "expected a project of version 1");
+  const Result<Input> input = input_from_json(json.value("input", Json()), name);
+  if (!input) return std::unexpected(input.error());
+  const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), name);
+  if (!options) return std::unexpected(options.error());
+  return Project{*input, *options};
+}
+
+std::string hash_of(std::string_view bytes) {
+  std::uint64_t hash = 0xCBF29CE484222325U;
+  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+  constexpr char digits[] = "0123456789abcdef";
+  std::string text(16, '0');
+  for (int i = 15; i >= 0; --i, hash >>= 4) text[static_cast<std::size_t>(i)] = digits[hash & 15];
+  return "fnv1a64:" + text;
+}
+
+namespace {
+
+Scene scene_of(const std::string& name, CloudFile file) {
+  return {{{name, std::make_shared<const CloudFile>(std::move(file))}}};
+}
+
+}  // namespace
+
+Result<Scene> load_input(Input& input, const std::string& folder) {
+  if (!input.sample.empty()) {
+    Result<Cloud> sample = make_sample(input.sample);
+    if (!sample) return std::unexpected(sample.error());
+    return scene_of(input.sample, {std::move(*sample), "sample"});
+  }
+  const std::string path = (std::filesystem::path(folder) / input.path).string();
+  const Result<std::vector<std::byte>> bytes = cli::read_file(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  const std::string hash = hash_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (!input.hash.empty() && input.hash != hash)
+    return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
+  input.hash = hash;
+  if (cli::is_scene_file(path)) {
+    Result<cli::SceneInput> read = cli::read_scene({path}, {}, {}, nullptr);
+    if (!read) return std::unexpected(read.error());
+    return std::move(read->scene);
+  }
+  Result<cli::Input> read = cli::parse_input(*bytes, path, {}, ReliefOptions{}.points, nullptr);
+  if (!read) return std::unexpected(read.error());
+  return scene_of(input.name, std::move(read->file));
+}
+
+}  // namespace relievo::studio

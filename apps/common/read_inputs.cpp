@@ -1,0 +1,239 @@
+#include "read_inputs.h"
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+
+#include "files.h"
+#include "flags.h"
+#include "relievo/core/text.h"
+#include "relievo/io/stream.h"
+#include "relievo/scene.h"
+#include "relievo/view.h"
+#include "scene_file.h"
+
+namespace relievo::cli {
+namespace {
+
+// What was left out of a file.
+std::vector<std::string> remarks_on(const CloudFile& file, const std::string& path) {
+  std::vector<std::string> lines;
+  if (file.dropped_points > 0)
+    lines.push_back(
+        cat(path, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
+  if (file.dropped_normals > 0)
+    lines.push_back(cat(path, ": left out ", file.dropped_normals,
+                        file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
+  return lines;
+}
+
+Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
+  if (camera.empty()) return std::nullopt;
+  std::error_code ignored;
+  std::string text = camera;
+  if (std::filesystem::exists(camera, ignored)) {
+    const auto bytes = read_file(camera);
+    if (!bytes) return std::unexpected(bytes.error());
+    text.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  }
+  const auto parsed = parse_camera(text);
+  if (!parsed) return std::unexpected(parsed.error());
+  return *parsed;
+}
+
+std::string remark_on(const DepthImage& image, const DepthCloud& made) {
+  std::string line = cat(image.width, " x ", image.height, " depths, ", made.missing, " missing");
+  if (made.background > 0) line += cat(", ", made.background, " points of background taken out");
+  if (made.cut > 0) line += cat(", ", made.cut, " on ramps cut");
+  return line + cat(", smoothed within ", made.noise, " pixels");
+}
+
+Result<Input> read_depths(std::span<const std::byte> bytes, const std::string& path, DepthOptions options,
+                          const std::string& camera, Progress* progress) {
+  const auto image = read_depth_image(bytes, path);
+  if (!image) return std::unexpected(image.error());
+  const auto parsed = read_camera(camera);
+  if (!parsed) return std::unexpected(parsed.error());
+  options.camera = *parsed;
+  auto made = depth_cloud(*image, options, progress);
+  if (!made) return std::unexpected(made.error());
+  Input input;
+  input.remarks.push_back(cat(path, ": ", remark_on(*image, *made)));
+  input.file.cloud = std::move(made->cloud);
+  input.file.format = image->format;
+  return input;
+}
+
+class FileSource : public ByteSource {
+ public:
+  FileSource(const std::string& path, std::uint64_t size)
+      : path_(path), size_(size), file_(path, std::ios::binary) {}
+
+  std::uint64_t size() const override { return size_; }
+  Result<void> read(std::uint64_t offset, std::span<std::byte> to) override {
+    file_.seekg(static_cast<std::streamoff>(offset));
+    file_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+    if (file_) return {};
+    return std::unexpected(
+        Error{ErrorKind::input, path_, cat("byte ", offset), "expected a file that can be read"});
+  }
+
+ private:
+  const std::string& path_;
+  std::uint64_t size_;
+  std::ifstream file_;
+};
+
+// How much is seen of a file, and from where.
+struct Seen {
+  View view;  // in the file's frame
+  double points = 0;
+};
+
+// Size of a file that is to be read piece by piece if that is possible; nothing for small ones.
+std::optional<std::uintmax_t> large_size(const std::string& path, const InputArguments& arguments) {
+  std::error_code failed;
+  const std::uintmax_t size =
+      std::filesystem::is_regular_file(path, failed) ? std::filesystem::file_size(path, failed) : 0;
+  if (failed || static_cast<double>(size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
+  return size;
+}
+
+// Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
+Result<std::optional<Input>> read_large(const std::string& path, const InputArguments& arguments,
+                                        const Seen& seen, Progress* progress) {
+  const std::optional<std::uintmax_t> size = large_size(path, arguments);
+  if (!size) return std::nullopt;
+  FileSource source(path, *size);
+  std::vector<std::byte> head(std::min<std::uintmax_t>(*size, 1 << 20));
+  if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
+  auto streamed = stream_front(source, path, seen.view, seen.points, progress);
+  if (!streamed) return std::unexpected(streamed.error());
+  Input input;
+  input.remarks.push_back(
+      cat(path, ": ", streamed->cloud.size(), " points for the ", streamed->input_points, " of the file"));
+  input.file.cloud = std::move(streamed->cloud);
+  input.file.format = streamed->format;
+  return input;
+}
+
+// Reads the file of that path.
+Result<Input> read_input(const std::string& path, const InputArguments& arguments, const Seen& seen,
+                         Progress* progress) {
+  if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
+  auto large = read_large(path, arguments, seen, progress);
+  if (!large) return std::unexpected(large.error());
+  if (*large) return std::move(**large);
+  const auto bytes = read_file(path);
+  if (!bytes) return std::unexpected(bytes.error());
+  return parse_input(*bytes, path, arguments, seen.points, progress);
+}
+
+Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths) {
+  if (paths.size() == 1 && is_scene_file(paths[0])) {
+    const auto bytes = read_file(paths[0]);
+    if (!bytes) return std::unexpected(bytes.error());
+    return read_scene_file({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, paths[0]);
+  }
+  std::vector<SceneEntry> entries;
+  for (const std::string& path : paths) {
+    if (is_scene_file(path))
+      return std::unexpected(
+          Error{ErrorKind::option, path, {}, "expected a scene file alone, or models without one"});
+    entries.push_back({path});
+  }
+  return entries;
+}
+
+// The view of the scene in the frame of a model's file; which side of it is left does not matter there.
+View seen_by_model(const View& view, const Pose& pose) {
+  View own{view.rotation * turn_of(pose)};
+  if (pose.is_mirrored) own.rotation.row(0) = -own.rotation.row(0);
+  return own;
+}
+
+}  // namespace
+
+bool is_scene_file(const std::string& path) {
+  return ending_of(path) == "json";
+}
+
+void add_input_flags(CLI::App& command, InputArguments& arguments) {
+  add_flags(command, arguments.depth);
+  command
+      .add_option("--camera", arguments.camera,
+                  "of a depth image: focal lengths and centre, or a file with them")
+      ->type_name("FX,FY,CX,CY");
+  command
+      .add_option("--stream-above", arguments.stream_above_mb,
+                  "size from which binary PLY, PCD and LAS are read piece by piece")
+      ->type_name("MB")
+      ->capture_default_str();
+}
+
+Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
+                          const InputArguments& arguments, double points, Progress* progress) {
+  DepthOptions depth = arguments.depth;
+  depth.points = points;
+  if (is_picture(bytes)) return read_depths(bytes, path, depth, arguments.camera, progress);
+  auto file = read_cloud(bytes, path);
+  if (!file) return std::unexpected(file.error());
+  std::vector<std::string> remarks = remarks_on(*file, path);
+  return Input{std::move(*file), std::move(remarks)};
+}
+
+void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
+  command
+      .add_option("input", arguments.paths,
+                  "point cloud, mesh or depth image, several of them, or a scene (JSON), as for make")
+      ->required()
+      ->type_name("INPUT");
+  command.add_option("--view", arguments.view, "as for make")->type_name("SIDE")->capture_default_str();
+  command.add_option("--up", arguments.up, "as for make")->type_name("X,Y,Z");
+  add_input_flags(command, arguments.in);
+}
+
+Result<Surface> read_surface(const SceneArguments& arguments, Progress* progress) {
+  ReliefOptions relief;
+  relief.view = arguments.view;
+  relief.up = arguments.up;
+  const Result<SceneInput> input = read_scene(arguments.paths, arguments.in, relief, progress);
+  if (!input) return std::unexpected(input.error());
+  const Result<View> view = parse_view(arguments.view, arguments.up);
+  if (!view) return std::unexpected(view.error());
+  const Result<SeenPoints> seen = seen_points(input->scene, *view, relief.points, progress);
+  if (!seen) return std::unexpected(seen.error());
+  return find_surface(*seen->cloud, *view, {}, progress);
+}
+
+Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
+                              const ReliefOptions& relief, Progress* progress) {
+  const Result<View> view = parse_view(relief.view, relief.up);
+  if (!view) return std::unexpected(view.error());
+  const Result<std::vector<SceneEntry>> entries = entries_of(paths);
+  if (!entries) return std::unexpected(entries.error());
+  SceneInput made;
+  std::map<std::string, std::shared_ptr<const CloudFile>> known;  // the same for every pose
+  for (const SceneEntry& entry : *entries) {
+    if (known.contains(entry.path)) {
+      made.scene.models.push_back({entry.path, known[entry.path], entry.pose});
+      continue;
+    }
+    Result<Input> read =
+        read_input(entry.path, arguments, {seen_by_model(*view, entry.pose), relief.points}, progress);
+    if (!read) return std::unexpected(read.error());
+    const auto file = std::make_shared<const CloudFile>(std::move(read->file));
+    if (!large_size(entry.path, arguments)) known[entry.path] = file;
+    made.scene.models.push_back({entry.path, file, entry.pose});
+    made.remarks.insert(made.remarks.end(), read->remarks.begin(), read->remarks.end());
+  }
+  return made;
+}
+
+std::string joined(const std::vector<std::string>& paths) {
+  std::string all;
+  for (const std::string& path : paths) all += cat(all.empty() ? "" : ", ", path);
+  return all;
+}
+
+}  // namespace relievo::cli

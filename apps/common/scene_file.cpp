@@ -1,0 +1,108 @@
+#include "scene_file.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "relievo/core/text.h"
+
+namespace relievo::cli {
+namespace {
+
+using Json = nlohmann::json;
+namespace fs = std::filesystem;
+
+// Reads one file; every method fails with the place it was at.
+class SceneReader {
+ public:
+  explicit SceneReader(const std::string& name) : name_(name) {}
+
+  Result<std::vector<SceneEntry>> read(const Json& scene) const {
+    if (!scene.is_object()) return fail({}, "expected a scene in JSON, {\"models\": [...]}");
+    if (auto ok = check_keys(scene, {}, {"models"}); !ok) return std::unexpected(ok.error());
+    const auto models = scene.find("models");
+    if (models == scene.end() || !models->is_array() || models->empty())
+      return fail("models", "expected a list of at least one model");
+    std::vector<SceneEntry> entries;
+    for (std::size_t i = 0; i < models->size(); ++i) {
+      Result<SceneEntry> entry = read_model((*models)[i], cat("models[", i, "]"));
+      if (!entry) return std::unexpected(entry.error());
+      entries.push_back(std::move(*entry));
+    }
+    return entries;
+  }
+
+ private:
+  std::unexpected<Error> fail(std::string place, std::string expected) const {
+    return std::unexpected(Error{ErrorKind::input, name_, std::move(place), std::move(expected)});
+  }
+
+  Result<void> check_keys(const Json& object, const std::string& place,
+                          std::initializer_list<std::string_view> known) const {
+    for (const auto& [key, value] : object.items())
+      if (std::ranges::find(known, key) == known.end()) {
+        std::string names;
+        for (const std::string_view name : known) names += cat(names.empty() ? "" : ", ", name);
+        return fail(place, cat("expected ", known.size() > 1 ? "only the keys " : "only the key ", names,
+                               ", found '", key, "'"));
+      }
+    return {};
+  }
+
+  Result<SceneEntry> read_model(const Json& model, const std::string& place) const {
+    if (!model.is_object()) return fail(place, "expected an object");
+    if (auto ok = check_keys(model, place, {"file", "rotate", "translate", "scale", "mirror"}); !ok)
+      return std::unexpected(ok.error());
+    SceneEntry entry;
+    Result<void> ok = read_path(model, place + ".file", entry.path);
+    if (ok) ok = read_pose(model, place, entry.pose);
+    if (!ok) return std::unexpected(ok.error());
+    return entry;
+  }
+
+  Result<void> read_path(const Json& model, const std::string& place, std::string& path) const {
+    const auto file = model.find("file");
+    if (file == model.end() || !file->is_string()) return fail(place, "expected the name of a file");
+    path = (fs::path(name_).parent_path() / file->get<std::string>()).string();
+    std::error_code ignored;
+    if (!fs::exists(path, ignored))
+      return fail(place, cat("expected a file that is there, found no '", path, "'"));
+    return {};
+  }
+
+  Result<void> read_pose(const Json& model, const std::string& place, Pose& pose) const {
+    if (const auto turn = model.find("rotate"); turn != model.end())
+      if (auto ok = read_three(*turn, place + ".rotate", "angles in degrees", pose.rotate_deg); !ok)
+        return ok;
+    if (const auto move = model.find("translate"); move != model.end())
+      if (auto ok = read_three(*move, place + ".translate", "lengths", pose.translate.emplace()); !ok)
+        return ok;
+    if (const auto scale = model.find("scale"); scale != model.end()) {
+      if (!scale->is_number() || !(scale->get<double>() >= 1e-6 && scale->get<double>() <= 1e6))
+        return fail(place + ".scale", "expected a number from 1e-06 to 1e+06");
+      pose.scale = scale->get<double>();
+    }
+    if (const auto mirror = model.find("mirror"); mirror != model.end()) {
+      if (!mirror->is_boolean()) return fail(place + ".mirror", "expected true or false");
+      pose.is_mirrored = mirror->get<bool>();
+    }
+    return {};
+  }
+
+  Result<void> read_three(const Json& values, const std::string& place, const char* what, Vec3& to) const {
+    const auto is_number = [](const Json& value) { return value.is_number(); };
+    if (!values.is_array() || values.size() != 3 || !std::ranges::all_of(values, is_number))
+      return fail(place, cat("expected three ", what));
+    for (int axis = 0; axis < 3; ++axis) to[axis] = values[static_cast<std::size_t>(axis)].get<double>();
+    return {};
+  }
+
+  const std::string& name_;
+};
+
+}  // namespace
+
+Result<std::vector<SceneEntry>> read_scene_file(std::string_view text, const std::string& name) {
+  return SceneReader(name).read(Json::parse(text, nullptr, false));
+}
+
+}  // namespace relievo::cli

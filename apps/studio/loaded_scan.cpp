@@ -1,0 +1,74 @@
+#include "loaded_scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/scan/spacing.h"
+
+namespace relievo::studio {
+namespace {
+
+// The share of each model's points that makes all about equally dense: they are drawn as discs of one size.
+// Nothing is thinned to more than three times the distances of the finest.
+std::vector<double> even_shares(const Scene& scene, const std::vector<PlacedModel>& places) {
+  std::vector<double> apart;
+  if (places.empty()) return apart;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    apart.push_back(places[i].scale * measure_spacing(scene.models[i].file->cloud).rho);
+  const auto [finest, coarsest] = std::ranges::minmax(apart);
+  const double wanted = std::min(3 * finest, coarsest);
+  for (double& share : apart) share = wanted > 0 ? std::min(1.0, std::pow(share / wanted, 2)) : 1;
+  return apart;
+}
+
+Cloud share_of(const Cloud& cloud, double share) {
+  std::vector<Index> left_out;
+  for (Index i = 0; i < cloud.size(); ++i)
+    if (std::floor((i + 1) * share) == std::floor(i * share)) left_out.push_back(i);
+  return without(cloud, left_out);
+}
+
+}  // namespace
+
+OpenScan::OpenScan(Input input, Scene scene) : input_(std::move(input)), scene_(std::move(scene)) {
+  const std::shared_ptr<const CloudFile> first = scene_.models[0].file;
+  if (is_one_file() && (!first->mesh.empty() || far_points(first->cloud).empty())) {
+    cloud_ = {first, &first->cloud};
+    return;
+  }
+  Cloud all;
+  const std::vector<PlacedModel> places = place_models(scene_, {}).value_or(std::vector<PlacedModel>());
+  const std::vector<double> shares = even_shares(scene_, places);
+  for (std::size_t i = 0; i < places.size(); ++i) add(*scene_.models[i].file, places[i], shares[i], all);
+  cloud_ = std::make_shared<const Cloud>(std::move(all));
+}
+
+bool OpenScan::is_one_file() const {
+  return scene_.models.size() == 1 && scene_.models[0].pose == Pose{};
+}
+
+// Normals are kept as long as every model has some, colours likewise.
+void OpenScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
+  const bool is_mesh = !file.mesh.empty();
+  const std::vector<Index> strays = is_mesh ? std::vector<Index>() : far_points(file.cloud);
+  left_out_ += strays.size();
+  const Cloud near = share_of(without(file.cloud, strays), share);
+  const bool is_first = all.size() == 0;
+  const bool has_normals = near.has_normals() && (is_first || all.has_normals());
+  const bool has_colours = near.has_colours() && (is_first || all.has_colours());
+  for (const Vec3& p : near.points) all.points.push_back(place(p));
+  if (!has_normals) all.normals.clear();
+  if (!has_colours) all.colours.clear();
+  if (has_normals)
+    for (const Vec3f& n : near.normals) all.normals.push_back(place.turn.cast<float>() * n);
+  if (has_colours) all.colours.insert(all.colours.end(), near.colours.begin(), near.colours.end());
+}
+
+Result<std::shared_ptr<const Cloud>> OpenScan::seen_from(const View& view) const {
+  if (is_one_file() && scene_.models[0].file->mesh.empty()) return cloud_;
+  Result<SeenPoints> seen = seen_points(scene_, view, ReliefOptions{}.points);
+  if (!seen) return std::unexpected(seen.error());
+  return seen->cloud;
+}
+
+}  // namespace relievo::studio

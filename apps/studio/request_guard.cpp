@@ -1,0 +1,78 @@
+#include "request_guard.h"
+
+#include <sys/random.h>
+
+#include <array>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "relievo/core/text.h"
+
+namespace relievo::studio {
+namespace {
+
+using httplib::Request;
+using httplib::Response;
+
+constexpr std::size_t most_path = 512;
+
+std::string random_token() {
+  std::array<unsigned char, 16> bytes{};
+  if (::getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) std::abort();
+  std::string text;
+  for (const unsigned char byte : bytes) {
+    text += "0123456789abcdef"[byte >> 4];
+    text += "0123456789abcdef"[byte & 15];
+  }
+  return text;
+}
+
+// In a time that does not tell how much of them is equal.
+bool is_equal(std::string_view a, std::string_view b) {
+  unsigned different = a.size() == b.size() ? 0 : 1;
+  for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
+    different |= static_cast<unsigned char>(a[i]) ^ static_cast<unsigned char>(b[i]);
+  return different == 0;
+}
+
+}  // namespace
+
+void refuse(Response& response, int status, const std::string& text) {
+  const nlohmann::json error{{"error", {{"kind", "request"}, {"text", text}}}};
+  response.status = status;
+  response.set_content(error.dump(), "application/json");
+  response.set_header("Connection", "close");
+}
+
+Guard::Guard() : token_(random_token()) {}
+
+std::string Guard::address() const {
+  return cat("http://127.0.0.1:", port_, "/", token_, "/");
+}
+
+bool Guard::is_here(const std::string& host) const {
+  return host == cat("127.0.0.1:", port_) || host == cat("localhost:", port_);
+}
+
+std::optional<std::string> Guard::admit(const Request& request, Response& response) const {
+  const auto say = [&](int status, const char* text) -> std::optional<std::string> {
+    refuse(response, status, text);
+    return std::nullopt;
+  };
+  if (request.path.size() > most_path) return say(414, "the address is too long");
+  if (request.get_header_value_count("Host") != 1 || !is_here(request.get_header_value("Host")))
+    return say(403, "this server answers for this machine only");
+  const std::string origin = request.get_header_value("Origin");
+  if (request.has_header("Origin") && (!origin.starts_with("http://") || !is_here(origin.substr(7))))
+    return say(403, "this server answers its own page only");
+  const std::size_t slash = request.path.find('/', 1);
+  const std::string_view given = std::string_view(request.path).substr(0, slash);
+  if (!is_equal(given, "/" + token_)) return say(403, "open the address that `relievo studio` printed");
+  if (slash == std::string::npos) {
+    response.set_redirect("/" + token_ + "/", 308);
+    return std::nullopt;
+  }
+  return request.path.substr(slash + 1);
+}
+
+}  // namespace relievo::studio

@@ -1,0 +1,42 @@
+// Text without locale: joining, and parsing of small things that users type.
+#pragma once
+
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+inline void append(std::string& out, std::string_view text) {
+  out += text;
+}
+inline void append(std::string& out, char c) {
+  out += c;
+}
+template <typename T>
+requires std::is_arithmetic_v<T>
+void append(std::string& out, T number) {
+  char digits[32];
+  std::to_chars_result end{};
+  if constexpr (std::is_floating_point_v<T>)
+    end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
+  else
+    end = std::to_chars(digits, digits + sizeof digits, number);
+  out.append(digits, end.ptr);
+}
+
+// Joins texts and numbers; floating-point numbers with six significant digits.
+template <typename... Parts>
+std::string cat(const Parts&... parts) {
+  std::string out;
+  (append(out, parts), ...);
+  return out;
+}
+
+// "X,Y,Z" as three finite numbers; nothing for any other text.
+std::optional<Vec3> parse_triple(std::string_view text);
+
+}  // namespace relievo

@@ -1,0 +1,106 @@
+// The paper's subspace mode (stages 7, 8 and 10): reliefs from a few thousand control points. Most of a
+// relief costs the same however large the cloud is.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "relievo/geometry/spline.h"
+#include "relievo/relief/control_points.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
+#include "relievo/weights.h"
+
+namespace relievo {
+
+struct SubspaceOptions {
+  ControlPointOptions control;
+  std::size_t normals_per_point = 8;  // whose mean slope stands for the region of a control point, > 0
+  double max_slope = 4;               // of the reference heights, see Shape
+};
+
+// Returns z0, the heights of all points that (9) gives for w_k = 1, found by the system of all points.
+std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
+
+// Control points with their factored system, and the way from their heights to those of all points: z = r z0
+// + d. z0 are the reference heights, (9) with w_k = 1. The compression ratio r is that of compressed and
+// reference heights, z_c / z0_c, both solved on the control points; the offset d is what a smooth ratio
+// leaves of z_c, above all where z0 passes 0. Multilevel B-splines carry both to all points.
+//
+// Reliefs are within about 1 % (root mean square, of the height) of the exact ones, layered ones within 1 to
+// 4 %, low ones most: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of
+// its own.
+class SubspaceModel {
+ public:
+  // What a relief needs besides the model, so that frames allocate nothing.
+  class Workspace {
+   public:
+    Workspace(Workspace&&) noexcept;
+    Workspace& operator=(Workspace&&) noexcept;
+    ~Workspace();
+
+    // Bytes held, up to a little.
+    std::size_t memory() const;
+
+   private:
+    friend class SubspaceModel;
+    struct Storage;
+    explicit Workspace(std::unique_ptr<Storage> storage);
+    std::unique_ptr<Storage> storage_;
+  };
+
+  // Copies what it needs of the surface. `reference` holds reference_heights() for the same greatest slope;
+  // if it is empty, they are solved for, which takes most of the time and memory. Errors: see
+  // HeightSystem::build(); kind cancelled.
+  static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {},
+                                       std::span<const double> reference = {}, Progress* progress = nullptr);
+
+  // Number of points of the surface.
+  std::size_t size() const { return reference_.size(); }
+
+  const ControlPoints& control_points() const { return control_; }
+
+  // Bytes held.
+  std::size_t memory() const;
+
+  Workspace make_workspace() const;
+
+  // Finds the heights of the control points. `boundary_weight` is w_b per point of the surface, for the
+  // shape's boundary width.
+  void solve(const Shape& shape, std::span<const float> boundary_weight, Workspace& workspace) const;
+
+  // Carries them to all points: writes their heights above the base, before detail.
+  void carry(std::span<const float> boundary_weight, Workspace& workspace, std::span<float> heights) const;
+
+ private:
+  // Normals that stand for a region, as many for each control point.
+  struct Samples {
+    std::vector<Vec3f> normals;
+    std::vector<float> k;
+    std::vector<PointLayers> layers;
+    std::vector<Index> points;  // that they are taken from
+  };
+  // A control point's ratio is z_c pull + (the ratio of all of them) rest.
+  struct RatioTerm {
+    float pull = 0, rest = 0;
+  };
+
+  SubspaceModel(HeightSystem system, Samples samples, double delta);
+  void fit(Workspace::Storage& storage) const;
+  void set_reference(double max_slope, std::span<const float> boundary_weight);
+  void set_splines(std::span<const Vec2> sites, std::span<const Vec2> points);
+
+  ControlPoints control_;
+  HeightSystem system_;
+  Samples samples_;
+  double delta_ = 0;
+
+  std::vector<float> control_reference_;  // z0_c
+  std::vector<RatioTerm> ratio_terms_;
+  MultilevelSpline ratio_spline_, offset_spline_;
+  std::vector<SplinePlace> places_;
+  std::vector<float> reference_;  // z0 of all points
+};
+
+}  // namespace relievo

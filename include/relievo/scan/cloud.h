@@ -1,0 +1,36 @@
+// A scattered point cloud and what can be said of it before a view is chosen.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/core/error.h"
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// Points in the units of their source, in double precision, so that geo-referenced coordinates (1e6 and more)
+// keep all their digits. `normals` is empty or has one unit vector per point, `colours` is empty or has one
+// colour per point.
+struct Cloud {
+  std::vector<Vec3> points;
+  std::vector<Vec3f> normals;
+  std::vector<Colour> colours = {};
+
+  std::size_t size() const { return points.size(); }
+  bool has_normals() const { return !normals.empty(); }
+  bool has_colours() const { return !colours.empty(); }
+};
+
+// Box of all points; empty for an empty cloud.
+Box bounds(const Cloud& cloud);
+
+// Returns the numbers of points that cannot belong to the model, ascending: further from its middle (the
+// median) than 20 times the distance within which nine points in ten lie. One stray, say at the origin of a
+// geo-referenced scan, would make the model a speck in its own box.
+std::vector<Index> far_points(const Cloud& cloud);
+
+// Returns the cloud without the points numbered by `left_out`, ascending.
+Cloud without(const Cloud& cloud, std::span<const Index> left_out);
+
+}  // namespace relievo

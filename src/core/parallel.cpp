@@ -1,0 +1,180 @@
+#include "relievo/core/parallel.h"
+
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+namespace relievo {
+namespace {
+
+thread_local bool is_inside_parallel_call = false;
+
+struct Job {
+  detail::BlockFunction f = nullptr;
+  void* context = nullptr;
+  std::size_t blocks = 0;
+  std::atomic<std::size_t> next = 0;
+
+  void work() {
+    is_inside_parallel_call = true;
+    for (std::size_t b = next++; b < blocks; b = next++) f(context, b);
+    is_inside_parallel_call = false;
+  }
+};
+
+// Workers sleep between jobs. One job runs at a time; a second caller waits for its turn.
+class Pool {
+ public:
+  static Pool& instance() {
+    static Pool pool;
+    return pool;
+  }
+
+  ~Pool() { stop(); }
+
+  int size() const { return static_cast<int>(workers_.size()) + 1; }
+
+  void resize(int threads) {
+    const std::lock_guard turn(turn_);
+    const int most = 256;
+    if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+    threads = std::min(threads, most);
+    if (threads == size()) return;
+    stop();
+    start(threads - 1);
+  }
+
+  void run(std::size_t blocks, detail::BlockFunction f, void* context) {
+    const std::lock_guard turn(turn_);
+    Job job{f, context, blocks};
+    {
+      const std::lock_guard lock(mutex_);
+      job_ = &job;
+      busy_ = workers_.size();
+      ++generation_;
+    }
+    wake_.notify_all();
+    job.work();
+    std::unique_lock lock(mutex_);
+    done_.wait(lock, [&] { return busy_ == 0; });
+    job_ = nullptr;
+  }
+
+ private:
+  Pool() { start(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1); }
+
+  void start(int workers) {
+    is_stopping_ = false;
+    for (int i = 0; i < workers; ++i) workers_.emplace_back([this, seen = generation_] { loop(seen); });
+  }
+
+  void stop() {
+    {
+      const std::lock_guard lock(mutex_);
+      is_stopping_ = true;
+    }
+    wake_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+    workers_.clear();
+  }
+
+  void loop(std::size_t seen) {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+      wake_.wait(lock, [&] { return is_stopping_ || generation_ != seen; });
+      if (is_stopping_) return;
+      seen = generation_;
+      Job* job = job_;
+      lock.unlock();
+      job->work();
+      lock.lock();
+      if (--busy_ == 0) done_.notify_one();
+    }
+  }
+
+  std::mutex turn_;   // held by the caller whose job runs
+  std::mutex mutex_;  // guards what follows
+  std::condition_variable wake_, done_;
+  std::vector<std::thread> workers_;
+  Job* job_ = nullptr;
+  std::size_t busy_ = 0, generation_ = 0;
+  bool is_stopping_ = false;
+};
+
+}  // namespace
+
+int thread_count() {
+  return Pool::instance().size();
+}
+
+void set_thread_count(int threads) {
+  Pool::instance().resize(threads);
+}
+
+void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
+  if (blocks <= 1 || is_inside_parallel_call || thread_count() == 1) {
+    for (std::size_t b = 0; b < blocks; ++b) f(context, b);
+  } else {
+    Pool::instance().run(blocks, f, context);
+  }
+}
+
+void BlockFlags::wait(std::size_t block) const {
+  // Waits are short as a rule: look again at once, and let others run only after a while.
+  for (int look = 0; flags_[block].load(std::memory_order_acquire) == 0; ++look)
+    if (look > 2000) std::this_thread::yield();
+}
+
+struct BackgroundLoop::State {
+  std::function<bool()> step;
+  std::mutex mutex;
+  std::condition_variable changed;
+  bool is_woken = false, is_working = false, is_ending = false;
+  std::thread thread;
+
+  void run() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      changed.wait(lock, [&] { return is_ending || is_woken; });
+      if (is_ending) return;
+      is_woken = false;
+      is_working = true;
+      lock.unlock();
+      const bool goes_on = step();
+      lock.lock();
+      is_working = false;
+      is_woken |= goes_on;
+      changed.notify_all();
+    }
+  }
+};
+
+BackgroundLoop::BackgroundLoop(std::function<bool()> step) : state_(std::make_unique<State>()) {
+  state_->step = std::move(step);
+  state_->thread = std::thread([state = state_.get()] { state->run(); });
+}
+
+BackgroundLoop::~BackgroundLoop() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->is_ending = true;
+  }
+  state_->changed.notify_all();
+  state_->thread.join();
+}
+
+void BackgroundLoop::wake() {
+  {
+    const std::lock_guard lock(state_->mutex);
+    state_->is_woken = true;
+  }
+  state_->changed.notify_all();
+}
+
+bool BackgroundLoop::wait_until_idle(std::chrono::milliseconds timeout) {
+  std::unique_lock lock(state_->mutex);
+  return state_->changed.wait_for(lock, timeout, [&] { return !state_->is_woken && !state_->is_working; });
+}
+
+}  // namespace relievo

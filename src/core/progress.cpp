@@ -1,0 +1,30 @@
+#include "relievo/core/progress.h"
+
+#include <algorithm>
+
+namespace relievo {
+
+void Progress::end_stage() {
+  if (running_.empty()) return;
+  const std::chrono::duration<double> spent = Clock::now() - started_;
+  times_.push_back({running_, spent.count()});
+  running_.clear();
+}
+
+Result<void> Progress::stage(std::string_view name, double fraction) {
+  end_stage();
+  if (is_cancelled_) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  running_ = name;
+  started_ = Clock::now();
+  fraction_ = std::clamp(fraction, fraction_, 1.0);
+  if (watcher_) watcher_(name, fraction_);
+  return {};
+}
+
+void Progress::finish() {
+  end_stage();
+  fraction_ = 1;
+  if (watcher_) watcher_("done", 1);
+}
+
+}  // namespace relievo

@@ -1,0 +1,62 @@
+#include "geometry/convex_polygon.h"
+
+#include <cstddef>
+
+namespace relievo {
+namespace {
+
+constexpr double shortest_mm = 1e-4;
+
+// The places p with p.dot(normal) == reach.
+struct Line {
+  Vec2 normal;  // unit length, outwards
+  double reach = 0;
+};
+
+Vec2 crossing(const Line& a, const Line& b) {
+  const double sine = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
+  return Vec2(a.reach * b.normal.y() - b.reach * a.normal.y(),
+              b.reach * a.normal.x() - a.reach * b.normal.x()) /
+         sine;
+}
+
+// Negative if the side's neighbours meet before it begins.
+double length_of(const Line& before, const Line& side, const Line& after) {
+  const Vec2 along(-side.normal.y(), side.normal.x());
+  return (crossing(side, after) - crossing(before, side)).dot(along);
+}
+
+// A side that has no length is none of the polygon's; without it others may have none.
+void drop_short(std::vector<Line>& lines) {
+  for (std::size_t i = 0, good = 0; good < lines.size() && lines.size() > 3;) {
+    const std::size_t n = lines.size();
+    i %= n;
+    if (length_of(lines[(i + n - 1) % n], lines[i], lines[(i + 1) % n]) >= shortest_mm) {
+      ++i, ++good;
+      continue;
+    }
+    lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(i));
+    i = i > 0 ? i - 1 : lines.size() - 1;
+    good = 0;
+  }
+}
+
+}  // namespace
+
+std::vector<Vec2> inset(std::span<const Vec2> polygon, double mm) {
+  const std::size_t n = polygon.size();
+  if (mm == 0) return {polygon.begin(), polygon.end()};
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec2 along = (polygon[(i + 1) % n] - polygon[i]).normalized();
+    const Vec2 normal(along.y(), -along.x());
+    lines.push_back({normal, normal.dot(polygon[i]) - mm});
+  }
+  drop_short(lines);
+  std::vector<Vec2> moved;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    moved.push_back(crossing(lines[(i + lines.size() - 1) % lines.size()], lines[i]));
+  return moved;
+}
+
+}  // namespace relievo

@@ -1,0 +1,176 @@
+#include "geometry/dilation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/simd.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+constexpr int block = 32;  // samples worked on together, in registers
+constexpr float least = -std::numeric_limits<float>::infinity();
+
+// The grid within a frame of -infinity, so that no window leaves it.
+struct Framed {
+  int frame, stride, rows;
+  std::vector<float> values;
+  // Largest value of each run of `block` in each row.
+  int runs;
+  std::vector<float> highest;
+  // And of each square of such runs.
+  std::vector<float> highest_of_square;
+
+  Framed(const Grid& grid, int frame_width)
+      : frame(frame_width),
+        stride((grid.width + 2 * frame + 2 * block - 1) / block * block),
+        rows(grid.height + 2 * frame),
+        values(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows), least),
+        runs(stride / block),
+        highest(static_cast<std::size_t>(runs) * static_cast<std::size_t>(rows), least) {
+    parallel_for(
+        static_cast<std::size_t>(grid.height),
+        [&](std::size_t y) {
+          const std::size_t row = y + static_cast<std::size_t>(frame);
+          for (int x = 0; x < grid.width; ++x) {
+            const float value =
+                grid.values[y * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x)];
+            if (!(value > least)) continue;
+            const auto place = static_cast<std::size_t>(x + frame);
+            values[row * static_cast<std::size_t>(stride) + place] = value;
+            float& most = highest[row * static_cast<std::size_t>(runs) + place / block];
+            most = std::max(most, value);
+          }
+        },
+        16);
+    find_squares();
+  }
+
+  void find_squares() {
+    highest_of_square.assign(static_cast<std::size_t>(runs) * static_cast<std::size_t>(rows / block + 1),
+                             least);
+    for (int y = 0; y < rows; ++y)
+      for (int run = 0; run < runs; ++run) {
+        float& most = highest_of_square[static_cast<std::size_t>(y / block * runs + run)];
+        most = std::max(most, highest[static_cast<std::size_t>(y * runs + run)]);
+      }
+  }
+
+  // At least the largest value from row y - away to y + away, x - away to x + block - 1 + away.
+  float highest_around(int x, int y, int away) const {
+    float most = least;
+    for (int row = (y - away) / block; row <= (y + away) / block; ++row)
+      for (int run = (x - away) / block; run <= (x + block - 1 + away) / block; ++run)
+        most = std::max(most, highest_of_square[static_cast<std::size_t>(row * runs + run)]);
+    return most;
+  }
+
+  const float* at(int x, int y) const { return values.data() + std::ptrdiff_t{y} * stride + x; }
+
+  // At least the largest value of row y from x to x + count - 1.
+  float highest_of(int x, int count, int y) const {
+    const float* const row = highest.data() + std::ptrdiff_t{y} * runs;
+    return *std::max_element(row + x / block, row + (x + count - 1) / block + 1);
+  }
+};
+
+struct Sums {
+  Float8 v[block / 8];
+};
+
+RELIEVO_INLINE void take(Sums& sums, const float* from, float height) {
+  for (int i = 0; i < block / 8; ++i) {
+    const Float8 value = *reinterpret_cast<const Float8*>(from + 8 * i) - height;
+    sums.v[i] = value > sums.v[i] ? value : sums.v[i];
+  }
+}
+
+RELIEVO_INLINE float lowest_of(const Sums& sums) {
+  float lowest = sums.v[0][0];
+  for (const Float8& v : sums.v)
+    for (int i = 0; i < 8; ++i) lowest = v[i] < lowest ? v[i] : lowest;
+  return lowest;
+}
+
+// A row of a window around a block: `away` rows from its middle.
+struct WindowRow {
+  int x, y, away, width;
+};
+
+// How far to the sides the row holds anything that exceeds `lowest` under the shape; -1 if it does not at
+// all.
+RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
+  for (;;) {
+    const float highest = from.highest_of(row.x - row.width, block + 2 * row.width, row.y);
+    int width = row.width;
+    while (width >= 0 && highest - profile.at(width, row.away) <= lowest) --width;
+    if (width == row.width || width < 0) return width;
+    row.width = width;
+  }
+}
+
+// How many rows away from the block anything exceeds `lowest` under the shape; -1 if nothing does.
+RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
+  int away = profile.reach();
+  while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;
+  for (;;) {
+    const float highest = from.highest_around(x, y, away);
+    int nearer = away;
+    while (nearer >= 0 && highest - profile.at(0, nearer) <= lowest) --nearer;
+    if (nearer == away || nearer < 0) return nearer;
+    away = nearer;
+  }
+}
+
+RELIEVO_INLINE void take_row(const Framed& from, const Profile& profile, WindowRow row, Sums& sums) {
+  while (!(profile.at(row.width, row.away) < std::numeric_limits<float>::infinity())) --row.width;
+  const int width = reaching(from, profile, row, lowest_of(sums));
+  const float* const middle = from.at(row.x, row.y);
+  for (int dx = -width; dx <= width; ++dx) take(sums, middle + dx, profile.at(std::abs(dx), row.away));
+}
+
+// The block of samples whose first is at x, y of the framed grid. From the middle outwards: soon nothing that
+// is farther away can be the largest.
+RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, int y, float* to) {
+  Sums sums;
+  for (Float8& v : sums.v) v = Float8{} + least;
+  take_row(from, profile, {x, y, 0, profile.reach()}, sums);
+  const int rows = rows_reaching(from, profile, x, y, lowest_of(sums));
+  for (int away = 1; away <= rows; ++away) {
+    take_row(from, profile, {x, y - away, away, profile.reach()}, sums);
+    take_row(from, profile, {x, y + away, away, profile.reach()}, sums);
+  }
+  std::memcpy(to, &sums, sizeof sums);
+}
+
+RELIEVO_AVX2 void envelope_avx2(const Framed& from, const Profile& profile, int x, int y, float* to) {
+  envelope(from, profile, x, y, to);
+}
+void envelope_plain(const Framed& from, const Profile& profile, int x, int y, float* to) {
+  envelope(from, profile, x, y, to);
+}
+
+}  // namespace
+
+Grid dilate(const Grid& grid, const Profile& profile, int border) {
+  Grid out{grid.width + 2 * border, grid.height + 2 * border, {}};
+  if (out.width <= 0 || out.height <= 0) return {};
+  out.values.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
+  const Framed from(grid, std::max(border, 0) + profile.reach() + block);
+  parallel_for(
+      static_cast<std::size_t>(out.height),
+      [&](std::size_t row) {
+        float result[block];
+        for (int x = 0; x < out.width; x += block) {
+          (uses_avx2() ? envelope_avx2 : envelope_plain)(from, profile, x - border + from.frame,
+                                                         static_cast<int>(row) - border + from.frame, result);
+          const int count = std::min(block, out.width - x);
+          std::copy_n(result, count, out.values.begin() + static_cast<std::ptrdiff_t>(row) * out.width + x);
+        }
+      },
+      4);
+  return out;
+}
+
+}  // namespace relievo

@@ -1,0 +1,60 @@
+// Nearest neighbours in two and three dimensions: the one file that knows nanoflann.
+#pragma once
+
+#include <memory>
+#include <nanoflann.hpp>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// A kd-tree over points that must outlive it. Points: Vec2 or Vec3. Concurrent queries are safe.
+template <typename Point>
+class KdTree {
+ public:
+  using Match = std::pair<Index, double>;  // number of a point, squared distance to the query
+
+  explicit KdTree(std::span<const Point> points) : adaptor_{points} {
+    if (!points.empty())
+      tree_ = std::make_unique<Tree>(dimension, adaptor_, nanoflann::KDTreeSingleIndexAdaptorParams(12));
+  }
+
+  // Fills the arrays with the k points nearest to `query`, nearest first; returns how many there are (fewer
+  // than k only if the tree holds fewer). A point of the tree finds itself.
+  std::size_t nearest(const Point& query, std::size_t k, Index* indices, double* distances_sq) const {
+    return tree_ ? tree_->knnSearch(query.data(), k, indices, distances_sq) : 0;
+  }
+
+  // Replaces `matches` with all points nearer than `radius`, in no particular but reproducible order.
+  void within(const Point& query, double radius, std::vector<Match>& matches) const {
+    matches.clear();
+    if (tree_)
+      tree_->radiusSearch(query.data(), radius * radius, matches, nanoflann::SearchParams(0, 0, false));
+  }
+
+ private:
+  static constexpr int dimension = Point::RowsAtCompileTime;
+
+  struct Adaptor {
+    std::span<const Point> points;
+    std::size_t kdtree_get_point_count() const { return points.size(); }
+    double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+      return points[i][static_cast<Eigen::Index>(axis)];
+    }
+    template <typename Box>
+    bool kdtree_get_bbox(Box&) const {
+      return false;
+    }
+  };
+  using Tree =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor, double, Index>,
+                                          Adaptor, dimension, Index>;
+
+  Adaptor adaptor_;
+  std::unique_ptr<Tree> tree_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,95 @@
+#include "geometry/predicates.h"
+
+#include "geometry/expansion.h"
+
+namespace relievo::detail {
+namespace {
+
+// Bounds of section 4.4: of the determinant of the rounded differences, of that with a first-order
+// correction, and of the rounding of an estimate.
+constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
+constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
+constexpr double estimate_bound = (3 + 8 * epsilon) * epsilon;
+
+TwoDoubles difference(double a, double b) {
+  return two_sum(a, -b);
+}
+
+// A point relative to another: the rounded differences (high) and what rounding took away (low).
+struct Offset {
+  TwoDoubles x, y;
+
+  Offset(const Vec2& p, const Vec2& origin)
+      : x(difference(p.x(), origin.x())), y(difference(p.y(), origin.y())) {}
+  bool is_rounded() const { return x.low != 0 || y.low != 0; }
+};
+
+// A difference with one component (rounded) or two (exact).
+template <std::size_t n>
+Expansion<n> number(const TwoDoubles& difference) {
+  if constexpr (n == 1) return Expansion<1>(difference.high);
+  if constexpr (n == 2) return Expansion<2>(difference);
+}
+
+template <std::size_t n>
+auto cross(const Offset& a, const Offset& b) {
+  return number<n>(a.x) * number<n>(b.y) - number<n>(a.y) * number<n>(b.x);
+}
+
+template <std::size_t n>
+auto lift(const Offset& a) {
+  const Expansion<n> x = number<n>(a.x), y = number<n>(a.y);
+  return x * x + y * y;
+}
+
+template <std::size_t n>
+auto incircle_determinant(const Offset& a, const Offset& b, const Offset& c) {
+  return lift<n>(a) * cross<n>(b, c) + lift<n>(b) * cross<n>(c, a) + lift<n>(c) * cross<n>(a, b);
+}
+
+// The determinant's value, rounded, with all terms taken positive: the scale of all error bounds.
+double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
+  const auto term = [](const Offset& p, const Offset& q, const Offset& r) {
+    const double lifted = p.x.high * p.x.high + p.y.high * p.y.high;
+    return lifted * (std::abs(q.x.high * r.y.high) + std::abs(q.y.high * r.x.high));
+  };
+  return term(a, b, c) + term(b, c, a) + term(c, a, b);
+}
+
+// What a's row and its cofactor add to the determinant, to first order in the differences' errors.
+double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
+  const double cofactor = b.x.high * c.y.high - b.y.high * c.x.high;
+  const double cofactor_error =
+      (b.x.high * c.y.low + c.y.high * b.x.low) - (b.y.high * c.x.low + c.x.high * b.y.low);
+  const double lifted = a.x.high * a.x.high + a.y.high * a.y.high;
+  const double lifted_error = 2 * (a.x.high * a.x.low + a.y.high * a.y.low);
+  return lifted * cofactor_error + lifted_error * cofactor;
+}
+
+int sign_beyond(double value, double bound) {
+  return value > bound ? 1 : -value > bound ? -1 : 0;
+}
+
+}  // namespace
+
+int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return cross<2>(Offset(a, c), Offset(b, c)).sign();
+}
+
+int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  const Offset ad(a, d), bd(b, d), cd(c, d);
+  const auto determinant = incircle_determinant<1>(ad, bd, cd);
+  if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();
+
+  const double value = determinant.estimate(), permanent = incircle_permanent(ad, bd, cd);
+  if (const int sign = sign_beyond(value, incircle_bound_b * permanent)) return sign;
+
+  const double correction =
+      incircle_correction(ad, bd, cd) + incircle_correction(bd, cd, ad) + incircle_correction(cd, ad, bd);
+  const double bound = incircle_bound_c * permanent + estimate_bound * std::abs(value);
+  if (const int sign = sign_beyond(value + correction, bound)) return sign;
+
+  return incircle_determinant<2>(ad, bd, cd).sign();
+}
+
+}  // namespace relievo::detail

@@ -1,0 +1,171 @@
+#include "geometry/raster.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+constexpr int steps_per_pixel = 256;
+
+// Rounds a coordinate, at least -1 pixel; truncation is faster than rounding but right for positive numbers
+// only.
+int snap(double pixels) {
+  return static_cast<int>((pixels + 1) * steps_per_pixel + 0.5) - steps_per_pixel;
+}
+
+// First pixel whose centre is at or after `steps`.
+int first_centre(int steps) {
+  const int shifted = steps + steps_per_pixel / 2 - 1;  // at least -1 pixel: shift before dividing
+  return (shifted + steps_per_pixel) / steps_per_pixel - 1;
+}
+
+// A linear function of the pixel, not negative inside the triangle. Its numbers are integers below 2^53, so
+// exact.
+struct Edge {
+  double value;  // at the centre of column 0 of the row in work
+  double per_column, per_row;
+};
+
+template <typename Corner>
+Edge edge_between(const Corner& a, const Corner& b, int row) {
+  const int half = steps_per_pixel / 2;
+  const double dx = b.x - a.x, dy = b.y - a.y, y = row * steps_per_pixel + half - a.y;
+  Edge edge{dx * y - dy * (half - a.x), -dy * steps_per_pixel, dx * steps_per_pixel};
+  // A centre on an edge belongs to the triangle on its right, or below it.
+  const bool owns_its_points = edge.per_column > 0 || (edge.per_column == 0 && edge.per_row > 0);
+  if (!owns_its_points) edge.value -= 1;
+  return edge;
+}
+
+struct Columns {
+  int begin, end;
+};
+
+// Columns of the row in work where no edge is negative. The quotients cannot be rounded across an integer:
+// they are at least 2^-31 away from one, or equal to it, and below 2^15.
+Columns columns_inside(const std::array<Edge, 3>& edges, int width) {
+  double first = 0, last = width - 1;
+  for (const Edge& edge : edges) {
+    if (edge.per_column > 0) {
+      first = std::max(first, -edge.value / edge.per_column);
+    } else if (edge.per_column < 0) {
+      last = std::min(last, -edge.value / edge.per_column);
+    } else if (edge.value < 0) {
+      return {0, 0};
+    }
+  }
+  if (last < first) return {0, 0};
+  const int floor = static_cast<int>(first);
+  return {floor < first ? floor + 1 : floor, static_cast<int>(last) + 1};
+}
+
+// Height over the picture: the triangle's plane, never above or below its corners, so that slivers cannot
+// spike.
+struct Plane {
+  double value = 0, per_column = 0, per_row = 0;  // value at the picture's corner
+  double lowest = 0, highest = 0;
+};
+
+Plane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
+  const Vec3 p = b - a, q = c - a;
+  const double area = p.x() * q.y() - p.y() * q.x();
+  const double least_area = 1e-9;  // of a pixel: a sliver seen edge-on; any of its heights will do
+  if (std::abs(area) < least_area) return {highest, 0, 0, lowest, highest};
+  const double per_column = (p.z() * q.y() - p.y() * q.z()) / area;
+  const double per_row = (p.x() * q.z() - p.z() * q.x()) / area;
+  return {a.z() - per_column * a.x() - per_row * a.y(), per_column, per_row, lowest, highest};
+}
+
+}  // namespace
+
+Raster::Raster(const Drawing& scene, int band_rows) : scene_(scene), band_rows_(band_rows) {
+  corners_.resize(scene.points.size());
+  parallel_for(scene.points.size(), [&](std::size_t i) {
+    const Vec3& p = scene.points[i];
+    corners_[i] = {snap(p.x()), snap(p.y())};
+  });
+  sort_into_bands();
+}
+
+// Rows in which the triangle can cover a centre; none if it faces away or slips between the centres.
+Raster::Rows Raster::rows_of(const Triangle& triangle) const {
+  const Corner &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
+  const auto cross = std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
+  if (cross >= 0) return {0, 0};  // y points down: what is counter-clockwise to the viewer is negative here
+  const auto [left, right] = std::minmax({a.x, b.x, c.x});
+  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+  if (first_centre(left) >= first_centre(right + 1)) return {0, 0};
+  return {std::max(0, first_centre(top)), std::min(scene_.height, first_centre(bottom + 1))};
+}
+
+void Raster::sort_into_bands() {
+  std::vector<Rows> bands(scene_.triangles.size());
+  first_.assign(static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_) + 1, 0);
+  parallel_for(bands.size(), [&](std::size_t t) {
+    const Rows rows = rows_of(scene_.triangles[t]);
+    if (rows.begin < rows.end) bands[t] = {rows.begin / band_rows_, (rows.end - 1) / band_rows_ + 1};
+  });
+  for (const Rows& range : bands)
+    for (int b = range.begin; b < range.end; ++b) ++first_[static_cast<std::size_t>(b)];
+  std::size_t sum = 0;
+  for (std::size_t& at : first_) at = std::exchange(sum, sum + at);
+  triangles_.resize(sum);
+  std::vector<std::size_t> next(first_);
+  for (std::size_t t = 0; t < bands.size(); ++t)
+    for (int b = bands[t].begin; b < bands[t].end; ++b)
+      triangles_[next[static_cast<std::size_t>(b)]++] = static_cast<Index>(t);
+}
+
+void Raster::draw_triangle(Index t, Rows rows, Band& band) const {
+  const auto& [i, j, k] = scene_.triangles[t];
+  const Corner &a = corners_[i], &b = corners_[k], &c = corners_[j];  // turned: y points down
+  std::array edges{edge_between(a, b, rows.begin), edge_between(b, c, rows.begin),
+                   edge_between(c, a, rows.begin)};
+  const Plane plane = plane_through(scene_.points[i], scene_.points[j], scene_.points[k]);
+  for (int row = rows.begin; row < rows.end; ++row) {
+    const Columns columns = columns_inside(edges, scene_.width);
+    Sample* const samples = band.samples.data() + std::ptrdiff_t{row - band.first_row} * scene_.width;
+    const double z0 = plane.value + (row + 0.5) * plane.per_row + 0.5 * plane.per_column;
+    for (int column = columns.begin; column < columns.end; ++column) {
+      const double z = std::clamp(z0 + column * plane.per_column, plane.lowest, plane.highest);
+      Sample& sample = samples[column];
+      if (static_cast<float>(z) > sample.z) sample = {static_cast<float>(z), t};
+    }
+    for (Edge& edge : edges) edge.value += edge.per_row;
+  }
+}
+
+Band Raster::draw(std::size_t b) const {
+  Band band;
+  band.first_row = static_cast<int>(b) * band_rows_;
+  band.rows = std::min(band_rows_, scene_.height - band.first_row);
+  band.samples.resize(static_cast<std::size_t>(band.rows) * static_cast<std::size_t>(scene_.width));
+  for (std::size_t at = first_[b]; at < first_[b + 1]; ++at) {
+    const Index t = triangles_[at];
+    const Rows rows = rows_of(scene_.triangles[t]);
+    draw_triangle(t, {std::max(rows.begin, band.first_row), std::min(rows.end, band.first_row + band.rows)},
+                  band);
+  }
+  return band;
+}
+
+Vec3f corner_weights(const Drawing& scene, Index triangle, double x, double y) {
+  const auto& [i, j, k] = scene.triangles[triangle];
+  const Vec2 place(x, y);
+  const Vec2 a = scene.points[i].head<2>() - place, b = scene.points[j].head<2>() - place,
+             c = scene.points[k].head<2>() - place;
+  const auto cross = [](const Vec2& p, const Vec2& q) {
+    return std::max(0.0, p.y() * q.x() - p.x() * q.y());
+  };
+  const Vec3 weights(cross(b, c), cross(c, a), cross(a, b));
+  const double sum = weights.sum();
+  if (!(sum > 0)) return Vec3f::Constant(1.0F / 3);
+  return (weights / sum).cast<float>();
+}
+
+}  // namespace relievo

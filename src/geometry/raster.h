@@ -1,0 +1,65 @@
+// Orthographic scan conversion on the CPU: which triangle is seen at the centre of each pixel, and how near.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// What is to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. They may lie
+// outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5, 0.5).
+struct Drawing {
+  static constexpr int most_pixels = 32768;  // of width and height: keeps the coverage test exact
+
+  std::vector<Vec3> points;
+  std::span<const Triangle> triangles;  // counter-clockwise as seen; the others face away and are skipped
+  int width = 0, height = 0;
+};
+
+// What is seen at a pixel's centre.
+struct Sample {
+  float z = -std::numeric_limits<float>::infinity();
+  Index triangle = no_index;  // no_index: nothing
+};
+
+// Full rows of the picture, row-major.
+struct Band {
+  int first_row = 0, rows = 0;
+  std::vector<Sample> samples;
+};
+
+// Triangles sorted into bands of rows, which can be drawn in any order and concurrently. The coverage test is
+// exact on corners rounded to 1/256 pixel: every centre inside a surface belongs to exactly one of its
+// triangles, also on shared edges. Of equally near triangles the first is seen. The scene must outlive the
+// object.
+class Raster {
+ public:
+  Raster(const Drawing& scene, int band_rows);
+
+  std::size_t bands() const { return first_.size() - 1; }
+  Band draw(std::size_t band) const;
+
+ private:
+  struct Corner {
+    int x, y;  // in 1/256 pixel
+  };
+  struct Rows {
+    int begin, end;
+  };
+  Rows rows_of(const Triangle& triangle) const;
+  void sort_into_bands();
+  void draw_triangle(Index t, Rows rows, Band& band) const;
+
+  const Drawing& scene_;
+  int band_rows_;
+  std::vector<Corner> corners_;     // per point
+  std::vector<std::size_t> first_;  // per band and one more: where its triangles begin
+  std::vector<Index> triangles_;    // by band, in the scene's order
+};
+
+// Weights of the triangle's corners at a place in the picture; not negative, also for places outside.
+Vec3f corner_weights(const Drawing& scene, Index triangle, double x, double y);
+
+}  // namespace relievo

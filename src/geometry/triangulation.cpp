@@ -1,0 +1,259 @@
+// Incremental construction: points are inserted one by one, coarse samples first, each round along a Hilbert
+// curve, so that the triangle a point falls into is a few steps from the one before. Edges are then flipped
+// until all circles are empty again (C. L. Lawson, "Software for C1 Surface Interpolation", 1977).
+//
+// The outside is made of ghost triangles, one on each hull edge, which meet in a vertex at infinity. A
+// ghost's circle is the half-plane outside its edge, plus the edge. Triangles and ghosts together form a
+// closed surface, so that the hull needs no cases of its own: a point outside, or on a hull edge, is inserted
+// as any other.
+#include "relievo/geometry/triangulation.h"
+
+#include <algorithm>
+
+#include "geometry/hilbert.h"
+#include "geometry/predicates.h"
+
+namespace relievo {
+namespace {
+
+constexpr Index infinity = no_index;
+constexpr std::size_t most_points = (std::size_t{1} << 29) - 2;  // 2 n triangles of 4 slots each, in 32 bits
+
+// A triangle's side, from `origin` counter-clockwise to the next corner.
+struct HalfEdge {
+  Index origin;
+  Index twin;  // the same side seen from the neighbour
+};
+
+// Triangle t has the half-edges 4 t, 4 t + 1, 4 t + 2; the fourth slot is unused and buys cheap arithmetic
+// and triangles that never straddle a cache line.
+constexpr Index next(Index e) {
+  return (e & 3) == 2 ? e - 2 : e + 1;
+}
+constexpr Index previous(Index e) {
+  return (e & 3) == 0 ? e + 2 : e - 1;
+}
+
+class Builder {
+ public:
+  // `points` are in the order of the curve; `names` are what the result calls them.
+  Builder(const std::vector<Vec2>& points, std::vector<Index> names)
+      : points_(points), names_(std::move(names)) {}
+
+  // Finds three points that span a triangle and starts from it. Returns false if there are none.
+  bool start();
+  void insert(Index p);
+  Triangulation result() const;
+
+ private:
+  bool is_ghost(Index e) const;
+  Index locate(const Vec2& p) const;
+  Index vertex_at(const Vec2& p, Index e) const;
+  bool circle_contains(Index e, const Vec2& p) const;
+  void link(Index e, Index f) { edges_[e].twin = f, edges_[f].twin = e; }
+  void add_triangle(Index a, Index b, Index c);
+  Index split(Index e, Index p);
+  void flip(Index e);
+  // The triangles around the newest point have it at slot 2. From one's slot 0, goes to that of the next one.
+  Index next_around(Index e) const { return edges_[e + 1].twin - 2; }
+
+  std::vector<Index> number_triangles() const;
+  void append_triangle(Index t, const std::vector<Index>& numbers, Triangulation& to) const;
+  std::vector<Index> hull() const;
+
+  const std::vector<Vec2>& points_;
+  std::vector<Index> names_;
+  std::vector<HalfEdge> edges_;
+  Index near_ = 0;  // a half-edge of a triangle that is no ghost, where the last point was inserted
+};
+
+bool Builder::is_ghost(Index e) const {
+  const Index t = e & ~Index{3};
+  return edges_[t].origin == infinity || edges_[t + 1].origin == infinity || edges_[t + 2].origin == infinity;
+}
+
+void Builder::add_triangle(Index a, Index b, Index c) {
+  for (const Index corner : {a, b, c, infinity}) edges_.push_back({corner, no_index});
+}
+
+bool Builder::start() {
+  const Index n = static_cast<Index>(points_.size());
+  Index b = 1, c = 2;
+  while (b < n && points_[b] == points_[0]) ++b;
+  for (c = b + 1; c < n && orient2d(points_[0], points_[b], points_[c]) == 0;) ++c;
+  if (c >= n) return false;
+  if (orient2d(points_[0], points_[b], points_[c]) < 0) std::swap(b, c);
+
+  edges_.reserve(8 * points_.size());
+  add_triangle(0, b, c);
+  add_triangle(b, 0, infinity);
+  add_triangle(c, b, infinity);
+  add_triangle(0, c, infinity);
+  for (Index i = 0; i < 3; ++i) {
+    link(i, 4 * (i + 1));
+    link(4 * (i + 1) + 2, 4 * ((i + 1) % 3 + 1) + 1);
+  }
+  return true;
+}
+
+// Returns the triangle (as one of its half-edges) that holds p in its inside or on its border, or the ghost
+// of a hull edge that has p strictly outside. In a Delaunay triangulation the walk never comes back to a
+// triangle: p's power to the circles falls with each step, and among triangles on one circle the neighbours
+// form a tree.
+Index Builder::locate(const Vec2& p) const {
+  const auto is_right_of = [&](Index e) {
+    return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;
+  };
+  Index e = near_;
+  if (is_right_of(e)) e = edges_[e].twin;
+  while (!is_ghost(e)) {
+    if (is_right_of(next(e))) {
+      e = edges_[next(e)].twin;
+    } else if (is_right_of(previous(e))) {
+      e = edges_[previous(e)].twin;
+    } else {
+      break;
+    }
+  }
+  return e;
+}
+
+// Returns the corner of e's triangle that lies at p, or no_index.
+Index Builder::vertex_at(const Vec2& p, Index e) const {
+  for (const Index corner : {edges_[e].origin, edges_[next(e)].origin, edges_[previous(e)].origin}) {
+    if (corner != infinity && points_[corner] == p) return corner;
+  }
+  return no_index;
+}
+
+// Returns whether p is strictly inside the circle of e's triangle, or in the open half-plane, or on the open
+// edge, if it is a ghost.
+bool Builder::circle_contains(Index e, const Vec2& p) const {
+  const Index a = edges_[e].origin, b = edges_[next(e)].origin, c = edges_[previous(e)].origin;
+  if (a != infinity && b != infinity && c != infinity) {
+    return incircle(points_[a], points_[b], points_[c], p) > 0;
+  }
+  const Vec2& from = points_[a == infinity ? b : b == infinity ? c : a];
+  const Vec2& to = points_[a == infinity ? c : b == infinity ? a : b];
+  const int side = orient2d(from, to, p);
+  return side > 0 || (side == 0 && (p - from).dot(p - to) < 0);
+}
+
+// Cuts e's triangle into three that meet in p; returns slot 0 of one. If p is on a side, one of them is flat
+// until the flips, as p is inside the circle beyond that side.
+Index Builder::split(Index e, Index p) {
+  const Index t = e & ~Index{3}, u = static_cast<Index>(edges_.size()), v = u + 4;
+  const Index a = edges_[t].origin, b = edges_[t + 1].origin, c = edges_[t + 2].origin;
+  const Index bc = edges_[t + 1].twin, ca = edges_[t + 2].twin;
+  edges_[t + 2].origin = p;  // t becomes (a, b, p)
+  add_triangle(b, c, p);
+  add_triangle(c, a, p);
+  link(u, bc);
+  link(v, ca);
+  link(t + 1, u + 2);
+  link(u + 1, v + 2);
+  link(v + 1, t + 2);
+  return t;
+}
+
+// Replaces the side e = (a, b) of the triangle (a, b, p) by (p, d), where d is the corner beyond it. The new
+// triangles are (a, d, p) and (d, b, p).
+void Builder::flip(Index e) {
+  const Index t = e, f = edges_[e].twin, u = f & ~Index{3};
+  const Index b = edges_[f].origin, d = edges_[previous(f)].origin, p = edges_[t + 2].origin;
+  const Index ad = edges_[next(f)].twin, db = edges_[previous(f)].twin, bp = edges_[t + 1].twin;
+  edges_[t + 1].origin = d;
+  edges_[u].origin = d;
+  edges_[u + 1].origin = b;
+  edges_[u + 2].origin = p;
+  link(t, ad);
+  link(u, db);
+  link(u + 1, bp);
+  link(t + 1, u + 2);
+}
+
+void Builder::insert(Index p) {
+  const Vec2 position = points_[p];
+  Index e = locate(position);
+  if (const Index twin = vertex_at(position, e); twin != no_index) {
+    names_[twin] = std::min(names_[twin], names_[p]);
+    return;
+  }
+  e = split(e, p);
+  const Index first = edges_[e].origin;  // stays a neighbour of p, so that the round ends
+  do {
+    while (circle_contains(edges_[e].twin, position)) flip(e);
+    e = next_around(e);
+  } while (edges_[e].origin != first);
+  while (is_ghost(e)) e = next_around(e);
+  near_ = e;
+}
+
+// Returns each triangle's number in the result, no_index for ghosts.
+std::vector<Index> Builder::number_triangles() const {
+  std::vector<Index> numbers(edges_.size() / 4);
+  Index count = 0;
+  for (Index t = 0; t < numbers.size(); ++t) numbers[t] = is_ghost(4 * t) ? no_index : count++;
+  return numbers;
+}
+
+void Builder::append_triangle(Index t, const std::vector<Index>& numbers, Triangulation& to) const {
+  Triangle corners, neighbours;
+  for (Index i = 0; i < 3; ++i) {
+    corners[i] = names_[edges_[4 * t + i].origin];
+    neighbours[i] = numbers[edges_[4 * t + (i + 1) % 3].twin / 4];
+  }
+  to.triangles.push_back(corners);
+  to.neighbours.push_back(neighbours);
+}
+
+// Turns about infinity, from ghost to ghost.
+std::vector<Index> Builder::hull() const {
+  std::vector<Index> vertices;
+  Index e = 0;
+  while (edges_[e].origin != infinity || (e & 3) == 3) ++e;
+  const Index first = e;
+  do {
+    vertices.push_back(names_[edges_[previous(e)].origin]);
+    e = next(edges_[e].twin);
+  } while (e != first);
+  return vertices;
+}
+
+Triangulation Builder::result() const {
+  const std::vector<Index> numbers = number_triangles();
+  Triangulation triangulation;
+  triangulation.hull = hull();
+  const std::size_t count = numbers.size() - triangulation.hull.size();
+  triangulation.triangles.reserve(count);
+  triangulation.neighbours.reserve(count);
+  for (Index t = 0; t < numbers.size(); ++t) {
+    if (numbers[t] != no_index) append_triangle(t, numbers, triangulation);
+  }
+  return triangulation;
+}
+
+}  // namespace
+
+Triangulation delaunay(std::span<const Vec2> points) {
+  if (points.size() > most_points || !std::all_of(points.begin(), points.end(), is_exact_point)) return {};
+
+  const std::vector<Index> order = hilbert_order(points);
+  std::vector<Vec2> sorted(points.size());
+  std::transform(order.begin(), order.end(), sorted.begin(), [&](Index i) { return points[i]; });
+  Builder builder(sorted, order);
+  if (!builder.start()) return {};
+
+  // Every 4^k-th point of the curve, then every 4^(k - 1)-th, and so on: each round refines an even sample.
+  // The curve alone would build long slivers first, and pay for it in flips where points lie on few lines.
+  std::size_t step = 1, coarser = points.size();
+  while (step * 4 < points.size()) step *= 4;
+  for (; step > 0; coarser = step, step /= 4) {
+    for (std::size_t i = 0; i < points.size(); i += step) {
+      if (coarser == points.size() || i % coarser != 0) builder.insert(static_cast<Index>(i));
+    }
+  }
+  return builder.result();
+}
+
+}  // namespace relievo

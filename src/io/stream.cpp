@@ -1,0 +1,292 @@
+#include "relievo/io/stream.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "io/stream_records.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/normals.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t head_size = 1 << 20, piece_size = 8 << 20;
+constexpr std::size_t sample_points = 200000, sample_run = 200;  // taken in runs: each is one read
+
+std::unexpected<Error> geometry_error(std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
+}
+
+// Rows of the file, decoded piece by piece.
+class Rows {
+ public:
+  Rows(ByteSource& source, const io::Records& records) : source_(source), records_(records) {}
+
+  const io::Records& records() const { return records_; }
+
+  // Decodes `count` rows from row `first` on.
+  Result<void> read(std::uint64_t first, std::size_t count, Cloud& to) {
+    bytes_.resize(count * records_.stride);
+    const auto read = source_.read(records_.offset + first * records_.stride, bytes_);
+    if (!read) return read;
+    to = io::sized_cloud(records_, count);
+    const char* const rows = reinterpret_cast<const char*>(bytes_.data());
+    parallel_ranges(count, 4096, [&](std::size_t begin, std::size_t end) {
+      io::decode_rows(records_, rows + begin * records_.stride, end - begin, to, begin);
+    });
+    return {};
+  }
+
+  // Calls f(cloud) for every piece in the file's order.
+  template <typename F>
+  Result<void> each(std::string_view stage, double from, double to, Progress* progress, F&& f) {
+    const std::size_t most = std::max<std::size_t>(1, piece_size / records_.stride);
+    Cloud piece;
+    for (std::uint64_t row = 0; row < records_.count; row += most) {
+      const double done = static_cast<double>(row) / static_cast<double>(records_.count);
+      if (auto go = begin_stage(progress, stage, from + done * (to - from)); !go) return go;
+      const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, records_.count - row));
+      if (const auto got = read(row, count, piece); !got) return got;
+      f(piece);
+    }
+    return {};
+  }
+
+ private:
+  ByteSource& source_;
+  const io::Records& records_;
+  std::vector<std::byte> bytes_;
+};
+
+// Runs of rows from all over the file.
+Result<Cloud> take_sample(Rows& rows) {
+  const std::uint64_t count = rows.records().count;
+  const std::uint64_t runs =
+      std::max<std::uint64_t>(1, std::min(count, std::uint64_t{sample_points}) / sample_run);
+  Cloud sample, run;
+  for (std::uint64_t i = 0; i < runs; ++i) {
+    const std::uint64_t first = count / runs * i;
+    const auto length =
+        static_cast<std::size_t>(std::min<std::uint64_t>(runs == 1 ? count : sample_run, count - first));
+    if (const auto got = rows.read(first, length, run); !got) return std::unexpected(got.error());
+    for (std::size_t k = 0; k < run.size(); ++k) {
+      if (!run.points[k].allFinite() || (run.has_normals() && run.normals[k].isZero(0))) continue;
+      sample.points.push_back(run.points[k]);
+      if (run.has_normals()) sample.normals.push_back(run.normals[k]);
+    }
+  }
+  return sample;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// What the sample tells of the cloud.
+struct Scout {
+  Vec3 middle;       // of the points
+  double reach = 0;  // points further from it are strays
+  float sign = 1;    // -1 where the normals point inwards
+};
+
+// Reach as far_points() has it.
+Scout scout(const Cloud& sample) {
+  Scout it;
+  std::vector<double> values(sample.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = sample.points[i][axis];
+    it.middle[axis] = median(values);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = (sample.points[i] - it.middle).norm();
+  const auto ninth =
+      values.begin() + static_cast<std::ptrdiff_t>(.9 * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), ninth, values.end());
+  it.reach = 20 * *ninth;
+  it.sign = normals_point_inward(sample) ? -1.F : 1.F;
+  return it;
+}
+
+// The grid over the view, and what is kept in each of its squares.
+class Front {
+ public:
+  Front(const View& view, const Scout& scout, bool has_normals, bool has_colours)
+      : turn_(view.rotation), scout_(scout), has_normals_(has_normals), has_colours_(has_colours) {}
+
+  // First pass: the box in the view, and how many points count.
+  void look(const Cloud& piece) {
+    place(piece);
+    for (const Place& p : places_) {
+      if (!p.counts) continue;
+      box_.extend(p.at);
+      ++points_;
+    }
+  }
+  std::uint64_t points() const { return points_; }
+
+  // Squares of which about `wanted` hold points; `sample` tells how much of the box they fill.
+  bool lay_grid(const Cloud& sample, double wanted) {
+    const Vec3 size = box_.size();
+    const double longer = std::max(size.x(), size.y());
+    if (!(longer > 0)) return false;
+    // Squares with so many points of the sample that hardly one of the model's is empty.
+    const auto side =
+        static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(sample.size()) / 20), 8.0, 192.0));
+    const double coarse = longer / static_cast<double>(side);
+    std::vector<std::uint8_t> is_seen(side * side + 2 * side + 1, 0);
+    place(sample);
+    for (const Place& p : places_) {
+      if (!p.counts) continue;
+      const auto c = static_cast<std::size_t>((p.at.x() - box_.min.x()) / coarse),
+                 r = static_cast<std::size_t>((p.at.y() - box_.min.y()) / coarse);
+      is_seen[std::min(is_seen.size() - 1, r * side + c)] = 1;
+    }
+    const auto seen = static_cast<double>(std::ranges::count(is_seen, 1));
+    const double most_squares = 6 * wanted;
+    square_ = std::max(coarse * std::sqrt(seen / wanted), std::sqrt(size.x() * size.y() / most_squares));
+    square_ = std::max(square_, (size.x() + size.y()) / most_squares);
+    columns_ = 1 + static_cast<std::size_t>(size.x() / square_);
+    rows_ = 1 + static_cast<std::size_t>(size.y() / square_);
+    top_.assign(columns_ * rows_, -std::numeric_limits<float>::infinity());
+    return true;
+  }
+
+  // Second pass: the nearest depth in each square.
+  void raise(const Cloud& piece) {
+    place(piece);
+    for (const Place& p : places_)
+      if (p.counts) top_[p.square] = std::max(top_[p.square], static_cast<float>(p.at.z()));
+  }
+
+  // Third pass: sums of the points near that depth. On a slope a square spans a range of depths.
+  void gather(const Cloud& piece) {
+    if (sums_.empty()) sums_.resize(top_.size());
+    place(piece);
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const Place& p = places_[i];
+      if (!p.counts) continue;
+      const double nz = std::max(.1, double{p.normal.z()}),
+                   slope = has_normals_ ? std::sqrt(1 - nz * nz) / nz : 2;
+      if (p.at.z() + square_ * (1 + 1.5 * slope) < double{top_[p.square]}) continue;
+      Sum& sum = sums_[p.square];
+      sum.at += p.at;
+      sum.normal += p.normal;
+      if (has_colours_)
+        for (int k = 0; k < 3; ++k)
+          sum.colour[k] += static_cast<float>(piece.colours[i][static_cast<std::size_t>(k)]);
+      ++sum.count;
+    }
+  }
+
+  Cloud means() const {
+    Cloud cloud;
+    const Mat3 back = turn_.transpose();
+    for (const Sum& sum : sums_) {
+      if (sum.count == 0 || (has_normals_ && sum.normal.isZero(0))) continue;
+      cloud.points.push_back(back * (sum.at / sum.count) + scout_.middle);
+      if (has_normals_) cloud.normals.push_back((back.cast<float>() * sum.normal).normalized());
+      if (!has_colours_) continue;
+      const auto mean = [&](int k) {
+        return static_cast<std::uint8_t>(sum.colour[k] / static_cast<float>(sum.count) + .5F);
+      };
+      cloud.colours.push_back({mean(0), mean(1), mean(2)});
+    }
+    return cloud;
+  }
+
+ private:
+  // A point in the view, relative to the middle.
+  struct Place {
+    Vec3 at;
+    Vec3f normal;
+    Index square = 0;
+    bool counts = false;
+  };
+  struct Sum {
+    Vec3 at = Vec3::Zero();
+    Vec3f normal = Vec3f::Zero(), colour = Vec3f::Zero();
+    std::uint32_t count = 0;
+  };
+
+  void place(const Cloud& piece) {
+    places_.resize(piece.size());
+    const Eigen::Matrix3f turn = scout_.sign * turn_.cast<float>();
+    parallel_for(piece.size(), [&](std::size_t i) {
+      Place& p = places_[i];
+      const Vec3 from_middle = piece.points[i] - scout_.middle;
+      p.at = turn_ * from_middle;
+      p.normal = has_normals_ ? Vec3f(turn * piece.normals[i]) : Vec3f(Vec3f::UnitZ());
+      p.counts = from_middle.norm() <= scout_.reach && p.normal.z() > 0;  // false for a NaN
+      if (!p.counts || top_.empty()) return;
+      const auto c = static_cast<std::size_t>((p.at.x() - box_.min.x()) / square_),
+                 r = static_cast<std::size_t>((p.at.y() - box_.min.y()) / square_);
+      p.square = static_cast<Index>(std::min(r, rows_ - 1) * columns_ + std::min(c, columns_ - 1));
+    });
+  }
+
+  Mat3 turn_;
+  const Scout& scout_;
+  bool has_normals_, has_colours_;
+  std::vector<Place> places_;  // of the piece in work
+  std::uint64_t points_ = 0;
+  Box box_;
+  double square_ = 0;
+  std::size_t columns_ = 0, rows_ = 0;
+  std::vector<float> top_;
+  std::vector<Sum> sums_;
+};
+
+Result<io::StreamRecords> open_records(ByteSource& source, std::string_view name) {
+  std::vector<std::byte> head(std::min<std::uint64_t>(head_size, source.size()));
+  if (const auto got = source.read(0, head); !got) return std::unexpected(got.error());
+  const io::Source beginning{{reinterpret_cast<const char*>(head.data()), head.size()}, name};
+  auto found = io::find_stream_records(beginning);
+  if (!found) return found;
+  const io::Records& r = found->records;
+  const std::uint64_t left = source.size() - std::min(source.size(), r.offset);
+  if (r.stride > 0 && r.count <= left / r.stride) return found;
+  return beginning.error_at_byte(
+      r.offset, cat("expected ", r.count, " points of ", r.stride, " bytes, found ", left, " bytes"));
+}
+
+}  // namespace
+
+bool can_stream(std::span<const std::byte> head, std::string_view name) {
+  return io::find_stream_records({{reinterpret_cast<const char*>(head.data()), head.size()}, name})
+      .has_value();
+}
+
+Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view, double points,
+                                   Progress* progress) {
+  if (!(points >= 1000 && points <= 1e7))
+    return std::unexpected(Error{
+        ErrorKind::option, "--points", {}, cat("expected a number from 1000 to 1e+07, found ", points)});
+  const auto found = open_records(source, name);
+  if (!found) return std::unexpected(found.error());
+  Rows rows(source, found->records);
+  if (auto go = begin_stage(progress, "first look", 0); !go) return std::unexpected(go.error());
+  const Result<Cloud> sample = take_sample(rows);
+  if (!sample) return std::unexpected(sample.error());
+  if (sample->size() < 4)
+    return std::unexpected(Error{
+        ErrorKind::input, std::string(name), {}, "expected points, found none with finite coordinates"});
+  const Scout scouted = scout(*sample);
+  Front front(view, scouted, found->records.normal.has_value(), found->records.colour.has_value());
+
+  if (auto done = rows.each("extent", 0, .2, progress, [&](const Cloud& piece) { front.look(piece); }); !done)
+    return std::unexpected(done.error());
+  if (front.points() == 0 || !front.lay_grid(*sample, points))
+    return geometry_error("expected points that face the viewer, found none; try another view");
+  if (auto done = rows.each("front", .2, .4, progress, [&](const Cloud& piece) { front.raise(piece); });
+      !done)
+    return std::unexpected(done.error());
+  if (auto done = rows.each("means", .4, .6, progress, [&](const Cloud& piece) { front.gather(piece); });
+      !done)
+    return std::unexpected(done.error());
+  return StreamedCloud{front.means(), found->format, found->records.count};
+}
+
+}  // namespace relievo

@@ -1,0 +1,98 @@
+// 3MF: a ZIP archive with the model as XML.
+#include <array>
+#include <charconv>
+
+#include "io/write/zip.h"
+#include "relievo/core/parallel.h"
+#include "relievo/picture/height_map.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::string_view content_types =
+    R"(<?xml version="1.0" encoding="UTF-8"?>
+<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>
+)";
+constexpr std::string_view relationships =
+    R"(<?xml version="1.0" encoding="UTF-8"?>
+<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
+)";
+constexpr std::size_t grain = 16384;
+
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_allowed = static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t';
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += is_allowed ? c : ' ';
+  }
+  return out;
+}
+
+template <typename T>
+void append_number(std::string& to, T value) {
+  std::array<char, 24> digits;
+  to.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+// Text of n elements, made in blocks concurrently.
+template <typename Append>
+std::string in_blocks(std::size_t n, Append&& append_element) {
+  std::vector<std::string> parts((n + grain - 1) / grain);
+  parallel_ranges(n, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) append_element(i, parts[begin / grain]);
+  });
+  std::string all;
+  for (const std::string& part : parts) all += part;
+  return all;
+}
+
+std::string vertices_of(const Solid& solid) {
+  return in_blocks(solid.points.size(), [&](std::size_t i, std::string& to) {
+    const Vec3f p = solid.points[i].cast<float>();
+    to += "<vertex x=\"", append_number(to, p.x());
+    to += "\" y=\"", append_number(to, p.y());
+    to += "\" z=\"", append_number(to, p.z());
+    to += "\"/>\n";
+  });
+}
+
+std::string triangles_of(const Solid& solid) {
+  return in_blocks(solid.triangles.size(), [&](std::size_t t, std::string& to) {
+    to += "<triangle v1=\"", append_number(to, solid.triangles[t][0]);
+    to += "\" v2=\"", append_number(to, solid.triangles[t][1]);
+    to += "\" v3=\"", append_number(to, solid.triangles[t][2]);
+    to += "\"/>\n";
+  });
+}
+
+}  // namespace
+
+std::vector<std::byte> write_3mf(const Solid& solid,
+                                 std::span<const std::pair<std::string, std::string>> metadata) {
+  std::string model = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"" +
+                      std::string(solid.unit == LengthUnit::inch ? "inch" : "millimeter") +
+                      "\" xml:lang=\"en-US\" "
+                      "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n";
+  for (const auto& [key, value] : metadata)
+    model += "<metadata name=\"" + escaped(key) + "\">" + escaped(value) + "</metadata>\n";
+  model +=
+      "<resources>\n<object id=\"1\" type=\"model\">\n<mesh>\n<vertices>\n" + vertices_of(solid) +
+      "</vertices>\n<triangles>\n" + triangles_of(solid) +
+      "</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n";
+  io::ZipWriter zip;
+  zip.add("[Content_Types].xml", content_types);
+  zip.add("_rels/.rels", relationships);
+  zip.add("3D/3dmodel.model", model);
+  return zip.finish();
+}
+
+}  // namespace relievo

@@ -1,0 +1,46 @@
+// Binary STL: a header of 80 bytes, the number of triangles, 50 bytes for each.
+#include <Eigen/Geometry>
+
+#include "io/write/mesh_bytes.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/core/version.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t header_size = 80, triangle_size = 50;
+
+std::byte* put_vector(std::byte* to, const Vec3f& v) {
+  for (const float x : {v.x(), v.y(), v.z()}) to = detail::put(to, x);
+  return to;
+}
+
+void put_triangle(std::byte* to, const Vec3f& a, const Vec3f& b, const Vec3f& c) {
+  // From the rounded corners, as a reader would compute it: readers compare.
+  const Vec3 normal = (b - a).cast<double>().cross((c - a).cast<double>());
+  to = put_vector(to, normal.stableNormalized().cast<float>());
+  for (const Vec3f& corner : {a, b, c}) to = put_vector(to, corner);
+  detail::put(to, std::uint16_t{0});
+}
+
+}  // namespace
+
+std::vector<std::byte> write_stl(const Solid& solid) {
+  const std::size_t n = solid.triangles.size();
+  std::vector<std::byte> bytes(header_size + 4 + n * triangle_size);
+  // Must not begin with "solid": readers would take the file for text.
+  detail::put_text(bytes.data(), cat("relievo ", version, " binary STL, unit ", name_of(solid.unit)));
+  detail::put(bytes.data() + header_size, static_cast<std::uint32_t>(n));
+  std::byte* const triangles = bytes.data() + header_size + 4;
+  parallel_for(n, [&](std::size_t t) {
+    const auto corner = [&](std::size_t i) -> Vec3f {
+      return solid.points[solid.triangles[t][i]].cast<float>();
+    };
+    put_triangle(triangles + t * triangle_size, corner(0), corner(1), corner(2));
+  });
+  return bytes;
+}
+
+}  // namespace relievo

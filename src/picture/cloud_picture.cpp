@@ -1,0 +1,121 @@
+#include <algorithm>
+#include <cmath>
+
+#include "picture/shading.h"
+#include "relievo/core/parallel.h"
+#include "relievo/normals.h"
+#include "relievo/picture/render.h"
+#include "relievo/scan/spacing.h"
+
+namespace relievo {
+namespace {
+
+constexpr float nothing = -std::numeric_limits<float>::infinity();
+
+// A point in the picture: pixels, depth in pixels, normal in view coordinates.
+struct Dot {
+  Vec3f place, normal;
+};
+
+struct Canvas {
+  int width = 0, height = 0;
+  std::vector<float> depth;
+  std::vector<Vec3f> normals;  // sums
+};
+
+// Calls f(pixel, depth there) for the pixels of rows [first, last) that the dot's disc covers.
+template <typename F>
+void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&& f) {
+  const int top = std::max(first, static_cast<int>(std::floor(dot.place.y() - radius + .5F)));
+  const int bottom = std::min(last, static_cast<int>(std::floor(dot.place.y() + radius + .5F)));
+  const int left = std::max(0, static_cast<int>(std::floor(dot.place.x() - radius + .5F)));
+  const int right = std::min(width, static_cast<int>(std::floor(dot.place.x() + radius + .5F)));
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x)
+      f(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
+        dot.place.z());
+}
+
+// Two passes, as surface splatting has it: the front first, then the mean normal of all that lies on it.
+void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
+  const int rows = 32;
+  const auto band = [&](std::size_t b) {
+    const int first = static_cast<int>(b) * rows, last = std::min(canvas.height, first + rows);
+    const auto is_near = [&](const Dot& dot) {
+      return dot.normal.z() > 0 && dot.place.y() > static_cast<float>(first) - radius - 1 &&
+             dot.place.y() < static_cast<float>(last) + radius + 1;
+    };
+    for (const Dot& dot : dots)
+      if (is_near(dot))
+        each_pixel(dot, radius, canvas.width, first, last,
+                   [&](std::size_t at, float z) { canvas.depth[at] = std::max(canvas.depth[at], z); });
+    for (const Dot& dot : dots)
+      if (is_near(dot))
+        each_pixel(dot, radius, canvas.width, first, last, [&](std::size_t at, float z) {
+          if (z > canvas.depth[at] - 2.5F * radius) canvas.normals[at] += dot.normal;
+        });
+  };
+  parallel_for(static_cast<std::size_t>((canvas.height + rows - 1) / rows), band, 1);
+}
+
+void paint(const Canvas& canvas, Picture& picture) {
+  const Vec3f to_lamp = Vec3f(-1, 1, 1.4F).normalized();
+  const Shader shader(Material::plaster, to_lamp, Vec3f::UnitZ());
+  const DisplayTable& display = display_table();
+  parallel_for(canvas.depth.size(), [&](std::size_t i) {
+    std::uint8_t* const rgba = picture.rgba.data() + 4 * i;
+    if (canvas.depth[i] == nothing) {
+      std::fill_n(rgba, 4, std::uint8_t{0});
+      return;
+    }
+    const Vec3f colour = shader.colour({canvas.normals[i].normalized(), {1, 1}, Vec3f::Zero(), 0});
+    for (int c = 0; c < 3; ++c) rgba[c] = display(colour[c]);
+    rgba[3] = 255;
+  });
+}
+
+}  // namespace
+
+CloudRenderer::CloudRenderer(const Cloud& cloud, std::size_t most_points) {
+  const std::size_t step =
+      std::max<std::size_t>(1, (cloud.size() + most_points - 1) / std::max<std::size_t>(1, most_points));
+  for (std::size_t i = 0; i < cloud.size(); i += step) {
+    cloud_.points.push_back(cloud.points[i]);
+    if (cloud.has_normals()) cloud_.normals.push_back(cloud.normals[i]);
+  }
+  if (cloud_.points.empty()) return;
+  const Box box = bounds(cloud_);
+  centre_ = box.centre();
+  radius_ = std::max(box.diagonal() / 2, 1e-300);
+  has_signed_normals_ = cloud.has_normals();
+  if (!has_signed_normals_) estimate_normals(cloud_);
+  if (has_signed_normals_ && normals_point_inward(cloud_)) flip_normals(cloud_);
+  cloud_.normals.resize(cloud_.size(), Vec3f::UnitZ());
+  spacing_ = measure_spacing(cloud_).rho;
+}
+
+void CloudRenderer::render(const View& view, int width, int height, Picture& picture) const {
+  picture = {};
+  if (width < 1 || height < 1 || std::max(width, height) > 8192 || cloud_.points.empty()) return;
+  const double scale = .47 * std::min(width, height) / radius_;
+  picture.width = width;
+  picture.height = height;
+  picture.pixels_per_mm = scale;
+  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+  picture.rgba.resize(4 * pixels);
+  Canvas canvas{width, height, std::vector<float>(pixels, nothing),
+                std::vector<Vec3f>(pixels, Vec3f::Zero())};
+
+  std::vector<Dot> dots(cloud_.size());
+  const Eigen::Matrix3f turn = view.rotation.cast<float>();
+  parallel_for(dots.size(), [&](std::size_t i) {
+    const Vec3 p = scale * (view.rotation * (cloud_.points[i] - centre_));
+    Vec3f normal = turn * cloud_.normals[i];
+    if (!has_signed_normals_ && normal.z() < 0) normal = -normal;
+    dots[i] = {Vec3(width / 2.0 + p.x(), height / 2.0 - p.y(), p.z()).cast<float>(), normal};
+  });
+  splat(dots, std::clamp(static_cast<float>(1.3 * scale * spacing_), .8F, 12.F), canvas);
+  paint(canvas, picture);
+}
+
+}  // namespace relievo

@@ -1,0 +1,32 @@
+// How much light reaches each place of a front: shadows that the relief casts on itself.
+#pragma once
+
+#include "plate/height_field.h"
+
+namespace relievo {
+
+// Light that arrives at a place: from the lamp, and from the sky around it.
+struct Light {
+  float lamp = 0, sky = 0;
+};
+
+// Shares in [0, 1] over the front's plane; 1 is unhindered. They belong to the place, not to the viewer, so
+// that all views of a plate show the same light.
+class LightMap {
+ public:
+  // `to_lamp` has length 1. The map's longer side has `longer_side_px` pixels; an empty front gives a map of
+  // ones.
+  LightMap(const Solid& solid, const Vec3& to_lamp, int longer_side_px);
+  LightMap(HeightField field, const Vec3& to_lamp);
+
+  // At a point of the front, between pixels interpolated.
+  Light at(const Vec3f& point) const;
+
+ private:
+  HeightField field_;
+  std::vector<Light> light_;
+  Vec2f origin_ = Vec2f::Zero();  // pixel of the place (0, 0)
+  float pixels_per_mm_ = 1;
+};
+
+}  // namespace relievo

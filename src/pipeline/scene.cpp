@@ -1,0 +1,129 @@
+#include "relievo/scene.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+
+namespace relievo {
+namespace {
+
+constexpr double gap = .08, widest = 1.5;  // in heights of a model
+
+std::unexpected<Error> option_error(const SceneModel& model, std::string expected) {
+  return std::unexpected(Error{ErrorKind::option, model.name, {}, std::move(expected)});
+}
+
+Result<void> check(const Scene& scene) {
+  if (scene.models.empty())
+    return std::unexpected(Error{ErrorKind::option, {}, {}, "expected a scene of at least one model"});
+  for (const SceneModel& model : scene.models) {
+    const Pose& pose = model.pose;
+    if (!(pose.scale >= 1e-6 && pose.scale <= 1e6))
+      return option_error(model, cat("expected a scale from 1e-06 to 1e+06, found ", pose.scale));
+    if (!pose.rotate_deg.allFinite()) return option_error(model, "expected angles that are finite");
+    if (pose.translate && !pose.translate->allFinite())
+      return option_error(model, "expected a place that is finite");
+  }
+  return {};
+}
+
+// Calls f for each point that counts: of a mesh those in triangles, of a cloud those that are no strays.
+template <typename F>
+void each_point(const CloudFile& file, F&& f) {
+  for (const Triangle& triangle : file.mesh.triangles)
+    for (const Index corner : triangle) f(file.mesh.points[corner]);
+  if (!file.mesh.empty()) return;
+  const std::vector<Index> strays = far_points(file.cloud);
+  auto next = strays.begin();
+  for (Index i = 0; i < file.cloud.size(); ++i) {
+    if (next != strays.end() && *next == i)
+      ++next;
+    else
+      f(file.cloud.points[i]);
+  }
+}
+
+Box box_of(const CloudFile& file, const Mat3& turn) {
+  Box box;
+  each_point(file, [&](const Vec3& p) { box.extend(turn * p); });
+  return box;
+}
+
+PlacedModel placed_as_told(const SceneModel& model) {
+  const Pose& pose = model.pose;
+  PlacedModel placed{turn_of(pose), pose.scale, pose.translate.value_or(Vec3::Zero())};
+  const bool is_moved_only = placed.turn.isIdentity(0) && placed.scale == 1;
+  if (is_moved_only) return placed;
+  const Vec3 centre = box_of(*model.file, Mat3::Identity()).centre();
+  placed.offset += centre - placed.scale * (placed.turn * centre);
+  return placed;
+}
+
+// Lets models stand in a row.
+class Row {
+ public:
+  explicit Row(const Mat3& to_view) : to_view_(to_view) {}
+
+  PlacedModel next(const SceneModel& model) {
+    PlacedModel placed{turn_of(model.pose)};
+    const Box box = box_of(*model.file, to_view_ * placed.turn);
+    if (!(height_ > 0)) begin(box);
+    placed.scale = model.pose.scale * fitting_scale(box.size());
+    const Vec3 foot(placed.scale * box.min.x(), placed.scale * box.min.y(), placed.scale * box.centre().z());
+    placed.offset = to_view_.transpose() * (Vec3(at_.x(), at_.y(), at_.z()) - foot);
+    at_.x() += placed.scale * box.size().x() + gap * height_;
+    return placed;
+  }
+
+ private:
+  void begin(const Box& box) {
+    height_ = std::max(box.size().y(), box.size().x() / widest);
+    at_ = {box.min.x(), box.min.y(), box.centre().z()};
+  }
+
+  double fitting_scale(const Vec3& size) const {
+    const double scale = std::min(height_ / size.y(), widest * height_ / size.x());
+    return std::isfinite(scale) ? scale : 1;
+  }
+
+  Mat3 to_view_;
+  double height_ = 0;
+  Vec3 at_ = Vec3::Zero();  // where the next one's left, bottom and middle of the depth will be
+};
+
+}  // namespace
+
+// Exactly the identity where nothing is to be turned.
+Mat3 turn_of(const Pose& pose) {
+  const auto about = [&](int axis) {
+    const double radians = pose.rotate_deg[axis] * std::numbers::pi / 180;
+    return Eigen::AngleAxisd(radians, Vec3(Vec3::Unit(axis))).toRotationMatrix();
+  };
+  Mat3 turn = pose.rotate_deg.isZero(0) ? Mat3(Mat3::Identity()) : Mat3(about(2) * about(1) * about(0));
+  if (pose.is_mirrored) turn.col(0) = -turn.col(0);
+  return turn;
+}
+
+bool Pose::operator==(const Pose& other) const {
+  return rotate_deg == other.rotate_deg && translate == other.translate && scale == other.scale &&
+         is_mirrored == other.is_mirrored;
+}
+
+Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view) {
+  if (auto ok = check(scene); !ok) return std::unexpected(ok.error());
+  const bool is_placed =
+      scene.models.size() == 1 ||
+      std::ranges::any_of(scene.models, [](const SceneModel& m) { return m.pose.translate.has_value(); });
+  Row row(view.rotation);
+  std::vector<PlacedModel> placed;
+  for (const SceneModel& model : scene.models)
+    placed.push_back(is_placed ? placed_as_told(model) : row.next(model));
+  return placed;
+}
+
+}  // namespace relievo

@@ -1,0 +1,229 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "front_mesh.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/scene.h"
+#include "settle_normals.h"
+#include "thin.h"
+
+namespace relievo {
+namespace {
+
+// A cloud stays as it is unless its points are so much closer, or so much further apart, than those of the
+// scene.
+constexpr double much_closer = 1 / 1.3, much_wider = 1.5;
+constexpr Colour white{255, 255, 255};
+
+// A cloud as it stands, outward normals included, and as the viewer sees it.
+struct PlacedCloud {
+  std::string name;
+  Cloud cloud, viewed;
+  Spacing spacing;
+};
+
+struct Parts {
+  std::vector<PlacedCloud> clouds;
+  Mesh mesh;  // all in one
+  std::size_t left_out = 0;
+  std::vector<std::string> remarks;
+};
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+  to.insert(to.end(), from.begin(), from.end());
+}
+
+// Adds the colours of `added` points to those of `size`, white where one of them has none.
+void append_colours(std::vector<Colour>& to, std::size_t size, const std::vector<Colour>& from,
+                    std::size_t added) {
+  if (to.empty() && from.empty()) return;
+  to.resize(size, white);
+  if (from.empty())
+    to.resize(size + added, white);
+  else
+    append(to, from);
+}
+
+void append(Cloud& to, const Cloud& from) {
+  append_colours(to.colours, to.size(), from.colours, from.size());
+  append(to.points, from.points);
+  append(to.normals, from.normals);
+}
+
+void append(Mesh& to, const Mesh& from) {
+  append_colours(to.colours, to.points.size(), from.colours, from.points.size());
+  const auto first = static_cast<Index>(to.points.size());
+  for (const auto& [a, b, c] : from.triangles) to.triangles.push_back({a + first, b + first, c + first});
+  append(to.points, from.points);
+  append(to.corner_normals, from.corner_normals);
+}
+
+Mesh placed_mesh(const SceneModel& model, const PlacedModel& place) {
+  const Mesh& mesh = model.file->mesh;
+  Mesh placed{mesh.points, mesh.triangles, normals_to_show(mesh), mesh.colours};
+  const Eigen::Matrix3f turn = place.turn.cast<float>();
+  parallel_for(placed.points.size(), [&](std::size_t i) { placed.points[i] = place(mesh.points[i]); });
+  parallel_for(placed.triangles.size(), [&](std::size_t t) {
+    for (Vec3f& n : placed.corner_normals[t]) n = turn * n;
+    if (!model.pose.is_mirrored) return;
+    std::swap(placed.triangles[t][1], placed.triangles[t][2]);
+    std::swap(placed.corner_normals[t][1], placed.corner_normals[t][2]);
+  });
+  return placed;
+}
+
+PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, const View& view, Parts& parts) {
+  PlacedCloud placed{model.name, model.file->cloud, {}, {}};
+  if (const std::vector<Index> strays = far_points(placed.cloud); !strays.empty()) {
+    placed.cloud = without(placed.cloud, strays);
+    parts.left_out += strays.size();
+    parts.remarks.push_back(cat(model.name, ": left out ", strays.size(), " points far from all others"));
+  }
+  const Eigen::Matrix3f turn = place.turn.cast<float>();
+  for (Vec3& p : placed.cloud.points) p = place(p);
+  for (Vec3f& n : placed.cloud.normals) n = turn * n;
+  placed.viewed = in_view(placed.cloud, view);
+  placed.spacing = measure_spacing(placed.viewed);
+  const NormalsWere were = settle_normals(placed.viewed, placed.spacing, placed.cloud);
+  if (were == NormalsWere::outward) return placed;
+  parts.remarks.push_back(cat(model.name, were == NormalsWere::missing
+                                              ? ": has no normals: they were estimated"
+                                              : ": normals point inwards: they were turned"));
+  const Eigen::Matrix3f back = view.rotation.transpose().cast<float>();
+  placed.cloud.normals.resize(placed.cloud.size());
+  parallel_for(placed.cloud.size(),
+               [&](std::size_t i) { placed.cloud.normals[i] = back * placed.viewed.normals[i]; });
+  return placed;
+}
+
+std::unexpected<Error> geometry_error(const SceneModel& model, std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, model.name, {}, std::move(expected)});
+}
+
+Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& places, const View& view,
+                        Progress* progress) {
+  Parts parts;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (auto go = begin_stage(progress, "models", 0); !go) return std::unexpected(go.error());
+    const SceneModel& model = scene.models[i];
+    if (!model.file->mesh.empty()) {
+      append(parts.mesh, placed_mesh(model, places[i]));
+      continue;
+    }
+    if (model.file->cloud.size() < 4)
+      return geometry_error(model, cat("expected at least 4 points, found ", model.file->cloud.size()));
+    parts.clouds.push_back(placed_cloud(model, places[i], view, parts));
+    if (!(parts.clouds.back().spacing.rho > 0))
+      return geometry_error(model, "expected points at a distance from each other, found most of them equal");
+  }
+  return parts;
+}
+
+// What the points that face the viewer cover, in layers where they lie behind each other.
+double shown_area(const PlacedCloud& cloud) {
+  double sum = 0;
+  for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {
+    const auto side = static_cast<double>(cloud.spacing.local[i]);
+    sum += side * side * std::max(0.0, static_cast<double>(cloud.viewed.normals[i].z()));
+  }
+  return sum;
+}
+
+// The same for triangles, whichever side is their front.
+double shown_area(const Mesh& mesh, const View& view) {
+  const Vec3 to_viewer = view.rotation.row(2);
+  double sum = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
+    sum += std::abs(p.cross(q).dot(to_viewer)) / 4;  // half of a closed mesh faces the viewer
+  }
+  return sum;
+}
+
+// The distance at which all points are to be.
+double common_spacing(const Parts& parts, const View& view, double points) {
+  double area = shown_area(parts.mesh, view), finest = std::numeric_limits<double>::infinity();
+  for (const PlacedCloud& cloud : parts.clouds) {
+    area += shown_area(cloud);
+    finest = std::min(finest, cloud.spacing.rho);
+  }
+  const double wanted = std::sqrt(area / points);
+  return parts.mesh.empty() ? std::max(wanted, finest) : wanted;
+}
+
+// The front of a coarse cloud, in the scene's frame.
+Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
+  Mesh mesh = front_mesh(placed.viewed, placed.spacing);
+  const Mat3 back = view.rotation.transpose();
+  const Vec3 centre = bounds(placed.cloud).centre();
+  for (Vec3& p : mesh.points) p = back * p + centre;
+  for (auto& normals : mesh.corner_normals)
+    for (Vec3f& n : normals) n = back.cast<float>() * n;
+  return mesh;
+}
+
+// Brings clouds to the common spacing: those returned; or into the mesh, where points must come in between.
+Cloud even_clouds(Parts& parts, double spacing, const View& view) {
+  Cloud all;
+  for (PlacedCloud& placed : parts.clouds) {
+    const double own = placed.spacing.rho;
+    if (own > much_wider * spacing) {
+      append(parts.mesh, front_in_scene(placed, view));
+      parts.remarks.push_back(cat(placed.name, ": coarser than the scene: points taken between its points"));
+    } else if (own < much_closer * spacing) {
+      const Cloud thin = thinned(placed.cloud, placed.spacing, spacing);
+      if (thin.size() < placed.cloud.size())
+        parts.remarks.push_back(cat(placed.name, ": finer than the scene: ", thin.size(), " of ",
+                                    placed.cloud.size(), " points kept"));
+      append(all, thin);
+    } else {
+      append(all, placed.cloud);
+    }
+    placed = {};
+  }
+  return all;
+}
+
+// What is seen of one file, which lives as long as the points.
+Result<SeenPoints> seen_points(const std::shared_ptr<const CloudFile>& file, const View& view, double points,
+                               Progress* progress) {
+  Result<SeenPoints> seen = relievo::seen_points(*file, view, points, progress);
+  if (seen && seen->cloud.get() == &file->cloud) seen->cloud = {file, &file->cloud};
+  return seen;
+}
+
+}  // namespace
+
+Result<SeenPoints> seen_points(const Scene& scene, const View& view, double points, Progress* progress) {
+  const Result<std::vector<PlacedModel>> places = place_models(scene, view);
+  if (!places) return std::unexpected(places.error());
+  if (scene.models.size() == 1 && scene.models[0].pose == Pose{})
+    return seen_points(scene.models[0].file, view, points, progress);
+  if (auto ok = check_points(points); !ok) return std::unexpected(ok.error());
+  Result<Parts> parts = place_all(scene, *places, view, progress);
+  if (!parts) return std::unexpected(parts.error());
+  MeshSampling sampling{points};
+  if (!parts->clouds.empty()) sampling.spacing = common_spacing(*parts, view, points);
+  Cloud all = even_clouds(*parts, sampling.spacing, view);
+  if (!parts->mesh.empty()) {
+    const Result<Cloud> sampled = sample_mesh(parts->mesh, view, sampling, progress);
+    if (!sampled) return std::unexpected(sampled.error());
+    append(all, *sampled);
+  }
+  return SeenPoints{std::make_shared<const Cloud>(std::move(all)), parts->left_out,
+                    std::move(parts->remarks)};
+}
+
+Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options, Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  const Result<View> view = parse_view(options.view, options.up);
+  if (!view) return std::unexpected(view.error());
+  const Result<SeenPoints> seen = seen_points(scene, *view, options.points, progress);
+  if (!seen) return std::unexpected(seen.error());
+  return make_relief(*seen, *view, options, progress);
+}
+
+}  // namespace relievo

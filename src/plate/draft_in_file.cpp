@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "relievo/core/text.h"
+#include "relievo/relief/draft.h"
+#include "steep_triangles.h"
+
+namespace relievo {
+namespace {
+
+// The front of a solid as a file holds it.
+struct StoredFront {
+  std::vector<Vec2> plane;
+  std::vector<double> heights;
+  std::vector<std::uint8_t> is_fixed;
+  std::span<const Triangle> triangles;
+
+  explicit StoredFront(const Solid& solid)
+      : is_fixed(solid.points.size(), 1), triangles(std::span(solid.triangles).first(solid.front_triangles)) {
+    // In memory as floats first: g++ 12 leaves out the rounding of double(float(x)) where it does two at
+    // once.
+    std::vector<Vec3f> stored;
+    stored.reserve(solid.points.size());
+    for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
+    for (const Vec3f& p : stored) {
+      plane.push_back(p.head<2>().cast<double>());
+      heights.push_back(static_cast<double>(p.z()));
+    }
+  }
+
+  SteepField field() const { return {plane, triangles, is_fixed}; }
+
+  // All of the front but its lowest and highest points, what the walls stand under, and what is as high as
+  // that: the ground, unless it is curved.
+  void free_inner_points(const Solid& solid) {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (const Triangle& t : triangles)
+      for (const Index i : t) {
+        is_fixed[i] = 0;
+        lowest = std::min(lowest, heights[i]), highest = std::max(highest, heights[i]);
+      }
+    double ground = lowest;
+    for (const Triangle& t : std::span(solid.triangles).subspan(solid.front_triangles))
+      for (const Index i : t)
+        if (!std::exchange(is_fixed[i], 1)) ground = heights[i];
+    for (std::size_t i = 0; i < heights.size(); ++i)
+      if (heights[i] == lowest || heights[i] == highest || heights[i] == ground) is_fixed[i] = 1;
+  }
+};
+
+}  // namespace
+
+double steepest_slope(const Solid& solid) {
+  const StoredFront front(solid);
+  return steepest_of(front.field(), front.heights);
+}
+
+Result<double> hold_draft(Solid& solid, double max_slope) {
+  StoredFront front(solid);
+  front.free_inner_points(solid);
+  const std::vector<double> before = front.heights;
+  if (!flatten(front.field(), max_slope, Rounding::single_precision, front.heights))
+    return std::unexpected(Error{ErrorKind::geometry,
+                                 "--draft",
+                                 {},
+                                 "expected triangles that keep the limit in single precision, found some "
+                                 "that do not: fewer points help, as --tolerance leaves"});
+  double largest = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (front.heights[i] == before[i]) continue;
+    solid.points[i].z() = front.heights[i];
+    largest = std::max(largest, std::abs(front.heights[i] - before[i]));
+  }
+  return largest;
+}
+
+}  // namespace relievo

@@ -1,0 +1,269 @@
+#include "ground_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "relievo/geometry/triangulation.h"
+#include "silhouette.h"
+
+namespace relievo {
+namespace {
+
+constexpr double most_points = 2e5;
+
+// Is the middle of each of three ways from here, `step` long, near enough?
+bool is_fine(const Bend& bend, const Vec3& from, double step, double tolerance_mm) {
+  for (const Vec3& way : {Vec3(step, 0, 0), Vec3(0, step, 0), Vec3(.7 * step, .7 * step, 0)}) {
+    const Vec3 to = from + way;
+    if (bend.corner_between && bend.corner_between(from, to)) continue;
+    const Vec3 middle = (bend.at(from) + bend.at(to)) / 2;
+    if ((bend.at(from + way / 2) - middle).norm() > .75 * tolerance_mm) return false;
+  }
+  return true;
+}
+
+Box box_of(std::span<const Vec2> polygon) {
+  Box box;
+  for (const Vec2& p : polygon) box.extend({p.x(), p.y(), 0});
+  return box;
+}
+
+bool is_fine_within(const Bend& bend, std::span<const Vec2> polygon, double z, double step,
+                    double tolerance_mm) {
+  const Box box = box_of(polygon);
+  for (double y = box.min.y(); y < box.max.y(); y += step)
+    for (double x = box.min.x(); x < box.max.x(); x += step)
+      if (is_within({x + step, y + step}, polygon) && is_within({x, y}, polygon) &&
+          !is_fine(bend, {x, y, z}, step, tolerance_mm))
+        return false;
+  return true;
+}
+
+// Points in staggered rows, so that triangles of them are equal-sided.
+class Lattice {
+ public:
+  Lattice(std::span<const Vec2> polygon, double spacing) : spacing_(spacing), row_(spacing * std::sqrt(.75)) {
+    const Box box = box_of(polygon);
+    min_ = box.min.head<2>();
+    columns_ = 2 + static_cast<int>(box.size().x() / spacing_);
+    rows_ = 1 + static_cast<int>(box.size().y() / row_);
+    is_free_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 1);
+  }
+
+  // Takes away the points within a circle and near it.
+  void clear(const Vec2& centre, double radius) {
+    const double wide = radius + spacing_ / 3;
+    const int first = row_of(centre.y() - wide), last = row_of(centre.y() + wide) + 1;
+    for (int row = std::max(0, first); row <= std::min(rows_ - 1, last); ++row) {
+      const double start = min_.x() + shift(row);
+      const int left = static_cast<int>(std::max(0., std::floor((centre.x() - wide - start) / spacing_))),
+                right = static_cast<int>(
+                    std::min(columns_ - 1., std::ceil((centre.x() + wide - start) / spacing_)));
+      for (int column = left; column <= right; ++column)
+        if ((place(column, row) - centre).squaredNorm() < wide * wide) is_free_[at(column, row)] = 0;
+    }
+  }
+
+  // The points left that lie inside the polygon, not too near its sides.
+  std::vector<Vec2> points_within(std::span<const Vec2> polygon) const {
+    std::vector<Vec2> points;
+    for (int row = 0; row < rows_; ++row)
+      for (int column = 0; column < columns_; ++column)
+        if (is_free_[at(column, row)] && is_within(place(column, row), polygon, spacing_ / 2))
+          points.push_back(place(column, row));
+    return points;
+  }
+
+ private:
+  int row_of(double y) const {
+    return static_cast<int>(std::clamp(std::floor((y - min_.y()) / row_), -2., rows_ + 2.));
+  }
+  double shift(int row) const { return row % 2 == 0 ? 0 : spacing_ / 2; }
+  Vec2 place(int column, int row) const { return min_ + Vec2(column * spacing_ + shift(row), row * row_); }
+  std::size_t at(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+  double spacing_, row_;
+  Vec2 min_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<std::uint8_t> is_free_;
+};
+
+struct Circle {
+  Vec2 centre;
+  double radius;
+};
+
+Circle circle_around(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 p = b - a, q = c - a;
+  const double twice = 2 * (p.x() * q.y() - p.y() * q.x());
+  const Vec2 to_centre = Vec2(q.y() * p.squaredNorm() - p.y() * q.squaredNorm(),
+                              p.x() * q.squaredNorm() - q.x() * p.squaredNorm()) /
+                         twice;
+  return {a + to_centre, to_centre.norm()};
+}
+
+std::vector<Triangle> relief_of(const Solid& front) {
+  std::vector<Triangle> relief;
+  for (std::size_t t = 0; t < front.triangles.size(); ++t)
+    if (front.regions[t] == Region::relief) relief.push_back(front.triangles[t]);
+  return relief;
+}
+
+// The points that triangles of the front use, and then those of the ground, in one triangulation. Its indices
+// are those of all points.
+std::vector<Triangle> triangulated(const Front& front, const std::vector<Vec2>& ground) {
+  std::vector<std::uint8_t> is_used(front.points.size(), 0);
+  for (const Triangle& t : front.triangles)
+    for (const Index i : t) is_used[i] = 1;
+  std::vector<Vec2> points;
+  std::vector<Index> names;
+  for (Index i = 0; i < is_used.size(); ++i) {
+    if (!is_used[i]) continue;
+    points.emplace_back(front.points[i].head<2>());
+    names.push_back(i);
+  }
+  for (std::size_t i = 0; i < ground.size(); ++i) {
+    points.push_back(ground[i]);
+    names.push_back(static_cast<Index>(front.points.size() + i));
+  }
+  std::vector<Triangle> triangles = delaunay(points).triangles;
+  for (Triangle& t : triangles)
+    for (Index& i : t) i = names[i];
+  return triangles;
+}
+
+// Triangles that cover all within the foot, the relief's first.
+struct Cover {
+  std::vector<Triangle> triangles;
+  std::size_t relief = 0;
+};
+
+// An edge from a lower to a higher index, and the corner that faces it.
+struct Facing {
+  Index a, b, corner;
+  auto operator<=>(const Facing&) const = default;
+};
+
+// Are they Delaunay's, but for points that lie on a circle?
+bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
+  std::vector<Facing> edges;
+  for (const Triangle& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]), t[(i + 2) % 3]});
+  std::ranges::sort(edges);
+  const auto at = [&](Index i) { return Vec2(points[i].head<2>()); };
+  for (std::size_t i = 1; i < edges.size(); ++i) {
+    const Facing &e = edges[i - 1], &f = edges[i];
+    if (e.a != f.a || e.b != f.b) continue;
+    const Circle circle = circle_around(at(e.a), at(e.b), at(e.corner));
+    if ((at(f.corner) - circle.centre).norm() < (1 - 1e-6) * circle.radius) return false;
+  }
+  return true;
+}
+
+Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) {
+  Cover cover{std::move(relief), 0};
+  cover.relief = cover.triangles.size();
+  cover.triangles.insert(cover.triangles.end(), ground.begin(), ground.end());
+  return cover;
+}
+
+// Of the triangulation, what is ground, with the relief as it was; or, where points on a circle leave a
+// choice that does not fit, all of the triangulation. Nothing if that is not like the relief.
+std::optional<Cover> covered(const Front& front, std::vector<Triangle> relief,
+                             const std::vector<Triangle>& triangles, std::size_t foot_sides) {
+  const double ground_z = front.points[front.hull[0]].z();
+  std::vector<Triangle> ground, other;
+  for (const Triangle& t : triangles) {
+    const auto is_new = [&](Index i) { return i >= front.points.size(); };
+    const auto is_level = [&](Index i) { return is_new(i) || front.points[i].z() == ground_z; };
+    const bool is_ground = std::ranges::all_of(t, is_level);
+    if (!is_ground && std::ranges::any_of(t, is_new)) return std::nullopt;
+    (is_ground ? ground : other).push_back(t);
+  }
+  const bool may_differ = is_delaunay(front.points, relief);
+  Cover cover = joined(std::move(relief), ground);
+  if (rim_of(cover.triangles).size() == foot_sides) return cover;
+  if (!may_differ) return std::nullopt;
+  return joined(std::move(other), ground);
+}
+
+}  // namespace
+
+bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 side = polygon[(i + 1) % polygon.size()] - polygon[i], to_place = place - polygon[i];
+    if (side.x() * to_place.y() - side.y() * to_place.x() < depth * side.norm()) return false;
+  }
+  return true;
+}
+
+double ground_spacing(const Bend& bend, std::span<const Vec2> polygon, double z, double tolerance_mm) {
+  const Vec3 size = box_of(polygon).size();
+  const double finest = std::sqrt(size.x() * size.y() / most_points);
+  double spacing = std::min(size.head<2>().norm() / 4, bend.feature_mm);
+  while (spacing > finest && !is_fine_within(bend, polygon, z, spacing, tolerance_mm)) spacing *= .8;
+  return std::max(spacing, finest);
+}
+
+std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing) {
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], side = polygon[(i + 1) % polygon.size()] - a;
+    const int steps = std::max(1, static_cast<int>(std::ceil(side.norm() / spacing)));
+    points.push_back(a);
+    for (int k = 1; k < steps; ++k) {
+      const double share = static_cast<double>(k) / steps;
+      points.emplace_back(a + share * side + bulge(side, share));
+    }
+  }
+  return points;
+}
+
+void fill_below(Solid& solid, const Loop& loop, double spacing) {
+  std::vector<Vec2> points;
+  for (const Index i : loop) points.emplace_back(solid.points[i].head<2>());
+  const std::vector<Vec2> inner = Lattice(points, spacing).points_within(points);
+  const auto first = static_cast<Index>(solid.points.size());
+  const double z = solid.points[loop[0]].z();
+  for (const Vec2& p : inner) solid.points.emplace_back(p.x(), p.y(), z);
+  points.insert(points.end(), inner.begin(), inner.end());
+  const auto n = static_cast<Index>(loop.size());
+  const auto name = [&](Index i) { return i < n ? loop[i] : first + i - n; };
+  for (const auto& [a, b, c] : delaunay(points).triangles)
+    solid.triangles.push_back({name(a), name(c), name(b)});
+}
+
+Loop fill_ground(Solid& placed, const Front& front, std::span<const Vec2> foot, double spacing) {
+  const Vec2 shift = (placed.points[front.hull[0]] - front.points[front.hull[0]]).head<2>();
+  std::vector<Vec2> ground;
+  for (const Vec2& p : foot) ground.push_back(p - shift);
+  const std::vector<Triangle> relief = relief_of(placed);
+  Lattice lattice(ground, spacing);
+  for (const auto& [a, b, c] : relief) {
+    const Circle circle =
+        circle_around(front.points[a].head<2>(), front.points[b].head<2>(), front.points[c].head<2>());
+    if (std::isfinite(circle.radius)) lattice.clear(circle.centre, circle.radius);
+  }
+  const std::vector<Vec2> inner = lattice.points_within(ground);
+  ground.insert(ground.end(), inner.begin(), inner.end());
+
+  auto cover = covered(front, relief, triangulated(front, ground), foot.size());
+  if (!cover) return {};
+  placed.triangles = std::move(cover->triangles);
+  placed.regions.assign(placed.triangles.size(), Region::ground);
+  std::fill_n(placed.regions.begin(), cover->relief, Region::relief);
+  Loop loop;
+  for (std::size_t i = 0; i < foot.size(); ++i) loop.push_back(static_cast<Index>(front.points.size() + i));
+  const double ground_z = placed.points[front.hull[0]].z();
+  for (std::size_t i = 0; i < ground.size(); ++i) {
+    const Vec2 place = i < foot.size() ? foot[i] : Vec2(ground[i] + shift);
+    placed.points.emplace_back(place.x(), place.y(), ground_z);
+  }
+  return loop;
+}
+
+}  // namespace relievo

@@ -1,0 +1,69 @@
+#include "plate/shape_text.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "relievo/core/text.h"
+
+namespace relievo {
+namespace {
+
+std::optional<double> number_in(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
+  return number;
+}
+
+std::string names_of(std::span<const ShapeNumber> numbers, std::span<const ShapeWord> words) {
+  std::string names;
+  const auto add = [&](std::string_view name, std::string_view value) {
+    names += cat(names.empty() ? "" : ", ", name, value);
+  };
+  for (const ShapeNumber& number : numbers) add(number.name, "=NUMBER");
+  for (const ShapeWord& word : words) add(word.name, "");
+  return names.empty() ? "nothing" : names;
+}
+
+bool read_entry(std::string_view entry, std::span<const ShapeNumber> numbers,
+                std::span<const ShapeWord> words) {
+  const std::size_t equals = entry.find('=');
+  const std::string_view name = entry.substr(0, equals);
+  if (equals == std::string_view::npos) {
+    const auto word = std::ranges::find(words, name, &ShapeWord::name);
+    if (word != words.end()) *word->value = true;
+    return word != words.end();
+  }
+  const auto number = std::ranges::find(numbers, name, &ShapeNumber::name);
+  if (number == numbers.end()) return false;
+  *number->value = number_in(entry.substr(equals + 1));
+  return number->value->has_value();
+}
+
+}  // namespace
+
+std::string_view shape_kind(std::string_view text) {
+  return text.substr(0, text.find(':'));
+}
+
+Result<void> read_shape(std::string_view text, std::string_view option, std::span<const ShapeNumber> numbers,
+                        std::span<const ShapeWord> words) {
+  const std::string_view kind = shape_kind(text);
+  if (kind.size() == text.size()) return {};
+  std::string_view rest = text.substr(kind.size() + 1);
+  while (true) {
+    const std::string_view entry = rest.substr(0, rest.find(','));
+    if (!read_entry(entry, numbers, words))
+      return wrong_shape(
+          option, cat("expected ", names_of(numbers, words), " after '", kind, ":', found '", entry, "'"));
+    if (entry.size() == rest.size()) return {};
+    rest.remove_prefix(entry.size() + 1);
+  }
+}
+
+std::unexpected<Error> wrong_shape(std::string_view option, std::string expected) {
+  return std::unexpected(Error{ErrorKind::option, std::string(option), {}, std::move(expected)});
+}
+
+}  // namespace relievo

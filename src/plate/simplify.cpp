@@ -1,0 +1,355 @@
+// After Garland and Heckbert, "Fast Polygonal Approximation of Terrains and Height Fields", 1995, in rounds:
+// each adds the worst place of every triangle that is off too much.
+#include "relievo/simplify.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "geometry/predicates.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/geometry/triangulation.h"
+#include "silhouette.h"
+
+namespace relievo {
+namespace {
+
+constexpr int most_rounds = 200;
+constexpr std::size_t grain = 8192;
+// A triangle that is too steep comes this near to the original, whose triangles are not.
+constexpr double steep_tolerance_mm = 1e-6;
+
+// A place that would bring its triangle nearer to the original.
+struct Candidate {
+  Index triangle;
+  double error;
+  Index point;  // of the original; no_index for a place between its points
+  Vec3 place;
+  Colour colour = {};
+};
+
+// An edge of the original and the corners of its triangles that face it; no_index on the hull.
+struct Edge {
+  Index a, b;
+  std::array<Index, 2> facing = {no_index, no_index};
+};
+
+std::vector<Edge> edges_of(const Front& front) {
+  std::vector<Edge> halves;
+  halves.reserve(3 * front.triangles.size());
+  for (const Triangle& t : front.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      halves.push_back(
+          {std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]), {t[(i + 2) % 3], no_index}});
+  std::ranges::sort(halves, {}, [](const Edge& e) { return std::tuple(e.a, e.b, e.facing[0]); });
+  std::vector<Edge> edges;
+  for (const Edge& half : halves) {
+    const bool is_known = !edges.empty() && edges.back().a == half.a && edges.back().b == half.b;
+    if (is_known)
+      edges.back().facing[1] = half.facing[0];
+    else
+      edges.push_back(half);
+  }
+  return edges;
+}
+
+// The triangulation of the points chosen so far, with the means to find places in it.
+class Approximation {
+ public:
+  explicit Approximation(const std::vector<Vec3>& points) : points_(points) {
+    plane_.reserve(points.size());
+    for (const Vec3& p : points) plane_.push_back(p.head<2>());
+    mesh_ = delaunay(plane_);
+  }
+
+  const Triangulation& mesh() const { return mesh_; }
+
+  // Walks from `start` to a triangle that holds the place; no_index if the place is outside.
+  Index find(const Vec2& place, Index start) const {
+    Index t = start, from = no_index;
+    for (std::size_t steps = 0; steps <= mesh_.triangles.size(); ++steps) {
+      const Index next = towards(place, t, from);
+      if (next == t) return t;
+      if (next == no_index) return no_index;
+      from = std::exchange(t, next);
+    }
+    return no_index;
+  }
+
+  // The triangle on the other side of the edge that the place lies on; no_index if it is inside t or on the
+  // hull.
+  Index across(const Vec2& place, Index t) const {
+    const Triangle& corners = mesh_.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i)
+      if (orient2d(plane_[corners[(i + 1) % 3]], plane_[corners[(i + 2) % 3]], place) == 0)
+        return mesh_.neighbours[t][i];
+    return no_index;
+  }
+
+  // Slopes of all triangles, squared.
+  std::vector<double> slopes_sq() const {
+    std::vector<double> slopes(mesh_.triangles.size());
+    parallel_for(slopes.size(), [&](std::size_t t) {
+      const auto& [a, b, c] = mesh_.triangles[t];
+      const Vec3 normal = (points_[b] - points_[a]).cross(points_[c] - points_[a]);
+      slopes[t] = normal.head<2>().squaredNorm() / (normal.z() * normal.z());
+    });
+    return slopes;
+  }
+
+  double height(Index t, const Vec2& place) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    const Vec3 p = points_[b] - points_[a], q = points_[c] - points_[a];
+    const Vec2 d = place - plane_[a];
+    const double area = p.x() * q.y() - p.y() * q.x();
+    return points_[a].z() +
+           (p.z() * (d.x() * q.y() - d.y() * q.x()) + q.z() * (p.x() * d.y() - p.y() * d.x())) / area;
+  }
+
+  // Calls f(triangles left and entered, share of the way, height of this surface) where the way from a to b,
+  // which begins in triangle t, crosses an edge.
+  template <typename F>
+  void walk(const Vec2& a, const Vec2& b, Index t, F&& f) const {
+    Index from = no_index;
+    for (std::size_t steps = 0; steps <= mesh_.triangles.size(); ++steps) {
+      const auto exit = exit_of(a, b, t, from);
+      if (!exit) return;
+      const Vec3 &p = points_[mesh_.triangles[t][(*exit + 1) % 3]],
+                 &q = points_[mesh_.triangles[t][(*exit + 2) % 3]];
+      const auto side = [&](const Vec3& x) {
+        return (b.x() - a.x()) * (x.y() - a.y()) - (b.y() - a.y()) * (x.x() - a.x());
+      };
+      const double left = side(p), right = side(q), along_edge = left / (left - right);
+      const Vec3 crossing = p + along_edge * (q - p);
+      const double share = (crossing.head<2>() - a).dot(b - a) / (b - a).squaredNorm();
+      from = std::exchange(t, mesh_.neighbours[t][*exit]);
+      f(std::array{from, t}, share, crossing.z());
+      if (t == no_index) return;
+    }
+  }
+
+ private:
+  // The neighbour across an edge that has the place on its other side; t itself if none has.
+  Index towards(const Vec2& place, Index t, Index from) const {
+    const Triangle& corners = mesh_.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index across = mesh_.neighbours[t][i];
+      if (across == from && from != no_index) continue;
+      if (orient2d(plane_[corners[(i + 1) % 3]], plane_[corners[(i + 2) % 3]], place) < 0) return across;
+    }
+    return t;
+  }
+
+  // The edge by which the way from a to b leaves the triangle; nothing if b lies in it.
+  std::optional<std::size_t> exit_of(const Vec2& a, const Vec2& b, Index t, Index from) const {
+    const Triangle& corners = mesh_.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (mesh_.neighbours[t][i] == from && from != no_index) continue;
+      const Vec2 &p = plane_[corners[(i + 1) % 3]], &q = plane_[corners[(i + 2) % 3]];
+      if (orient2d(p, q, b) >= 0) continue;
+      if (orient2d(a, b, p) <= 0 && orient2d(a, b, q) >= 0) return i;
+    }
+    return std::nullopt;
+  }
+
+  const std::vector<Vec3>& points_;
+  std::vector<Vec2> plane_;
+  Triangulation mesh_;
+};
+
+Colour mixed(const Colour& a, const Colour& b, double share) {
+  Colour out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = static_cast<std::uint8_t>(a[i] + share * (b[i] - a[i]) + .5);
+  return out;
+}
+
+class Simplifier {
+ public:
+  Simplifier(const Front& front, const SimplifyOptions& options)
+      : front_(front), options_(options), edges_(edges_of(front)), is_chosen_(front.points.size(), 0) {
+    choose_corners();
+  }
+
+  Result<SimplerFront> run(Progress* progress) {
+    for (int round = 0; round < most_rounds; ++round) {
+      if (auto go = begin_stage(progress, "simplify", .95); !go) return std::unexpected(go.error());
+      const Approximation now(chosen_);
+      if (now.mesh().triangles.empty()) break;
+      const auto worst = find_worst(now);
+      if (!worst) break;
+      if (worst->empty()) return finished(now);
+      for (const Candidate& c : *worst) choose(c);
+    }
+    return std::unexpected(
+        Error{ErrorKind::geometry, "front", {}, "expected triangles that cover their hull, found others"});
+  }
+
+ private:
+  void choose(const Candidate& candidate) {
+    if (candidate.point != no_index && std::exchange(is_chosen_[candidate.point], 1)) return;
+    chosen_.push_back(candidate.place);
+    names_.push_back(candidate.point);
+    if (!front_.colours.empty()) colours_.push_back(candidate.colour);
+  }
+
+  Candidate at_point(Index triangle, double error, Index i) const {
+    return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
+  }
+
+  // The hull's points but those on straight, level edges between others; the relief's rim, if it is to be
+  // kept; and what tells the height.
+  void choose_corners() {
+    const auto& hull = front_.hull;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const Vec3 &before = front_.points[hull[(i + hull.size() - 1) % hull.size()]],
+                 &here = front_.points[hull[i]], &after = front_.points[hull[(i + 1) % hull.size()]];
+      if (orient2d(before.head<2>(), here.head<2>(), after.head<2>()) == 0) continue;
+      choose(at_point(0, 0, hull[i]));
+    }
+    if (!front_.is_relief.empty())
+      for (const auto& [a, b] : rim_of(relief_triangles(front_))) choose(at_point(0, 0, a));
+    const auto [lowest, highest] =
+        std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });
+    const double ground = front_.points[hull[0]].z();
+    for (const auto extreme : {lowest, highest})
+      if (extreme->z() != ground) choose(at_point(0, 0, static_cast<Index>(extreme - front_.points.begin())));
+  }
+
+  // The worst place of each triangle that is off by more than the tolerance; nothing if a point lies in no
+  // triangle. Keeps the largest error.
+  std::optional<std::vector<Candidate>> find_worst(const Approximation& now) {
+    where_.resize(front_.points.size());
+    slopes_sq_ = now.slopes_sq();
+    const std::size_t blocks = (front_.points.size() + grain - 1) / grain,
+                      edge_blocks = (edges_.size() + grain - 1) / grain;
+    std::vector<std::vector<Candidate>> found(blocks + edge_blocks);
+    std::vector<double> errors(blocks + edge_blocks, 0);
+    std::vector<std::uint8_t> is_lost(blocks, 0);
+    parallel_ranges(front_.points.size(), grain, [&](std::size_t begin, std::size_t end) {
+      const std::size_t block = begin / grain;
+      is_lost[block] = !look_at_points(now, begin, end, found[block], errors[block]);
+    });
+    if (std::ranges::any_of(is_lost, [](std::uint8_t lost) { return lost != 0; })) return std::nullopt;
+    parallel_ranges(edges_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      const std::size_t block = blocks + begin / grain;
+      look_at_edges(now, begin, end, found[block], errors[block]);
+    });
+    error_ = *std::ranges::max_element(errors);
+    return worst_of(found, now.mesh().triangles.size());
+  }
+
+  double least_allowed() const {
+    const bool is_limited = options_.max_slope < std::numeric_limits<double>::infinity();
+    return is_limited ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
+  }
+
+  // Of two triangles that share a place, the first for which this error is too much; no_index if none.
+  Index one_off(const std::array<Index, 2>& sides, double error) const {
+    for (const Index t : sides) {
+      if (t == no_index) continue;
+      const bool is_steep = slopes_sq_[t] > options_.max_slope * options_.max_slope;
+      if (error > (is_steep ? least_allowed() : options_.tolerance_mm)) return t;
+    }
+    return no_index;
+  }
+
+  static std::vector<Candidate> worst_of(const std::vector<std::vector<Candidate>>& found,
+                                         std::size_t triangles) {
+    std::vector<const Candidate*> worst(triangles, nullptr);
+    for (const auto& part : found)
+      for (const Candidate& c : part)
+        if (!worst[c.triangle] || c.error > worst[c.triangle]->error) worst[c.triangle] = &c;
+    std::vector<Candidate> out;
+    for (const Candidate* c : worst)
+      if (c) out.push_back(*c);
+    return out;
+  }
+
+  bool look_at_points(const Approximation& now, std::size_t begin, std::size_t end,
+                      std::vector<Candidate>& found, double& worst) {
+    Index t = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Vec3& p = front_.points[i];
+      t = now.find(p.head<2>(), t);
+      if (t == no_index) return false;
+      where_[i] = t;
+      const double error = std::abs(now.height(t, p.head<2>()) - p.z());
+      worst = std::max(worst, error);
+      const Index off = one_off({t, error > least_allowed() ? now.across(p.head<2>(), t) : no_index}, error);
+      if (off != no_index) found.push_back(at_point(off, error, static_cast<Index>(i)));
+    }
+    return true;
+  }
+
+  // Between two points in different triangles both surfaces may bend: at the edges that are crossed.
+  void look_at_edges(const Approximation& now, std::size_t begin, std::size_t end,
+                     std::vector<Candidate>& found, double& worst) const {
+    for (std::size_t e = begin; e < end; ++e) {
+      const Edge& edge = edges_[e];
+      if (where_[edge.a] == where_[edge.b]) continue;
+      const Vec3 &a = front_.points[edge.a], &b = front_.points[edge.b];
+      now.walk(a.head<2>(), b.head<2>(), where_[edge.a],
+               [&](std::array<Index, 2> sides, double share, double height) {
+                 if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // at an end, which is a point of its own
+                 const double error = std::abs(height - (a + share * (b - a)).z());
+                 worst = std::max(worst, error);
+                 if (const Index t = one_off(sides, error); t != no_index)
+                   found.push_back(remedy(edge, share, t, error));
+               });
+    }
+  }
+
+  // With both ends and what faces it the edge comes into the triangulation by itself, unless its corners lie
+  // on a circle: then the crossing becomes a point.
+  Candidate remedy(const Edge& edge, double share, Index t, double error) const {
+    const bool is_near_a = share < .5;
+    for (const Index i :
+         {is_near_a ? edge.a : edge.b, is_near_a ? edge.b : edge.a, edge.facing[0], edge.facing[1]})
+      if (i != no_index && !is_chosen_[i]) return at_point(t, error, i);
+    const Vec3 &a = front_.points[edge.a], &b = front_.points[edge.b];
+    return {t, error, no_index, a + share * (b - a),
+            front_.colours.empty() ? Colour{} : mixed(front_.colours[edge.a], front_.colours[edge.b], share)};
+  }
+
+  SimplerFront finished(const Approximation& now) {
+    SimplerFront out{{chosen_, now.mesh().triangles, now.mesh().hull, front_.ground_mm, colours_}, error_};
+    if (!front_.is_relief.empty()) out.front.is_relief = relief_within(front_, out.front, names_);
+    return out;
+  }
+
+  const Front& front_;
+  SimplifyOptions options_;
+  double error_ = 0;
+  std::vector<double> slopes_sq_;  // per triangle of the approximation
+  std::vector<Edge> edges_;
+  std::vector<std::uint8_t> is_chosen_;  // per point of the original
+  std::vector<RimEdge> rim_;             // to be kept
+  std::vector<Vec3> chosen_;
+  std::vector<Index> names_;  // of those that are chosen: their numbers in the original
+  std::vector<Colour> colours_;
+  std::vector<Index> where_;  // triangle of each point
+};
+
+}  // namespace
+
+Result<SimplerFront> simplify(const Front& front, const SimplifyOptions& options, Progress* progress) {
+  if (!(options.tolerance_mm > 0))
+    return std::unexpected(Error{ErrorKind::option,
+                                 "--tolerance",
+                                 {},
+                                 cat("expected a positive length, found ", options.tolerance_mm)});
+  if (front.triangles.empty() || front.hull.size() < 3)
+    return std::unexpected(
+        Error{ErrorKind::geometry, "front", {}, "expected triangles and a hull around them, found none"});
+  return Simplifier(front, options).run(progress);
+}
+
+Result<SimplerFront> simplify(const Front& front, double tolerance_mm, Progress* progress) {
+  return simplify(front, SimplifyOptions{tolerance_mm}, progress);
+}
+
+}  // namespace relievo

@@ -1,0 +1,20 @@
+#include <utility>
+
+#include "relievo/plate/solid.h"
+#include "twins.h"
+
+namespace relievo {
+
+Solid in_unit(Solid solid, LengthUnit unit) {
+  if (unit == std::exchange(solid.unit, unit)) return solid;
+  const double scale = unit == LengthUnit::mm ? mm_per_inch : 1 / mm_per_inch;
+  Box box;
+  for (Vec3& p : solid.points) {
+    p *= scale;
+    box.extend(p);
+  }
+  if (!box.is_empty()) separate_twins(solid, box.centre().z());
+  return solid;
+}
+
+}  // namespace relievo

@@ -1,0 +1,134 @@
+#include "relievo/plate/tool.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "geometry/dilation.h"
+#include "plate/height_field.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+
+namespace relievo {
+namespace {
+
+constexpr float nowhere = -std::numeric_limits<float>::infinity();
+
+std::unexpected<Error> fail(std::string_view text) {
+  return std::unexpected(
+      Error{ErrorKind::option,
+            "--tool",
+            {},
+            cat("expected ball:DIAMETER or flat:DIAMETER with 0.01 to 1000 mm, v:ANGLE with 1 to "
+                "170 degrees, or v:ANGLE:TIP with a diameter in mm, found '",
+                text, "'")});
+}
+
+std::optional<double> in_range(double value, double least, double most) {
+  return value >= least && value <= most ? std::optional(value) : std::nullopt;
+}
+
+std::optional<double> length_in(std::string_view text, LengthUnit bare, double least_mm) {
+  const Result<double> mm = parse_length(text, bare);
+  return mm ? in_range(*mm, least_mm, 1000) : std::nullopt;
+}
+
+std::optional<double> angle_in(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool is_whole = error == std::errc() && end == text.data() + text.size();
+  return is_whole ? in_range(value, 1, 170) : std::nullopt;
+}
+
+double half_angle(const Tool& tool) {
+  return tool.angle_deg / 2 * std::numbers::pi / 180;
+}
+
+// Distance from the axis up to which the tool matters for surfaces of that height.
+double radius_of(const Tool& tool, double height_mm) {
+  if (tool.kind != Tool::Kind::v) return tool.diameter_mm / 2;
+  return tool.tip_mm / 2 + height_mm * std::tan(half_angle(tool));
+}
+
+struct Span {
+  float lowest = std::numeric_limits<float>::infinity(), highest = -lowest;
+};
+
+Span span_of(const std::vector<float>& heights) {
+  Span span;
+  for (const float z : heights)
+    if (z == z) span.lowest = std::min(span.lowest, z), span.highest = std::max(span.highest, z);
+  return span;
+}
+
+}  // namespace
+
+Result<Tool> parse_tool(std::string_view text, LengthUnit bare) {
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return fail(text);
+  const std::string_view kind = text.substr(0, colon);
+  std::string_view size = text.substr(colon + 1), tip = "0";
+  if (kind == "v" && size.find(':') != std::string_view::npos) {
+    tip = size.substr(size.find(':') + 1);
+    size = size.substr(0, size.find(':'));
+  }
+  Tool tool;
+  if (kind == "v") {
+    const auto angle = angle_in(size), tip_mm = length_in(tip, bare, 0);
+    if (!angle || !tip_mm) return fail(text);
+    tool = {Tool::Kind::v, 0, *angle, *tip_mm};
+  } else {
+    const auto diameter = length_in(size, bare, .01);
+    if (!diameter || (kind != "ball" && kind != "flat")) return fail(text);
+    tool = {kind == "ball" ? Tool::Kind::ball : Tool::Kind::flat, *diameter};
+  }
+  return tool;
+}
+
+std::string text_of(const Tool& tool) {
+  if (tool.kind != Tool::Kind::v)
+    return cat(tool.kind == Tool::Kind::ball ? "ball:" : "flat:", tool.diameter_mm, "mm");
+  return cat("v:", tool.angle_deg, tool.tip_mm > 0 ? cat(":", tool.tip_mm, "mm") : std::string());
+}
+
+double tool_profile(const Tool& tool, double distance_mm) {
+  const double r = std::abs(distance_mm);
+  const auto ball = [&](double radius) { return radius - std::sqrt(std::max(0.0, radius * radius - r * r)); };
+  if (tool.kind == Tool::Kind::v) {
+    // The flank leaves the tip's ball where it touches it.
+    const double tip = tool.tip_mm / 2, angle = half_angle(tool), touching = tip * std::cos(angle);
+    if (r <= touching) return ball(tip);
+    return tip * (1 - std::sin(angle)) + (r - touching) / std::tan(angle);
+  }
+  if (r > tool.diameter_mm / 2) return std::numeric_limits<double>::infinity();
+  return tool.kind == Tool::Kind::flat ? 0 : ball(tool.diameter_mm / 2);
+}
+
+Image<float> close_by_tool(const Image<float>& heights, double step_mm, const Tool& tool) {
+  const Span span = span_of(heights.pixels);
+  if (!(span.highest >= span.lowest)) return heights;
+  const double radius = radius_of(tool, static_cast<double>(span.highest - span.lowest));
+  const int reach =
+      std::min(static_cast<int>(radius / step_mm + 1e-9), std::max(heights.width, heights.height) / 2);
+  const Profile profile(reach, [&](int x, int y) {
+    const double distance = std::hypot(x, y) * step_mm * (1 - 1e-12);  // a radius of whole samples counts
+    return distance > radius ? std::numeric_limits<float>::infinity()
+                             : static_cast<float>(tool_profile(tool, distance));
+  });
+  // Tool positions reach beyond the picture on all sides.
+  const Grid stands = dilate({heights.width, heights.height, heights.pixels}, profile, reach);
+  Grid hanging = stands;
+  // Where the tool stands on nothing, it leaves nothing.
+  for (float& z : hanging.values) z = z > nowhere ? -z : nowhere;
+  const Grid left = dilate(hanging, profile, -reach);
+  Image<float> closed = heights;
+  for (std::size_t i = 0; i < closed.pixels.size(); ++i)
+    if (closed.pixels[i] == closed.pixels[i]) closed.pixels[i] = std::max(closed.pixels[i], -left.values[i]);
+  return closed;
+}
+
+}  // namespace relievo

@@ -1,0 +1,227 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "plate/height_field.h"
+#include "relievo/core/parallel.h"
+#include "relievo/geometry/triangulation.h"
+#include "relievo/plate/tool.h"
+#include "silhouette.h"
+
+namespace relievo {
+namespace {
+
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+constexpr int least_samples = 2048, most_samples = 4096;  // of the longer side
+constexpr double samples_per_radius = 12;
+constexpr double least_tolerance_mm = .01;
+constexpr Colour ground_colour = {200, 200, 200};
+
+int samples_for(const Tool& tool, double longer_mm) {
+  const double radius = (tool.kind == Tool::Kind::v ? tool.tip_mm : tool.diameter_mm) / 2;
+  if (!(radius > 0)) return least_samples;
+  const double wanted = longer_mm / radius * samples_per_radius;
+  return static_cast<int>(std::clamp<double>(std::ceil(wanted), least_samples, most_samples));
+}
+
+double longer_side(const Box& box) {
+  return std::max(box.size().x(), box.size().y());
+}
+
+// Sums over samples, block by block.
+struct Count {
+  std::size_t front = 0, reached = 0;
+  float largest = 0;
+};
+
+Count count_reached(const Image<float>& residual, double tolerance_mm) {
+  return parallel_reduce(
+      residual.pixels.size(), Count{},
+      [&](std::size_t begin, std::size_t end) {
+        Count count;
+        for (std::size_t i = begin; i < end; ++i) {
+          const float left = residual.pixels[i];
+          if (left != left) continue;
+          ++count.front;
+          count.reached += static_cast<double>(left) <= tolerance_mm;
+          count.largest = std::max(count.largest, left);
+        }
+        return count;
+      },
+      [](const Count& a, const Count& b) {
+        return Count{a.front + b.front, a.reached + b.reached, std::max(a.largest, b.largest)};
+      });
+}
+
+Image<float> difference(const Image<float>& a, const Image<float>& b) {
+  Image<float> out = a;
+  for (std::size_t i = 0; i < out.pixels.size(); ++i) out.pixels[i] -= b.pixels[i];
+  return out;
+}
+
+// What the tool leaves above a front, sampled over its box and as far beyond as the tool reaches.
+class Leavings {
+ public:
+  Leavings(const Front& front, const Tool& tool) {
+    Solid solid{front.points, relief_triangles(front), 0};
+    solid.front_triangles = solid.triangles.size();
+    Box box;
+    for (const Triangle& t : solid.triangles)
+      for (const Index i : t) box.extend(front.points[i]);
+    field_ = draw_height_field(solid, samples_for(tool, longer_side(box)));
+    const auto around = front.is_relief.empty() ? static_cast<float>(front.ground_mm - box.min.z()) : nothing;
+    for (std::size_t i = 0; i < field_.z.size(); ++i)
+      if (field_.is_beside[i] != 0) field_.z[i] = around;
+    const Image<float> heights{field_.width, field_.height, 1, field_.z};
+    left_ = difference(close_by_tool(heights, field_.mm_per_pixel, tool), heights);
+  }
+
+  int width() const { return field_.width; }
+  int height() const { return field_.height; }
+  double mm_per_sample() const { return field_.mm_per_pixel; }
+
+  float at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= field_.width || y >= field_.height) return 0;
+    const float left = left_.pixels[index(x, y)];
+    return left == left ? left : 0;
+  }
+
+  // Between samples.
+  double at(const Vec3& point) const {
+    const Vec2 place = field_.to_pixels(point) - Vec2(.5, .5);
+    const double x = std::floor(place.x()), y = std::floor(place.y());
+    const double right = place.x() - x, down = place.y() - y;
+    const auto sample = [&](int dx, int dy) {
+      return static_cast<double>(at(static_cast<int>(x) + dx, static_cast<int>(y) + dy));
+    };
+    return (1 - down) * ((1 - right) * sample(0, 0) + right * sample(1, 0)) +
+           down * ((1 - right) * sample(0, 1) + right * sample(1, 1));
+  }
+
+  Vec2 to_samples(const Vec3& point) const { return field_.to_pixels(point); }
+
+  // Whether a sample shows the front.
+  bool is_front(int x, int y) const { return field_.is_beside[index(x, y)] == 0; }
+
+  // The front at a sample.
+  Vec3 place(int x, int y) const {
+    const Vec2 middle = field_.box.centre().head<2>(),
+               place = middle +
+                       field_.mm_per_pixel * Vec2(x + .5 - field_.width / 2.0, field_.height / 2.0 - y - .5);
+    return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(field_.z[index(x, y)])};
+  }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(field_.width) + static_cast<std::size_t>(x);
+  }
+
+  HeightField field_;
+  Image<float> left_;
+};
+
+// Lifts points above a front by no more than they are away from its hull, which stays where it is.
+class AtHull {
+ public:
+  explicit AtHull(const Front& front) : front_(front) {}
+
+  double lift(const Vec3& point, double wanted) const {
+    if (!(wanted > 0)) return 0;
+    double nearest = wanted;
+    for (std::size_t i = 0; i < front_.hull.size(); ++i) {
+      const Vec2 a = front_.points[front_.hull[i]].head<2>(),
+                 b = front_.points[front_.hull[(i + 1) % front_.hull.size()]].head<2>();
+      const Vec2 along = (b - a).normalized(), to = point.head<2>() - a;
+      nearest = std::min(nearest, along.x() * to.y() - along.y() * to.x());
+    }
+    return std::max(0.0, nearest);
+  }
+
+ private:
+  const Front& front_;
+};
+
+// The samples that a point of the front lies in or next to.
+std::vector<std::uint8_t> near_points(const Leavings& leavings, const std::vector<Vec3>& points) {
+  const auto width = static_cast<std::size_t>(leavings.width());
+  std::vector<std::uint8_t> is_near(width * static_cast<std::size_t>(leavings.height()));
+  for (const Vec3& p : points) {
+    const Vec2 place = leavings.to_samples(p);
+    const int column = static_cast<int>(place.x()), row = static_cast<int>(place.y());
+    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, leavings.height() - 1); ++y)
+      for (int x = std::max(column - 1, 0); x <= std::min(column + 1, leavings.width() - 1); ++x)
+        is_near[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
+  }
+  return is_near;
+}
+
+// Points of what the tool leaves, and around there, where the front has none: few where it is level.
+std::vector<Vec3> points_left(const Leavings& leavings, const Front& front) {
+  const std::vector<std::uint8_t> is_near = near_points(leavings, front.points);
+  const AtHull at_hull(front);
+  constexpr int stride = 3;  // a quarter of the radius of a tool that samples_for() can follow
+  constexpr float least_mm = 1e-3F;
+  std::vector<Vec3> points;
+  for (int y = stride; y + stride < leavings.height(); y += stride)
+    for (int x = stride; x + stride < leavings.width(); x += stride) {
+      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(leavings.width()) +
+                     static_cast<std::size_t>(x);
+      if (!leavings.is_front(x, y) || is_near[i] != 0) continue;
+      float most = 0;
+      for (const int dy : {-stride, 0, stride})
+        for (const int dx : {-stride, 0, stride}) most = std::max(most, leavings.at(x + dx, y + dy));
+      if (!(most > least_mm)) continue;
+      Vec3 place = leavings.place(x, y);
+      place.z() += at_hull.lift(place, static_cast<double>(leavings.at(x, y)));
+      points.push_back(place);
+    }
+  return points;
+}
+
+}  // namespace
+
+ToolReach measure_reach(const Solid& solid, const Tool& tool) {
+  Box box;
+  for (const Triangle& t : std::span(solid.triangles).first(solid.front_triangles))
+    for (const Index i : t) box.extend(solid.points[i]);
+  ToolReach reach;
+  if (box.is_empty()) return reach;
+  HeightField field = draw_height_field(solid, samples_for(tool, longer_side(box)));
+  for (std::size_t i = 0; i < field.z.size(); ++i)
+    if (field.is_beside[i] != 0) field.z[i] = nothing;
+  reach.mm_per_sample = field.mm_per_pixel;
+  reach.tolerance_mm = std::max(least_tolerance_mm, field.mm_per_pixel / 8);
+  reach.heights_mm = {field.width, field.height, 1, std::move(field.z)};
+  reach.residual_mm =
+      difference(close_by_tool(reach.heights_mm, reach.mm_per_sample, tool), reach.heights_mm);
+  const Count count = count_reached(reach.residual_mm, reach.tolerance_mm);
+  reach.largest_residual_mm = static_cast<double>(count.largest);
+  if (count.front > 0)
+    reach.reached_share = static_cast<double>(count.reached) / static_cast<double>(count.front);
+  return reach;
+}
+
+Result<Front> reachable_front(const Front& front, const Tool& tool) {
+  if (front.triangles.empty() || front.hull.size() < 3)
+    return std::unexpected(
+        Error{ErrorKind::geometry, "front", {}, "expected triangles and a hull around them, found none"});
+  const Leavings leavings(front, tool);
+  Front out = front;
+  const AtHull at_hull(front);
+  parallel_for(out.points.size(), [&](std::size_t i) {
+    out.points[i].z() += at_hull.lift(front.points[i], leavings.at(front.points[i]));
+  });
+  if (!front.is_relief.empty()) return out;  // its rim would have to be found anew
+  const std::vector<Vec3> added = points_left(leavings, front);
+  if (added.empty()) return out;
+  out.points.insert(out.points.end(), added.begin(), added.end());
+  if (!out.colours.empty()) out.colours.resize(out.points.size(), ground_colour);
+  std::vector<Vec2> plane;
+  for (const Vec3& p : out.points) plane.push_back(p.head<2>());
+  Triangulation mesh = delaunay(plane);
+  out.triangles = std::move(mesh.triangles);
+  out.hull = std::move(mesh.hull);
+  return out;
+}
+
+}  // namespace relievo

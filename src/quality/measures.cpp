@@ -1,0 +1,212 @@
+#include "relievo/quality/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "jumps.h"
+#include "quality/model_picture.h"
+#include "quality/plane_measures.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+constexpr int lights = 16;
+
+// Azimuths of 45 degrees, first at 30, then at 55 degrees above the plane.
+Vec3f light_direction(int i) {
+  const double azimuth = i % 8 * std::numbers::pi / 4;
+  const double elevation = (i < 8 ? 30 : 55) * std::numbers::pi / 180;
+  return Vec3(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
+              std::sin(elevation))
+      .cast<float>();
+}
+
+Plane lambert(const NormalPicture& n, const Vec3f& light) {
+  Plane out(n.x.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = std::max(0.F, n.x[i] * light.x() + n.y[i] * light.y() + n.z[i] * light.z());
+  return out;
+}
+
+Plane product(const Plane& a, const Plane& b) {
+  Plane out(a.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] * b[i];
+  return out;
+}
+
+Image8 to_grey(const Plane& light, int width) {
+  Image8 image{width, width > 0 ? static_cast<int>(light.size()) / width : 0, 1,
+               std::vector<std::uint8_t>(light.size())};
+  for (std::size_t i = 0; i < light.size(); ++i)
+    image.pixels[i] =
+        static_cast<std::uint8_t>(std::pow(std::clamp(light[i], 0.F, 1.F), 1 / 2.2F) * 255 + .5F);
+  return image;
+}
+
+}  // namespace
+
+struct Judge::Truth : ModelPicture {
+  // The model's shading under a light, with what SSIM needs of it.
+  struct Shading {
+    Plane mean, variance, light;
+  };
+  struct Edge {
+    Index a, b;
+  };
+  // Edges of inside triangles where the relief may stand as a step.
+  struct Steps {
+    std::vector<Edge> jumps;  // within the model
+    std::vector<Index> rim;   // points next to the boundary, maybe several times
+  };
+
+  std::vector<Shading> shadings;
+  std::vector<MeasuredGaussian> smoothing;  // per scale of the detail
+  std::array<Plane, 3> curvature;           // smoothed
+  Steps steps;
+  GaussianFilter window{1.5, safe_distance_px};
+
+  explicit Truth(const Surface& surface) : ModelPicture(surface, longer_side_px, margin_px) {
+    if (grid.pixels() == 0) return;
+    shadings.resize(lights);
+    parallel_for(
+        lights, [&](std::size_t i) { shadings[i] = shading_of(normals, static_cast<int>(i)); }, 1);
+    for (const int s : detail_scales_px) smoothing.emplace_back(detail_gaussian(s, measured));
+    curvature = smoothed_curvature(normals);
+    find_steps(surface);
+  }
+
+  void find_steps(const Surface& surface) {
+    const std::vector<std::uint8_t>& is_boundary = surface.boundary.is_boundary;
+    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+      for (int corner = 0; corner < 3 && surface.boundary.is_inside[t]; ++corner) {
+        const Index a = surface.triangulation.triangles[t][corner],
+                    b = surface.triangulation.triangles[t][(corner + 1) % 3];
+        if (is_boundary[a] != is_boundary[b]) steps.rim.push_back(is_boundary[a] ? b : a);
+        if (a < b && !is_boundary[a] && !is_boundary[b] && is_jump(surface, a, b))
+          steps.jumps.push_back({a, b});
+      }
+  }
+
+  Shading shading_of(const NormalPicture& n, int light) const {
+    Shading s;
+    s.light = lambert(n, light_direction(light));
+    s.mean = s.light;
+    window.apply(s.mean, width());
+    s.variance = product(s.light, s.light);
+    window.apply(s.variance, width());
+    for (std::size_t i = 0; i < s.variance.size(); ++i) s.variance[i] -= s.mean[i] * s.mean[i];
+    return s;
+  }
+
+  // Structural similarity, Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and window.
+  double similarity(const Shading& a, const Shading& b) const {
+    constexpr double c1 = .01 * .01, c2 = .03 * .03;
+    Plane ab = product(a.light, b.light);
+    window.apply(ab, width());
+    double sum = 0;
+    for (const Index i : measured.pixels) {
+      const double ma = static_cast<double>(a.mean[i]), mb = static_cast<double>(b.mean[i]);
+      const double va = static_cast<double>(a.variance[i]), vb = static_cast<double>(b.variance[i]);
+      const double cov = static_cast<double>(ab[i]) - ma * mb;
+      sum += (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
+    }
+    return sum / static_cast<double>(measured.pixels.size());
+  }
+
+  double shading(const NormalPicture& n) const {
+    std::array<double, lights> parts{};
+    parallel_for(
+        lights,
+        [&](std::size_t i) { parts[i] = similarity(shadings[i], shading_of(n, static_cast<int>(i))); }, 1);
+    double sum = 0;
+    for (const double part : parts) sum += part;
+    return sum / lights;
+  }
+
+  double angle_deg(const NormalPicture& n) const {
+    double sum = 0;
+    for (const Index i : measured.pixels) {
+      const double cosine =
+          static_cast<double>(n.x[i] * normals.x[i] + n.y[i] * normals.y[i] + n.z[i] * normals.z[i]);
+      sum += std::acos(std::clamp(cosine, -1.0, 1.0));
+    }
+    return sum / static_cast<double>(measured.pixels.size()) * 180 / std::numbers::pi;
+  }
+
+  std::array<Plane, 3> smoothed_curvature(const NormalPicture& n) const {
+    std::array<Plane, 3> smoothed;
+    smoothed.fill(divergence(n.x, n.y, measured));
+    parallel_for(
+        smoothed.size(), [&](std::size_t s) { smoothing[s].apply(smoothed[s], measured); }, 1);
+    return smoothed;
+  }
+
+  // What the relief does where the measures do not look.
+  void guard(const Plane& z, const NormalPicture& n, std::span<const double> heights, Measures& m) const {
+    const double height_px = m.height / grid.units_per_pixel();
+    const float steep = static_cast<float>(std::cos(80 * std::numbers::pi / 180));
+    std::vector<float> inside;
+    double background = 0, sum = 0, sum_sq = 0, steep_pixels = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (is_inside[i]) {
+        inside.push_back(z[i]);
+        steep_pixels += n.z[i] < steep;
+        continue;
+      }
+      const auto value = static_cast<double>(z[i]);
+      ++background, sum += value, sum_sq += value * value;
+    }
+    const double mean = background > 0 ? sum / background : 0;
+    if (background > 0) m.halo = std::sqrt(std::max(0.0, sum_sq / background - mean * mean)) / height_px;
+    const auto percentile = [&](double share) {
+      const auto at =
+          inside.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(inside.size() - 1));
+      std::nth_element(inside.begin(), at, inside.end());
+      return static_cast<double>(*at);
+    };
+    m.steep_share = steep_pixels / static_cast<double>(inside.size());
+    m.height_used = (percentile(.99) - percentile(.01)) / height_px;
+    for (const auto& [a, b] : steps.jumps)
+      m.jump_step = std::max(m.jump_step, std::abs(heights[a] - heights[b]) / m.height);
+    for (const Index i : steps.rim) m.rim_step = std::max(m.rim_step, std::abs(heights[i]) / m.height);
+  }
+};
+
+Judge::Judge(const Surface& surface) : truth_(std::make_unique<Truth>(surface)) {}
+Judge::Judge(Judge&&) noexcept = default;
+Judge::~Judge() = default;
+
+std::size_t Judge::pixels() const {
+  return truth_->measured.pixels.size();
+}
+
+Measures Judge::measure(std::span<const double> heights) const {
+  Measures m;
+  if (pixels() == 0) return m;
+  const auto [low, high] = std::ranges::minmax(heights);
+  m.height = std::max(high, 0.0) - std::min(low, 0.0);
+  if (!(m.height > 0)) return m;
+  const Plane z = truth_->heights_in_pixels(heights);
+  const NormalPicture n = normals_of(z, truth_->width());
+  m.shading = truth_->shading(n);
+  m.angle_deg = truth_->angle_deg(n);
+  const std::array<Plane, 3> curvature = truth_->smoothed_curvature(n);
+  for (std::size_t s = 0; s < curvature.size(); ++s)
+    m.detail[s] = correlation(curvature[s], truth_->curvature[s], truth_->measured);
+  m.order = order_kept(z, truth_->depth, truth_->measured, order_pairs);
+  truth_->guard(z, n, heights, m);
+  return m;
+}
+
+Image8 Judge::shade(std::span<const double> heights, const Vec3f& light) const {
+  const NormalPicture n = normals_of(truth_->heights_in_pixels(heights), truth_->width());
+  return to_grey(lambert(n, light.normalized()), truth_->width());
+}
+
+Image8 Judge::shade_model(const Vec3f& light) const {
+  return to_grey(lambert(truth_->normals, light.normalized()), truth_->width());
+}
+
+}  // namespace relievo

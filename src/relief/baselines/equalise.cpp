@@ -1,0 +1,131 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "quality/picture.h"
+#include "relief/baselines/scaled.h"
+#include "relievo/core/parallel.h"
+#include "relievo/relief/baselines.h"
+
+namespace relievo {
+namespace {
+
+// The front's depths as a picture: bins and weights of its pixels; the background weighs nothing.
+struct DepthPicture {
+  int width = 0, height = 0;
+  std::vector<int> bin;
+  Plane weight;
+};
+
+struct Depths {
+  double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  int bins;
+
+  Depths(const Surface& surface, int bins_) : bins(bins_) {
+    for (const Vec3& p : surface.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
+  }
+  // In bins, at least 0 and below their number.
+  double place(double z) const {
+    const double span = std::max(highest - lowest, 1e-300);
+    return std::clamp((z - lowest) / span * bins, 0.0, std::nextafter(static_cast<double>(bins), 0.0));
+  }
+};
+
+DepthPicture draw(const Surface& surface, const PictureGrid& grid, const Depths& depths,
+                  const EqualiseOptions& options) {
+  DepthPicture picture{grid.width(), grid.height(), std::vector<int>(grid.pixels()), Plane(grid.pixels())};
+  const double a = options.gradient_gain;
+  parallel_for(grid.pixels(), [&](std::size_t i) {
+    const Index t = grid.triangle(i);
+    if (t == no_index || !surface.boundary.is_inside[t]) return;
+    const auto z = grid.at(
+        i, [&](Index p) { return static_cast<float>(surface.points[p].z()); }, 0);
+    const auto g = grid.at(
+        i, [&](Index p) { return static_cast<float>(slope_of(surface.normals[p]).norm()); }, 0);
+    picture.bin[i] = static_cast<int>(depths.place(static_cast<double>(z)));
+    picture.weight[i] = static_cast<float>(std::log1p(a * static_cast<double>(g)) / a);
+  });
+  return picture;
+}
+
+using Histogram = std::vector<double>;
+
+Histogram histogram_around(const DepthPicture& picture, int column, int row, int window, int bins) {
+  Histogram counts(static_cast<std::size_t>(bins));
+  const int half = window / 2;
+  for (int y = std::max(0, row - half); y < std::min(picture.height, row + half); ++y)
+    for (int x = std::max(0, column - half); x < std::min(picture.width, column + half); ++x) {
+      const int i = y * picture.width + x;
+      counts[static_cast<std::size_t>(picture.bin[i])] += static_cast<double>(picture.weight[i]);
+    }
+  return counts;
+}
+
+// Cuts bins above the limit, spreads what is cut over all, and sums up: values in [0, 1] at the bins' upper
+// ends. Without any weight it is the identity.
+void equalise(Histogram& counts, double clip) {
+  const auto bins = static_cast<double>(counts.size());
+  double total = 0, cut = 0;
+  for (const double c : counts) total += c;
+  const double limit = clip * total / bins;
+  for (double& c : counts) cut += std::max(0.0, c - limit), c = std::min(c, limit);
+  double sum = 0;
+  for (double& c : counts) c = sum += total > 0 ? (c + cut / bins) / total : 1 / bins;
+}
+
+// Equalising curves for the windows around the nodes of a lattice; between nodes they are interpolated.
+class Lattice {
+ public:
+  Lattice(const DepthPicture& picture, int window, const EqualiseOptions& options)
+      : step_(std::max(1, window / 4)),
+        columns_(picture.width / step_ + 2),
+        curves_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(picture.height / step_ + 2)) {
+    parallel_for(
+        curves_.size(),
+        [&](std::size_t node) {
+          const int column = static_cast<int>(node) % columns_, row = static_cast<int>(node) / columns_;
+          curves_[node] = histogram_around(picture, column * step_, row * step_, window, options.bins);
+          equalise(curves_[node], options.clip);
+        },
+        1);
+  }
+
+  // The equalised value of a depth, given in bins, at a place of the picture.
+  double at(const Vec2& pixel, double depth) const {
+    const double x = pixel.x() / step_, y = pixel.y() / step_;
+    const int column = static_cast<int>(x), row = static_cast<int>(y);
+    const double u = x - column, v = y - row;
+    return (1 - v) * ((1 - u) * value(column, row, depth) + u * value(column + 1, row, depth)) +
+           v * ((1 - u) * value(column, row + 1, depth) + u * value(column + 1, row + 1, depth));
+  }
+
+ private:
+  double value(int column, int row, double depth) const {
+    const Histogram& curve = curves_[static_cast<std::size_t>(row * columns_ + column)];
+    const auto bin = static_cast<std::size_t>(depth);
+    const double from = bin > 0 ? curve[bin - 1] : 0;
+    return from + (depth - static_cast<double>(bin)) * (curve[bin] - from);
+  }
+
+  int step_, columns_;
+  std::vector<Histogram> curves_;
+};
+
+}  // namespace
+
+Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options) {
+  std::vector<double> z(surface.points.size(), 0.0);
+  const PictureGrid grid(surface.points, surface.triangulation, options.picture_px, 0);
+  if (grid.pixels() == 0) return scaled_relief(std::move(z), surface, height);
+  const Depths depths(surface, options.bins);
+  const DepthPicture picture = draw(surface, grid, depths, options);
+  for (int level = 0; level < options.windows; ++level) {
+    const Lattice lattice(picture, std::max(4, options.largest_window_px >> level), options);
+    parallel_for(z.size(), [&](std::size_t i) {
+      z[i] += lattice.at(grid.to_pixels(surface.points[i]), depths.place(surface.points[i].z()));
+    });
+  }
+  return scaled_relief(std::move(z), surface, height);
+}
+
+}  // namespace relievo

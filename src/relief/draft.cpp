@@ -1,0 +1,210 @@
+#include "relievo/relief/draft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "relief/nearest_draft.h"
+#include "relievo/core/text.h"
+#include "relievo/detail.h"
+#include "steep_triangles.h"
+
+namespace relievo {
+namespace {
+
+// Shares of the limit: what is kept, which leaves a thousandth for all else that a front goes through; and
+// what the least squares are held to, which end with few triangles more than 0.4 % above that.
+constexpr double kept_share = .999, solved_share = .9945;
+
+std::unexpected<Error> fail(std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, "--draft", {}, std::move(expected)});
+}
+
+double draft_deg_of(double slope) {
+  return 90 - std::atan(slope) * 180 / std::numbers::pi;
+}
+
+// Keeps reliefs of one model under one limit.
+class Limiter {
+ public:
+  Limiter(const ReliefModel& model, const DraftOptions& options)
+      : model_(&model), options_(options), plane_(in_plane(model.surface().points)) {
+    const Surface& surface = model.surface();
+    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+      if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
+  }
+
+  // Whether the limit is kept, with the thousandth to spare.
+  bool holds(std::span<const double> heights) const {
+    return steepest_of(field(), with_base(heights)) <= kept_share * options_.max_slope;
+  }
+
+  Result<void> limit(Relief& relief, Progress* progress) {
+    if (!holds(std::vector<double>(plane_.size(), 0.0)))
+      return fail(cat("expected a base that leans by at least ", draft_deg_of(options_.max_slope),
+                      " degrees off the vertical everywhere, found a steeper one"));
+    const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
+    if (auto built = build_nearest(); !built) return built;
+    nearest_->apply(relief.heights, is_cancelled);
+    if (is_cancelled()) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+    for (int tries = 0; tries < most_tries; ++tries) {
+      std::vector<double> whole = with_base(relief.heights);
+      const bool is_flat = flatten(field(), kept_share * options_.max_slope, Rounding::none, whole);
+      for (std::size_t i = 0; i < whole.size(); ++i)
+        relief.heights[i] = is_flat ? whole[i] - base(i) : .95 * relief.heights[i];
+      relief.height = height_span(relief.heights);
+      if (is_flat) return {};
+    }
+    return fail("expected triangles that can be made flat enough, found some that cannot");
+  }
+
+ private:
+  SteepField field() const { return {plane_, triangles_, model_->surface().boundary.is_boundary}; }
+
+  double base(std::size_t i) const { return options_.base.empty() ? 0 : options_.base[i]; }
+
+  std::vector<double> with_base(std::span<const double> heights) const {
+    std::vector<double> whole(heights.begin(), heights.end());
+    for (std::size_t i = 0; i < whole.size(); ++i) whole[i] += base(i);
+    return whole;
+  }
+
+  // Once. Not by the model's system: splitting needs the one in which all slopes count alike.
+  Result<void> build_nearest() {
+    if (nearest_) return {};
+    const Surface& surface = model_->surface();
+    Result<HeightSystem> system = HeightSystem::build(plane_, surface.triangulation, surface.boundary);
+    if (!system) return std::unexpected(system.error());
+    system_.emplace(std::move(*system));
+    nearest_.emplace(surface, *system_, options_.base, solved_share * options_.max_slope);
+    return {};
+  }
+
+  // Where the least squares end far from the limit, as with walls a hundred times too steep, less height is
+  // left for flatten().
+  static constexpr int most_tries = 40;
+
+  const ReliefModel* model_;
+  DraftOptions options_;
+  std::vector<Vec2> plane_;
+  std::vector<Triangle> triangles_;  // of the relief; around it is the base
+  std::optional<HeightSystem> system_;
+  std::optional<NearestDraft> nearest_;
+};
+
+// Searches the relief of a height among those that grow with x: for methods with a shape x is ln u, for the
+// rivals the logarithm of a scale.
+class DraftSearch {
+ public:
+  DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
+      : model_(model), order_(order), limiter_(limiter), progress_(progress) {}
+
+  // `start` has the height asked for without the limit; null if none has.
+  Result<Relief> run(const Relief* start) {
+    if (!start) return at_most();
+    start_ = start;
+    const double first = has_shape(order_.method) ? std::log(start->shape.compression.u) : 0;
+    const double last = has_shape(order_.method) ? largest_log_u : first + largest_log_scale;
+    if (!(first < last)) return at_most();
+    return search(first, last);
+  }
+
+ private:
+  // Beyond e^4.5 the weights of (6) are nearly 1, of all layers unless detail is large; beyond 64 times the
+  // scale the rivals' reliefs are walls only.
+  static constexpr double largest_log_u = 4.5, largest_log_scale = 4.2;
+  // A relief that much too high is scaled down, which keeps the limit.
+  static constexpr double window = .003;
+  static constexpr int most_reliefs = 24;
+
+  double excess() const { return std::log(std::max(relief_.height, 1e-300) / order_.height) - window; }
+
+  Result<void> make(double x) {
+    if (has_shape(order_.method)) {
+      Shape shape = order_.shape;
+      shape.compression.u = std::exp(x);
+      relief_ = model_.make(shape);
+    } else {
+      relief_ = *start_;
+      for (double& z : relief_.heights) z *= std::exp(x);
+    }
+    return limiter_.limit(relief_, progress_);
+  }
+
+  // From below by secants, then within the bracket by false position and, every third time, halves.
+  Result<Relief> search(double low, double last) {
+    if (auto made = make(low); !made) return std::unexpected(made.error());
+    double low_excess = excess(), high = last, high_excess = 0, slope = 1;
+    bool has_high = false;
+    for (int tries = 0; std::abs(excess()) > window && tries < most_reliefs; ++tries) {
+      double x = low + std::clamp(-1.1 * low_excess / slope, .01, 1.5);
+      if (has_high) x = low + (high - low) * (tries % 3 == 2 ? .5 : low_excess / (low_excess - high_excess));
+      if (!has_high && x > last - .3) x = last;  // there is little to be had beyond: is it enough?
+      if (auto made = make(x); !made) return std::unexpected(made.error());
+      if (excess() < -window && x == last) return at_most();
+      if (excess() > 0) {
+        high = x, high_excess = excess(), has_high = true;
+      } else {
+        slope = std::clamp((excess() - low_excess) / (x - low), .05, 2.0);
+        low = x, low_excess = excess();
+      }
+    }
+    return scaled();
+  }
+
+  // The highest relief that there is, if it is high enough.
+  Result<Relief> at_most() {
+    if (auto made = make(std::numeric_limits<double>::infinity()); !made)
+      return std::unexpected(made.error());
+    return excess() < -window ? too_high() : scaled();
+  }
+
+  Result<Relief> scaled() {
+    if (relief_.height < order_.height) return too_high();
+    const double scale = order_.height / relief_.height;
+    for (double& z : relief_.heights) z *= scale;
+    relief_.height = order_.height;
+    return std::move(relief_);
+  }
+
+  Result<Relief> too_high() const {
+    return fail(cat("expected a height that walls under this draft angle can reach, at most ",
+                    relief_.height * order_.unit_mm, " mm for this view, width and method, found ",
+                    order_.height * order_.unit_mm, " mm"));
+  }
+
+  const ReliefModel& model_;
+  const DraftOrder& order_;
+  Limiter& limiter_;
+  Progress* progress_;
+  const Relief* start_ = nullptr;
+  Relief relief_;
+};
+
+}  // namespace
+
+double slope_at_draft(double draft_deg) {
+  return std::tan((90 - draft_deg) * std::numbers::pi / 180);
+}
+
+Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
+                           Progress* progress) {
+  Limiter limiter(model, options);
+  if (limiter.holds(relief.heights)) return relief;
+  if (auto done = limiter.limit(relief, progress); !done) return std::unexpected(done.error());
+  return relief;
+}
+
+Result<Relief> make_with_draft(const ReliefModel& model, const DraftOrder& order, const DraftOptions& options,
+                               Progress* progress) {
+  Limiter limiter(model, options);
+  Result<Relief> free =
+      make_by_method(order.method, model, order.height, order.shape, order.unit_mm, progress);
+  if (!free && (free.error().kind != ErrorKind::geometry || !has_shape(order.method))) return free;
+  if (free && limiter.holds(free->heights)) return free;
+  return DraftSearch(model, order, limiter, progress).run(free ? &*free : nullptr);
+}
+
+}  // namespace relievo

@@ -1,0 +1,141 @@
+#include "relief/height_equations.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace relievo {
+namespace {
+
+// Cotangents of nearly flat angles are cut here: beyond it an edge is as stiff as single precision can use.
+constexpr float largest_weight = 1e3F;
+// Cocircular points give weights of 0; a trace of stiffness keeps the matrix positive definite whatever the
+// points.
+constexpr float least_weight = 1e-4F;
+
+struct HalfEdge {
+  Index from, to;
+  float weight;  // half the cotangent, times what it counts for
+};
+
+double cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
+  const Vec2 u = a - apex, v = b - apex;
+  return u.dot(v) / std::max(u.x() * v.y() - u.y() * v.x(), 1e-300);
+}
+
+// Both directions of each triangle's edges, ordered by end points; an edge of two triangles stands twice in a
+// row.
+std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulation& mesh,
+                                 const Boundary& boundary) {
+  std::vector<HalfEdge> edges;
+  edges.reserve(mesh.triangles.size() * 6);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    if (!boundary.is_inside[t]) continue;
+    for (int corner = 0; corner < 3; ++corner) {
+      const Index apex = mesh.triangles[t][corner];
+      const Index a = mesh.triangles[t][(corner + 1) % 3], b = mesh.triangles[t][(corner + 2) % 3];
+      const auto half =
+          static_cast<float>(.5 * std::clamp(cotangent(points[apex], points[a], points[b]), -1e6, 1e6));
+      edges.push_back({a, b, half});
+      edges.push_back({b, a, half});
+    }
+  }
+  return edges;
+}
+
+// The edges leaving each point in ascending order, the two halves of an edge added up.
+struct Adjacency {
+  std::vector<Index> begin;
+  std::vector<HalfEdge> edges;
+};
+
+Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points, std::span<const float> weights) {
+  std::vector<std::size_t> begin(points + 1, 0);
+  for (const HalfEdge& e : all) ++begin[e.from + 1];
+  for (std::size_t i = 0; i < points; ++i) begin[i + 1] += begin[i];
+  std::vector<HalfEdge> sorted(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  for (const HalfEdge& e : all) sorted[next[e.from]++] = e;
+
+  Adjacency result;
+  result.begin.reserve(points + 1);
+  result.edges.reserve(all.size() / 2 + points);
+  for (std::size_t i = 0; i < points; ++i) {
+    result.begin.push_back(static_cast<Index>(result.edges.size()));
+    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i]);
+    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]);
+    std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.to < b.to; });
+    for (auto e = first; e != last; ++e) {
+      if (e != first && e->to == result.edges.back().to)
+        result.edges.back().weight += e->weight;
+      else
+        result.edges.push_back(*e);
+    }
+  }
+  result.begin.push_back(static_cast<Index>(result.edges.size()));
+  for (HalfEdge& e : result.edges) {
+    e.weight = std::clamp(e.weight, least_weight, largest_weight);
+    if (!weights.empty()) e.weight *= (weights[e.from] + weights[e.to]) / 2;
+  }
+  return result;
+}
+
+Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
+                                      std::span<const Index> free_points) {
+  const std::size_t n = free_points.size();
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(n + adjacency.edges.size() / 2);
+  for (std::size_t f = 0; f < n; ++f) {
+    const Index i = free_points[f];
+    double diagonal = 0;
+    for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
+      const HalfEdge& edge = adjacency.edges[e];
+      const auto weight = static_cast<double>(edge.weight);
+      diagonal += weight;
+      const Index other = unknown[edge.to];
+      if (other != no_index && other < f)
+        entries.emplace_back(static_cast<int>(f), static_cast<int>(other), -weight);
+    }
+    entries.emplace_back(static_cast<int>(f), static_cast<int>(f), diagonal);
+  }
+  Eigen::SparseMatrix<double> A(static_cast<int>(n), static_cast<int>(n));
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+void add_pulls(std::span<const Vec2> points, const Adjacency& adjacency, std::span<const Index> unknown,
+               HeightEquations& equations) {
+  equations.begin.reserve(points.size() + 1);
+  equations.edges.reserve(adjacency.edges.size());
+  for (Index i = 0; i < points.size(); ++i) {
+    const bool is_free = unknown[i] != no_index;
+    bool has_itself = is_free;
+    for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
+      const Index other = adjacency.edges[e].to;
+      if (!has_itself && other > i) equations.edges.push_back({i}), has_itself = true;
+      const double half = is_free ? .5 * static_cast<double>(adjacency.edges[e].weight) : 0;
+      const Vec2 pull = half * (points[i] - points[other]);
+      equations.edges.push_back({other, pull.cast<float>()});
+    }
+    if (!has_itself) equations.edges.push_back({i});
+    equations.begin.push_back(static_cast<Index>(equations.edges.size()));
+  }
+}
+
+}  // namespace
+
+HeightEquations height_equations(std::span<const Vec2> points, const Triangulation& triangulation,
+                                 const Boundary& boundary, std::span<const float> weights) {
+  HeightEquations equations;
+  std::vector<Index> unknown(points.size(), no_index);
+  for (Index i = 0; i < points.size(); ++i) {
+    if (boundary.is_boundary[i]) continue;
+    unknown[i] = static_cast<Index>(equations.free_points.size());
+    equations.free_points.push_back(i);
+  }
+  const Adjacency adjacency = gather(half_edges(points, triangulation, boundary), points.size(), weights);
+  equations.A = laplacian(adjacency, unknown, equations.free_points);
+  add_pulls(points, adjacency, unknown, equations);
+  return equations;
+}
+
+}  // namespace relievo

@@ -1,0 +1,55 @@
+// Lowest and highest of many heights.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+
+template <typename Real>
+struct HeightSpan {
+  Real lowest = 0, highest = 0;  // the base, 0, is part of it
+
+  void extend(Real z) {
+    lowest = z < lowest ? z : lowest;
+    highest = z > highest ? z : highest;
+  }
+  void extend(const HeightSpan& other) {
+    extend(other.lowest);
+    extend(other.highest);
+  }
+  Real size() const { return highest - lowest; }
+};
+
+// In the calling thread: eight spans side by side, which the compiler turns into vectors.
+template <typename Real>
+HeightSpan<Real> span_of_run(std::span<const Real> heights) {
+  constexpr std::size_t lanes = 8;
+  std::array<Real, lanes> low{}, high{};
+  std::size_t i = 0;
+  for (; i + lanes <= heights.size(); i += lanes) {
+    for (std::size_t l = 0; l < lanes; ++l) {
+      low[l] = heights[i + l] < low[l] ? heights[i + l] : low[l];
+      high[l] = heights[i + l] > high[l] ? heights[i + l] : high[l];
+    }
+  }
+  HeightSpan<Real> span;
+  for (; i < heights.size(); ++i) span.extend(heights[i]);
+  for (std::size_t l = 0; l < lanes; ++l) span.extend(low[l]), span.extend(high[l]);
+  return span;
+}
+
+template <typename Real>
+HeightSpan<Real> span_of(std::span<const Real> heights) {
+  return parallel_reduce(
+      heights.size(), HeightSpan<Real>{},
+      [&](std::size_t begin, std::size_t end) { return span_of_run(heights.subspan(begin, end - begin)); },
+      [](HeightSpan<Real> all, const HeightSpan<Real>& part) {
+        all.extend(part);
+        return all;
+      });
+}
+
+}  // namespace relievo

@@ -1,0 +1,83 @@
+// Rounds off the highest and the deepest points of a relief, so that a few do not take the height that all
+// others need.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "relief/height_span.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+
+// A curve over heights: rising everywhere, 1 : 1 in the middle and at the base, 0, flatter beyond two limits,
+// each with `share` of the points beyond it, down to a slope of `flattest` at the extremes.
+template <typename Real>
+class HeightTails {
+ public:
+  static constexpr double share = .002, flattest = .12;
+
+  explicit HeightTails(std::span<const Real> heights) {
+    const HeightSpan<Real> span = span_of(heights);
+    lowest_ = lower_ = span.lowest;
+    highest_ = upper_ = span.highest;
+    if (!(span.size() > 0)) return;
+    const Histogram counts = histogram(heights);
+    const double wanted = share * static_cast<double>(heights.size()) / stride;
+    upper_ = std::max(Real(0), highest_ - bins_from_end(counts.rbegin(), counts.rend(), wanted) * bin());
+    lower_ = std::min(Real(0), lowest_ + bins_from_end(counts.begin(), counts.end(), wanted) * bin());
+  }
+
+  Real operator()(Real z) const {
+    if (z > upper_) return upper_ + bent(z - upper_, highest_ - upper_);
+    return z < lower_ ? lower_ - bent(lower_ - z, lower_ - lowest_) : z;
+  }
+
+  // What is left of the span of the heights, base included.
+  Real span() const { return (*this)(highest_) - (*this)(lowest_); }
+
+ private:
+  static constexpr std::size_t bins = 2048, stride = 4;  // every fourth height is counted
+  using Histogram = std::array<std::uint32_t, bins>;
+
+  Real bin() const { return (highest_ - lowest_) / static_cast<Real>(bins); }
+
+  // From 0 with slope 1 to the end of the tail with the flattest slope.
+  static Real bent(Real z, Real length) { return z - static_cast<Real>((1 - flattest) / 2) * z * z / length; }
+
+  Histogram histogram(std::span<const Real> heights) const {
+    const Real per_unit = 1 / bin();
+    return parallel_reduce(
+        heights.size(), Histogram{},
+        [&](std::size_t begin, std::size_t end) {
+          Histogram counts{};
+          for (std::size_t i = begin; i < end; i += stride) {
+            const auto at = static_cast<std::size_t>((heights[i] - lowest_) * per_unit);
+            ++counts[std::min(at, bins - 1)];
+          }
+          return counts;
+        },
+        [](Histogram sum, const Histogram& counts) {
+          for (std::size_t b = 0; b < bins; ++b) sum[b] += counts[b];
+          return sum;
+        },
+        1 << 15);
+  }
+
+  // How many bins, with a fraction, hold the points wanted.
+  template <typename It>
+  static Real bins_from_end(It begin, It end, double wanted) {
+    double sum = 0;
+    for (It b = begin; b != end; ++b) {
+      if (sum + *b > wanted) return static_cast<Real>(static_cast<double>(b - begin) + (wanted - sum) / *b);
+      sum += *b;
+    }
+    return static_cast<Real>(bins);
+  }
+
+  Real lowest_ = 0, highest_ = 0, lower_ = 0, upper_ = 0;
+};
+
+}  // namespace relievo

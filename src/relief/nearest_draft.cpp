@@ -1,0 +1,90 @@
+#include "relief/nearest_draft.h"
+
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+// How much the cut slopes count against the given ones, and how far each round goes beyond its mean: where
+// scans took the fewest rounds, 30 to 60.
+constexpr float penalty = 10, relaxation = 1.7F;
+// Given slopes count as so many limits at most: walls at depth jumps, which may be any steepness, would pull
+// all else along with them.
+constexpr float steepest_given = 2;
+
+// Good enough for flatten() to do the rest unseen: so much over the limit, for one triangle of so many.
+constexpr float good_excess = 1.004F;
+constexpr std::size_t good_share = 5000;
+
+}  // namespace
+
+NearestDraft::NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
+                           double max_slope)
+    : system_(system),
+      triangles_(in_plane(surface.points), surface.triangulation, surface.boundary),
+      max_slope_(static_cast<float>(max_slope)),
+      workspace_(system.make_workspace()),
+      given_(triangles_.size()),
+      counted_(triangles_.size()),
+      cut_(triangles_.size()),
+      debt_(triangles_.size(), Vec2f::Zero()),
+      field_(triangles_.size()),
+      first_(surface.points.size()),
+      heights_(surface.points.size()),
+      change_(surface.points.size()) {
+  if (base.empty()) return;
+  base_.resize(triangles_.size());
+  parallel_for(base_.size(), [&](std::size_t t) { base_[t] = triangles_.slope(t, base).cast<float>(); });
+}
+
+void NearestDraft::begin(std::span<const double> heights) {
+  for (std::size_t i = 0; i < heights.size(); ++i) first_[i] = heights_[i] = static_cast<float>(heights[i]);
+  parallel_for(given_.size(), [&](std::size_t t) {
+    given_[t] = triangles_.slope(t, std::span<const float>(first_));
+    counted_[t] = cut(given_[t], t, steepest_given * max_slope_);
+    if (!is_started_) cut_[t] = given_[t];
+  });
+  is_started_ = true;
+}
+
+Vec2f NearestDraft::cut(const Vec2f& slope, std::size_t triangle, float steepest) const {
+  const Vec2f base = base_.empty() ? Vec2f(Vec2f::Zero()) : base_[triangle];
+  const Vec2f whole = slope + base;
+  const float length = whole.norm();
+  return length > steepest ? Vec2f(whole * (steepest / length) - base) : slope;
+}
+
+void NearestDraft::step() {
+  parallel_for(cut_.size(), [&](std::size_t t) {
+    const Vec2f now = triangles_.slope(t, std::span<const float>(heights_));
+    const Vec2f wish = relaxation * now + (1 - relaxation) * cut_[t] + debt_[t];
+    cut_[t] = cut(wish, t, max_slope_);
+    debt_[t] = wish - cut_[t];
+    field_[t] = (counted_[t] + penalty * (cut_[t] - debt_[t])) / (1 + penalty) - given_[t];
+  });
+  triangles_.divergence(field_, change_);
+  system_.solve_in_place(change_, workspace_);
+  parallel_for(heights_.size(), [&](std::size_t i) { heights_[i] = first_[i] + change_[i]; });
+}
+
+bool NearestDraft::is_good() const {
+  const std::size_t steep = parallel_reduce(
+      triangles_.size(), std::size_t{0},
+      [&](std::size_t begin, std::size_t end) {
+        std::size_t count = 0;
+        for (std::size_t t = begin; t < end; ++t) {
+          Vec2f slope = triangles_.slope(t, std::span<const float>(heights_));
+          if (!base_.empty()) slope += base_[t];
+          if (slope.norm() > good_excess * max_slope_) ++count;
+        }
+        return count;
+      },
+      std::plus<>());
+  return steep <= triangles_.size() / good_share;
+}
+
+void NearestDraft::end(std::span<double> heights) const {
+  for (std::size_t i = 0; i < heights.size(); ++i) heights[i] += static_cast<double>(change_[i]);
+}
+
+}  // namespace relievo

@@ -1,0 +1,106 @@
+#include "relief/subspace/control_mesh.h"
+
+#include "core/disjoint_sets.h"
+
+namespace relievo {
+namespace {
+
+double cross(const Vec2& u, const Vec2& v) {
+  return u.x() * v.y() - u.y() * v.x();
+}
+
+double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return cross(b - a, c - a);
+}
+
+// Finds triangles by walking towards a place from the last one found.
+class Walker {
+ public:
+  Walker(std::span<const Vec2> points, const Triangulation& mesh) : points_(points), mesh_(mesh) {}
+
+  // A triangle that holds p up to rounding, no_index outside the hull.
+  Index find(const Vec2& p) {
+    for (std::size_t step = 0; step < mesh_.triangles.size(); ++step) {
+      const int edge = edge_towards(p);
+      if (edge < 0) return at_;
+      const Index next = mesh_.neighbours[at_][static_cast<std::size_t>(edge)];
+      if (next == no_index) return no_index;
+      at_ = next;
+    }
+    return no_index;
+  }
+
+ private:
+  // The edge that has p farthest on its outer side, -1 if none has.
+  int edge_towards(const Vec2& p) const {
+    int found = -1;
+    double least = 0;
+    for (int i = 0; i < 3; ++i) {
+      const Triangle& t = mesh_.triangles[at_];
+      const Vec2& a = points_[t[static_cast<std::size_t>(i + 1) % 3]];
+      const Vec2& b = points_[t[static_cast<std::size_t>(i + 2) % 3]];
+      const double distance = twice_area(a, b, p) / (b - a).norm();
+      if (distance < least) least = distance, found = i;
+    }
+    return found;
+  }
+
+  std::span<const Vec2> points_;
+  const Triangulation& mesh_;
+  Index at_ = 0;
+};
+
+std::vector<std::uint8_t> covered(const ControlMesh& mesh, const Surface& surface) {
+  const std::vector<Triangle>& triangles = mesh.triangulation.triangles;
+  std::vector<double> area(triangles.size(), 0.0);
+  if (area.empty()) return {};
+  Walker walker(mesh.points, mesh.triangulation);
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const Triangle& corners = surface.triangulation.triangles[t];
+    const Vec2 a = surface.points[corners[0]].head<2>(), b = surface.points[corners[1]].head<2>(),
+               c = surface.points[corners[2]].head<2>();
+    const Index found = walker.find((a + b + c) / 3);
+    if (found != no_index) area[found] += twice_area(a, b, c);
+  }
+  std::vector<std::uint8_t> is_inside(triangles.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    const auto [a, b, c] = triangles[t];
+    is_inside[t] = area[t] > .5 * twice_area(mesh.points[a], mesh.points[b], mesh.points[c]);
+  }
+  return is_inside;
+}
+
+// Points of the surface's boundary and of no inside triangle; and of pieces that have neither, because the
+// mesh cuts corners, the points at the piece's edge.
+std::vector<std::uint8_t> held_points(const ControlMesh& mesh, std::size_t boundary_points) {
+  const std::size_t n = mesh.points.size();
+  std::vector<std::uint8_t> is_held(n, 0), is_used(n, 0), is_at_edge(n, 0), has_held(n, 0);
+  std::fill_n(is_held.begin(), boundary_points, 1);
+  DisjointSets pieces(n);
+  for (std::size_t t = 0; t < mesh.triangulation.triangles.size(); ++t) {
+    const bool is_inside = mesh.boundary.is_inside[t];
+    const auto [a, b, c] = mesh.triangulation.triangles[t];
+    for (const Index i : {a, b, c}) (is_inside ? is_used : is_at_edge)[i] = 1;
+    if (is_inside) pieces.join(a, b), pieces.join(b, c);
+  }
+  for (const Index i : mesh.triangulation.hull) is_at_edge[i] = 1;
+  for (Index i = 0; i < n; ++i)
+    if (is_held[i]) has_held[pieces.find(i)] = 1;
+  for (Index i = 0; i < n; ++i)
+    if (!is_used[i] || (is_at_edge[i] && !has_held[pieces.find(i)])) is_held[i] = 1;
+  return is_held;
+}
+
+}  // namespace
+
+ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& control) {
+  ControlMesh mesh;
+  for (const Index i : control.points) mesh.points.push_back(surface.points[i].head<2>());
+  mesh.triangulation = delaunay(mesh.points);
+  mesh.boundary.is_inside = covered(mesh, surface);
+  mesh.boundary.is_boundary = held_points(mesh, control.boundary_points);
+  return mesh;
+}
+
+}  // namespace relievo

@@ -1,0 +1,17 @@
+// Points that stand for the regions around control points.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/relief/control_points.h"
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+
+// Returns `per_region` points for each control point in turn, from the points nearest to it, each standing
+// for the same area in the view plane; in small regions one stands several times.
+std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& control,
+                                  std::size_t per_region);
+
+}  // namespace relievo

@@ -1,0 +1,230 @@
+#include "samples/sample_field.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "relievo/core/parallel.h"
+
+namespace relievo::field {
+namespace {
+
+// splitmix64 (Steele, Lea, Flood 2014): a stream per block, so that blocks can run in any order.
+class Random {
+ public:
+  Random(std::uint64_t seed, std::uint64_t stream) : state_(seed + 0x9E3779B97F4A7C15U * (stream + 1)) {
+    state_ = next();
+  }
+
+  std::uint64_t next() {
+    std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
+    return z ^ (z >> 31);
+  }
+
+  // Uniform in [0, 1).
+  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
+
+  // Standard normal (Box and Muller).
+  double gaussian() {
+    const double u = 1 - uniform(), v = uniform();
+    return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+// Cubes of one size that together hold the surface, and the field at their centres.
+struct Cells {
+  std::vector<Vec3> centres;
+  std::vector<double> values;
+  double side = 0;
+};
+
+Cells near_surface(const Solid& solid, const std::vector<Vec3>& centres, double side) {
+  const double reach = side * std::numbers::sqrt3 / 2;
+  std::vector<double> values(centres.size());
+  parallel_for(centres.size(), [&](std::size_t i) { values[i] = solid.value(centres[i]); });
+  Cells kept{{}, {}, side};
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    if (std::abs(values[i]) > reach) continue;
+    kept.centres.push_back(centres[i]);
+    kept.values.push_back(values[i]);
+  }
+  return kept;
+}
+
+std::vector<Vec3> split(const std::vector<Vec3>& centres, double side) {
+  std::vector<Vec3> parts;
+  parts.reserve(8 * centres.size());
+  for (const Vec3& c : centres) {
+    for (int corner = 0; corner < 8; ++corner) {
+      const Vec3 towards(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+      parts.push_back(c + side / 4 * towards);
+    }
+  }
+  return parts;
+}
+
+Cells cover(const Solid& solid) {
+  const int levels = 8;  // 256 cells along the box: finer than any two sheets that must not be taken for one
+  Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
+  for (int level = 0; level < levels; ++level) {
+    cells = near_surface(solid, split(cells.centres, cells.side), cells.side / 2);
+  }
+  return cells;
+}
+
+struct Line {
+  Vec3 origin;
+  int axis = 0;
+  Vec3 at(double t) const {
+    Vec3 p = origin;
+    p[axis] += t;
+    return p;
+  }
+};
+
+struct Bracket {
+  double t0, f0, t1, f1;
+  bool holds_root() const { return (f0 < 0) != (f1 < 0); }
+};
+
+struct Root {
+  double t, f;  // where, and what is left of the field there
+};
+
+// Regula falsi with the Illinois rule.
+Root find_root(const Solid& solid, const Line& line, Bracket b) {
+  const double tolerance = 1e-5 * (b.t1 - b.t0);
+  const int most = 40;
+  int last_side = 0;
+  Root root{b.t0, b.f0};
+  for (int i = 0; i < most; ++i) {
+    root.t = (b.t0 * b.f1 - b.t1 * b.f0) / (b.f1 - b.f0);
+    root.f = solid.value(line.at(root.t));
+    if (std::abs(root.f) < tolerance) break;
+    const bool is_left = (root.f < 0) == (b.f0 < 0);
+    (is_left ? b.t0 : b.t1) = root.t;
+    (is_left ? b.f0 : b.f1) = root.f;
+    const int side = is_left ? -1 : 1;
+    if (side == last_side) (is_left ? b.f1 : b.f0) /= 2;
+    last_side = side;
+  }
+  return root;
+}
+
+Vec3 unit_gradient(const Solid& solid, const Vec3& p, double here) {
+  const double step = 1e-6;
+  Vec3 gradient;
+  for (int axis = 0; axis < 3; ++axis) gradient[axis] = solid.value(p + step * Vec3::Unit(axis)) - here;
+  return gradient.normalized();
+}
+
+// The part of the cloud that one stream of random numbers fills.
+struct Block {
+  std::span<Vec3> points;
+  std::span<Vec3f> normals;
+  std::size_t filled = 0;
+  std::uint64_t lines = 0;  // shot to fill it
+
+  bool is_full() const { return filled == points.size(); }
+  void add(const Vec3& p, const Vec3& n) {
+    if (is_full()) return;
+    points[filled] = p;
+    normals[filled++] = n.cast<float>();
+  }
+};
+
+// Lines parallel to the three axes, of equal density, pierce the surface |nx| + |ny| + |nz| times as often as
+// its area alone would have it; keeping a hit with the inverse of that makes the density exactly uniform.
+void keep_hit(const Solid& solid, const Vec3& p, double value, Random& random, Block& block) {
+  const Vec3 n = unit_gradient(solid, p, value);
+  if (random.uniform() * n.lpNorm<1>() <= 1) block.add(p, n);
+}
+
+// A line through a cell, from its middle, at random among the three axes and over the cell's cross-section.
+struct Shot {
+  Line line;
+  double at_least = 0;  // what the field's magnitude must be in the line's middle
+};
+
+Shot aim(const Cells& cells, Random& random) {
+  const auto cell = static_cast<std::size_t>(random.uniform() * static_cast<double>(cells.centres.size()));
+  Line line{cells.centres[cell], static_cast<int>(random.uniform() * 3)};
+  const double u = cells.side * (random.uniform() - 0.5), v = cells.side * (random.uniform() - 0.5);
+  line.origin[(line.axis + 1) % 3] += u;
+  line.origin[(line.axis + 2) % 3] += v;
+  return {line, std::abs(cells.values[cell]) - std::hypot(u, v)};
+}
+
+void shoot(const Solid& solid, const Cells& cells, Random& random, Block& block) {
+  const double half = cells.side / 2;
+  const auto [line, at_least] = aim(cells, random);
+  ++block.lines;
+  if (at_least > half) return;
+  const double middle = solid.value(line.origin);
+  if (std::abs(middle) > half) return;
+  const Bracket low{-half, solid.value(line.at(-half)), 0, middle};
+  const Bracket high{0, middle, half, solid.value(line.at(half))};
+  for (const Bracket& b : {low, high}) {
+    if (!b.holds_root()) continue;
+    const Root root = find_root(solid, line, b);
+    keep_hit(solid, line.at(root.t), root.f, random, block);
+  }
+}
+
+// Fills the cloud and returns the sampling distance.
+double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& cloud) {
+  const auto shots = [&](std::size_t begin, std::size_t end) {
+    Block block{std::span(cloud.points).subspan(begin, end - begin),
+                std::span(cloud.normals).subspan(begin, end - begin)};
+    Random random(seed, begin / default_grain);
+    while (!block.is_full()) shoot(solid, cells, random, block);
+    return block.lines;
+  };
+  const std::uint64_t lines = parallel_reduce(cloud.size(), std::uint64_t{0}, shots, std::plus<>());
+  // The lines share three times the cross-section of all cells, and leave one point for each share of the
+  // area.
+  const double share =
+      3 * cells.side * cells.side * static_cast<double>(cells.centres.size()) / static_cast<double>(lines);
+  return std::sqrt(share);
+}
+
+// Moves a point along its normal, and tilts the normal as fitting a plane to such points would.
+void disturb(double noise, double spacing, Random& random, Vec3& p, Vec3f& normal) {
+  const double tilt = 0.2 * noise;  // radians per axis: a plane through some 30 neighbours
+  const Vec3 n = normal.cast<double>();
+  const Vec3 helper = std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
+  const Vec3 u = n.cross(helper).normalized(), v = n.cross(u);
+  const double along = random.gaussian(), a = random.gaussian(), b = random.gaussian();
+  p += noise * spacing * along * n;
+  normal = (n + tilt * (a * u + b * v)).normalized().cast<float>();
+}
+
+}  // namespace
+
+Vec3 outward_normal(const Solid& solid, const Vec3& p) {
+  return unit_gradient(solid, p, solid.value(p));
+}
+
+Cloud scatter(const Solid& solid, const Scatter& how) {
+  Cloud cloud{std::vector<Vec3>(how.points), std::vector<Vec3f>(how.points)};
+  const double spacing = fill(solid, cover(solid), how.seed, cloud);
+  if (how.noise == 0) return cloud;
+  parallel_ranges(how.points, default_grain, [&](std::size_t begin, std::size_t end) {
+    Random random(~how.seed, begin / default_grain);
+    for (std::size_t i = begin; i < end; ++i) {
+      disturb(how.noise, spacing, random, cloud.points[i], cloud.normals[i]);
+    }
+  });
+  return cloud;
+}
+
+}  // namespace relievo::field

@@ -1,0 +1,85 @@
+// The forms of the samples and the strokes they are modelled with. Private to the samples.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "samples/sample_field.h"
+
+namespace relievo::field {
+
+inline constexpr double pi = std::numbers::pi;
+
+// The samples, upright (+Y), front towards +Z, some two units wide.
+Solid shell();
+Solid still_life();
+Solid green_man();
+
+// Field of an ammonite of rim radius 1, coiled in the XY plane, its aperture on the +X side; up to 1.6 times
+// too steep.
+double ammonite(const Vec3& p);
+
+inline double square(double x) {
+  return x * x;
+}
+inline double length(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
+inline double clamp01(double x) {
+  return std::clamp(x, 0.0, 1.0);
+}
+
+// 0 below `from`, 1 above `to`, a cubic between; `from` above `to` turns it round.
+inline double ramp(double from, double to, double x) {
+  const double t = clamp01((x - from) / (to - from));
+  return t * t * (3 - 2 * t);
+}
+
+// About exp(-(x / width)^2), zero from two widths on.
+inline double bump(double x, double width) {
+  return square(square(std::max(0.0, 1 - square(x / width) / 4)));
+}
+
+// Minimum and maximum with a fillet of about `radius`.
+inline double blend_min(double a, double b, double radius) {
+  const double t = std::max(radius - std::abs(a - b), 0.0);
+  return std::min(a, b) - t * t / (4 * radius);
+}
+inline double blend_max(double a, double b, double radius) {
+  return -blend_min(-a, -b, radius);
+}
+
+// Distance to an ellipsoid about the origin, to first order near its surface.
+inline double ellipsoid(const Vec3& p, const Vec3& radii) {
+  const Vec3 q = p.cwiseQuotient(radii);
+  const double k = q.norm();
+  const double deepest = -radii.minCoeff();
+  if (k < 1e-9) return deepest;
+  return std::max(deepest, k * (k - 1) / q.cwiseQuotient(radii).norm());
+}
+
+// Distance to a capsule whose radius goes from `ra` at `a` to `rb` at `b`.
+inline double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
+  const Vec3 ab = b - a;
+  const double t = clamp01((p - a).dot(ab) / ab.squaredNorm());
+  return (p - a - t * ab).norm() - (ra + t * (rb - ra));
+}
+
+// Distance to a box about the origin with its edges rounded.
+inline double rounded_box(const Vec3& p, const Vec3& half, double radius) {
+  const Vec3 q = p.cwiseAbs() - half + Vec3::Constant(radius);
+  return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0) - radius;
+}
+
+// Turns a point about one axis by `radians`, counter-clockwise seen from the axis' positive end.
+inline Vec3 turned(const Vec3& p, int axis, double radians) {
+  const double c = std::cos(radians), s = std::sin(radians);
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  Vec3 q = p;
+  q[u] = c * p[u] - s * p[v];
+  q[v] = s * p[u] + c * p[v];
+  return q;
+}
+
+}  // namespace relievo::field

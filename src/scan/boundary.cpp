@@ -1,0 +1,96 @@
+#include "relievo/boundary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/disjoint_sets.h"
+#include "geometry/neighbours.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 u = b - a, v = c - a;
+  const double twice_area = std::abs(u.x() * v.y() - u.y() * v.x());
+  const double product = u.norm() * v.norm() * (c - b).norm();
+  return twice_area > 0 ? product / (2 * twice_area) : std::numeric_limits<double>::infinity();
+}
+
+class BoundaryFinder {
+ public:
+  BoundaryFinder(std::span<const Vec2> points, const Triangulation& mesh) : points_(points), mesh_(mesh) {
+    radius_.resize(mesh.triangles.size());
+    parallel_for(radius_.size(), [&](std::size_t t) {
+      const auto [a, b, c] = mesh_.triangles[t];
+      radius_[t] = circumradius(points_[a], points_[b], points_[c]);
+    });
+  }
+
+  std::vector<std::uint8_t> inside(double gap, double smallest_hole) const {
+    std::vector<std::uint8_t> is_inside(radius_.size());
+    parallel_for(radius_.size(), [&](std::size_t t) { is_inside[t] = radius_[t] <= gap; });
+    close_narrow_holes(is_inside, smallest_hole);
+    return is_inside;
+  }
+
+  std::vector<std::uint8_t> boundary_points(const std::vector<std::uint8_t>& is_inside) const {
+    std::vector<std::uint8_t> touches_inside(points_.size(), 0), is_boundary(points_.size(), 0);
+    for (std::size_t t = 0; t < is_inside.size(); ++t)
+      for (const Index corner : mesh_.triangles[t]) (is_inside[t] ? touches_inside : is_boundary)[corner] = 1;
+    for (const Index i : mesh_.hull) is_boundary[i] = 1;
+    for (std::size_t i = 0; i < points_.size(); ++i) is_boundary[i] |= !touches_inside[i];
+    return is_boundary;
+  }
+
+ private:
+  // Turns sets of neighbouring outside triangles that are narrow and do not reach the hull to inside.
+  void close_narrow_holes(std::vector<std::uint8_t>& is_inside, double smallest_hole) const {
+    DisjointSets sets(is_inside.size());
+    for (Index t = 0; t < is_inside.size(); ++t)
+      for (const Index other : mesh_.neighbours[t])
+        if (other != no_index && !is_inside[t] && !is_inside[other]) sets.join(t, other);
+    std::vector<std::uint8_t> is_hole(is_inside.size(), 0);
+    for (Index t = 0; t < is_inside.size(); ++t) {
+      const auto& around = mesh_.neighbours[t];
+      const bool is_open = std::find(around.begin(), around.end(), no_index) != around.end();
+      if (!is_inside[t] && (is_open || radius_[t] > smallest_hole)) is_hole[sets.find(t)] = 1;
+    }
+    for (Index t = 0; t < is_inside.size(); ++t)
+      if (!is_inside[t]) is_inside[t] = !is_hole[sets.find(t)];
+  }
+
+  std::span<const Vec2> points_;
+  const Triangulation& mesh_;
+  std::vector<double> radius_;
+};
+
+std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<std::uint8_t>& is_boundary) {
+  std::vector<Vec2> targets;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (is_boundary[i]) targets.push_back(points[i]);
+  const KdTree<Vec2> tree(targets);
+  std::vector<float> distance(points.size(), std::numeric_limits<float>::infinity());
+  parallel_for(points.size(), [&](std::size_t i) {
+    Index nearest;
+    double distance_sq;
+    if (tree.nearest(points[i], 1, &nearest, &distance_sq))
+      distance[i] = static_cast<float>(std::sqrt(distance_sq));
+  });
+  return distance;
+}
+
+}  // namespace
+
+Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
+                       const BoundaryOptions& options) {
+  const BoundaryFinder finder(points, triangulation);
+  Boundary boundary;
+  boundary.is_inside = finder.inside(options.gap * rho, options.smallest_hole * rho);
+  boundary.is_boundary = finder.boundary_points(boundary.is_inside);
+  boundary.distance = distances_to(points, boundary.is_boundary);
+  return boundary;
+}
+
+}  // namespace relievo

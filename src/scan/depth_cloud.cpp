@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <cmath>
+
+#include "depth_grid.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/depth_image.h"
+
+namespace relievo {
+namespace {
+
+// Places without a depth that known ones enclose. What is open to the border is not part of the picture.
+std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
+  std::vector<std::uint8_t> is_hole(b.is_known.size());
+  for (std::size_t i = 0; i < is_hole.size(); ++i) is_hole[i] = !b.is_known[i];
+  std::vector<std::pair<int, int>> open;
+  const auto reach = [&](int c, int r) {
+    if (c < 0 || r < 0 || c >= b.width || r >= b.height || !is_hole[b.at(c, r)]) return;
+    is_hole[b.at(c, r)] = 0;
+    open.emplace_back(c, r);
+  };
+  for (int c = 0; c < b.width; ++c) reach(c, 0), reach(c, b.height - 1);
+  for (int r = 0; r < b.height; ++r) reach(0, r), reach(b.width - 1, r);
+  while (!open.empty()) {
+    const auto [c, r] = open.back();
+    open.pop_back();
+    reach(c - 1, r), reach(c + 1, r), reach(c, r - 1), reach(c, r + 1);
+  }
+  return is_hole;
+}
+
+// Gives each hole the height of the nearest known place along its row or column that lies farthest back: a
+// hole beside an outline belongs to what is behind.
+void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::vector<float>& z) {
+  const std::vector<float> known = z;
+  parallel_for(
+      static_cast<std::size_t>(b.height),
+      [&](std::size_t row) {
+        const int r = static_cast<int>(row);
+        for (int c = 0; c < b.width; ++c) {
+          if (!is_hole[b.at(c, r)]) continue;
+          float lowest = std::numeric_limits<float>::infinity();
+          const auto look = [&](int dc, int dr) {
+            int x = c, y = r;
+            while (x >= 0 && y >= 0 && x < b.width && y < b.height && !b.is_known[b.at(x, y)])
+              x += dc, y += dr;
+            if (x >= 0 && y >= 0 && x < b.width && y < b.height) lowest = std::min(lowest, known[b.at(x, y)]);
+          };
+          look(1, 0), look(-1, 0), look(0, 1), look(0, -1);
+          z[b.at(c, r)] = std::isfinite(lowest) ? lowest : 0;
+        }
+      },
+      16);
+}
+
+// Mean of the differences to the joined neighbours on both sides; 0 without any.
+float slope_between(float before, float here, float after, bool joins_before, bool joins_after) {
+  const float sum = (joins_before ? here - before : 0) + (joins_after ? after - here : 0);
+  return joins_before && joins_after ? sum / 2 : sum;
+}
+
+Vec3f normal_at(const BoundedGrid& b, const std::vector<float>& z, int c, int r) {
+  const std::size_t i = b.at(c, r), w = static_cast<std::size_t>(b.width);
+  const bool left = c > 0 && b.joins_right[i - 1], up = r > 0 && b.joins_down[i - w];
+  const bool right = b.joins_right[i], down = b.joins_down[i];
+  const float dx = slope_between(left ? z[i - 1] : 0, z[i], right ? z[i + 1] : 0, left, right);
+  const float dy = slope_between(up ? z[i - w] : 0, z[i], down ? z[i + w] : 0, up, down);
+  return Vec3f(-dx, dy, 1).normalized();  // rows go down, y goes up
+}
+
+Cloud points_of(const DepthGrid& grid, const std::vector<float>& z,
+                const std::vector<std::uint8_t>& is_hole) {
+  const BoundedGrid& b = grid.bounds;
+  Cloud cloud;
+  for (int r = 0; r < b.height; ++r)
+    for (int c = 0; c < b.width; ++c) {
+      const std::size_t i = b.at(c, r);
+      if (!b.is_known[i] && !is_hole[i]) continue;
+      const double x = c - (b.width - 1) / 2.0, y = (b.height - 1) / 2.0 - r;
+      cloud.points.emplace_back(x, y, double{z[i]});
+      cloud.normals.push_back(is_hole[i] ? Vec3f(Vec3f::UnitZ()) : normal_at(b, z, c, r));
+    }
+  return cloud;
+}
+
+}  // namespace
+
+Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options, Progress* progress) {
+  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
+  if (auto go = begin_stage(progress, "depths", 0); !go) return std::unexpected(go.error());
+  DepthGrid grid = make_grid(image, options);
+  DepthCloud out;
+  out.reduction = grid.reduction;
+  out.missing = grid.missing;
+  out.noise = grid.noise;
+  const bool is_removed = options.background == "remove" || (options.background == "auto" && !options.camera);
+  if (is_removed) out.background = remove_background(grid);
+  join(grid);
+  out.cut = cut_ramps(grid);
+  const auto known = std::ranges::count(grid.bounds.is_known, 1);
+  if (known < 16)
+    return std::unexpected(
+        Error{ErrorKind::geometry, {}, {}, cat("expected at least 16 pixels with a depth, found ", known)});
+  if (auto go = begin_stage(progress, "smooth depths", 0); !go) return std::unexpected(go.error());
+  std::vector<float> z = smoothest(grid.bounds);
+  const std::vector<std::uint8_t> is_hole = enclosed_holes(grid.bounds);
+  fill(grid.bounds, is_hole, z);
+  out.cloud = points_of(grid, z, is_hole);
+  return out;
+}
+
+}  // namespace relievo

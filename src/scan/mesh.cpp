@@ -1,0 +1,286 @@
+#include "relievo/mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/raster.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+
+namespace relievo {
+namespace {
+
+constexpr int first_side_px = 512;  // of the picture that tells how much of the view the mesh fills
+constexpr int band_rows = 32;
+constexpr float least_normal_z = .02F;  // interpolated normals may look away where the triangle does not
+
+// The mesh as seen: x to the right, y up, z towards the viewer; every triangle turned to the viewer.
+struct SeenMesh {
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  std::vector<std::array<Vec3f, 3>> normals;  // of the corners, not yet of unit length
+  Box box;
+};
+
+// Whether the file's normals say more than its triangles do. Some programs write each triangle's own normal,
+// which would show the triangles rather than the shape.
+bool tells_normals(const Mesh& mesh) {
+  const float same = .9999F;  // cosine of 0.8 degrees
+  const auto count_told = [&](std::size_t begin, std::size_t end) {
+    std::size_t told = 0;
+    for (std::size_t t = begin; t < end; ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
+      const Vec3f flat = p.cross(q).stableNormalized().cast<float>();
+      for (const Vec3f& n : mesh.corner_normals[t]) told += std::abs(n.dot(flat)) < same && !n.isZero(0);
+    }
+    return told;
+  };
+  const std::size_t told =
+      parallel_reduce(mesh.corner_normals.size(), std::size_t{0}, count_told, std::plus<>());
+  return 100 * told > 3 * mesh.corner_normals.size();
+}
+
+SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
+  SeenMesh seen;
+  seen.points.resize(mesh.points.size());
+  parallel_for(seen.points.size(),
+               [&](std::size_t i) { seen.points[i] = view.rotation * (mesh.points[i] - centre); });
+  seen.triangles = mesh.triangles;
+  seen.normals = normals_to_show(mesh);
+  const Eigen::Matrix3f turn = view.rotation.cast<float>();
+  parallel_for(seen.triangles.size(), [&](std::size_t t) {
+    Triangle& corners = seen.triangles[t];
+    auto& normals = seen.normals[t];
+    const Vec3 p = seen.points[corners[1]] - seen.points[corners[0]],
+               q = seen.points[corners[2]] - seen.points[corners[0]];
+    const Vec3f flat = p.cross(q).stableNormalized().cast<float>();
+    const bool looks_away = flat.z() < 0;
+    for (Vec3f& n : normals) n = n.isZero(0) ? (looks_away ? Vec3f(-flat) : flat) : Vec3f(turn * n);
+    if (!looks_away) return;
+    std::swap(corners[1], corners[2]);
+    std::swap(normals[1], normals[2]);
+    // Normals of the file may be right where the order of the corners is not.
+    if ((normals[0] + normals[1] + normals[2]).dot(flat) > 0)
+      for (Vec3f& n : normals) n = -n;
+  });
+  for (const Triangle& t : seen.triangles)
+    for (const Index i : t) seen.box.extend(seen.points[i]);
+  return seen;
+}
+
+Drawing scene_of(const SeenMesh& seen, double pixel) {
+  Drawing scene;
+  scene.triangles = seen.triangles;
+  const Vec3 size = seen.box.size() / pixel;
+  scene.width = std::max(1, static_cast<int>(std::ceil(size.x())));
+  scene.height = std::max(1, static_cast<int>(std::ceil(size.y())));
+  scene.points.resize(seen.points.size());
+  parallel_for(seen.points.size(), [&](std::size_t i) {
+    const Vec3 p = seen.points[i].cwiseMax(seen.box.min).cwiseMin(seen.box.max);
+    scene.points[i] = {(p.x() - seen.box.min.x()) / pixel, (seen.box.max.y() - p.y()) / pixel, p.z()};
+  });
+  return scene;
+}
+
+std::size_t covered_pixels(const Drawing& scene) {
+  const Raster raster(scene, band_rows);
+  std::vector<std::size_t> covered(raster.bands());
+  parallel_for(
+      raster.bands(),
+      [&](std::size_t b) {
+        const Band band = raster.draw(b);
+        covered[b] = static_cast<std::size_t>(
+            std::ranges::count_if(band.samples, [](const Sample& s) { return s.triangle != no_index; }));
+      },
+      1);
+  std::size_t sum = 0;
+  for (const std::size_t c : covered) sum += c;
+  return sum;
+}
+
+// Side of the pixels asked for: as given, or so that about as many as wanted show the mesh; nothing if none
+// does.
+std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& options) {
+  const Vec3 size = seen.box.size();
+  const double longer = std::max(size.x(), size.y());
+  const double finest = longer / (Drawing::most_pixels / 8.0);
+  if (options.spacing > 0 && longer > 0) return std::max(finest, options.spacing);
+  double pixel = longer / first_side_px;
+  if (!(pixel > 0)) return std::nullopt;
+  const int tries = 4;  // a wire that the first pixels miss shows in finer ones
+  for (int i = 0; i < tries; ++i) {
+    const auto covered = static_cast<double>(covered_pixels(scene_of(seen, pixel)));
+    const bool is_sure = covered > 1000;
+    if (is_sure) return std::max(finest, pixel * std::sqrt(covered / options.points));
+    pixel = std::max(finest, pixel / 4);
+  }
+  return std::nullopt;
+}
+
+// Draws the mesh `fine` times finer than the points asked for, so that the outline is known between them.
+class Sampler {
+ public:
+  static constexpr int fine = 5;  // odd: the centre of a pixel is that of a fine one
+
+  Sampler(const Mesh& mesh, const SeenMesh& seen, double pixel)
+      : mesh_(mesh),
+        seen_(seen),
+        fine_pixel_(pixel / fine),
+        scene_(scene_of(seen, fine_pixel_)),
+        columns_((scene_.width + fine - 1) / fine),
+        rows_((scene_.height + fine - 1) / fine) {}
+
+  // In the view's frame.
+  Cloud sample() {
+    draw();
+    std::vector<Cloud> parts(static_cast<std::size_t>(rows_));
+    parallel_for(
+        parts.size(), [&](std::size_t r) { sample_row(static_cast<int>(r), parts[r]); }, 16);
+    Cloud cloud;
+    for (const Cloud& part : parts) {
+      cloud.points.insert(cloud.points.end(), part.points.begin(), part.points.end());
+      cloud.normals.insert(cloud.normals.end(), part.normals.begin(), part.normals.end());
+      cloud.colours.insert(cloud.colours.end(), part.colours.begin(), part.colours.end());
+    }
+    return cloud;
+  }
+
+ private:
+  static constexpr int middle = fine / 2;
+
+  // Keeps what is seen along the middle lines of the pixels' rows and columns.
+  void draw() {
+    const auto size = [](int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); };
+    along_rows_.assign(size(rows_, columns_ * fine), no_index);
+    along_columns_.assign(size(rows_ * fine, columns_), no_index);
+    const Raster raster(scene_, band_rows);
+    const auto keep = [&](std::size_t b) {
+      const Band band = raster.draw(b);
+      for (int r = 0; r < band.rows; ++r) {
+        const int row = band.first_row + r;
+        const Sample* const samples = band.samples.data() + size(r, scene_.width);
+        for (int c = middle; c < scene_.width; c += fine)
+          along_columns_[size(row, columns_) + static_cast<std::size_t>(c / fine)] = samples[c].triangle;
+        if (row % fine != middle) continue;
+        for (int c = 0; c < scene_.width; ++c)
+          along_rows_[size(row / fine, columns_ * fine) + static_cast<std::size_t>(c)] = samples[c].triangle;
+      }
+    };
+    parallel_for(raster.bands(), keep, 1);
+  }
+
+  Index in_row(int row, int fine_column) const {
+    if (row >= rows_ || fine_column >= columns_ * fine) return no_index;
+    return along_rows_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ * fine) +
+                       static_cast<std::size_t>(fine_column)];
+  }
+  Index in_column(int fine_row, int column) const {
+    if (fine_row >= rows_ * fine || column >= columns_) return no_index;
+    return along_columns_[static_cast<std::size_t>(fine_row) * static_cast<std::size_t>(columns_) +
+                          static_cast<std::size_t>(column)];
+  }
+
+  void sample_row(int row, Cloud& to) const {
+    for (int column = -1; column < columns_; ++column) {
+      const int x = column * fine + middle, y = row * fine + middle;
+      if (column >= 0) add(in_row(row, x), x, y, to);
+      const auto across = [&](int step) { return x + step < 0 ? no_index : in_row(row, x + step); };
+      add_outline(across, [&](Index t, int step) { add(t, x + step, y, to); });
+      if (column < 0) continue;
+      const auto down = [&](int step) { return in_column(y + step, column); };
+      add_outline(down, [&](Index t, int step) { add(t, x, y + step, to); });
+      if (row > 0) continue;
+      const auto up = [&](int step) { return y - step < 0 ? no_index : in_column(y - step, column); };
+      add_outline(up, [&](Index t, int step) { add(t, x, y - step, to); });
+    }
+  }
+
+  // Between two neighbouring pixels, one of which shows the mesh, adds the last place that does, unless the
+  // pixel's own point is as near. `seen_at` tells what is seen so many fine pixels from the first.
+  template <typename SeenAt, typename Add>
+  static void add_outline(const SeenAt& seen_at, const Add& add_at) {
+    const bool is_first = seen_at(0) != no_index, is_second = seen_at(fine) != no_index;
+    if (is_first == is_second) return;
+    const int begin = is_first ? 0 : fine, towards = is_first ? 1 : -1;
+    int steps = 0;
+    while (steps + 1 < fine && seen_at(begin + (steps + 1) * towards) != no_index) ++steps;
+    if (steps >= 2) add_at(seen_at(begin + steps * towards), begin + steps * towards);
+  }
+
+  // The point of a triangle at the centre of a fine pixel; none for no triangle.
+  void add(Index t, int fine_column, int fine_row, Cloud& to) const {
+    if (t == no_index) return;
+    const Vec2 place(fine_column + .5, fine_row + .5);
+    const Vec3f weights = corner_weights(scene_, t, place.x(), place.y());
+    const Triangle& corners = seen_.triangles[t];
+    double z = 0;
+    Vec3f normal = Vec3f::Zero(), colour = Vec3f::Constant(.5F);
+    for (int i = 0; i < 3; ++i) {
+      z += static_cast<double>(weights[i]) * seen_.points[corners[i]].z();
+      normal += weights[i] * seen_.normals[t][i];
+      if (!mesh_.colours.empty())
+        for (int k = 0; k < 3; ++k)
+          colour[k] += weights[i] * static_cast<float>(mesh_.colours[corners[i]][k]);
+    }
+    normal.z() = std::max(normal.z(), least_normal_z);
+    const Vec2 from_corner = fine_pixel_ * place;
+    to.points.emplace_back(seen_.box.min.x() + from_corner.x(), seen_.box.max.y() - from_corner.y(), z);
+    to.normals.push_back(normal.normalized());
+    if (mesh_.colours.empty()) return;
+    const auto byte = [&](int k) { return static_cast<std::uint8_t>(std::clamp(colour[k], 0.F, 255.F)); };
+    to.colours.push_back({byte(0), byte(1), byte(2)});
+  }
+
+  const Mesh& mesh_;
+  const SeenMesh& seen_;
+  double fine_pixel_;
+  Drawing scene_;
+  int columns_, rows_;  // of the pixels
+  std::vector<Index> along_rows_, along_columns_;
+};
+
+void turn_back(Cloud& cloud, const View& view, const Vec3& centre) {
+  const Mat3 back = view.rotation.transpose();
+  const Eigen::Matrix3f turn = back.cast<float>();
+  parallel_for(cloud.size(), [&](std::size_t i) {
+    cloud.points[i] = back * cloud.points[i] + centre;
+    cloud.normals[i] = (turn * cloud.normals[i]).normalized();
+  });
+}
+
+}  // namespace
+
+std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh) {
+  return tells_normals(mesh) ? mesh.corner_normals : smooth_normals(mesh);
+}
+
+Result<void> check_points(double points) {
+  if (points >= 100 && points <= 1e7) return {};
+  return std::unexpected(
+      Error{ErrorKind::option, "--points", {}, cat("expected a number from 100 to 1e+07, found ", points)});
+}
+
+Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options,
+                          Progress* progress) {
+  if (auto ok = check_points(options.points); !ok) return std::unexpected(ok.error());
+  if (auto go = begin_stage(progress, "mesh", 0); !go) return std::unexpected(go.error());
+  Box box;
+  for (const Vec3& p : mesh.points) box.extend(p);
+  const Vec3 centre = box.centre();
+  if (!mesh.empty() && !(box.diagonal() > 1e-100 && box.diagonal() < 1e100))
+    return std::unexpected(Error{
+        ErrorKind::geometry, {}, {}, "expected a mesh between 1e-100 and 1e100 units large, found another"});
+  const SeenMesh seen = look_at(mesh, view, centre);
+  const std::optional<double> pixel = pixel_for(seen, options);
+  if (!pixel)
+    return std::unexpected(Error{
+        ErrorKind::geometry, {}, {}, "expected triangles that show an area in this view; try another view"});
+  if (auto go = begin_stage(progress, "mesh samples", 0); !go) return std::unexpected(go.error());
+  Cloud cloud = Sampler(mesh, seen, *pixel).sample();
+  turn_back(cloud, view, centre);
+  return cloud;
+}
+
+}  // namespace relievo

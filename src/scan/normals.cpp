@@ -1,0 +1,88 @@
+#include "relievo/normals.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+
+#include "front_most.h"
+#include "geometry/neighbours.h"
+#include "relievo/core/parallel.h"
+#include "relievo/view.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t most_neighbours = 64;
+
+Vec3f plane_normal(std::span<const Vec3> points, std::span<const Index> members) {
+  Vec3 mean = Vec3::Zero();
+  for (const Index i : members) mean += points[i];
+  mean /= static_cast<double>(members.size());
+  Mat3 covariance = Mat3::Zero();
+  for (const Index i : members) covariance += (points[i] - mean) * (points[i] - mean).transpose();
+  Eigen::SelfAdjointEigenSolver<Mat3> solver;
+  solver.computeDirect(covariance / std::max(covariance.trace(), 1e-300));
+  const Vec3 normal = solver.eigenvectors().col(0);
+  return normal.allFinite() && normal.norm() > .5 ? Vec3f(normal.cast<float>().normalized())
+                                                  : Vec3f(Vec3f::UnitZ());
+}
+
+}  // namespace
+
+void estimate_normals(Cloud& cloud, std::size_t neighbours) {
+  if (cloud.size() < 3) return;
+  const std::size_t k = std::min({neighbours, cloud.size(), most_neighbours});
+  const KdTree<Vec3> tree(cloud.points);
+  cloud.normals.resize(cloud.size());
+  parallel_for(
+      cloud.size(),
+      [&](std::size_t i) {
+        std::array<Index, most_neighbours> members;
+        std::array<double, most_neighbours> distances_sq;
+        const std::size_t found = tree.nearest(cloud.points[i], k, members.data(), distances_sq.data());
+        cloud.normals[i] = plane_normal(cloud.points, std::span(members).first(found));
+      },
+      1024);
+}
+
+void turn_to_viewer(Cloud& viewed) {
+  for (Vec3f& n : viewed.normals)
+    if (n.z() < 0) n = -n;
+}
+
+void turn_to_viewer(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
+  turn_to_viewer(viewed);
+  constexpr float seen_well = .5F;
+  std::vector<Index> settled;  // in the order in which they were; also the queue
+  std::vector<std::uint8_t> is_settled(viewed.size(), 0);
+  const auto settle = [&](Index i) {
+    is_settled[i] = 1;
+    settled.push_back(i);
+  };
+  for (const Index i : seen)
+    if (viewed.normals[i].z() > seen_well) settle(i);
+  for (std::size_t next = 0; next < settled.size(); ++next)
+    for (const Index i : spacing.nearest[settled[next]]) {
+      if (i == no_index || is_settled[i]) continue;
+      Vec3f& n = viewed.normals[i];
+      float agreement = n.dot(viewed.normals[settled[next]]);
+      for (const Index j : spacing.nearest[i])
+        if (j != no_index && is_settled[j]) agreement += n.dot(viewed.normals[j]);
+      if (agreement < 0) n = -n;
+      settle(i);
+    }
+}
+
+bool normals_point_inward(const Cloud& cloud) {
+  if (!cloud.has_normals()) return false;
+  double facing = 0;
+  const std::array<const char*, 6> sides{"front", "back", "left", "right", "top", "bottom"};
+  for (const char* side : sides) facing += front_most(in_view(cloud, *parse_view(side))).facing_share;
+  return facing < sides.size() / 3.0;
+}
+
+void flip_normals(Cloud& cloud) {
+  for (Vec3f& n : cloud.normals) n = -n;
+}
+
+}  // namespace relievo

@@ -1,0 +1,71 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/core/parallel.h"
+#include "relievo/mesh.h"
+
+namespace relievo {
+namespace {
+
+std::vector<double> areas(const Mesh& mesh) {
+  std::vector<double> areas(mesh.triangles.size());
+  parallel_for(areas.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
+    areas[t] = p.cross(q).norm() / 2;
+  });
+  return areas;
+}
+
+// Weights of the corners for point number i: a plastic-number sequence, which fills a square evenly, folded
+// into the triangle.
+Vec3f spread_weights(std::size_t i) {
+  constexpr double first = 0.7548776662466927, second = 0.5698402909980532;
+  double whole = 0;
+  double u = std::modf(.5 + first * static_cast<double>(i + 1), &whole);
+  double v = std::modf(.5 + second * static_cast<double>(i + 1), &whole);
+  if (u + v > 1) u = 1 - u, v = 1 - v;
+  return Vec3(1 - u - v, u, v).cast<float>();
+}
+
+void add(const Mesh& mesh, const std::array<Vec3f, 3>& normals, std::size_t t, const Vec3f& weights,
+         Cloud& to) {
+  Vec3 point = Vec3::Zero();
+  Vec3f normal = Vec3f::Zero(), colour = Vec3f::Constant(.5F);
+  for (int i = 0; i < 3; ++i) {
+    const Index corner = mesh.triangles[t][static_cast<std::size_t>(i)];
+    point += static_cast<double>(weights[i]) * mesh.points[corner];
+    normal += weights[i] * normals[static_cast<std::size_t>(i)];
+    if (mesh.colours.empty()) continue;
+    for (int k = 0; k < 3; ++k)
+      colour[k] += weights[i] * static_cast<float>(mesh.colours[corner][static_cast<std::size_t>(k)]);
+  }
+  if (normal.isZero(0)) return;
+  to.points.push_back(point);
+  to.normals.push_back(normal.normalized());
+  const auto byte = [&](int k) { return static_cast<std::uint8_t>(std::clamp(colour[k], 0.F, 255.F)); };
+  if (!mesh.colours.empty()) to.colours.push_back({byte(0), byte(1), byte(2)});
+}
+
+}  // namespace
+
+Cloud scatter(const Mesh& mesh, std::size_t points) {
+  const std::vector<double> area = areas(mesh);
+  double total = 0;
+  for (const double a : area) total += a;
+  Cloud cloud;
+  if (!(total > 0) || !std::isfinite(total)) return cloud;
+  const auto normals = mesh.corner_normals.empty() ? smooth_normals(mesh) : mesh.corner_normals;
+  const double per_area = static_cast<double>(points) / total;
+  double before = 0;
+  std::size_t taken = 0;
+  for (std::size_t t = 0; t < area.size(); ++t) {
+    before += area[t];
+    const auto due = static_cast<std::size_t>(before * per_area + .5);
+    for (; taken < due; ++taken) add(mesh, normals[t], t, spread_weights(taken), cloud);
+  }
+  return cloud;
+}
+
+}  // namespace relievo

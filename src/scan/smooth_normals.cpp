@@ -1,0 +1,79 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "geometry/weld.h"
+#include "relievo/core/parallel.h"
+#include "relievo/mesh.h"
+
+namespace relievo {
+namespace {
+
+// At the apex of a cone thousands meet: more than this many of them tell nothing new, and looking at all
+// from each would take time that grows with their square.
+constexpr std::size_t enough_members = 512;
+
+// The triangles around each place, and the angle that each has there.
+struct Fans {
+  struct Member {
+    Index triangle;
+    float angle;
+  };
+  std::vector<std::size_t> first;  // per place, and one more
+  std::vector<Member> members;
+};
+
+double angle_at(const Mesh& mesh, const Triangle& t, std::size_t corner) {
+  const Vec3& p = mesh.points[t[corner]];
+  const Vec3 a = mesh.points[t[(corner + 1) % 3]] - p, b = mesh.points[t[(corner + 2) % 3]] - p;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+Fans find_fans(const Mesh& mesh, const std::vector<Index>& place) {
+  Fans fans{std::vector<std::size_t>(mesh.points.size() + 1, 0), {}};
+  for (const Triangle& t : mesh.triangles)
+    for (const Index i : t) ++fans.first[place[i]];
+  std::size_t sum = 0;
+  for (std::size_t& at : fans.first) at = std::exchange(sum, sum + at);
+  fans.members.resize(sum);
+  std::vector<std::size_t> next(fans.first);
+  for (Index t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const auto angle = static_cast<float>(angle_at(mesh, mesh.triangles[t], c));
+      fans.members[next[place[mesh.triangles[t][c]]]++] = {t, angle};
+    }
+  return fans;
+}
+
+}  // namespace
+
+std::vector<std::array<Vec3f, 3>> smooth_normals(const Mesh& mesh, double sharpest_deg) {
+  const double least_cosine = std::cos(sharpest_deg * std::numbers::pi / 180);
+  const std::vector<Index> place = places(mesh.points);
+  const Fans fans = find_fans(mesh, place);
+  std::vector<Vec3f> flat(mesh.triangles.size());
+  parallel_for(flat.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
+    flat[t] = p.cross(q).stableNormalized().cast<float>();
+  });
+  std::vector<std::array<Vec3f, 3>> normals(flat.size());
+  parallel_for(normals.size(), [&](std::size_t t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Index at = place[mesh.triangles[t][c]];
+      Vec3 sum = Vec3::Zero();
+      const std::size_t step = 1 + (fans.first[at + 1] - fans.first[at]) / enough_members;
+      for (std::size_t m = fans.first[at]; m < fans.first[at + 1]; m += step) {
+        const auto& [other, angle] = fans.members[m];
+        if (static_cast<double>(flat[other].dot(flat[t])) < least_cosine) continue;
+        sum += static_cast<double>(angle) * flat[other].cast<double>();
+      }
+      normals[t][c] = sum.stableNormalized().cast<float>();
+    }
+  });
+  return normals;
+}
+
+}  // namespace relievo

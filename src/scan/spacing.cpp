@@ -1,0 +1,41 @@
+#include "relievo/scan/spacing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "geometry/neighbours.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+
+Spacing measure_spacing(const Cloud& cloud) {
+  constexpr std::size_t k = spacing_neighbours;
+  Spacing spacing;
+  spacing.local.assign(cloud.size(), 0.F);
+  spacing.nearest.resize(cloud.size());
+  const KdTree<Vec3> tree(cloud.points);
+  parallel_for(
+      cloud.size(),
+      [&](std::size_t i) {
+        std::array<Index, k + 1> found;
+        std::array<double, k + 1> distances_sq;
+        found.fill(no_index);
+        const std::size_t count = tree.nearest(cloud.points[i], k + 1, found.data(), distances_sq.data());
+        if (count < 2) return;
+        const double area = std::numbers::pi * distances_sq[count - 1] / static_cast<double>(count - 1);
+        spacing.local[i] = static_cast<float>(std::sqrt(area));
+        // Exact twins may come before the point itself: leave out one entry, the point if it is there.
+        const auto self = std::find(found.begin(), found.end() - 1, static_cast<Index>(i));
+        std::copy(self + 1, found.end(), std::copy(found.begin(), self, spacing.nearest[i].begin()));
+      },
+      1024);
+  if (cloud.size() < 2) return spacing;
+  std::vector<float> sorted = spacing.local;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  spacing.rho = static_cast<double>(*middle);
+  return spacing;
+}
+
+}  // namespace relievo

@@ -1,0 +1,92 @@
+#include "thin.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "geometry/neighbours.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+// The distance below which no two points may stay if, of points thrown at random and taken in turn, so many
+// are to be left that they are `times` as far apart. Random sequential adsorption: of n points per area N are
+// kept, N = J (1 - 1 / sqrt(1 + 2 n / J)), where no more than J = .696 / distance^2 ever fit in.
+double least_distance(double times) {
+  const double s = (std::sqrt(1 + 8 * times * times) - 1) / 2;
+  return std::sqrt(.348 * std::max(0.0, s * s - 1));
+}
+
+// The other side of a thin wall has points of its own.
+bool look_alike(const Cloud& cloud, Index a, Index b) {
+  return cloud.normals[a].dot(cloud.normals[b]) > 0;
+}
+
+std::vector<Index> far_apart(const Cloud& cloud, double distance) {
+  const KdTree<Vec3> tree(cloud.points);
+  std::vector<std::uint8_t> is_covered(cloud.size(), 0);
+  std::vector<KdTree<Vec3>::Match> around;
+  std::vector<Index> kept;
+  for (Index i = 0; i < cloud.size(); ++i) {
+    if (is_covered[i]) continue;
+    kept.push_back(i);
+    tree.within(cloud.points[i], distance, around);
+    for (const auto& [j, distance_sq] : around) is_covered[j] |= look_alike(cloud, i, j);
+  }
+  return kept;
+}
+
+// Of each point of the cloud the place in `kept` of the one that stands for it.
+std::vector<Index> nearest_kept(const Cloud& cloud, const std::vector<Index>& kept) {
+  constexpr std::size_t candidates = 6;
+  std::vector<Vec3> points(kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k) points[k] = cloud.points[kept[k]];
+  const KdTree<Vec3> tree(points);
+  std::vector<Index> nearest(cloud.size(), no_index);
+  parallel_for(cloud.size(), [&](std::size_t i) {
+    std::array<Index, candidates> found;
+    std::array<double, candidates> distances_sq;
+    const std::size_t count = tree.nearest(cloud.points[i], candidates, found.data(), distances_sq.data());
+    for (std::size_t c = 0; c < count && nearest[i] == no_index; ++c)
+      if (look_alike(cloud, kept[found[c]], static_cast<Index>(i))) nearest[i] = found[c];
+  });
+  return nearest;
+}
+
+struct Group {
+  Vec3f normal = Vec3f::Zero();
+  std::array<std::uint32_t, 3> colour{};
+  std::uint32_t members = 0;
+
+  void add(const Cloud& cloud, std::size_t i) {
+    normal += cloud.normals[i];
+    ++members;
+    if (!cloud.has_colours()) return;
+    for (std::size_t k = 0; k < 3; ++k) colour[k] += cloud.colours[i][k];
+  }
+  Colour mean_colour() const {
+    const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>(colour[k] / members); };
+    return {mean(0), mean(1), mean(2)};
+  }
+};
+
+}  // namespace
+
+Cloud thinned(const Cloud& cloud, const Spacing& spacing, double wanted) {
+  const double own = spacing.rho;
+  const std::vector<Index> kept = far_apart(cloud, own * least_distance(wanted / own));
+  const std::vector<Index> nearest = nearest_kept(cloud, kept);
+  std::vector<Group> groups(kept.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (nearest[i] != no_index) groups[nearest[i]].add(cloud, i);
+  Cloud thin;
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    thin.points.push_back(cloud.points[kept[k]]);
+    thin.normals.push_back(groups[k].normal.normalized());
+    if (cloud.has_colours()) thin.colours.push_back(groups[k].mean_colour());
+  }
+  return thin;
+}
+
+}  // namespace relievo

@@ -1,0 +1,163 @@
+#include "relievo/scan/surface.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <iterator>
+
+#include "core/memory.h"
+#include "geometry/hilbert.h"
+#include "geometry/space_curve.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "settle_normals.h"
+
+namespace relievo {
+namespace {
+
+std::unexpected<Error> geometry_error(std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
+}
+
+template <typename T>
+std::vector<T> pick(const std::vector<T>& from, std::span<const Index> order) {
+  if (from.empty()) return {};
+  std::vector<T> out(order.size());
+  parallel_for(order.size(), [&](std::size_t i) { out[i] = from[order[i]]; });
+  return out;
+}
+
+Result<void> check_numbers(const Cloud& cloud) {
+  if (cloud.has_normals() && cloud.normals.size() != cloud.size())
+    return geometry_error(
+        cat("expected a normal for each of ", cloud.size(), " points, found ", cloud.normals.size()));
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (!cloud.points[i].allFinite() || (cloud.has_normals() && !cloud.normals[i].allFinite()))
+      return geometry_error(cat("expected finite coordinates and normals, found others at point ", i));
+  return {};
+}
+
+// Fails for clouds that are a point or a line, up to rounding.
+Result<void> check_extent(const Cloud& cloud) {
+  if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
+  const Vec3 centre = bounds(cloud).centre();
+  const double scale = bounds(cloud).diagonal();
+  if (!(scale > 0)) return geometry_error("expected points that span a surface, found all of them equal");
+  Mat3 covariance = Mat3::Zero();
+  for (const Vec3& p : cloud.points) covariance += (p - centre) * (p - centre).transpose() / (scale * scale);
+  const Vec3 spread = Eigen::SelfAdjointEigenSolver<Mat3>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  if (spread[1] <= 1e-14 * spread[2])
+    return geometry_error("expected points that span a surface, found all of them on one line");
+  return {};
+}
+
+void scatter(const std::vector<double>& values, std::span<const Index> places, std::vector<double>& to) {
+  for (std::size_t i = 0; i < places.size(); ++i) to[places[i]] = values[i];
+}
+
+std::vector<Index> merged(const std::vector<Index>& a, const std::vector<Index>& b) {
+  std::vector<Index> both;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
+}
+
+// The points in an order in which neighbours in the view plane are neighbours in memory.
+std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>& points) {
+  return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
+}
+
+// The whole cloud in view coordinates, in the order of the curve, with normals.
+struct Viewed {
+  Cloud cloud;
+  Spacing spacing;
+};
+
+// Stages 1 and 2.
+Result<Viewed> look_at(const Cloud& cloud, Surface& surface, Progress* progress) {
+  if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
+  Viewed viewed{in_view(cloud, surface.view), {}};
+  const std::vector<Index> order = space_curve_order(viewed.cloud.points);
+  viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order),
+                  pick(viewed.cloud.colours, order)};
+
+  if (auto go = begin_stage(progress, "spacing", .05); !go) return std::unexpected(go.error());
+  viewed.spacing = measure_spacing(viewed.cloud);
+  surface.rho = viewed.spacing.rho;
+  if (!(surface.rho > 0))
+    return geometry_error("expected points at a distance from each other, found most of them equal");
+
+  if (auto go = begin_stage(progress, "normals", .2); !go) return std::unexpected(go.error());
+  const NormalsWere were = settle_normals(viewed.cloud, viewed.spacing, cloud);
+  surface.has_estimated_normals = were == NormalsWere::missing;
+  surface.has_flipped_normals = were == NormalsWere::inward;
+  return viewed;
+}
+
+// Stages 3 and 4: the surface's points and normals. Returns their mean curvature, 0 at fillers.
+Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& options, Surface& surface,
+                                        Progress* progress) {
+  if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
+  auto& [cloud, spacing] = viewed;
+  const std::vector<Index> visible = visible_points(cloud, spacing, options.visible);
+  if (visible.size() < 4)
+    return geometry_error(
+        cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
+  surface.visible_points = visible.size();
+  const std::vector<Index> fillers = filler_points(cloud, spacing, visible, options.visible);
+  for (const Index i : fillers) cloud.normals[i] = Vec3f::UnitZ();
+
+  if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
+  std::vector<double> k(cloud.size(), 0.0);
+  scatter(mean_curvature(cloud, spacing, visible, options.curvature), visible, k);
+  const std::vector<Index> shown = along_the_plane(cloud, merged(visible, fillers));
+  surface.points = pick(cloud.points, shown);
+  surface.normals = pick(cloud.normals, shown);
+  surface.colours = pick(cloud.colours, shown);
+  return pick(k, shown);
+}
+
+}  // namespace
+
+std::size_t Surface::memory() const {
+  return bytes(points) + bytes(normals) + bytes(curvature.k) + bytes(layers) +
+         bytes(triangulation.triangles) + bytes(triangulation.hull) + bytes(boundary.is_inside) +
+         bytes(boundary.is_boundary) + bytes(boundary.distance);
+}
+
+std::vector<Vec2> in_plane(std::span<const Vec3> points) {
+  std::vector<Vec2> xy(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) xy[i] = points[i].head<2>();
+  return xy;
+}
+
+Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
+                             Progress* progress) {
+  if (auto ok = check_numbers(cloud); !ok) return std::unexpected(ok.error());
+  if (auto ok = check_extent(cloud); !ok) return std::unexpected(ok.error());
+  Surface surface;
+  surface.view = view;
+  surface.centre = bounds(cloud).centre();
+  surface.diagonal = bounds(cloud).diagonal();
+  surface.input_points = cloud.size();
+
+  Result<Viewed> viewed = look_at(cloud, surface, progress);
+  if (!viewed) return std::unexpected(viewed.error());
+  const Result<std::vector<double>> k = find_points(*viewed, options, surface, progress);
+  if (!k) return std::unexpected(k.error());
+
+  if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
+  const std::vector<Vec2> xy = in_plane(surface.points);
+  surface.triangulation = delaunay(xy);
+  if (surface.triangulation.triangles.empty())
+    return geometry_error("expected visible points that enclose an area, found all of them on one line");
+  surface.curvature =
+      normalise(average_in_plane(*k, xy, surface.normals, surface.triangulation, surface.rho));
+
+  if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
+  surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
+  if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
+  surface.layers = normal_layers(surface.points, surface.normals);
+  surface.triangulation.neighbours = std::vector<Triangle>();
+  return surface;
+}
+
+}  // namespace relievo

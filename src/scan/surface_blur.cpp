@@ -1,0 +1,81 @@
+#include "scan/surface_blur.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+constexpr double most_cells = 1 << 24;
+// Of the Gaussian, in cells: spreading and reading back linearly have a variance of 1/6 each, the average of
+// neighbours with weights 1, 2, 1 has 1/2.
+const double sigma_in_cells = std::sqrt(5.0 / 6);
+
+// Calls f(cell, weight) for the eight cells around a place.
+template <typename F>
+void each_corner(Index cell, const Vec3f& share, const std::array<std::size_t, 3>& size, F&& f) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const int x = corner & 1, y = corner >> 1 & 1, z = corner >> 2;
+    const float weight =
+        (x ? share.x() : 1 - share.x()) * (y ? share.y() : 1 - share.y()) * (z ? share.z() : 1 - share.z());
+    f(cell + static_cast<std::size_t>(x) +
+          size[0] * (static_cast<std::size_t>(y) + size[1] * static_cast<std::size_t>(z)),
+      weight);
+  }
+}
+
+}  // namespace
+
+SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(points.size()) {
+  Box box;
+  for (const Vec3& p : points) box.extend(p);
+  double side = sigma / sigma_in_cells;
+  const auto count = [&](int axis) { return static_cast<std::size_t>(box.size()[axis] / side) + 4; };
+  while (static_cast<double>(count(0)) * static_cast<double>(count(1)) * static_cast<double>(count(2)) >
+         most_cells)
+    side *= 1.1;
+  for (int axis = 0; axis < 3; ++axis) size_[static_cast<std::size_t>(axis)] = count(axis);
+  parallel_for(points.size(), [&](std::size_t i) {
+    const Vec3 at = (points[i] - box.min) / side + Vec3::Ones();  // a cell of margin for the neighbours
+    const Vec3 floor = at.array().floor();
+    places_[i].cell = static_cast<Index>(
+        static_cast<std::size_t>(floor.x()) +
+        size_[0] * (static_cast<std::size_t>(floor.y()) + size_[1] * static_cast<std::size_t>(floor.z())));
+    places_[i].share = (at - floor).cast<float>();
+  });
+}
+
+void SurfaceBlur::average_cells(std::vector<Vec3f>& cells) const {
+  std::vector<Vec3f> from(cells.size());
+  std::size_t step = 1;
+  for (const std::size_t size : size_) {
+    from.swap(cells);
+    parallel_for(cells.size(), [&](std::size_t i) {
+      const std::size_t along = i / step % size;
+      Vec3f sum = 2 * from[i];
+      if (along > 0) sum += from[i - step];
+      if (along + 1 < size) sum += from[i + step];
+      cells[i] = sum;
+    });
+    step *= size;
+  }
+}
+
+void SurfaceBlur::apply(std::span<Vec2f> values) const {
+  std::vector<Vec3f> cells(size_[0] * size_[1] * size_[2], Vec3f::Zero());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    each_corner(places_[i].cell, places_[i].share, size_, [&](std::size_t cell, float weight) {
+      cells[cell] += weight * Vec3f(values[i].x(), values[i].y(), 1);
+    });
+  average_cells(cells);
+  parallel_for(values.size(), [&](std::size_t i) {
+    Vec3f sum = Vec3f::Zero();
+    each_corner(places_[i].cell, places_[i].share, size_,
+                [&](std::size_t cell, float weight) { sum += weight * cells[cell]; });
+    values[i] = sum.head<2>() / sum.z();
+  });
+}
+
+}  // namespace relievo

@@ -1,0 +1,193 @@
+#include "separator.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+// Share of the vertices on either side that must stay there; the rest is the band the separator may use.
+constexpr double core_share = .35;
+
+// Where the vertices lie along one direction, and the band's ends there.
+struct Sweep {
+  Eigen::Vector2f direction = {1, 0};
+  std::vector<float> value;
+  float low = 0, high = 0;
+  Index width = 0;  // vertices of the band that touch what lies below, of a sample: a guess of the cut's size
+};
+
+bool is_in_band(const Sweep& sweep, Index v) {
+  return sweep.value[v] >= sweep.low && sweep.value[v] <= sweep.high;
+}
+
+// Quantiles of a sample are near enough: the flow finds the line.
+void find_band(Sweep& sweep) {
+  const std::size_t most = 1024, n = sweep.value.size(), step = (n + most - 1) / most;
+  std::vector<float> sample;
+  for (std::size_t i = 0; i < n; i += step) sample.push_back(sweep.value[i]);
+  const auto quantile = [&](double share) {
+    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size()));
+    std::nth_element(sample.begin(), at, sample.end());
+    return *at;
+  };
+  sweep.low = quantile(core_share);
+  sweep.high = quantile(1 - core_share);
+}
+
+bool touches_below(const Graph& graph, const Sweep& sweep, Index v) {
+  const auto nearby = graph.neighbours(v);
+  return std::any_of(nearby.begin(), nearby.end(), [&](Index u) { return sweep.value[u] < sweep.low; });
+}
+
+Sweep make_sweep(const Graph& graph, std::vector<float> value, Eigen::Vector2f direction) {
+  Sweep sweep;
+  sweep.direction = direction;
+  sweep.value = std::move(value);
+  find_band(sweep);
+  const Index step = graph.size() / 4096 + 1;
+  for (Index v = 0; v < graph.size(); v += step)
+    if (is_in_band(sweep, v) && touches_below(graph, sweep, v)) ++sweep.width;
+  return sweep;
+}
+
+std::vector<float> along(std::span<const Eigen::Vector2f> positions, Eigen::Vector2f direction) {
+  std::vector<float> value(positions.size());
+  for (std::size_t i = 0; i < value.size(); ++i) value[i] = positions[i].dot(direction);
+  return value;
+}
+
+Band make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep,
+               const std::vector<Index>& vertices) {
+  std::vector<Index> slot(graph.size(), no_index);
+  for (Index i = 0; i < vertices.size(); ++i) slot[vertices[i]] = i;
+  Band band;
+  band.direction = sweep.direction;
+  for (const Index v : vertices) band.positions.push_back(positions[v]);
+  band.graph.begin.reserve(vertices.size() + 1);
+  band.graph.to.reserve(vertices.size() * 6);
+  band.touches_first.assign(vertices.size(), 0);
+  band.touches_second.assign(vertices.size(), 0);
+  for (Index i = 0; i < vertices.size(); ++i) {
+    for (const Index u : graph.neighbours(vertices[i])) {
+      if (slot[u] != no_index)
+        band.graph.to.push_back(slot[u]);
+      else
+        (sweep.value[u] < sweep.low ? band.touches_first : band.touches_second)[i] = 1;
+    }
+    band.graph.begin.push_back(static_cast<Index>(band.graph.to.size()));
+  }
+  return band;
+}
+
+void count_sides(Separation& cut) {
+  cut.first = cut.second = cut.separator = 0;
+  for (const Side s : cut.side)
+    ++(s == Side::first ? cut.first : s == Side::second ? cut.second : cut.separator);
+}
+
+// Edges across the whole band are not in its graph: their ends join the separator.
+void close_gaps(const Graph& graph, Separation& cut) {
+  for (Index v = 0; v < graph.size(); ++v) {
+    if (cut.side[v] != Side::first) continue;
+    const auto nearby = graph.neighbours(v);
+    if (std::any_of(nearby.begin(), nearby.end(), [&](Index u) { return cut.side[u] == Side::second; }))
+      cut.side[v] = Side::separator;
+  }
+  count_sides(cut);
+}
+
+// An estimate of the factor entries that a separation causes: those of the separator itself, whose front has
+// about four times its width, and those that the larger side will need more than an even half would.
+double cost(const Separation& cut) {
+  if (cut.first == 0 || cut.second == 0) return std::numeric_limits<double>::infinity();
+  const double n = static_cast<double>(cut.side.size()), s = cut.separator;
+  const double a = cut.first / n, b = cut.second / n;
+  const double unevenness = 1 + a * std::log2(a) + b * std::log2(b);
+  return s * (s / 2 + 2.2 * std::sqrt(n)) + 2 * n * unevenness;
+}
+
+Separation with_band(const Sweep& sweep, const std::vector<Index>& vertices, const std::vector<Side>& sides) {
+  Separation cut;
+  cut.side.resize(sweep.value.size());
+  for (Index v = 0; v < cut.side.size(); ++v)
+    cut.side[v] = sweep.value[v] < sweep.low ? Side::first : Side::second;
+  for (std::size_t i = 0; i < vertices.size(); ++i) cut.side[vertices[i]] = sides[i];
+  count_sides(cut);
+  return cut;
+}
+
+Separation cut_along(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep) {
+  std::vector<Index> vertices;
+  for (Index v = 0; v < graph.size(); ++v)
+    if (is_in_band(sweep, v)) vertices.push_back(v);
+  const BandCuts cuts = smallest_cuts(make_band(graph, positions, sweep, vertices));
+  Separation a = with_band(sweep, vertices, cuts.near_first),
+             b = with_band(sweep, vertices, cuts.near_second);
+  return cost(a) <= cost(b) ? std::move(a) : std::move(b);
+}
+
+Separation best_of(const Graph& graph, std::span<const Eigen::Vector2f> positions,
+                   std::span<const Sweep> sweeps) {
+  std::vector<Separation> cuts(sweeps.size());
+  parallel_for(
+      sweeps.size(), [&](std::size_t i) { cuts[i] = cut_along(graph, positions, sweeps[i]); }, 1);
+  const auto best = std::min_element(
+      cuts.begin(), cuts.end(), [](const Separation& a, const Separation& b) { return cost(a) < cost(b); });
+  close_gaps(graph, *best);
+  return std::move(*best);
+}
+
+// Sends a wave through each component in turn; the values go on rising from one to the next.
+std::vector<Index> wave(const Graph& graph, Index start) {
+  std::vector<Index> order;
+  std::vector<std::uint8_t> is_seen(graph.size(), 0);
+  order.reserve(graph.size());
+  for (Index i = 0; i < graph.size(); ++i) {
+    const Index root = (start + i) % graph.size();
+    if (is_seen[root]) continue;
+    is_seen[root] = 1;
+    order.push_back(root);
+    for (std::size_t head = order.size() - 1; head < order.size(); ++head)
+      for (const Index u : graph.neighbours(order[head]))
+        if (!is_seen[u]) {
+          is_seen[u] = 1;
+          order.push_back(u);
+        }
+  }
+  return order;
+}
+
+Separation cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
+  const std::vector<Index> order = wave(graph, wave(graph, 0).back());
+  std::vector<float> value(graph.size());
+  for (std::size_t i = 0; i < order.size(); ++i) value[order[i]] = static_cast<float>(i);
+  const Sweep sweep = make_sweep(graph, std::move(value), {1, 0});
+  return best_of(graph, positions, {&sweep, 1});
+}
+
+}  // namespace
+
+Separation separate(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
+  const std::array<Eigen::Vector2f, 4> directions{{{1, 0}, {0, 1}, {.7F, .7F}, {.7F, -.7F}}};
+  std::vector<Sweep> sweeps(directions.size());
+  parallel_for(
+      sweeps.size(),
+      [&](std::size_t i) { sweeps[i] = make_sweep(graph, along(positions, directions[i]), directions[i]); },
+      1);
+  std::stable_sort(sweeps.begin(), sweeps.end(),
+                   [](const Sweep& a, const Sweep& b) { return a.width < b.width; });
+  Separation cut = best_of(graph, positions, {sweeps.data(), 2});
+  // A triangulation has a separator of about the root of its size.
+  if (cut.separator > 4 * std::sqrt(static_cast<double>(graph.size())) || cut.first == 0 || cut.second == 0) {
+    Separation other = cut_by_distance(graph, positions);
+    if (cost(other) < cost(cut)) return other;
+  }
+  return cut;
+}
+
+}  // namespace relievo

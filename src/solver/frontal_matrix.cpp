@@ -1,0 +1,184 @@
+#include "dense_front.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/simd.h"
+
+namespace relievo {
+namespace {
+
+// C -= A B^T, where C has `rows` x `columns` elements, A `rows` x `depth`, B `columns` x `depth`, all column
+// by column. If is_lower, C is square at its top and only its lower triangle matters.
+struct Product {
+  double* c;
+  const double* a;
+  const double* b;
+  std::size_t c_stride, a_stride, b_stride;
+  Index rows, columns, depth;
+  bool is_lower;
+};
+
+constexpr Index narrow = 8;  // columns that are eliminated or inverted one by one
+
+RELIEVO_INLINE Double4& at(double* p) {
+  return *reinterpret_cast<Double4*>(p);
+}
+RELIEVO_INLINE const Double4& at(const double* p) {
+  return *reinterpret_cast<const Double4*>(p);
+}
+
+// 4 * Height rows by Width columns of C; k from `from` to `to`.
+template <int Height, int Width>
+RELIEVO_INLINE void subtract_tile(const Product& p, Index i, Index j, Index from, Index to) {
+  Double4 sum[Height][Width] = {};
+  const double* a = p.a + i + from * p.a_stride;
+  const double* b = p.b + j + from * p.b_stride;
+  for (Index k = from; k < to; ++k, a += p.a_stride, b += p.b_stride)
+    for (int h = 0; h < Height; ++h)
+      for (int w = 0; w < Width; ++w) sum[h][w] += at(a + 4 * h) * b[w];
+  for (int w = 0; w < Width; ++w)
+    for (int h = 0; h < Height; ++h) at(p.c + i + 4 * h + (j + w) * p.c_stride) -= sum[h][w];
+}
+
+template <int Width>
+RELIEVO_INLINE void subtract_strip(const Product& p, Index j, Index from, Index to) {
+  Index i = p.is_lower ? j : 0;
+  for (; i + 4 < p.rows; i += 8) subtract_tile<2, Width>(p, i, j, from, to);
+  if (i < p.rows) subtract_tile<1, Width>(p, i, j, from, to);
+}
+
+RELIEVO_INLINE void subtract_product_inline(const Product& p) {
+  const Index block = 128;  // of the depth: that many columns of A stay in the cache
+  for (Index from = 0; from < p.depth; from += block) {
+    const Index to = std::min(p.depth, from + block);
+    Index j = 0;
+    for (; j + 4 <= p.columns; j += 4) subtract_strip<4>(p, j, from, to);
+    if (p.columns - j == 3) subtract_strip<3>(p, j, from, to);
+    if (p.columns - j == 2) subtract_strip<2>(p, j, from, to);
+    if (p.columns - j == 1) subtract_strip<1>(p, j, from, to);
+  }
+}
+
+// y[from, to) += factor x[from, to), up to three elements further.
+RELIEVO_INLINE void add_multiple(double* y, const double* x, double factor, Index from, Index to) {
+  for (Index i = from; i < to; i += 4) at(y + i) += at(x + i) * factor;
+}
+
+RELIEVO_INLINE void scale(double* x, double factor, Index from, Index to) {
+  for (Index i = from; i < to; i += 4) at(x + i) *= factor;
+}
+
+// Columns begin to begin + width, one after the other. Returns as eliminate_columns().
+RELIEVO_INLINE Index eliminate_inline(Front& front, Index begin, Index width,
+                                      std::span<const double> smallest_pivot) {
+  const Index end = begin + width;
+  Index failed = no_index;
+  for (Index j = begin; j < end; ++j) {
+    double* column = front.column(j);
+    if (!(column[j] > smallest_pivot[j]) && failed == no_index) failed = j;
+    const double pivot = failed == no_index ? std::sqrt(column[j]) : 1;
+    scale(column, 1 / pivot, j + 1, front.rows);
+    column[j] = pivot;
+    for (Index c = j + 1; c < end; ++c) add_multiple(front.column(c), column, -column[c], c, front.rows);
+  }
+  return failed;
+}
+
+// The same for inversion, last column first: what stands right of column j is already inverted.
+RELIEVO_INLINE void invert_inline(Front& front, Index begin, Index width) {
+  const Index end = begin + width;
+  for (Index j = end; j-- > begin;) {
+    double* column = front.column(j);
+    double inside[narrow];
+    for (Index c = j + 1; c < end; ++c) {
+      inside[c - begin] = column[c];
+      column[c] = 0;
+    }
+    for (Index c = j + 1; c < end; ++c)
+      add_multiple(column, front.column(c), inside[c - begin], c, front.rows);
+    const double inverse = 1 / column[j];
+    scale(column, -inverse, j + 1, front.rows);
+    column[j] = inverse;
+  }
+}
+
+RELIEVO_AVX2 void subtract_product_avx2(const Product& p) {
+  subtract_product_inline(p);
+}
+RELIEVO_AVX2 Index eliminate_avx2(Front& front, Index begin, Index width, std::span<const double> smallest) {
+  return eliminate_inline(front, begin, width, smallest);
+}
+RELIEVO_AVX2 void invert_avx2(Front& front, Index begin, Index width) {
+  invert_inline(front, begin, width);
+}
+
+void subtract_product(const Product& p) {
+  uses_avx2() ? subtract_product_avx2(p) : subtract_product_inline(p);
+}
+
+Index first_half(Index width) {
+  return (width / 2 + narrow - 1) / narrow * narrow;
+}
+
+// Halves the columns until few are left, so that nearly all work is in products.
+Index eliminate_recursively(Front& front, Index begin, Index width, std::span<const double> smallest_pivot) {
+  if (width <= narrow) {
+    return uses_avx2() ? eliminate_avx2(front, begin, width, smallest_pivot)
+                       : eliminate_inline(front, begin, width, smallest_pivot);
+  }
+  const Index half = first_half(width), middle = begin + half;
+  const Index failed = eliminate_recursively(front, begin, half, smallest_pivot);
+  const double* left = front.column(begin) + middle;
+  subtract_product({front.column(middle) + middle, left, left, front.stride, front.stride, front.stride,
+                    front.rows - middle, width - half, half, true});
+  const Index failed_later = eliminate_recursively(front, middle, width - half, smallest_pivot);
+  return std::min(failed, failed_later);
+}
+
+// With columns [La; Lb; Ld] on the left and [Lc; Le] on the right, already inverted to [Wc; We]: the rows
+// below La become [Wc Lb; Ld + We Lb], and then the left is inverted on its own.
+void invert_recursively(Front& front, Index begin, Index width, std::vector<double>& scratch) {
+  if (width <= narrow) {
+    uses_avx2() ? invert_avx2(front, begin, width) : invert_inline(front, begin, width);
+    return;
+  }
+  const Index half = first_half(width), middle = begin + half, rest = width - half;
+  invert_recursively(front, middle, rest, scratch);
+  scratch.resize(std::max(scratch.size(), std::size_t{half} * rest));
+  for (Index c = 0; c < half; ++c) {
+    double* inside = front.column(begin + c) + middle;
+    for (Index r = 0; r < rest; ++r) scratch[c + std::size_t{r} * half] = -inside[r];
+    std::fill_n(inside, rest, 0.0);
+  }
+  // What stands above the diagonal of Wc must not take part.
+  for (Index c = 1; c < rest; ++c) std::fill_n(front.column(middle + c) + middle, c, 0.0);
+  subtract_product({front.column(begin) + middle, front.column(middle) + middle, scratch.data(), front.stride,
+                    front.stride, half, front.rows - middle, half, rest, false});
+  invert_recursively(front, begin, half, scratch);
+}
+
+}  // namespace
+
+void Front::reset(Index new_rows) {
+  rows = new_rows;
+  stride = (new_rows + 3 + 3) / 4 * 4;
+  data.assign(std::size_t{stride} * new_rows + 8, 0.0);
+}
+
+Index eliminate_columns(Front& front, Index width, std::span<const double> smallest_pivot) {
+  const Index failed = eliminate_recursively(front, 0, width, smallest_pivot);
+  const double* left = front.column(0) + width;
+  if (width < front.rows) {
+    subtract_product({front.column(width) + width, left, left, front.stride, front.stride, front.stride,
+                      front.rows - width, front.rows - width, width, true});
+  }
+  return failed;
+}
+
+void invert_columns(Front& front, Index width) {
+  std::vector<double> scratch;
+  invert_recursively(front, 0, width, scratch);
+}
+
+}  // namespace relievo

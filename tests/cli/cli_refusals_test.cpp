@@ -1,0 +1,182 @@
+// The program as its users misuse it: exit codes, one line about what is wrong, nothing left behind.
+#include <cstring>
+
+#include "support/cli_folder.h"
+#include "support/format_samples.h"
+
+namespace relievo {
+namespace {
+
+using namespace test;
+
+using CliRefusals = CliFolder;
+
+TEST_F(CliRefusals, RefusesWrongProjects) {
+  const auto refuse = [&](const std::string& project, const std::string& part) {
+    write_all(folder_ / "p.relievo", project);
+    expect_refusal("make p.relievo -o p.stl", part);
+  };
+  refuse("not json", "p.relievo: expected a project in JSON");
+  refuse(R"({"relievo": 2})", "p.relievo, relievo: expected a project of version 1");
+  refuse(R"({"relievo": 1, "options": {}})", "p.relievo, input: expected an object");
+  refuse(R"({"relievo": 1, "input": {}, "options": {}})", "expected either a path or a sample");
+  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"heigth": 1}})", "found 'heigth'");
+  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": "1"}})", "options.height");
+  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": -1}})", "--height");
+  refuse(R"({"relievo": 1, "input": {"path": "torus.ply", "hash": "fnv1a64:0"}, "options": {}})",
+         "expected the file as it was");
+  refuse(R"({"relievo": 1, "input": {"path": "gone.ply"}, "options": {}})", "gone.ply");
+}
+
+TEST_F(CliRefusals, RefusesBrokenScenes) {
+  const auto refuse = [&](const std::string& scene, const std::string& part) {
+    write_all(folder_ / "s.json", scene);
+    expect_refusal("make s.json -o t.stl", "relievo: s.json" + part);
+  };
+  const auto refuse_model = [&](const std::string& rest, const std::string& part) {
+    refuse(R"({"models": [{"file": "torus.ply"}, {"file": "torus.ply", )" + rest + "}]}",
+           ", models[1]" + part);
+  };
+  refuse("", ": expected a scene in JSON");
+  refuse("{\"models\": [", ": expected a scene in JSON");
+  refuse("[]", ": expected a scene in JSON");
+  refuse("{}", ", models: expected a list of at least one model");
+  refuse(R"({"models": []})", ", models: expected a list of at least one model");
+  refuse(R"({"models": {"file": "torus.ply"}})", ", models: expected a list");
+  refuse(R"({"models": [{"file": "torus.ply"}], "model": 1})",
+         ": expected only the key models, found 'model'");
+  refuse(R"({"models": ["torus.ply"]})", ", models[0]: expected an object");
+  refuse(R"({"models": [{"scale": 1}]})", ", models[0].file: expected the name of a file");
+  refuse(R"({"models": [{"file": 1}]})", ", models[0].file: expected the name of a file");
+  refuse(R"({"models": [{"file": "gone.ply"}]})",
+         ", models[0].file: expected a file that is there, found no 'gone.ply'");
+  refuse_model(R"("rotation": [0, 0, 0])",
+               ": expected only the keys file, rotate, translate, scale, mirror, found 'rotation'");
+  refuse_model(R"("rotate": 60)", ".rotate: expected three angles in degrees");
+  refuse_model(R"("rotate": [0, 60])", ".rotate: expected three angles in degrees");
+  refuse_model(R"("rotate": [0, "60", 0])", ".rotate: expected three angles in degrees");
+  refuse_model(R"("translate": [1, 2, null])", ".translate: expected three lengths");
+  refuse_model(R"("scale": "2")", ".scale: expected a number from 1e-06 to 1e+06");
+  refuse_model(R"("scale": 0)", ".scale: expected a number from 1e-06 to 1e+06");
+  refuse_model(R"("mirror": 1)", ".mirror: expected true or false");
+  write_all(folder_ / "cut.ply", "ply\n");
+  write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}, {"file": "cut.ply"}]})");
+  expect_refusal("make s.json -o t.stl", "cut.ply");
+}
+
+TEST_F(CliRefusals, TruncatedFilesOfEveryFormatAreRefused) {
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"a.stl", binary_stl()}, {"b.stl", ascii_stl()},      {"a.off", off()},
+      {"a.glb", glb()},        {"a.gltf", embedded_gltf()}, {"a.pcd", ascii_pcd()},
+      {"b.pcd", binary_pcd()}, {"c.pcd", compressed_pcd()}, {"a.las", las(2)},
+      {"b.las", las(4)}};
+  for (const auto& [name, text] : files) {
+    write_all(folder_ / name, text.substr(0, text.size() * 2 / 3));
+    expect_refusal("make -o t.stl --preview t.png " + name, name);
+  }
+}
+
+TEST_F(CliRefusals, IsSilentWhenToldTo) {
+  const Outcome outcome = run("make torus.ply -o t.stl --quiet");
+  EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(CliRefusals, RefusesMisuse) {
+  expect_refusal("", "A subcommand is required");
+  expect_refusal("carve", "carve");
+  expect_refusal("make", "required");
+  expect_refusal("make torus.ply -o t.stl --width -5", "--width");
+  expect_refusal("make torus.ply -o t.stl --height 0", "--height");
+  expect_refusal("make torus.ply -o t.stl --height 3 --alpha 2", "--alpha");
+  expect_refusal("make torus.ply -o t.stl --thickness abc", "--thickness");
+  expect_refusal("make torus.ply -o t.stl --view sideways", "sideways");
+  expect_refusal("make torus.ply -o t.xyz", "t.xyz");
+  expect_refusal("make torus.ply -o t.stl --preview t.jpg", "t.jpg");
+  expect_refusal("sample nothing -o s.ply", "shell");
+  expect_refusal("sample shell -o s.ply --points 3", "points");
+}
+
+TEST_F(CliRefusals, RefusesBadInput) {
+  write_all(folder_ / "empty.ply", "");
+  write_all(folder_ / "huge.ply",
+            "ply\nformat binary_little_endian 1.0\nelement vertex 1152921504606846976\nproperty float "
+            "x\nproperty float y\n"
+            "property float z\nend_header\n");
+  write_all(folder_ / "three.xyz", "0 0 0\n1 0 0\n0 1 0\n");
+  write_all(folder_ / "equal.xyz", "1 2 3\n1 2 3\n1 2 3\n1 2 3\n1 2 3\n");
+  write_all(folder_ / "line.xyz", "0 0 0\n1 1 1\n2 2 2\n3 3 3\n4 4 4\n");
+  const std::string torus = read_all(folder_ / "torus.ply");
+  write_all(folder_ / "cut.ply", torus.substr(0, torus.size() / 2));
+  for (const char* file :
+       {"missing.ply", "empty.ply", "huge.ply", "three.xyz", "equal.xyz", "line.xyz", "cut.ply"})
+    expect_refusal("make " + std::string(file) + " -o t.stl --preview p.png", file);
+  expect_refusal("make torus.ply -o t.stl --height 5000", "at most");
+  expect_refusal("info missing.ply", "missing.ply");
+}
+
+TEST_F(CliRefusals, LeavesOutPointsThatAreNotFiniteAndSaysSo) {
+  std::string text = "nan 0 0\n0 inf 0\n";
+  for (const Vec3& p : test::sphere(3000, 1).points)
+    text += std::to_string(p.x()) + ' ' + std::to_string(p.y()) + ' ' + std::to_string(p.z()) + '\n';
+  write_all(folder_ / "nan.xyz", text);
+  const Outcome outcome = run("make nan.xyz -o t.stl");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("left out 2 points"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("estimated"), std::string::npos) << outcome.err;
+}
+
+TEST_F(CliRefusals, RefusesAPlaceItCannotWriteTo) {
+  expect_refusal("make torus.ply -o nowhere/t.stl", "nowhere");
+  fs::create_directory(folder_ / "folder.stl");
+  expect_refusal("make torus.ply -o folder.stl", "folder");
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write to read-only folders";
+  fs::create_directory(folder_ / "locked");
+  fs::permissions(folder_ / "locked", fs::perms::owner_read | fs::perms::owner_exec);
+  expect_refusal("make torus.ply -o locked/t.stl", "locked");
+}
+
+// A limit on the size of files stands for a full disk.
+TEST_F(CliRefusals, LeavesNothingHalfWrittenOnAFullDisk) {
+  expect_refusal("make torus.ply -o t.stl", "t.stl", "trap '' XFSZ; ulimit -f 100;");
+}
+
+// The limit lets the solid pass and stops the height map, which is larger.
+TEST_F(CliRefusals, WritesAllFilesOrNone) {
+  const std::string limit = "trap '' XFSZ; ulimit -f 4000;";
+  EXPECT_EQ(run("make torus.ply -o t.stl", limit).exit_code, 0);
+  fs::remove(folder_ / "t.stl");
+  expect_refusal("make torus.ply -o t.stl --heightmap h.png --heightmap-size 4096", "h.png", limit);
+}
+
+// The signal of a file that grows too large stands for Ctrl-C: it comes in the middle of writing for sure.
+TEST_F(CliRefusals, LeavesNothingHalfWrittenWhenASignalEndsIt) {
+  EXPECT_NE(run("make torus.ply -o t.stl", "ulimit -c 0; ulimit -f 100;").exit_code, 0);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+}
+
+TEST_F(CliRefusals, RefusesToOverwriteItsInputOrItsOutputs) {
+  const std::string torus = read_all(folder_ / "torus.ply");
+  expect_refusal("make torus.ply -o torus.ply", "different files");
+  expect_refusal("make torus.ply -o ./../$(basename $PWD)/torus.ply", "different files");
+  expect_refusal("make torus.ply -o t.stl --preview p.png --heightmap ./p.png", "different files");
+  expect_refusal("make torus.ply -o t.stl --report /dev/null", "device");
+  EXPECT_EQ(read_all(folder_ / "torus.ply"), torus);
+}
+
+TEST_F(CliRefusals, SaysWhichPointsItLeftOutForTheirNormals) {
+  Cloud cloud = test::torus(20000, 1, .4);
+  cloud.normals[5].setZero();
+  const std::vector<std::byte> bytes = write_ply(cloud);
+  write_all(folder_ / "torus.ply", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  EXPECT_NE(run("make torus.ply -o t.stl").err.find("left out 1 points without a usable normal"),
+            std::string::npos);
+}
+
+TEST_F(CliRefusals, KeepsTheOldFileOnFailure) {
+  write_all(folder_ / "t.stl", "old");
+  EXPECT_GT(run("make torus.ply -o t.stl", "trap '' XFSZ; ulimit -f 100;").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "t.stl"), "old");
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,242 @@
+// The program as its users run it: what it makes, what it says and where.
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "relievo/preview.h"
+#include "support/cli_folder.h"
+#include "support/format_samples.h"
+
+namespace relievo {
+namespace {
+
+using namespace test;
+
+using Cli = CliFolder;
+
+// Extent of a binary STL's corners.
+Vec3 stl_size(const std::string& file) {
+  Box box;
+  for (std::size_t at = 84; at + 50 <= file.size(); at += 50) {
+    std::array<float, 9> v{};
+    std::memcpy(v.data(), file.data() + at + 12, sizeof v);
+    for (std::size_t i = 0; i < 9; i += 3) box.extend(Vec3f(v[i], v[i + 1], v[i + 2]).cast<double>());
+  }
+  return box.size();
+}
+
+TEST_F(Cli, MakesEverythingAskedFor) {
+  const Outcome outcome =
+      run("make torus.ply -o t.stl --preview t.png --heightmap h.png --heightmap-size 100 --report r.json "
+          "--height 3 --width 50");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  for (const char* file : {"t.stl", "t.png", "h.png", "r.json"})
+    EXPECT_GT(fs::file_size(folder_ / file), 100U) << file;
+  const std::string report = read_all(folder_ / "r.json");
+  for (const char* key : {"input_points", "visible_points", "rho", "diagonal", "alpha", "beta", "gamma",
+                          "height_requested_mm", "height_mm", "seconds", "threads", "version", "model_to_mm",
+                          "rotation", "scale", "offset", "size_mm"})
+    EXPECT_NE(report.find('"' + std::string(key) + '"'), std::string::npos) << key;
+}
+
+TEST_F(Cli, MakesProjects) {
+  write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "torus.ply"}, "studio": {"any": 1},
+    "options": {"height": 3, "width": 50, "tone": "0,0.2;1,0.8", "view": "1,0.5,2", "up": "0,1,0"}})");
+  const std::string flags = " --height 3 --width 50 --tone '0,0.2;1,0.8' --view 1,0.5,2 --up 0,1,0";
+  EXPECT_EQ(run("make p.relievo -o p.stl").exit_code, 0);
+  EXPECT_EQ(run("make torus.ply -o t.stl" + flags).exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
+  EXPECT_EQ(run("make p.relievo -o p.stl --height 2").exit_code, 0);
+  EXPECT_EQ(
+      run("make torus.ply -o t.stl --height 2" + flags.substr(std::string(" --height 3").size())).exit_code,
+      0);
+  EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
+}
+
+TEST_F(Cli, MakesScenes) {
+  write_all(folder_ / "wedge.stl", ascii_stl());
+  EXPECT_EQ(
+      run("make torus.ply wedge.stl torus.ply -o row.stl --report r.json --points 20000 --quiet").exit_code,
+      0);
+  const std::string report = read_all(folder_ / "r.json");
+  for (const char* key : {"\"models\"", "\"model_to_scene\"", "\"wedge.stl\"", "\"torus.ply\""})
+    EXPECT_NE(report.find(key), std::string::npos) << key;
+  fs::create_directory(folder_ / "models");
+  fs::rename(folder_ / "wedge.stl", folder_ / "models/wedge.stl");
+  write_all(folder_ / "models/row.json",
+            R"({"models": [{"file": "../torus.ply"}, {"file": "wedge.stl"}, {"file": "../torus.ply"}]})");
+  EXPECT_EQ(run("make models/row.json -o same.stl --points 20000 --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "row.stl"), read_all(folder_ / "same.stl"));
+  write_all(folder_ / "scene.json", R"({"models": [
+    {"file": "torus.ply", "rotate": [60, 0, 0], "translate": [0, 0, 1.5]},
+    {"file": "torus.ply", "scale": 1.5, "mirror": true}]})");
+  EXPECT_EQ(run("make scene.json -o scene.stl --quiet").exit_code, 0);
+  write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "scene.json"}, "options": {}})");
+  EXPECT_EQ(run("make p.relievo -o p.stl --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "scene.stl"));
+  EXPECT_NE(run("compare scene.json --height 0.02 --methods ours").out.find("ours"), std::string::npos);
+  EXPECT_NE(run("info scene.json").out.find("models     2"), std::string::npos);
+  expect_refusal("make scene.json -o scene.json", "scene.json");
+  expect_refusal("make torus.ply torus.ply -o torus.ply", "torus.ply: expected different files");
+  expect_refusal("make scene.json torus.ply -o t.stl", "scene.json: expected a scene file alone");
+  expect_refusal("make torus.ply gone.ply -o t.stl", "gone.ply");
+}
+
+TEST_F(Cli, WritesPlyAndObjToo) {
+  EXPECT_EQ(run("make torus.ply -o t.ply --quiet").exit_code, 0);
+  EXPECT_EQ(run("make torus.ply -o t.OBJ --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "t.ply").substr(0, 4), "ply\n");
+  EXPECT_NE(read_all(folder_ / "t.OBJ").find("\nv "), std::string::npos);
+}
+
+TEST_F(Cli, IsTheSameForAnyNumberOfThreads) {
+  EXPECT_EQ(run("make torus.ply -o a.stl --threads 1").exit_code, 0);
+  EXPECT_EQ(run("make torus.ply -o b.stl --threads 2").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "a.stl"), read_all(folder_ / "b.stl"));
+}
+
+TEST_F(Cli, Writes3mfAndTiff) {
+  EXPECT_EQ(
+      run("make torus.ply -o t.3mf --heightmap h.tif --tolerance 0.05 --report r.json --quiet").exit_code, 0);
+  EXPECT_EQ(read_all(folder_ / "t.3mf").substr(0, 4), "PK\3\4");
+  EXPECT_EQ(read_all(folder_ / "h.tif").substr(0, 2), "II");
+  EXPECT_NE(read_all(folder_ / "r.json").find("\"simplification_error_mm\": 0.0"), std::string::npos);
+}
+
+TEST_F(Cli, MakesEveryForm) {
+  for (const std::string form : {"mirror", "die", "lithophane"})
+    EXPECT_EQ(run("make torus.ply --quiet --height 2 --form " + form + " -o " + form + ".stl").exit_code, 0)
+        << form;
+  EXPECT_NE(read_all(folder_ / "mirror.stl"), read_all(folder_ / "die.stl"));
+  expect_refusal("make torus.ply -o t.stl --form coin", "--form");
+}
+
+TEST_F(Cli, ReadsMeshesAndDepthImages) {
+  write_all(folder_ / "t.stl", ascii_stl());
+  EXPECT_NE(run("info t.stl").out.find("triangles"), std::string::npos);
+  EXPECT_EQ(run("make t.stl -o m.stl --points 2000 --view 1,1,1 --quiet").exit_code, 0);
+  Image16 dome{90, 60, 1, {}};
+  for (int i = 0; i < 90 * 60; ++i) {
+    const int x = i % 90 - 45, y = i / 90 - 30;
+    dome.pixels.push_back(static_cast<std::uint16_t>(9000 - 2 * (x * x + y * y)));
+  }
+  const std::vector<std::byte> png = write_png(dome);
+  write_all(folder_ / "d.png", {reinterpret_cast<const char*>(png.data()), png.size()});
+  write_all(folder_ / "camera.txt", "90 0 45\n0 90 30\n0 0 1\n");
+  EXPECT_NE(run("info d.png").out.find("90 x 60"), std::string::npos);
+  EXPECT_EQ(run("make d.png -o a.stl --depth-values height --quiet").exit_code, 0);
+  EXPECT_EQ(run("make d.png -o b.stl --camera camera.txt --quiet").exit_code, 0);
+  expect_refusal("make d.png -o c.stl --camera 1,2", "--camera");
+  expect_refusal("make d.png -o c.stl --depth-values far", "--depth-values");
+  expect_refusal("make d.png -o c.stl --background cut", "--background");
+}
+
+TEST_F(Cli, StreamsLargeFiles) {
+  EXPECT_EQ(run("make torus.ply -o whole.stl --quiet --height 3").exit_code, 0);
+  const Outcome outcome =
+      run("make torus.ply -o t.stl --stream-above 0.1 --points 5000 --height 3 --report r.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.err.find("points for the 20000 of the file"), std::string::npos) << outcome.err;
+  EXPECT_NE(read_all(folder_ / "r.json").find("\"means\""), std::string::npos);
+}
+
+TEST_F(Cli, TellsWhatIsInAScan) {
+  const Outcome outcome = run("info torus.ply");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("20000"), std::string::npos);
+  EXPECT_NE(outcome.out.find("outwards"), std::string::npos);
+}
+
+TEST_F(Cli, GeneratesSamplesThatItCanRead) {
+  EXPECT_EQ(run("sample shell -o s.ply --points 5000 --noise 0").exit_code, 0);
+  EXPECT_NE(run("info s.ply").out.find("5000"), std::string::npos);
+}
+
+TEST_F(Cli, MakesReliefsByEveryMethod) {
+  for (const std::string method : {"ours", "paper", "linear", "equalise", "gradient", "detail"}) {
+    const Outcome outcome = run("make torus.ply -o t.stl --height 2 --method " + method + " --report r.json");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(read_all(folder_ / "r.json").find("\"method\": \"" + method + '"'), std::string::npos);
+  }
+  expect_refusal("make torus.ply -o u.stl --method linear", "--height");
+}
+
+TEST_F(Cli, ComparesMethods) {
+  const Outcome outcome = run("compare torus.ply -o s.png --height 0.02,0.05 --methods ours,linear --json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("\"shading\""), std::string::npos);
+  EXPECT_EQ(read_all(folder_ / "s.png").substr(1, 3), "PNG");
+  EXPECT_NE(run("compare torus.ply --height 0.05").out.find("gradient"), std::string::npos);
+  expect_refusal("compare torus.ply -o c.png --methods carving", "carving");
+  expect_refusal("compare torus.ply -o c.jpg", "c.jpg");
+  expect_refusal("compare torus.ply -o c.png --height 0", "--height");
+}
+
+TEST_F(Cli, HelpTellsRangesAndDefaults) {
+  const std::string help = run("make --help").out;
+  for (const char* part :
+       {"--width", "--height", "--saturation", "--view", "[0.1 to 100000]", "=100", "default 0.02"})
+    EXPECT_NE(help.find(part), std::string::npos) << part;
+  EXPECT_EQ(run("--help").exit_code, 0);
+  EXPECT_NE(run("--version").out.find("relievo "), std::string::npos);
+}
+
+TEST_F(Cli, TakesDirectionsThatBeginWithAMinus) {
+  EXPECT_EQ(run("make torus.ply -o t.stl --view -1,0.5,2 --up -1,0,0").exit_code, 0);
+}
+
+TEST_F(Cli, LengthsCarryAUnitOrAreInThatOfAll) {
+  const std::string mm =
+      "make torus.ply -o mm.stl --quiet --width 76.2 --height 6.35 --margin 10 --thickness 2 ";
+  ASSERT_EQ(run(mm).exit_code, 0);
+  const std::string expected = read_all(folder_ / "mm.stl");
+  ASSERT_EQ(run("make torus.ply -o a.stl --quiet --width 3in --height 1/4in --margin 1cm --thickness 2mm")
+                .exit_code,
+            0);
+  EXPECT_EQ(read_all(folder_ / "a.stl"), expected);
+  const Outcome inches =
+      run("make torus.ply -o b.stl --width 3 --height 1/4 --margin 1cm --thickness 2mm --units in --report "
+          "r.json");
+  ASSERT_EQ(inches.exit_code, 0) << inches.err;
+  EXPECT_NE(inches.err.find("height 0.25 in"), std::string::npos) << inches.err;
+  EXPECT_NE(read_all(folder_ / "r.json").find("\"units\": \"in\""), std::string::npos);
+  const std::string file = read_all(folder_ / "b.stl");
+  EXPECT_NE(file.find("unit in"), std::string::npos);
+  EXPECT_LT((25.4 * stl_size(file) - stl_size(expected)).norm(), 1e-4);
+  expect_refusal("make torus.ply -o c.stl --width 4ft", "--width: expected a length");
+  expect_refusal("make torus.ply -o c.stl --units ft", "--units: expected mm or in");
+}
+
+TEST_F(Cli, TellsWhatAToolReaches) {
+  const Outcome made = run(
+      "make torus.ply -o t.stl --height 4 --tool ball:1/8in --tool-picture t.png --report r.json --width 60");
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("ball:3.175mm reaches"), std::string::npos) << made.err;
+  EXPECT_NE(read_all(folder_ / "r.json").find("reached_share"), std::string::npos);
+  EXPECT_EQ(read_all(folder_ / "t.png").substr(1, 3), "PNG");
+  expect_refusal("make torus.ply -o u.stl --tool drill:3", "--tool");
+  expect_refusal("make torus.ply -o u.stl --surface reachable", "--surface");
+  expect_refusal("make torus.ply -o u.stl --tool-picture u.png", "--tool-picture");
+}
+
+TEST_F(Cli, KeepsADraftAngleInInchesToo) {
+  ASSERT_EQ(run("make torus.ply -o d.stl --height 8 --draft 40 --units mm --report r.json").exit_code, 0);
+  ASSERT_EQ(run("make torus.ply -o e.stl --height 8mm --width 100mm --draft 40 --units in --quiet").exit_code,
+            0);
+  const std::string file = read_all(folder_ / "e.stl");
+  double steepest = 0;
+  for (std::size_t at = 84; at + 50 <= file.size(); at += 50) {
+    std::array<float, 9> v{};
+    std::memcpy(v.data(), file.data() + at + 12, sizeof v);
+    const Vec3 p(v[3] - v[0], v[4] - v[1], v[5] - v[2]), q(v[6] - v[0], v[7] - v[1], v[8] - v[2]);
+    const double area = p.x() * q.y() - p.y() * q.x();  // of walls and bottom 0 or less
+    const Vec2 slope(p.z() * q.y() - q.z() * p.y(), q.z() * p.x() - p.z() * q.x());
+    if (area > 0) steepest = std::max(steepest, slope.norm() / area);
+  }
+  EXPECT_GT(steepest, std::tan(48 * std::numbers::pi / 180));
+  EXPECT_LT(steepest, std::tan(50.01 * std::numbers::pi / 180));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,60 @@
+#include "relievo/core/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+namespace relievo {
+namespace {
+
+class Parallel : public testing::TestWithParam<int> {
+ protected:
+  void SetUp() override { set_thread_count(GetParam()); }
+  void TearDown() override { set_thread_count(0); }
+};
+
+TEST_P(Parallel, HonoursTheNumberOfThreads) {
+  EXPECT_EQ(thread_count(), GetParam());
+}
+
+TEST_P(Parallel, VisitsEveryElementOnce) {
+  for (const std::size_t n : {0, 1, 4095, 4096, 4097, 100000}) {
+    std::vector<int> visits(n, 0);
+    parallel_for(n, [&](std::size_t i) { ++visits[i]; });
+    EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<std::ptrdiff_t>(n));
+  }
+}
+
+TEST_P(Parallel, SumsHaveTheSameBitsForAnyNumberOfThreads) {
+  const auto sum = [] {
+    return parallel_reduce(
+        100000, 0.0,
+        [](std::size_t begin, std::size_t end) {
+          double s = 0;
+          for (std::size_t i = begin; i < end; ++i) s += std::sin(static_cast<double>(i));
+          return s;
+        },
+        std::plus<>(), 1000);
+  };
+  const double ours = sum();
+  set_thread_count(1);
+  EXPECT_EQ(ours, sum());
+}
+
+TEST_P(Parallel, NestedCallsComplete) {
+  std::vector<int> visits(64 * 64, 0);
+  parallel_for(
+      64,
+      [&](std::size_t i) {
+        parallel_for(
+            64, [&](std::size_t j) { ++visits[i * 64 + j]; }, 1);
+      },
+      1);
+  EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), 0), 64 * 64);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 4));
+
+}  // namespace
+}  // namespace relievo

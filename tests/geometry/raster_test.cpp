@@ -1,0 +1,181 @@
+#include "geometry/raster.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "blur.h"
+
+namespace relievo {
+namespace {
+
+// Portable uniform numbers in [0, 1).
+struct Random {
+  std::uint64_t state = 88172645463325252ULL;
+  double operator()() {
+    state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+    return static_cast<double>(state >> 11) * 0x1p-53;
+  }
+};
+
+// A rectangle cut into `cells` x `cells` quadrangles with jittered corners, each in two triangles, that
+// covers the whole picture. `round` moves corners onto multiples of it, so that pixel centres lie on edges
+// and corners.
+struct Sheet {
+  std::vector<Triangle> triangles;
+  Drawing scene;
+
+  Sheet(int width, int height, int cells, double round) {
+    Random random;
+    const auto place = [&](int i, double size) {
+      const double jitter = i == 0 || i == cells ? 0 : random() * 0.48 - 0.24;
+      const double at = (i + jitter) * size / cells;
+      return i == cells ? size : std::round(at / round) * round;
+    };
+    for (int j = 0; j <= cells; ++j)
+      for (int i = 0; i <= cells; ++i) scene.points.emplace_back(place(i, width), place(j, height), random());
+    const auto at = [&](int i, int j) { return static_cast<Index>(j * (cells + 1) + i); };
+    for (int j = 0; j < cells; ++j) {
+      for (int i = 0; i < cells; ++i) {
+        triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+        triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+      }
+    }
+    scene.triangles = triangles;
+    scene.width = width;
+    scene.height = height;
+  }
+};
+
+std::vector<Sample> draw_all(const Drawing& scene, int band_rows) {
+  const Raster raster(scene, band_rows);
+  std::vector<Sample> samples;
+  for (std::size_t b = 0; b < raster.bands(); ++b) {
+    const Band band = raster.draw(b);
+    EXPECT_EQ(static_cast<std::size_t>(band.first_row) * static_cast<std::size_t>(scene.width),
+              samples.size());
+    samples.insert(samples.end(), band.samples.begin(), band.samples.end());
+  }
+  return samples;
+}
+
+TEST(Raster, EveryCentreBelongsToExactlyOneTriangle) {
+  for (const double round : {1e-9, 0.5}) {
+    for (const int cells : {1, 7, 40}) {
+      const Sheet sheet(64, 48, cells, round);
+      std::vector<int> count(64 * 48, 0);
+      for (const Triangle& t : sheet.triangles) {
+        Drawing one = sheet.scene;
+        one.triangles = std::span(&t, 1);
+        const std::vector<Sample> samples = draw_all(one, 48);
+        for (std::size_t i = 0; i < samples.size(); ++i) count[i] += samples[i].triangle == 0;
+      }
+      EXPECT_EQ(std::ranges::count(count, 1), 64 * 48) << cells << " cells rounded to " << round;
+    }
+  }
+}
+
+TEST(Raster, FindsTheTriangleThatHoldsTheCentre) {
+  const Sheet sheet(200, 150, 20, 1e-9);
+  const std::vector<Sample> samples = draw_all(sheet.scene, 150);
+  for (int y = 0; y < 150; ++y) {
+    for (int x = 0; x < 200; ++x) {
+      const Sample& sample = samples[static_cast<std::size_t>(y * 200 + x)];
+      ASSERT_NE(sample.triangle, no_index);
+      const Vec3f weights = corner_weights(sheet.scene, sample.triangle, x + .5, y + .5);
+      const auto& [a, b, c] = sheet.triangles[sample.triangle];
+      const auto& points = sheet.scene.points;
+      const Vec3 place = weights[0] * points[a] + weights[1] * points[b] + weights[2] * points[c];
+      // Corners are rounded to 1/256 pixel, and the triangles are not thinner than a pixel.
+      EXPECT_LT((place.head<2>() - Vec2(x + .5, y + .5)).norm(), 0.01);
+      EXPECT_NEAR(sample.z, place.z(), 0.01);
+    }
+  }
+}
+
+TEST(Raster, HeightsOfAPlaneAreExact) {
+  Sheet sheet(300, 200, 13, 1e-9);
+  const auto plane = [](double x, double y) { return 3 + x / 7 - y / 11; };
+  for (Vec3& p : sheet.scene.points) p.z() = plane(p.x(), p.y());
+  const std::vector<Sample> samples = draw_all(sheet.scene, 64);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 300; ++x)
+      ASSERT_NEAR(samples[static_cast<std::size_t>(y * 300 + x)].z, plane(x + .5, y + .5), 1e-5);
+}
+
+TEST(Raster, BandsDoNotChangeThePicture) {
+  const Sheet sheet(100, 75, 9, 1e-9);
+  const std::vector<Sample> whole = draw_all(sheet.scene, 75), parts = draw_all(sheet.scene, 7);
+  ASSERT_EQ(whole.size(), parts.size());
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    EXPECT_EQ(whole[i].triangle, parts[i].triangle);
+    EXPECT_EQ(whole[i].z, parts[i].z);
+  }
+}
+
+TEST(Raster, TheNearestIsSeenAndBackFacesAreNot) {
+  Drawing scene{
+      {{0, 0, 1}, {0, 20, 1}, {20, 0, 1}, {0, 0, 2}, {0, 10, 2}, {10, 0, 2}, {20, 20, 9}}, {}, 20, 20};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}, {0, 1, 2}, {1, 6, 2}, {1, 2, 6}};
+  scene.triangles = triangles;
+  const std::vector<Sample> samples = draw_all(scene, 6);
+  EXPECT_EQ(samples[0].triangle, 1U);             // nearer
+  EXPECT_EQ(samples[12].triangle, 0U);            // equally near: the first
+  EXPECT_EQ(samples[19 * 20 + 19].triangle, 3U);  // the other one there faces away
+}
+
+TEST(Raster, ASliverDoesNotSpike) {
+  const Drawing scene{{{0, 10, 0}, {100, 10.004, 5}, {50, 10.001, 100}}, {}, 100, 20};
+  Drawing drawn = scene;
+  const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 1}};
+  drawn.triangles = triangles;
+  for (const Sample& sample : draw_all(drawn, 20)) {
+    if (sample.triangle == no_index) continue;
+    EXPECT_GE(sample.z, 0);
+    EXPECT_LE(sample.z, 100);
+  }
+}
+
+TEST(CornerWeights, ReproduceThePlaceAndStayPositiveOutside) {
+  Drawing scene{{{0, 0, 0}, {0, 10, 0}, {10, 0, 0}}, {}, 10, 10};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {0, 0, 1}};
+  scene.triangles = triangles;
+  const Vec3f weights = corner_weights(scene, 0, 2, 3);
+  EXPECT_LT((weights - Vec3f(.5F, .3F, .2F)).norm(), 1e-6);
+  for (const double x : {-5.0, 30.0}) EXPECT_GE(corner_weights(scene, 0, x, 2).minCoeff(), 0);
+  EXPECT_NEAR(corner_weights(scene, 0, 30, 20).sum(), 1, 1e-6);
+  EXPECT_NEAR(corner_weights(scene, 1, 3, 3).sum(), 1, 1e-6);  // no area
+}
+
+// Straight from its declaration.
+std::vector<float> slow_blur(std::vector<float> values, int width, int radius) {
+  const int height = static_cast<int>(values.size()) / width;
+  const auto at = [&](const std::vector<float>& v, int x, int y) {
+    x = std::clamp(x, 0, width - 1), y = std::clamp(y, 0, height - 1);
+    return v[static_cast<std::size_t>(y * width + x)];
+  };
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::vector<float> before = values;
+    for (int i = 0; i < width * height; ++i) {
+      double sum = 0;
+      for (int dy = -radius; dy <= radius; ++dy)
+        for (int dx = -radius; dx <= radius; ++dx) sum += at(before, i % width + dx, i / width + dy);
+      values[static_cast<std::size_t>(i)] = static_cast<float>(sum / ((2 * radius + 1) * (2 * radius + 1)));
+    }
+  }
+  return values;
+}
+
+TEST(Blur, IsTheAverageOverBoxesTwice) {
+  Random random;
+  for (const auto& [width, height, radius] : {std::array{37, 29, 3}, {5, 40, 9}, {1, 1, 2}, {33, 1, 1}}) {
+    std::vector<float> values(static_cast<std::size_t>(width * height));
+    for (float& v : values) v = static_cast<float>(random());
+    const std::vector<float> expected = slow_blur(values, width, radius);
+    blur(values, width, radius);
+    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], expected[i], 1e-5) << i;
+  }
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,149 @@
+// PCD and LAS: what is read, and what is said of each broken field.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <charconv>
+
+#include "support/format_samples.h"
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+struct Broken {
+  std::string text, message;
+};
+
+void expect_messages(const std::string& name, const std::vector<Broken>& all) {
+  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, name), name + message);
+}
+
+TEST(Pcd, EveryEncodingGivesTheSamePoints) {
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {ascii_pcd(), "PCD ascii"}, {binary_pcd(), "PCD binary"}, {compressed_pcd(), "PCD binary compressed"}};
+  for (const auto& [text, format] : all) {
+    const auto file = read(text, "scan");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->format, format);
+    EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{0, .5, 0}, {1, 1.5, -1}, {2, 2.5, -2}})) << format;
+    EXPECT_EQ(file->cloud.normals, (std::vector<Vec3f>{Vec3f::UnitX(), Vec3f::UnitY(), Vec3f::UnitZ()}));
+    EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}})) << format;
+  }
+}
+
+TEST(Pcd, ColoursMayBeTheBitsOfAFloat) {
+  const std::string head =
+      "VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "POINTS 1\nDATA ascii\n";
+  std::array<char, 32> digits = {};
+  std::to_chars(digits.data(), digits.data() + digits.size(), std::bit_cast<float>(0x00FF00FF));
+  const auto file = read(head + "1 2 3 " + digits.data() + "\n", "scan");
+  ASSERT_TRUE(file) << file.error().message();
+  ASSERT_TRUE(file->cloud.has_colours());
+  EXPECT_EQ(file->cloud.colours[0], (Colour{255, 0, 255}));
+}
+
+TEST(Pcd, CopiesOfLzfMayOverlapThemselves) {
+  const std::string head =
+      "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 10\nPOINTS 10\nDATA binary_compressed\n";
+  // Four bytes as they are, then 116 more by copying from four bytes back: 9 + 107 - 2 in the length's bytes.
+  const std::string packed = std::string("\x03", 1) + raw(2.F) + std::string("\xE0\x6B\x03", 3);
+  const auto file =
+      read(head + raw(static_cast<std::uint32_t>(packed.size())) + raw(std::uint32_t{120}) + packed, "scan");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->cloud.points, std::vector<Vec3>(10, Vec3(2, 2, 2)));
+}
+
+TEST(Pcd, BrokenFieldsAreNamed) {
+  const std::string ascii = ascii_pcd(), binary = binary_pcd(), packed = compressed_pcd();
+  const std::size_t data = pcd_header("binary").size(), packed_data = pcd_header("binary_compressed").size();
+  const std::string at = ", byte " + std::to_string(data) + ": ";
+  const std::string at_packed = ", byte " + std::to_string(packed_data) + ": ";
+  expect_messages(
+      "a.pcd",
+      {{replaced(ascii, "FIELDS x", "FIELDS u"),
+        ", line 11: expected fields x, y and z of a numeric type, found others"},
+       {replaced(ascii, "FIELDS x y z rgb normal_x normal_y normal_z tag", "FIELDS"),
+        ", line 3: expected the names of the fields, found none"},
+       {replaced(ascii, "SIZE 4 8", "SIZE 4 3"),
+        ", line 4: expected a size of 1, 2, 4 or 8 or a count for field y, found '3'"},
+       {replaced(ascii, "TYPE F F", "TYPE F D"), ", line 5: expected type F, I or U for field y, found 'D'"},
+       {replaced(ascii, "TYPE F F", "TYPE F I"),
+        ", line 11: expected fields x, y and z of a numeric type, found others"},
+       {replaced(ascii, "COUNT 1 1", "COUNT 1 0"),
+        ", line 6: expected a size of 1, 2, 4 or 8 or a count for field y, found '0'"},
+       {replaced(ascii, "WIDTH 3", "WIDTH three"), ", line 7: expected a number of points, found 'three'"},
+       {replaced(ascii, "POINTS 3", "POINTS -3"), ", line 10: expected a number of points, found '-3'"},
+       {replaced(ascii, "POINTS 3", "POINTS 4"),
+        ", line 15: expected 4 points, found the end of the file after 3"},
+       {replaced(replaced(ascii, "POINTS 3\n", ""), "WIDTH 3\n", ""),
+        ", line 9: expected the number of points before DATA, found none that fits"},
+       {replaced(ascii, "DATA ascii", "DATA text"),
+        ", line 11: expected ascii, binary or binary_compressed, found 'text'"},
+       {replaced(ascii, "HEIGHT", "HIGHT"),
+        ", line 8: expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found 'HIGHT'"},
+       {replaced(ascii, "DATA ascii\n", "").substr(0, 300),
+        ", line 11: expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found '0'"},
+       {replaced(ascii, "1 1.5 -1", "1 one -1"), ", line 13: expected 9 numbers, found 'one'"},
+       {ascii.substr(0, ascii.rfind(" 7 8")), ", line 14: expected 9 numbers, found ''"},
+       {binary.substr(0, binary.size() - 1), at + "expected 3 points of 36 bytes, found room for 2"},
+       {packed.substr(0, packed_data + 5),
+        at_packed + "expected the sizes of the compressed points, found the end of the file"},
+       {packed.substr(0, packed.size() - 1), at_packed + "expected 112 compressed bytes, found 111"},
+       {patched(packed, packed_data + 4, std::uint32_t{100}),
+        ", byte " + std::to_string(packed_data + 4) + ": expected 108 bytes of points, found 100"},
+       {patched(packed, packed_data + 8, std::uint8_t{33}),
+        ", byte " + std::to_string(packed_data + 8) +
+            ": expected LZF-compressed points, found other bytes"}});
+}
+
+TEST(Las, ReadsOldAndNewRecords) {
+  for (const int minor : {0, 1, 2, 3, 4}) {
+    const auto file = read(las(minor), "scan");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->format, "LAS 1." + std::to_string(minor));
+    EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{1e6, 2e6, 100}, {1e6 + .5, 2e6 + .25, 99}}));
+    EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 0, 255}}));
+  }
+}
+
+TEST(Las, ColoursOfEightBitsStay) {
+  std::string file = las();
+  file = patched(file, 227 + 20, std::uint16_t{200});
+  file = patched(file, 227 + 26 + 24, std::uint16_t{255});
+  EXPECT_EQ(read(file, "scan")->cloud.colours, (std::vector<Colour>{{200, 0, 0}, {0, 0, 255}}));
+}
+
+TEST(Las, BrokenFieldsAreNamed) {
+  const std::string good = las(), newer = las(4);
+  expect_messages(
+      "a.las",
+      {{"LASG" + good.substr(4), ", byte 0: expected LASF, found other bytes"},
+       {good.substr(0, 100),
+        ", byte 100: expected a header of at least 227 bytes, found the end of the file"},
+       {newer.substr(0, 300), ", byte 300: expected a header of 375 bytes, found the end of the file"},
+       {patched(good, 24, std::uint8_t{2}), ", byte 24: expected LAS 1.0 to 1.4, found 2.2"},
+       {patched(good, 25, std::uint8_t{5}), ", byte 24: expected LAS 1.0 to 1.4, found 1.5"},
+       {patched(good, 94, std::uint16_t{200}),
+        ", byte 94: expected a header size of at least 227, found 200"},
+       {patched(good, 96, std::uint32_t{5}),
+        ", byte 96: expected points after the header, found them at byte 5"},
+       {patched(good, 96, ~std::uint32_t{0}),
+        ", byte 4294967295: expected 2 points of 26 bytes, found room for 0"},
+       {patched(good, 104, std::uint8_t{130}),
+        ", byte 104: expected uncompressed points, found LAZ; unpack it first"},
+       {patched(good, 104, std::uint8_t{11}), ", byte 104: expected a point format from 0 to 10, found 11"},
+       {patched(good, 105, std::uint16_t{10}), ", byte 105: expected records of at least 26 bytes, found 10"},
+       {patched(good, 107, std::uint32_t{3}), ", byte 227: expected 3 points of 26 bytes, found room for 2"},
+       {patched(newer, 247, ~std::uint64_t{0}),
+        ", byte 247: expected fewer than 4294967295 points, found 18446744073709551615"},
+       {patched(good, 131, 0.0), ", byte 131: expected a scale that is finite and not 0, found another"},
+       {patched(good, 163, std::numeric_limits<double>::quiet_NaN()),
+        ", byte 163: expected a finite offset, found another"},
+       {good.substr(0, good.size() - 1), ", byte 227: expected 2 points of 26 bytes, found room for 1"},
+       {patched(good, 107, std::uint32_t{0}),
+        ": expected points, found none with finite coordinates among 0"}});
+}
+
+}  // namespace
+}  // namespace relievo

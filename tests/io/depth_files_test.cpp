@@ -1,0 +1,158 @@
+// Depth images as files: PNG and TIFF, whole and broken.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <array>
+
+#include "relievo/depth_image.h"
+#include "relievo/picture/height_map.h"
+#include "support/format_samples.h"
+
+namespace relievo {
+namespace {
+
+std::span<const std::byte> as_bytes(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+std::string as_string(const std::vector<std::byte>& bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+std::string message_of(const std::string& bytes) {
+  const auto image = read_depth_image(as_bytes(bytes), "d");
+  return image ? "no error" : image.error().message();
+}
+
+Image16 grey16() {
+  Image16 image{5, 4, 1, {}};
+  for (int i = 0; i < 20; ++i) image.pixels.push_back(static_cast<std::uint16_t>(3001 * i));
+  return image;
+}
+
+// Little-endian, one strip of uint16, its fields in this order at 12 bytes each from byte 10 on.
+std::string small_tiff() {
+  const Image16 image = grey16();
+  struct Field {
+    std::uint16_t tag, type;
+    std::uint32_t value;
+  };
+  const Field fields[] = {{256, 4, 5}, {257, 4, 4}, {258, 3, 16},
+                          {259, 3, 1}, {262, 3, 1}, {273, 4, 8 + 2 + 9 * 12 + 4},
+                          {277, 3, 1}, {278, 4, 4}, {279, 4, 40}};
+  std::string file = std::string("II*\0", 4) + raw(std::uint32_t{8}) + raw(std::uint16_t{9});
+  for (const Field& f : fields) file += raw(f.tag) + raw(f.type) + raw(std::uint32_t{1}) + raw(f.value);
+  file += raw(std::uint32_t{0});
+  for (const std::uint16_t v : image.pixels) file += raw(v);
+  return file;
+}
+
+TEST(ReadDepthImage, ReadsPngOfAnyDepth) {
+  const auto sixteen = read_depth_image(write_png(grey16()), "d");
+  ASSERT_TRUE(sixteen) << sixteen.error().message();
+  EXPECT_EQ(sixteen->format, "PNG, 16 bits");
+  EXPECT_EQ(sixteen->step, 1);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(sixteen->values[i], 3001.F * static_cast<float>(i));
+  const Image8 grey{4, 4, 1, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 255}};
+  const auto eight = read_depth_image(write_png(grey), "d");
+  ASSERT_TRUE(eight);
+  EXPECT_EQ(eight->values[15], 255);
+  Image8 colour{4, 4, 3, {}};
+  for (const auto v : grey.pixels) colour.pixels.insert(colour.pixels.end(), 3, v);
+  EXPECT_EQ(read_depth_image(write_png(colour), "d")->values, eight->values);
+  colour.pixels[4] = 200;
+  EXPECT_EQ(message_of(as_string(write_png(colour))),
+            "d, pixel 1: expected a grey picture of depths, found colours");
+}
+
+TEST(ReadDepthImage, ReadsTiffOfIntegersAndFloats) {
+  const auto whole = read_depth_image(as_bytes(small_tiff()), "d");
+  ASSERT_TRUE(whole) << whole.error().message();
+  EXPECT_EQ(whole->format, "TIFF, 16 bits");
+  EXPECT_EQ(whole->values[19], 3001.F * 19);
+  HeightsMm heights{{5, 4, 1, {}}, .1};
+  for (int i = 0; i < 20; ++i) heights.image.pixels.push_back(.25F * static_cast<float>(i));
+  EXPECT_EQ(read_depth_image(write_tiff(heights), "d")->values, heights.image.pixels);
+}
+
+TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
+  const std::string good = as_string(write_png(grey16()));
+  const auto with = [&](std::size_t at, std::uint8_t byte) { return patched(good, at, byte); };
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {good.substr(0, 20), "the end of the file"},
+      {with(5, 0), "Not a PNG file"},
+      {with(12, 'J'), "chunk type"},
+      {with(16, 0x80), "IHDR"},
+      {with(19, 0), "IHDR"},
+      {with(23, 0), "IHDR"},
+      {with(24, 5), "IHDR"},
+      {with(25, 9), "IHDR"},
+      {with(26, 1), "IHDR"},
+      {with(28, 7), "IHDR"},
+      {with(29, 0), "CRC"},
+      {good.substr(0, good.size() - 20), "the end of the file"},
+      {good.substr(0, good.size() - 12), "the end of the file"}};
+  for (const auto& [text, part] : all) {
+    const std::string message = message_of(text);
+    EXPECT_TRUE(message.starts_with("d, byte ")) << message;
+    EXPECT_NE(message.find("expected the data of a PNG picture, found "), std::string::npos) << message;
+  }
+  EXPECT_EQ(message_of("GIF89a"), "d: expected a PNG or TIFF picture of depths, found another file");
+  EXPECT_EQ(message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),
+            "d: expected at least 4 x 4 pixels, found 3 x 4");
+}
+
+TEST(ReadDepthImage, BrokenTiffFieldsAreNamed) {
+  const std::string good = small_tiff();
+  const auto field = [](std::size_t i) { return 10 + 12 * i; };
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {good.substr(0, 6), ""},
+      {patched(good, 4, std::uint32_t{999999}), ""},
+      {good.substr(0, 60), ""},
+      {good.substr(0, good.size() - 10), ""},
+      {patched(good, field(0) + 8, std::uint32_t{0}), ""},
+      {patched(good, field(0) + 8, std::uint32_t{1} << 30), ""},
+      {patched(patched(good, field(1) + 8, std::uint32_t{1} << 26), field(7) + 8, std::uint32_t{1} << 26),
+       ": expected at most 134217728 pixels, found 335544320"},
+      {patched(good, field(2) + 8, std::uint32_t{12}),
+       ": expected 8 or 16 bits or float32, found 12 bits of another kind"},
+      {patched(good, field(3) + 8, std::uint32_t{5}), ""},
+      {patched(good, field(3) + 8, std::uint32_t{60000}), ""},
+      {patched(good, field(5) + 8, std::uint32_t{99999}), ""},
+      {patched(good, field(6) + 8, std::uint32_t{3}), ": expected one channel of depths, found 3"}};
+  for (const auto& [text, whole] : all) {
+    const std::string message = message_of(text);
+    if (whole.empty()) {
+      EXPECT_TRUE(message.starts_with("d: expected ")) << message;
+    } else {
+      EXPECT_EQ(message, "d" + whole);
+    }
+  }
+}
+
+TEST(ReadDepthImage, AnyDamageGivesAnAnswer) {
+  const std::vector<std::string> files = {as_string(write_png(grey16())), small_tiff(),
+                                          as_string(write_tiff({{5, 4, 1, std::vector<float>(20, 1)}, .1}))};
+  for (const std::string& file : files) {
+    for (std::size_t size = 0; size < file.size(); ++size) (void)message_of(file.substr(0, size));
+    for (std::size_t at = 0; at < file.size(); ++at)
+      for (const auto byte : std::array<std::uint8_t, 3>{0x00, 0x7F, 0xFF}) {
+        const auto image = read_depth_image(as_bytes(patched(file, at, byte)), "d");
+        if (image) {
+          EXPECT_EQ(image->values.size(),
+                    static_cast<std::size_t>(image->width) * static_cast<std::size_t>(image->height));
+        }
+      }
+  }
+  ASSERT_TRUE(rc::check([&] {
+    std::string text = *rc::gen::elementOf(files);
+    const int edits = *rc::gen::inRange(1, 5);
+    for (int i = 0; i < edits; ++i)
+      text[*rc::gen::inRange<std::size_t>(0, text.size())] = *rc::gen::arbitrary<char>();
+    const auto image = read_depth_image(as_bytes(text), "d");
+    RC_ASSERT(image.has_value() || image.error().kind == ErrorKind::input);
+  }));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,192 @@
+#include "relievo/io.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
+
+TEST(ReadCloud, UnreadableFormatsAreToldByName) {
+  const std::vector<std::array<std::string, 3>> all = {
+      {"", "scan.ply", "an empty file"},
+      {"\xEF\xBB\xBF", "scan.ply", "an empty file"},
+      {"\x89PNG\r\n\x1A\n", "scan.ply", "a PNG picture"},
+      {"\xFF\xD8\xFF\xE0", "scan", "a JPEG picture"},
+      {"PK\x03\x04", "scan.zip", "a ZIP archive"},
+      {"\x1F\x8B\x08", "scan.ply.gz", "a gzip archive"},
+      {"anything", "scan.laz", "a LAZ file"},
+      {"<!doctype html>\n", "scan.ply", "an XML or HTML file"},
+      {"1 2 3\n", "scan.ply", "a file that does not begin with the line 'ply'"},
+      {std::string("1 2\0 3\n", 7), "scan.xyz", "binary data"},
+      {"\xFF\xFE"
+       "1",
+       "scan.xyz", "UTF-16 text"},
+  };
+  for (const auto& [text, name, what] : all) {
+    EXPECT_EQ(message_of(text, name), name +
+                                          ": expected a point cloud (PLY, PCD, LAS, XYZ, PTS) or a mesh "
+                                          "(PLY, STL, OBJ, OFF, glTF), found " +
+                                          what);
+  }
+}
+
+TEST(ReadCloud, ContentGoesBeforeTheName) {
+  Cloud cloud{{{1, 2, 3}}, {}};
+  EXPECT_EQ(read(as_string(write_ply(cloud)), "scan.xyz")->format, "PLY binary little endian");
+  EXPECT_EQ(read("1 2 3\n", "")->format, "XYZ text, 3 columns");
+  EXPECT_EQ(read("1 2 3\n", "scan.csv")->format, "XYZ text, 3 columns");
+  EXPECT_EQ(read("v 1 2 3\n", "scan.OBJ")->format, "OBJ");
+}
+
+// The cloud as it comes back from a file. Written by write_ply(), which does not judge what it writes.
+CloudFile through_ply(const Cloud& cloud) {
+  const auto file = read(as_string(write_ply(cloud)), "scan.ply");
+  EXPECT_TRUE(file) << file.error().message();
+  return file.value_or(CloudFile{});
+}
+
+TEST(ReadCloud, DropsAndCountsPointsThatAreNotFinite) {
+  const CloudFile file = through_ply({{{0, 1, 2}, {nan, 1, 2}, {3, inf, 4}, {5, 6, 7}, {0, 0, -inf}}, {}});
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{0, 1, 2}, {5, 6, 7}}));
+  EXPECT_EQ(file.dropped_points, 3U);
+  EXPECT_EQ(file.dropped_normals, 0U);
+}
+
+TEST(ReadCloud, DropsAndCountsPointsWithoutNormal) {
+  const Vec3f good = Vec3f::UnitY(), bad = Vec3f::Constant(std::nanf(""));
+  const CloudFile file = through_ply({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {nan, 0, 0}, {4, 0, 0}},
+                                      {good, Vec3f::Zero(), bad, Vec3f::Zero(), good}});
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}}));
+  EXPECT_EQ(file.cloud.normals, (std::vector<Vec3f>{good, good}));
+  EXPECT_EQ(file.dropped_points, 1U);
+  EXPECT_EQ(file.dropped_normals, 2U);
+}
+
+TEST(ReadCloud, LeavesOutNormalsThatAreMostlyUnusable) {
+  const CloudFile file =
+      through_ply({{{0, 0, 0}, {1, 0, 0}, {nan, 0, 0}}, {Vec3f::Zero(), Vec3f::Zero(), Vec3f::UnitX()}});
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}}));
+  EXPECT_FALSE(file.cloud.has_normals());
+  EXPECT_EQ(file.dropped_points, 1U);
+  EXPECT_EQ(file.dropped_normals, 2U);
+}
+
+TEST(ReadCloud, NormalisesNormalsOfAnyLength) {
+  const CloudFile file =
+      through_ply({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 0, 1e-30F}, {3e38F, 0, 3e38F}, {0, -127, 0}}});
+  ASSERT_TRUE(file.cloud.has_normals());
+  EXPECT_EQ(file.cloud.normals[0], Vec3f::UnitZ());
+  EXPECT_TRUE(file.cloud.normals[1].isApprox(Vec3f(1, 0, 1).normalized()));
+  EXPECT_EQ(file.cloud.normals[2], Vec3f(-Vec3f::UnitY()));
+}
+
+TEST(ReadCloud, WithoutFinitePointsIsAnError) {
+  EXPECT_EQ(message_of(as_string(write_ply({})), "scan.ply"),
+            "scan.ply: expected points, found none with finite coordinates among 0");
+  EXPECT_EQ(message_of("nan 0 0\n0 inf 0\n", "scan.xyz"),
+            "scan.xyz: expected points, found none with finite coordinates among 2");
+}
+
+TEST(WritePly, TakesFloatNearTheOriginAndDoubleFarFromIt) {
+  const auto type_at = [](double offset) {
+    const std::string ply = as_string(write_ply({{{offset, 0, 0}, {offset + 1, 0, 0}}, {}}));
+    return ply.find("property double x\n") == std::string::npos ? "float" : "double";
+  };
+  EXPECT_STREQ(type_at(0), "float");
+  EXPECT_STREQ(type_at(999), "float");
+  EXPECT_STREQ(type_at(1001), "double");
+  EXPECT_STREQ(type_at(1e300), "double");
+}
+
+TEST(WritePly, TakesDoubleForWhatFloatCannotHold) {
+  const std::vector<Vec3> wide = {{-1e300, 0, 0}, {1e300, 0, 0}};
+  EXPECT_EQ(through_ply({wide, {}}).cloud.points, wide);
+}
+
+TEST(WritePly, KeepsGeoReferencedCoordinates) {
+  const std::vector<Vec3> far = {{3456789.123456789, 5678901.987654321, 1234.000000001},
+                                 {3456790.1, 5678902.2, 1235.3}};
+  EXPECT_EQ(through_ply({far, {}}).cloud.points, far);
+}
+
+TEST(WritePly, KeepsTheCommentInOneLine) {
+  const std::string ply = as_string(write_ply({{{1, 2, 3}}, {}}, "made by\nelement vertex 9\rme"));
+  EXPECT_TRUE(ply.starts_with(
+      "ply\nformat binary_little_endian 1.0\ncomment made by element vertex 9 me\nelement vertex 1\n"));
+  EXPECT_TRUE(read(ply, "scan.ply"));
+}
+
+// --- Real scans, which are not part of the project. The environment may say where they are.
+
+struct Scan {
+  const char* file;
+  std::size_t points;
+  bool has_normals;
+};
+
+class SharedScan : public testing::TestWithParam<Scan> {};
+
+std::filesystem::path shared_data() {
+  if (const char* folder = std::getenv("RELIEVO_SHARED_DATA")) return folder;
+#ifdef RELIEVO_SHARED_DATA
+  return RELIEVO_SHARED_DATA;
+#else
+  return {};
+#endif
+}
+
+TEST_P(SharedScan, HasTheKnownCounts) {
+  const auto path = shared_data() / GetParam().file;
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) GTEST_SKIP() << "no such scan here: " << GetParam().file;
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const auto file = read(bytes, path.filename().string());
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(check_answer(file, path.filename().string()), "");
+  EXPECT_EQ(file->cloud.size(), GetParam().points);
+  EXPECT_EQ(file->cloud.has_normals(), GetParam().has_normals);
+  EXPECT_EQ(file->dropped_points + file->dropped_normals, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SharedScan,
+    testing::Values(
+        Scan{"dragon.ply", 437645, true}, Scan{"happy_buddha.ply", 448214, true},
+        Scan{"happy_buddha_rawscans_front.ply", 400000, true}, Scan{"armadillo.ply", 172974, true},
+        Scan{"igea.ply", 134345, true}, Scan{"lion_takanawa.ply", 207601, true},
+        Scan{"lion_takanawa_raw.ply", 341989, true}, Scan{"gargoyle.ply", 95435, true},
+        Scan{"bimba.ply", 80002, true}, Scan{"gutenberg.ply", 312230, true}, Scan{"horse.ply", 179641, true},
+        Scan{"falcon.ply", 178632, true}, Scan{"nefertiti.ply", 178973, true},
+        Scan{"squirrel.ply", 150000, true}, Scan{"scene_menagerie_front.ply", 454918, true},
+        Scan{"original/bun_zipper.ply", 35947, false}, Scan{"original/dragonUpRight_0.ply", 42641, false},
+        Scan{"original/bimba_no_normals.ply", 80002, false},
+        Scan{"original/stanford_bunny_reduced.obj", 3511, true}, Scan{"original/lionscan1.xyz", 62145, false},
+        Scan{"original/bunnyData.pts", 30571, false}, Scan{"original/kitten.xyz", 5210, true},
+        Scan{"original/grey_nurse_shark.stl", 25057, false},
+        Scan{"original/figurines_scene.pcd", 32087, false}));
+
+class SharedForeign : public testing::TestWithParam<const char*> {};
+
+TEST_P(SharedForeign, IsRefusedByName) {
+  std::ifstream stream(shared_data() / "original" / GetParam(), std::ios::binary);
+  if (!stream) GTEST_SKIP() << "no such file here: " << GetParam();
+  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string message = message_of(bytes, "scan");
+  EXPECT_TRUE(message.starts_with("scan: expected a point cloud")) << message;
+  EXPECT_TRUE(message.ends_with("found a PNG picture")) << message;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SharedForeign,
+                         testing::Values("icl_livingroom_depth.png", "kinect_kitchen_depth.png"));
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,243 @@
+// STL, OFF, glTF and the faces of PLY and OBJ: what is read, and what is said of each broken field.
+#include <gtest/gtest.h>
+
+#include "support/format_samples.h"
+#include "support/ply_encoder.h"
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+// The triangles of a file as sets of corners, each beginning with its smallest, to compare regardless of
+// numbering.
+std::vector<std::array<std::array<double, 3>, 3>> corners_of(const Mesh& mesh) {
+  std::vector<std::array<std::array<double, 3>, 3>> all;
+  for (const Triangle& t : mesh.triangles) {
+    std::array<std::array<double, 3>, 3> corners;
+    for (std::size_t c = 0; c < 3; ++c) std::copy_n(mesh.points.at(t[c]).data(), 3, corners[c].data());
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    all.push_back(corners);
+  }
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+const Mesh tetrahedron = {tetrahedron_points, tetrahedron_triangles};
+
+void expect_tetrahedron(const std::string& text, const std::string& name, const std::string& format) {
+  const auto file = read(text, name);
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->format, format);
+  EXPECT_EQ(corners_of(file->mesh), corners_of(tetrahedron)) << format;
+  EXPECT_EQ(file->cloud.size(), 4U) << format;
+}
+
+struct Broken {
+  std::string text, message;
+};
+
+void expect_messages(const std::string& name, const std::vector<Broken>& all) {
+  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, name), name + message);
+}
+
+TEST(MeshFormats, AllReadTheSameTetrahedron) {
+  expect_tetrahedron(binary_stl(), "scan", "STL binary");
+  expect_tetrahedron(ascii_stl(), "scan", "STL ascii");
+  expect_tetrahedron(off(), "scan", "OFF");
+  expect_tetrahedron("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1/1 2/2 4/3\nf -4 -1 -2\nf 2 3 4\n",
+                     "a.obj", "OBJ");
+  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
+  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const PlyTable faces{"face",
+                       {{"uchar", "flag"}, {"int", "vertex_indices", "uchar"}},
+                       {{1, 3, 0, 2, 1}, {1, 3, 0, 1, 3}, {1, 3, 0, 3, 2}, {1, 3, 1, 2, 3}}};
+  expect_tetrahedron(encode_ply({vertices, faces}, PlyEncoding::ascii), "a.ply", "PLY ascii");
+  expect_tetrahedron(encode_ply({vertices, faces}, PlyEncoding::big_endian), "a.ply",
+                     "PLY binary big endian");
+}
+
+TEST(MeshFormats, StripsOfPlyTurnEverySecondTriangle) {
+  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
+  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
+  const PlyTable strips{"tristrips", {{"int", "vertex_indices", "int"}}, {{8, 0, 1, 2, 3, -1, 2, 1, 0}}};
+  for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little_endian}) {
+    const auto file = read(encode_ply({vertices, strips}, encoding), "a.ply");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 1, 0}}));
+  }
+}
+
+TEST(MeshFormats, PolygonsBecomeFans) {
+  const auto file = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 1 2\n", "a.obj");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+}
+
+TEST(MeshFormats, CornersKeepTheirOwnNormals) {
+  const auto file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 2\nvn 1 0 0\nf 1//1 2//2 3//1\n", "a.obj");
+  ASSERT_TRUE(file);
+  ASSERT_EQ(file->mesh.corner_normals.size(), 1U);
+  EXPECT_EQ(file->mesh.corner_normals[0],
+            (std::array<Vec3f, 3>{Vec3f::UnitZ(), Vec3f::UnitX(), Vec3f::UnitZ()}));
+}
+
+TEST(MeshFormats, TrianglesWithACornerThatIsNotFiniteAreLeftOut) {
+  const auto file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 2 3 4\n", "a.obj");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(file->cloud.size(), 3U);
+}
+
+TEST(Stl, BinaryMayBeginWithSolid) {
+  std::string file = binary_stl();
+  file.replace(0, 5, "solid");
+  expect_tetrahedron(file, "scan", "STL binary");
+}
+
+TEST(Stl, BrokenFieldsAreNamed) {
+  const std::string binary = binary_stl(), ascii = ascii_stl();
+  expect_messages(
+      "a.stl",
+      {{patched(binary, 80, std::uint32_t{5}),
+        ", byte 80: expected the number of triangles, found 5, and there is room for 4"},
+       {patched(binary, 80, ~std::uint32_t{0}),
+        ", byte 80: expected the number of triangles, found 4294967295, and there is room for 4"},
+       {patched(binary, 80, std::uint32_t{0}), ", byte 80: expected at least one triangle, found 0"},
+       {std::string(50, '\1'), ", byte 0: expected the 84 bytes of a binary STL header, found 50"},
+       {binary.substr(0, 100),
+        ", byte 80: expected the number of triangles, found 4, and there is room for 0"},
+       {replaced(ascii, "   vertex 1.000000 0.000000", "   vertex 1.0 zero"),
+        ", line 6: expected 3 numbers after vertex, found 'zero'"},
+       {replaced(ascii, "   vertex 1.000000 0.000000 0.000000", "   vertex 1.0 0.0"),
+        ", line 6: expected 3 numbers after vertex, found ''"},
+       {replaced(ascii, "   vertex 1.000000 0.000000 0.000000\n", ""),
+        ", line 7: expected 3 vertices in the facet, found 2"},
+       {replaced(ascii, "endsolid tetrahedron\n", ""),
+        ", line 30: expected endsolid, found the end of the file"},
+       {ascii.substr(0, ascii.size() / 2), ", line 17: expected endsolid, found the end of the file"},
+       {"solid\nendsolid\n", ", line 2: expected at least one facet with three vertices"}});
+}
+
+TEST(Off, ReadsColoursAndNormals) {
+  const auto file = read(
+      "CNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0 255 0 255\n"
+      "0 1 0 0 0 1 0.0 0.0 1.0 1.0\n3 0 1 2\n",
+      "scan");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->cloud.normals, std::vector<Vec3f>(3, Vec3f::UnitZ()));
+  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
+  EXPECT_EQ(file->mesh.colours, file->cloud.colours);
+}
+
+TEST(Off, BrokenFieldsAreNamed) {
+  const std::string good = off();
+  expect_messages(
+      "a.off",
+      {{replaced(good, "OFF #", "FOF #"), ", line 1: expected OFF, COFF or NOFF, found 'FOF'"},
+       {replaced(good, "4 4 6", "four 4 6"),
+        ", line 2: expected the numbers of vertices and faces, found 'four'"},
+       {replaced(good, "4 4 6", "4 -4 6"),
+        ", line 2: expected the numbers of vertices and faces, found '-4'"},
+       {replaced(good, "4 4 6", "4"), ", line 2: expected the numbers of vertices and faces, found ''"},
+       {replaced(good, "4 4 6", "4 9 6"), ", line 12: expected 9 faces, found the end of the file after 4"},
+       {replaced(good, "4 4 6", "4294967290 4 6"),
+        ", line 12: expected 4294967290 vertices, found the end of the file after 8"},
+       {replaced(good, "1 0 0\n", "1 x 0\n"), ", line 4: expected a number, found 'x'"},
+       {replaced(good, "1 0 0\n", "1 0\n"), ", line 4: expected a number, found the end of the line"},
+       {replaced(good, "3 0 2 1", "3 0 2 4"),
+        ", line 7: expected numbers of vertices from 0 to 3, found others"},
+       {replaced(good, "3 0 2 1", "3 0 2 -1"),
+        ", line 7: expected numbers of vertices from 0 to 3, found others"},
+       {replaced(good, "3 0 2 1", "4 0 2 1"),
+        ", line 7: expected 4 numbers of vertices, found the end of the line"},
+       {replaced(good, "3 0 2 1", "x 0 2 1"), ", line 7: expected the number of corners, found 'x'"},
+       {good.substr(0, good.find("3 0 3 2")),
+        ", line 10: expected 4 faces, found the end of the file after 2"},
+       {"OFF\n", ", line 1: expected the numbers of vertices and faces, found ''"}});
+}
+
+TEST(Gltf, NodesPlaceTheirMeshes) {
+  for (const std::string& text : {glb(), embedded_gltf()}) {
+    const auto file = read(text, "a.gltf");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->mesh.points, (std::vector<Vec3>{{10, 0, 0}, {12, 0, 0}, {10, 2, 0}, {10, 0, 2}}));
+    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+  }
+}
+
+TEST(Gltf, QuaternionsAndMatricesTurn) {
+  const std::string quarter = R"("rotation":[0,0,0.7071067811865476,0.7071067811865476])";
+  const std::string matrix = R"("matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,0,0,0,1])";
+  for (const std::string& turn : {quarter, matrix}) {
+    const auto file = read(glb_of(replaced(gltf_json(), R"("translation":[10,0,0])", turn)), "scan");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_LT((file->mesh.points[1] - Vec3(0, 2, 0)).norm(), 1e-12);
+  }
+}
+
+TEST(Gltf, BrokenFieldsAreNamed) {
+  const std::string good = glb();
+  const auto json = [&](std::string_view what, std::string_view by) {
+    return glb_of(replaced(gltf_json(), what, by));
+  };
+  const std::string first = ", mesh 0, accessor 0: ", indices = ", mesh 0, accessor 1: ";
+  expect_messages(
+      "a.glb",
+      {{good.substr(0, 10), ", byte 10: expected a GLB header, found the end of the file"},
+       {patched(good, 4, std::uint32_t{1}), ", byte 4: expected version 2 of glTF, found 1"},
+       {patched(good, 8, std::uint32_t{99999}),
+        ", byte 8: expected 99999 bytes, found " + std::to_string(good.size())},
+       {patched(good, 12, std::uint32_t{99999}),
+        ", byte 12: expected a chunk of 99999 bytes, found " + std::to_string(good.size() - 20)},
+       {patched(good, 16, std::uint32_t{0}), ", byte 12: expected a JSON chunk, found none"},
+       {json("{\"asset\"", "{asset"), ": expected the JSON of a glTF file, found text that is none"},
+       {json("asset", "tessa"), ", asset: expected the member asset of a glTF file, found none"},
+       {json(R"("byteLength":72)", R"("byteLength":73)"),
+        ", buffer 0: expected as many bytes as its byteLength says, found 72"},
+       {json(R"("byteLength":72)", R"("uri":"a.bin","byteLength":72)"),
+        ", buffer 0: expected a buffer inside the file, found 'a.bin'; save it as .glb"},
+       {json(R"("byteLength":72)", R"("uri":"data:x;base64,?","byteLength":72)"),
+        ", buffer 0: expected base64 text, found other characters"},
+       {json("5126", "5127"), first + "expected a known component type, found another"},
+       {json("VEC3", "VEC9"), first + "expected a known component type, found another"},
+       {json(R"("count":4)", R"("count":5)"), first + "expected room for 5 elements, found less"},
+       {json(R"("count":4)", R"("count":-4)"), first + "expected whole numbers, found others"},
+       {json(R"("count":4)", R"("sparse":{},"count":4)"),
+        first + "expected plain numbers, found a sparse accessor"},
+       {json(R"("byteOffset":48)", R"("byteOffset":49)"),
+        indices + "expected a view inside its buffer, found one beyond it"},
+       {json(R"({"buffer":0,"byteLength":48})", R"({"buffer":1,"byteLength":48})"),
+        first + "expected a bufferView of a buffer, found another"},
+       {json(R"("bufferView":0)", R"("bufferView":7)"), first + "expected a bufferView, found none"},
+       {json(R"("POSITION":0)", R"("POSITION":9)"),
+        ", mesh 0, accessor 9: expected an accessor, found none of that number"},
+       {json(R"("POSITION":0)", R"("POSITION":1)"),
+        ", mesh 0: expected vectors of three numbers, found fewer"},
+       {json(R"("mesh":0)", R"("mesh":3)"), ", mesh 3: expected a mesh, found none of that number"},
+       {json(R"("mesh":0)", R"("children":[0])"), ", node 0: expected one parent, found two or a ring"},
+       {json(R"("nodes":[0])", R"("nodes":[5])"), ", node 5: expected a node, found none of that number"},
+       {json("[10,0,0]", "[10,0]"), ", node 0: expected numbers in its transformation, found others"},
+       {json(R"("indices":1)", R"("mode":1)"), ", meshes: expected triangles, found none"},
+       {json(R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"])"),
+        ", extensionsRequired: expected meshes that are not compressed, found 'KHR_draco_mesh_compression'"},
+       {patched(good, good.size() - 24, std::uint16_t{4}),
+        ", mesh 0: expected numbers of vertices below 4, found others"}});
+}
+
+TEST(PlyFaces, BrokenOnesAreNamed) {
+  const std::string header =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  expect_messages(
+      "a.ply",
+      {{header + "3 0 1 3\n",
+        ", line 13: expected numbers of vertices below 3, found others in row 0 of element face"},
+       {header + "3 0 1 -1\n",
+        ", line 13: expected numbers of vertices below 3, found others in row 0 of element face"},
+       {header + "3 0 1 x\n", ", line 13: expected whole numbers in the list vertex_indices, found 'x'"},
+       {header + "3 0 1\n", ", line 13: expected 1 rows of element face, found the end of the file after 0"},
+       {header, ", line 12: expected 1 rows of element face, found the end of the file after 0"}});
+}
+
+}  // namespace
+}  // namespace relievo

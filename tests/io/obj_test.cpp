@@ -1,0 +1,113 @@
+#include <gtest/gtest.h>
+
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+Cloud cloud_of(std::string_view text) {
+  const auto file = read(text, "scan.obj");
+  EXPECT_TRUE(file) << file.error().message();
+  return file ? file->cloud : Cloud();
+}
+
+const std::string two_normals = "vn 0 0 2\nvn 3 0 0\n";
+const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+const Vec3f x = Vec3f::UnitX(), z = Vec3f::UnitZ();
+const Vec3f xz = Vec3f(1, 0, 1).normalized();
+
+TEST(Obj, ReadsVerticesWithExtraNumbersAndSkipsOtherLines) {
+  const Cloud cloud = cloud_of(
+      "\xEF\xBB\xBF# made by hand\r\nmtllib a.mtl\r\no thing\r\n\r\nv 1 2 3\r\nv 4.5 -5 6e3 1.0\r\n"
+      "  v\t+7 8 9 1.0 0.5 0.5 0.5 # red\r\nvt 0 0\r\ng part\r\ns off\r\nl 1 2\r\nf 1 2 3\r\n");
+  EXPECT_EQ(cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4.5, -5, 6000}, {7, 8, 9}}));
+  EXPECT_FALSE(cloud.has_normals());
+}
+
+TEST(Obj, AveragesTheNormalsOfTheCornersOfAVertex) {
+  const Cloud cloud = cloud_of(triangle + two_normals + "f 1//1 2//1 3//2\nf 1//2 3//2 2//1\n");
+  ASSERT_EQ(cloud.normals.size(), 3U);
+  EXPECT_TRUE(cloud.normals[0].isApprox(xz));
+  EXPECT_EQ(cloud.normals[1], z);
+  EXPECT_EQ(cloud.normals[2], x);
+}
+
+TEST(Obj, ReadsCornersOfEveryForm) {
+  for (const auto* face :
+       {"f 1//1 2//1 3//2", "f 1/7/1 2/8/1 3/9/2", "f -3//-2 -2//-2 -1//-1", "f 1//-2 -2/5/1 3//2"}) {
+    const Cloud cloud = cloud_of(triangle + two_normals + face);
+    EXPECT_EQ(cloud.normals, (std::vector<Vec3f>{z, z, x})) << face;
+  }
+}
+
+TEST(Obj, NegativeIndicesCountBackFromTheirLine) {
+  const Cloud cloud = cloud_of(triangle + "vn 0 0 1\nf -3//-1 -2//-1 -1//-1\n" + triangle +
+                               "vn 1 0 0\nf -3//-1 -2//-1 -1//-1\n");
+  EXPECT_EQ(cloud.normals, (std::vector<Vec3f>{z, z, z, x, x, x}));
+}
+
+TEST(Obj, FacesMayComeBeforeTheirVertices) {
+  EXPECT_EQ(cloud_of("f 1//1 2//1 3//2\n" + triangle + two_normals).normals, (std::vector<Vec3f>{z, z, x}));
+}
+
+TEST(Obj, TakesOneNormalPerVertexIfNoFaceNamesAny) {
+  const std::string text = triangle + two_normals + "vn 0 0 1\n";
+  EXPECT_EQ(cloud_of(text).normals, (std::vector<Vec3f>{z, x, z}));
+  EXPECT_EQ(cloud_of(text + "f 1 2 3\nf 1/1 2/1 3/1\n").normals, (std::vector<Vec3f>{z, x, z}));
+  EXPECT_FALSE(cloud_of(triangle + two_normals).has_normals());
+}
+
+TEST(Obj, VerticesWithoutNormalsAreDroppedWhileTheyAreFew) {
+  const auto most = read(triangle + "v 9 9 9\n" + two_normals + "f 1//1 2//1 3//1\n", "scan.obj");
+  ASSERT_TRUE(most);
+  EXPECT_EQ(most->cloud.size(), 3U);
+  EXPECT_EQ(most->cloud.normals, (std::vector<Vec3f>{z, z, z}));
+  EXPECT_EQ(most->dropped_normals, 1U);
+
+  const auto few = read(triangle + triangle + "v 9 9 9\n" + two_normals + "f 1//1 2//1 3//1\n", "scan.obj");
+  ASSERT_TRUE(few);
+  EXPECT_EQ(few->cloud.size(), 7U);
+  EXPECT_FALSE(few->cloud.has_normals());
+  EXPECT_EQ(few->dropped_normals, 4U);
+}
+
+TEST(Obj, BackslashContinuesALine) {
+  const Cloud cloud = cloud_of("v 1 2\\\n3\r\nv 4 \\\r\n 5 \\\r\n 6\r\nv 7 8 9\\\n");
+  EXPECT_EQ(cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}, {7, 8, 9}}));
+}
+
+TEST(Obj, IsToldByItsContent) {
+  const auto file = read("# no name\n\nv 1 2 3\n", "-");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->format, "OBJ");
+}
+
+TEST(Obj, BadLinesAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {"v 1 2\n", "line 1: expected 3 numbers, found the end of the line"},
+      {"v 1 2 x\n", "line 1: expected 3 numbers, found 'x'"},
+      {"v 1,5 2 3\n", "line 1: expected 3 numbers, found '1,5'"},
+      {triangle + "vn 1 0\n", "line 4: expected 3 numbers, found the end of the line"},
+      {triangle + "f 1 2 0\n", "line 4: expected the number of a vertex, found '0'"},
+      {triangle + "f 1 2 x\n", "line 4: expected the number of a vertex, found 'x'"},
+      {triangle + "f 1 2 3.0\n", "line 4: expected the number of a vertex, found '3.0'"},
+      {triangle + "f 1 2 -4\n", "line 4: expected the number of a vertex, found '-4'"},
+      {triangle + "f 1 2 -9223372036854775808\n",
+       "line 4: expected the number of a vertex, found '-9223372036854775808'"},
+      {triangle + "f 1 2 99999999999\n", "line 4: expected the number of a vertex, found '99999999999'"},
+      {triangle + "f 1 2 3\nf 1 2 4\n", "line 5: expected an index up to 3, the number of vertices, found 4"},
+      {triangle + two_normals + "f 1//1 2//2 3//3\n",
+       "line 6: expected an index up to 2, the number of normals, found 3"},
+      {triangle + two_normals + "f 1//1 2//2 3//-3\n",
+       "line 6: expected the number of a normal, found '3//-3'"},
+      {triangle + two_normals + "f 1//1 2//2 3//\n", "line 6: expected the number of a normal, found '3//'"},
+      {triangle + "\\\n\nf 1 \\\n 2 \\\n 7\n",
+       "line 6: expected an index up to 3, the number of vertices, found 7"},
+      {"# nothing\n", "line 2: expected lines 'v x y z', found the end of the file"},
+  };
+  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, "scan.obj"), "scan.obj, " + message);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,168 @@
+#include <gtest/gtest.h>
+
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+const std::vector<Vec3> two_points = {{1, 2.5, -3}, {4, 5, 6e3}};
+
+CloudFile file_of(std::string_view text) {
+  const auto file = read(text, "scan.xyz");
+  EXPECT_TRUE(file) << file.error().message();
+  return file.value_or(CloudFile{});
+}
+
+std::vector<Vec3> points_of(std::string_view text) {
+  return file_of(text).cloud.points;
+}
+
+const std::vector<Vec3f> xz = {Vec3f::UnitX(), Vec3f::UnitZ()};
+
+TEST(Xyz, ReadsEverySeparator) {
+  for (const auto* text :
+       {"1 2.5 -3\n4 5 6e3\n", "1\t2.5\t-3\n4\t5\t6e3", "1,2.5,-3\n4,5,6e3\n", "1;2.5;-3\n4;5;6e3\n",
+        " 1,  2.5, -3 \n4 ,5,6e3\n", "1 ; 2.5;\t-3\r\n4;5;6e3\r\n", "1,2.5,-3,\n4,5,6e3,\n",
+        "  +1   2.5 \t -3  \r\n\r\n4 5 6e3", "1 2.5 -3\r4 5 6e3\r",
+        "\xEF\xBB\xBF"
+        "1 2.5 -3\n4 5 6e3\n"}) {
+    EXPECT_EQ(points_of(text), two_points) << text;
+  }
+}
+
+TEST(Xyz, SkipsCommentsAndEmptyLines) {
+  EXPECT_EQ(points_of("# a scan\n// of mine\n\n1 2.5 -3 # first\n \t\n#1 1 1\n4 5 6e3 // second\n"),
+            two_points);
+}
+
+TEST(Xyz, FormatNamesTheColumns) {
+  EXPECT_EQ(file_of("1 2 3\n").format, "XYZ text, 3 columns");
+  EXPECT_EQ(file_of("1 2 3 0 0 1\n").format, "XYZ text, 6 columns with normals");
+  EXPECT_EQ(file_of("1\n1 2 3 9\n").format, "PTS text, 4 columns");
+}
+
+TEST(Xyz, FirstLineMayPromiseTheNumberOfPoints) {
+  EXPECT_EQ(points_of("2\r\n1 2.5 -3\r\n4 5 6e3\r\n"), two_points);
+  EXPECT_EQ(points_of("1\n1 2.5 -3\n4 5 6e3\n"), two_points) << "more than promised are taken";
+  EXPECT_EQ(message_of("3\n1 2.5 -3\n4 5 6e3\n", "scan.pts"),
+            "scan.pts, line 4: expected 3 points as line 1 says, found the end of the file after 2");
+  EXPECT_EQ(message_of("1152921504606846976\n1 2 3\n", "scan.pts"),
+            "scan.pts, line 3: expected 1152921504606846976 points as line 1 says, found the end of the file "
+            "after 1");
+}
+
+TEST(Xyz, FourthColumnIsIgnored) {
+  EXPECT_EQ(points_of("1 2.5 -3 0.7\n4 5 6e3 ground\n"), two_points);
+}
+
+TEST(Xyz, SixColumnsAreNormalsIfTheyAreUnitVectors) {
+  const CloudFile file = file_of("1 2.5 -3 1 0 0\n4 5 6e3 0 0 1\n");
+  EXPECT_EQ(file.cloud.points, two_points);
+  EXPECT_EQ(file.cloud.normals, xz);
+}
+
+TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
+  const CloudFile file = file_of("0 0 0 0.58 0.58 0.58\n1 1 1 -0.71 0.00 0.71\n");
+  ASSERT_TRUE(file.cloud.has_normals());
+  EXPECT_TRUE(file.cloud.normals[0].isApprox(Vec3f(1, 1, 1).normalized()));
+  EXPECT_NEAR(file.cloud.normals[1].norm(), 1, 1e-7);
+}
+
+TEST(Xyz, SixColumnsAreColoursOtherwise) {
+  EXPECT_FALSE(file_of("1 2.5 -3 255 0 10\n4 5 6e3 0 0 1\n").cloud.has_normals());
+  EXPECT_FALSE(file_of("1 2.5 -3 0.9 0.8 0.1\n4 5 6e3 0.2 0.1 0.3\n").cloud.has_normals());
+}
+
+TEST(Xyz, AFewRowsWithoutUnitNormalDoNotHideTheOthers) {
+  std::string text;
+  for (int i = 0; i < 99; ++i) text += std::to_string(i) + " 0 0 0.6 0 0.8\n";
+  const CloudFile file = file_of(text + "99 0 0 0 0 0\n");
+  EXPECT_EQ(file.cloud.normals.size(), 99U);
+  EXPECT_EQ(file.dropped_normals, 1U);
+}
+
+TEST(Xyz, SevenColumnsOfPtsAreIntensityAndColour) {
+  const CloudFile file = file_of("2\n1 2.5 -3 -1023 255 0 10\n4 5 6e3 7 0 0 1\n");
+  EXPECT_EQ(file.cloud.points, two_points);
+  EXPECT_FALSE(file.cloud.has_normals());
+}
+
+TEST(Xyz, NormalsAreFoundBeforeAndAfterOtherColumns) {
+  for (const auto* text :
+       {"1 2.5 -3 255 0 10 1 0 0\n4 5 6e3 0 9 1 0 0 1\n", "1 2.5 -3 1 0 0 255 0 10\n4 5 6e3 0 0 1 0 9 9\n",
+        "1 2.5 -3 77 1 0 0\n4 5 6e3 78 0 0 1\n", "1 2.5 -3 1 0 0 77\n4 5 6e3 0 0 1 77\n"}) {
+    const CloudFile file = file_of(text);
+    EXPECT_EQ(file.cloud.points, two_points);
+    EXPECT_EQ(file.cloud.normals, xz) << text;
+  }
+}
+
+TEST(Xyz, NamesOfColumnsDecide) {
+  for (const auto* text :
+       {"nx,ny,nz,label,Z,Y,X\n1,0,0,a,-3,2.5,1\n0,0,1,b,6e3,5,4\n",
+        "\"NX\"; \"NY\"; \"NZ\"; \"label\"; \"z\"; \"y\"; \"x\"\n1;0;0;a;-3;2.5;1\n0;0;1;b;6e3;5;4\n",
+        "//Nx Ny Nz Label Z Y X\n2\n1 0 0 9 -3 2.5 1\n0 0 1 9 6e3 5 4\n"}) {
+    const CloudFile file = file_of(text);
+    EXPECT_EQ(file.cloud.points, two_points) << text;
+    EXPECT_EQ(file.cloud.normals, xz) << text;
+  }
+}
+
+TEST(Xyz, NamesWithoutNormalsMeanNoNormals) {
+  EXPECT_FALSE(file_of("x y z a b c\n1 2.5 -3 1 0 0\n4 5 6e3 0 0 1\n").cloud.has_normals());
+}
+
+TEST(Xyz, CommentThatDoesNotFitTheColumnsNamesNothing) {
+  EXPECT_EQ(points_of("# z y x of the scan\n1 2.5 -3\n4 5 6e3\n"), two_points);
+}
+
+TEST(Xyz, KeepsGeoReferencedCoordinates) {
+  EXPECT_EQ(points_of("3456789.123456789 5678901.987654321 1234.000000001\n"),
+            (std::vector<Vec3>{{3456789.123456789, 5678901.987654321, 1234.000000001}}));
+}
+
+TEST(Xyz, NotFiniteCoordinatesAreDroppedAndCounted) {
+  const CloudFile file = file_of("1 2.5 -3\nnan 0 0\n0 -inf 0\n0 0 1e999\n1.#QNAN 0 0\n4 5 6e3\n");
+  EXPECT_EQ(file.cloud.points, two_points);
+  EXPECT_EQ(file.dropped_points, 4U);
+}
+
+TEST(Xyz, DecimalCommasAreNeverMisread) {
+  const std::string message = ": expected numbers with a decimal point, separated in one way, found ";
+  for (const std::string text :
+       {"1,5 2,5 3,5", "1,5\t2,5\t3,5", "1,5, 2,5, 3,5", "1,5  2,5  3,5  0,1  0,2  0,3"}) {
+    EXPECT_TRUE(message_of(text + "\n", "scan.xyz").starts_with("scan.xyz, line 1" + message)) << text;
+  }
+  EXPECT_EQ(message_of("1,5;2,5;3,5\n", "scan.xyz"),
+            "scan.xyz, line 1: expected a number in column 1, found '1,5'");
+  EXPECT_EQ(message_of("1 2 3\n1,5 2,5 3,5\n", "scan.xyz"),
+            "scan.xyz, line 2: expected a number in column 1, found '1,5'");
+}
+
+TEST(Xyz, BadLinesAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> all = {
+      {"1 2 3\n4 5\n", "line 2: expected 3 columns as in line 1, found 2"},
+      {"\n1 2 3\n\n4 5 6 7\n", "line 4: expected 3 columns as in line 2, found 4"},
+      {"1 2 3\n4 five 6\n", "line 2: expected a number in column 2, found 'five'"},
+      {"1 2 3\n4 5 6x\n", "line 2: expected a number in column 3, found '6x'"},
+      {"1,2,3\n4,,6\n", "line 2: expected a number in column 2, found ''"},
+      {"1,2,3\n4 5 6\n", "line 2: expected a number in column 1, found '4 5 6'"},
+      {"1 2\n3 4\n", "line 1: expected at least 3 numbers, found '1 2'"},
+      {"1 2 x\n", "line 1: expected a number in column 3, found 'x'"},
+      {"7\n8\n", "line 2: expected at least 3 numbers, found '8'"},
+      {"hello world\n", "line 1: expected numbers, or names of columns with x, y and z, found 'hello world'"},
+      {"east north up\n1 2 3\n",
+       "line 1: expected numbers, or names of columns with x, y and z, found 'east north up'"},
+      {"x y z\nx y z\n1 2 3\n",
+       "line 2: expected numbers, or names of columns with x, y and z, found 'x y z'"},
+      {"x y z w\n1 2 3\n", "line 2: expected 4 columns as named in line 1, found 3"},
+      {"# nothing\n", "line 2: expected a line of numbers, found the end of the file"},
+      {"x y z\n", "line 2: expected a line of numbers, found the end of the file"},
+      {"5\n", "line 2: expected a line of numbers, found the end of the file"},
+      {";;;\n", "line 1: expected numbers, or names of columns with x, y and z, found ';;;'"},
+  };
+  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, "scan.xyz"), "scan.xyz, " + message);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,209 @@
+#include "relievo/preview.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "relievo/core/parallel.h"
+#include "support/plate_fronts.h"
+
+namespace relievo {
+namespace {
+
+using test::flat_front, test::grid_front, test::pyramid_front;
+
+Solid plate(const Front& front, const PlateOptions& options = {}) {
+  return make_plate(front, options).value();
+}
+
+std::uint16_t grey_at(const HeightMap& map, int column, int row) {
+  return map.image.pixels[static_cast<std::size_t>(row * map.image.width + column)];
+}
+
+// ---------------------------------------------------------------------------------------------- height map
+
+TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
+  // Base 40 x 20 around (25, 15) on a plate of 50 x 30.
+  const Solid solid = plate(pyramid_front({{0, 0}, {40, 0}, {40, 20}, {0, 20}}, 7), {5, 3});
+  const auto height = [](double x, double y) {
+    return std::max(0.0, 7 * (1 - std::max(std::abs(x - 25) / 20, std::abs(y - 15) / 10)));
+  };
+  for (const int longer : {33, 500, 1001}) {
+    const HeightMap map = make_height_map(solid, longer);
+    ASSERT_EQ(map.image.width, longer);
+    ASSERT_EQ(map.image.height, std::lround(longer * 30 / 50.0));
+    EXPECT_DOUBLE_EQ(map.mm_per_pixel, 50.0 / longer);
+    EXPECT_NEAR(map.mm_per_grey, 7.0 / 65535, 1e-12);
+    for (int row = 0; row < map.image.height; ++row) {
+      for (int column = 0; column < map.image.width; ++column) {
+        const double x = 25 + (column + 0.5 - map.image.width / 2.0) * map.mm_per_pixel;
+        const double y = 15 - (row + 0.5 - map.image.height / 2.0) * map.mm_per_pixel;
+        ASSERT_NEAR(grey_at(map, column, row), height(x, y) / map.mm_per_grey, 0.52) << column << ", " << row;
+      }
+    }
+  }
+}
+
+TEST(HeightMap, SpansAllGreysFromTheLowestToTheHighestPoint) {
+  // A groove and a ridge, each on a plateau wide enough to hold pixel centres.
+  const auto step = [](double x, double) { return x < 8 ? -1.0 : x > 12 ? 4.0 : 0.0; };
+  const HeightMap map = make_height_map(plate(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
+  const auto [low, high] = std::ranges::minmax(map.image.pixels);
+  EXPECT_EQ(low, 0);
+  EXPECT_EQ(high, 65535);
+  EXPECT_EQ(grey_at(map, 2, 2), 65535 / 5);
+}
+
+TEST(HeightMap, AFlatFrontGivesZeros) {
+  const HeightMap map = make_height_map(plate(flat_front({30, 60, 3, 6})), 140);
+  EXPECT_EQ(map.image.width, 80);
+  EXPECT_EQ(map.image.height, 140);
+  EXPECT_EQ(map.mm_per_grey, 0);
+  EXPECT_EQ(std::ranges::count(map.image.pixels, 0), 80 * 140);
+}
+
+TEST(HeightMap, AVeryThinFrontStillHasARow) {
+  const HeightMap map =
+      make_height_map(plate(pyramid_front({{0, 0}, {100, 0}, {100, 0.1}, {0, 0.1}}, 1), {0.01, 1}), 50);
+  EXPECT_EQ(map.image.height, 1);
+  EXPECT_GT(grey_at(map, 25, 0), 60000);
+}
+
+TEST(HeightMap, NothingToDrawGivesNoPixels) {
+  EXPECT_TRUE(make_height_map({}, 100).image.pixels.empty());
+  const Solid solid = plate(flat_front({10, 10, 1, 1}));
+  for (const int bad : {0, -5, 1 << 20}) EXPECT_TRUE(make_height_map(solid, bad).image.pixels.empty()) << bad;
+}
+
+// ------------------------------------------------------------------------------------------------- preview
+
+// A hemisphere of radius 15 in the middle of a plate of 60 x 60.
+double hemisphere(double x, double y) {
+  return std::sqrt(std::max(0.0, 225 - (x - 25) * (x - 25) - (y - 25) * (y - 25)));
+}
+
+Solid hemisphere_plate() {
+  return plate(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
+}
+
+// Mean of the channels; x and y in millimetres of a plate of the given size, in the front view.
+struct FrontView {
+  const Image8& image;
+  double width_mm, height_mm;
+
+  double operator()(double x, double y) const {
+    const double scale = 0.88 * std::max(image.width / 2, image.height) / std::max(width_mm, height_mm);
+    const int column = static_cast<int>(image.width / 4.0 + (x - width_mm / 2) * scale);
+    const int row = static_cast<int>(image.height / 2.0 - (y - height_mm / 2) * scale);
+    const auto i = static_cast<std::size_t>((row * image.width + column) * 3);
+    return (image.pixels[i] + image.pixels[i + 1] + image.pixels[i + 2]) / 3.0;
+  }
+};
+
+TEST(Preview, ShowsTwoPicturesSideBySide) {
+  const Image8 square = render_preview(hemisphere_plate(), {.longer_side_px = 200});
+  EXPECT_EQ(square.width, 400);
+  EXPECT_EQ(square.height, 200);
+  EXPECT_EQ(square.channels, 3);
+  EXPECT_EQ(square.pixels.size(), 400U * 200 * 3);
+  const Image8 tall = render_preview(plate(flat_front({40, 90, 2, 2}), {5, 3}), {.longer_side_px = 200});
+  EXPECT_EQ(tall.width, 2 * std::lround(200 * (0.88 * 0.5 + 0.12)));
+  EXPECT_EQ(tall.height, 200);
+}
+
+TEST(Preview, TheSideTowardsTheLightIsBrighter) {
+  const Image8 image = render_preview(hemisphere_plate(), {.longer_side_px = 300});
+  const FrontView grey{image, 60, 60};
+  const double offset = 8;
+  EXPECT_GT(grey(30 - offset, 30 + offset), grey(30, 30) + 20);
+  EXPECT_GT(grey(30, 30), grey(30 + offset, 30 - offset) + 20);
+}
+
+TEST(Preview, ASphereBrightensTowardsTheLight) {
+  const Image8 image = render_preview(hemisphere_plate(), {.longer_side_px = 600, .light = {1, 0, 1}});
+  const FrontView grey{image, 60, 60};
+  for (double x = 22; x <= 36; x += 2) EXPECT_GT(grey(x, 30), grey(x - 2, 30)) << x;
+}
+
+TEST(Preview, MirroredLightAndShapeGiveAMirroredPicture) {
+  const auto bump = [](double x, double y) {
+    return 3 * std::exp(-((x - 15) * (x - 15) + (y - 30) * (y - 30)) / 60);
+  };
+  const auto mirrored = [&](double x, double y) { return bump(50 - x, y); };
+  const auto front = [](const std::function<double(double, double)>& z) {
+    return plate(grid_front({50, 50, 100, 100}, z));
+  };
+  const Image8 image = render_preview(front(bump), {.longer_side_px = 300, .light = {-1, 1, 0.8}});
+  const Image8 other = render_preview(front(mirrored), {.longer_side_px = 300, .light = {1, 1, 0.8}});
+  const FrontView grey{image, 60, 60}, other_grey{other, 60, 60};
+  for (double y = 1.03; y < 59; y += 0.7)
+    for (double x = 1.03; x < 59; x += 0.7)
+      EXPECT_NEAR(grey(x, y), other_grey(60 - x, y), 4) << x << ", " << y;
+}
+
+TEST(Preview, AFlatGroundIsLightMidGrey) {
+  const Image8 image = render_preview(plate(flat_front({50, 50, 2, 2})), {.longer_side_px = 200});
+  const FrontView grey{image, 60, 60};
+  for (const double at : {2.0, 20.0, 58.0}) {
+    EXPECT_GT(grey(at, at), 150);
+    EXPECT_LT(grey(at, at), 190);
+    EXPECT_EQ(grey(at, at), grey(30, 30));
+  }
+}
+
+TEST(Preview, NothingIsClipped) {
+  const auto waves = [](double x, double y) { return 3 * std::sin(3 * x) * std::sin(3 * y); };
+  const Image8 image = render_preview(plate(grid_front({50, 50, 300, 300}, waves)), {.longer_side_px = 300});
+  const auto [darkest, brightest] = std::ranges::minmax(image.pixels);
+  EXPECT_GT(darkest, 0);
+  EXPECT_LT(brightest, 255);
+}
+
+TEST(Preview, AShadowFallsAwayFromTheLight) {
+  // A tower of 10 x 10 x 12; the ground beside it, same distance on all sides.
+  const auto tower = [](double x, double y) {
+    return std::abs(x - 25) < 5 && std::abs(y - 25) < 5 ? 12.0 : 0.0;
+  };
+  const Solid solid = plate(grid_front({50, 50, 100, 100}, tower));
+  for (const Vec2& away : {Vec2(9, 0), Vec2(-9, 0), Vec2(0, 9), Vec2(0, -9)}) {
+    const Image8 image = render_preview(solid, {.longer_side_px = 300, .light = {-away.x(), -away.y(), 7.2}});
+    const FrontView grey{image, 60, 60};
+    EXPECT_LT(grey(30 + away.x(), 30 + away.y()), 0.75 * grey(30 - away.x(), 30 - away.y()));
+    EXPECT_NEAR(grey(30 + away.y(), 30 - away.x()), grey(30 - away.y(), 30 + away.x()), 3);
+  }
+}
+
+TEST(Preview, NothingToDrawGivesNoPixels) {
+  EXPECT_TRUE(render_preview({}, {}).pixels.empty());
+  for (const int bad : {0, -1, 1 << 20})
+    EXPECT_TRUE(render_preview(hemisphere_plate(), {.longer_side_px = bad}).pixels.empty()) << bad;
+  EXPECT_EQ(render_preview(hemisphere_plate(), {.longer_side_px = 1}).pixels.size(), 2U * 3);
+}
+
+TEST(Preview, OddLightsAreDrawn) {
+  // Straight on, from behind, and none at all: pictures without a lamp's shadow, but pictures.
+  const Solid solid = hemisphere_plate();
+  for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, 0, 0)}) {
+    const Image8 image = render_preview(solid, {.longer_side_px = 60, .light = light});
+    EXPECT_EQ(image.pixels.size(), 120U * 60 * 3);
+    EXPECT_GT((FrontView{image, 60, 60}(30, 30)), 10);
+  }
+}
+
+TEST(Pictures, AreTheSameBitsForAnyNumberOfThreads) {
+  const auto waves = [](double x, double y) { return 2 + std::sin(x) * std::sin(y * 1.3); };
+  const Solid solid = plate(grid_front({50, 40, 200, 160}, waves));
+  set_thread_count(1);
+  const HeightMap map = make_height_map(solid, 777);
+  const Image8 image = render_preview(solid, {.longer_side_px = 250});
+  for (const int threads : {2, 3}) {
+    set_thread_count(threads);
+    EXPECT_EQ(make_height_map(solid, 777).image.pixels, map.image.pixels);
+    EXPECT_EQ(render_preview(solid, {.longer_side_px = 250}).pixels, image.pixels);
+  }
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,98 @@
+// Reliefs on plates with rims, from cloud to solid.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "relievo/make_relief.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+MadeRelief made(const ReliefOptions& options) {
+  const Cloud figure = test::joined(test::torus(10000, 1.5, .4), test::sphere(7000, .8));
+  auto relief = make_relief(figure, options);
+  EXPECT_TRUE(relief) << (relief ? "" : relief.error().message());
+  MadeRelief good = relief.value_or(MadeRelief{});
+  EXPECT_EQ(check_solid(good.solid), "");
+  return good;
+}
+
+Box box_of(const Solid& solid) {
+  Box box;
+  for (const Vec3& p : solid.points) box.extend(p);
+  return box;
+}
+
+ReliefOptions coin_options() {
+  ReliefOptions options;
+  options.width_mm = 20;
+  options.height_mm = .8;
+  options.margin_mm = 1;
+  options.outline = "circle";
+  options.rim_mm = 2;
+  return options;
+}
+
+// Of the highest corner of the plate's edge, above the ground.
+double rim_height(const MadeRelief& relief) {
+  const Solid& solid = relief.solid;
+  const Box box = box_of(solid);
+  double highest = 0;
+  for (const Vec3& p : solid.points)
+    if (p.x() < 1e-9 || p.x() > box.max.x() - 1e-9) highest = std::max(highest, p.z());
+  return highest - 3 - relief.report.below_ground_mm;
+}
+
+TEST(MakePlates, ARimIsAsHighAsTheReliefButNoHigherThanWide) {
+  ReliefOptions options = coin_options();
+  EXPECT_NEAR(rim_height(made(options)), .8, 1e-3);
+  options.rim_mm = .5;
+  EXPECT_NEAR(rim_height(made(options)), .5, 1e-12);
+  options.rim_height_mm = 1.5;
+  EXPECT_NEAR(rim_height(made(options)), 1.5, 1e-12);
+}
+
+TEST(MakePlates, ADieIsTheCoinTurnedOver) {
+  ReliefOptions options = coin_options();
+  const Box coin = box_of(made(options).solid);
+  options.form = "die";
+  const Box die = box_of(made(options).solid);
+  EXPECT_NEAR(die.size().z(), coin.size().z(), 1e-9);
+  EXPECT_NEAR(die.size().x(), coin.size().x() + 2 * (2 + .3 * .8), 1e-3);
+}
+
+TEST(MakePlates, AWrapKeepsTheFlatPlateForHeightMaps) {
+  ReliefOptions options;
+  options.width_mm = 20;
+  options.height_mm = .8;
+  options.margin_mm = 1;
+  options.wrap = "cylinder:diameter=30";
+  const MadeRelief shell = made(options);
+  ASSERT_TRUE(shell.report.wrap);
+  const double width = box_of(shell.flat).size().x(), pi = std::numbers::pi;
+  EXPECT_EQ(shell.report.wrap->diameter_mm, 30);
+  EXPECT_NEAR(shell.report.wrap->turn_deg, width / (30 * pi) * 360, 1e-9);
+  EXPECT_NEAR(shell.report.wrap->mm_per_degree, 30 * pi / 360, 1e-12);
+  EXPECT_EQ(check_solid(shell.flat), "");
+  EXPECT_NEAR(shell.report.height_mm, .8, 1e-3);
+  options.base = "wave";
+  EXPECT_TRUE(check(options).error().message().starts_with("--wrap: expected either --base or --wrap"));
+}
+
+TEST(MakePlates, ABaseLeavesTheReliefsHeightAndADieFitsIt) {
+  ReliefOptions options = coin_options();
+  options.base = "dome:height=1.5";
+  const MadeRelief coin = made(options);
+  EXPECT_NEAR(coin.report.height_mm, .8, 1e-3);
+  options.form = "die";
+  const MadeRelief die = made(options);
+  EXPECT_NEAR(die.report.height_mm, .8, 1e-3);
+  EXPECT_GT(box_of(die.solid).size().z(), 3 + 1.5);
+  options.form = "lithophane";
+  EXPECT_TRUE(check(options).error().message().starts_with("--base: expected a plane for a lithophane"));
+}
+
+}  // namespace
+}  // namespace relievo

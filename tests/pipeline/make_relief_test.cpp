@@ -1,0 +1,174 @@
+#include "relievo/make_relief.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/scan/surface.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+Cloud figure() {
+  return test::joined(test::torus(30000, 1.5, .4), test::sphere(20000, .8));
+}
+
+Box box_of(const Solid& solid) {
+  Box box;
+  for (const Vec3& p : solid.points) box.extend(p);
+  return box;
+}
+
+TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
+  ReliefOptions options;
+  options.width_mm = 60;
+  options.height_mm = 2.5;
+  options.margin_mm = 4;
+  options.thickness_mm = 1.5;
+  const auto made = make_relief(figure(), options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
+  const Box box = box_of(made->solid);
+  EXPECT_NEAR(std::max(box.size().x(), box.size().y()), 60 + 2 * 4, 1e-9);
+  EXPECT_NEAR(box.size().z(), 1.5 + 2.5, 2.5e-3);
+  EXPECT_NEAR(made->report.height_mm, 2.5, 2.5e-3);
+  EXPECT_NEAR(box.size().z(), 1.5 + made->report.height_mm, 1e-9);
+}
+
+// Heights at which a vertical line crosses the solid, by looking at every triangle.
+std::vector<double> crossings(const Solid& solid, const Vec2& place) {
+  std::vector<double> heights;
+  for (const Triangle& t : solid.triangles) {
+    const Vec3 a = solid.points[t[0]], b = solid.points[t[1]], c = solid.points[t[2]];
+    const auto side = [&](const Vec3& p, const Vec3& q) {
+      return (q.x() - p.x()) * (place.y() - p.y()) - (q.y() - p.y()) * (place.x() - p.x());
+    };
+    const double ab = side(a, b), bc = side(b, c), ca = side(c, a), sum = ab + bc + ca;
+    if ((ab > 0) != (bc > 0) || (bc > 0) != (ca > 0) || sum == 0) continue;
+    heights.push_back((bc * a.z() + ca * b.z() + ab * c.z()) / sum);
+  }
+  std::ranges::sort(heights);
+  return heights;
+}
+
+TEST(MakeRelief, IsNowhereThinnerThanAsked) {
+  const Cloud cloud = test::joined(test::torus(4000, 1.5, .4), test::sphere(2000, .8));
+  const auto model = ReliefModel::prepare(*find_surface(cloud, View{}));
+  test::Random random(5);
+  for (const char* form : {"relief", "mirror", "die", "lithophane"})
+    for (const char* outline : {"rectangle", "circle", "none"}) {
+      ReliefOptions options;
+      options.height_mm = 6;
+      options.thickness_mm = 1.25;
+      options.form = form;
+      options.outline = outline;
+      const auto made = make_relief(*model, options);
+      ASSERT_TRUE(made) << made.error().message();
+      const Vec3 size = box_of(made->solid).size();
+      int lines = 0;
+      for (int trial = 0; trial < 100; ++trial) {
+        const auto at = crossings(made->solid, {random.uniform(0, size.x()), random.uniform(0, size.y())});
+        ASSERT_EQ(at.size() % 2, 0U);
+        for (std::size_t i = 0; i < at.size(); i += 2, ++lines)
+          EXPECT_GE(at[i + 1] - at[i], 1.25 - 1e-9) << form << " " << outline;
+      }
+      EXPECT_GT(lines, 30);
+    }
+}
+
+TEST(MakeRelief, ReportsThePapersParametersAndU) {
+  ReliefOptions options;
+  const auto paper = make_relief(figure(), options);
+  ASSERT_TRUE(paper);
+  EXPECT_EQ(paper->report.alpha, 4);
+  EXPECT_EQ(paper->report.beta, .01);
+  EXPECT_EQ(paper->report.gamma, .02);
+  EXPECT_NEAR(paper->report.u, std::pow(4, -.01), 1e-12);
+  options.height_mm = 3;
+  options.saturation = .5;
+  const auto to_order = make_relief(figure(), options);
+  ASSERT_TRUE(to_order);
+  EXPECT_NEAR(to_order->report.u, std::pow(to_order->report.alpha, -.5), 1e-9);
+  options = {};
+  options.saturation = 0;
+  EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
+}
+
+// A cloud far from its origin, turned: the report's transform puts each visible point over its place in the
+// solid.
+TEST(MakeRelief, TellsWhereTheScanLies) {
+  Cloud cloud = figure();
+  for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);
+  ReliefOptions options;
+  options.view = "1,.2,2";
+  const auto made = make_relief(cloud, options);
+  ASSERT_TRUE(made) << made.error().message();
+  const ReliefReport& r = made->report;
+  const auto surface = find_surface(cloud, *parse_view(options.view));
+  double lowest = 1e9;
+  for (std::size_t i = 0; i < surface->points.size(); ++i) {
+    const Vec3 p = surface->view.rotation.transpose() * surface->points[i] + surface->centre;
+    const Vec3 mm = r.scale * r.rotation * p + r.offset;
+    EXPECT_NEAR(mm.x(), made->solid.points[i].x(), 1e-6);
+    EXPECT_NEAR(mm.y(), made->solid.points[i].y(), 1e-6);
+    lowest = std::min(lowest, mm.z());
+  }
+  const double ground = made->solid.points[surface->triangulation.hull[0]].z();
+  EXPECT_NEAR(lowest, ground, 1e-6);
+}
+
+TEST(MakeRelief, RefusesAHeightOutOfReach) {
+  ReliefOptions options;
+  options.height_mm = 5000;
+  const auto made = make_relief(figure(), options);
+  ASSERT_FALSE(made);
+  EXPECT_NE(made.error().message().find("at most"), std::string::npos);
+}
+
+TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
+  ReliefOptions options;
+  options.view = "sideways";
+  EXPECT_EQ(make_relief(Cloud{}, options).error().kind, ErrorKind::option);
+  options = {};
+  options.margin_mm = -1;
+  EXPECT_EQ(make_relief(Cloud{}, options).error().kind, ErrorKind::option);
+}
+
+TEST(MakeRelief, FromAPreparedModelIsTheSame) {
+  ReliefOptions options;
+  options.view = "1,0.5,2";
+  options.height_mm = 2;
+  options.tone = "0,0.1;0.5,0.6;1,0.3";
+  options.steepest_deg = 60;
+  options.boundary_width = 5;
+  const auto whole = make_relief(figure(), options);
+  ASSERT_TRUE(whole) << whole.error().message();
+  const auto model = ReliefModel::prepare(*find_surface(figure(), *parse_view(options.view)));
+  const auto half = make_relief(*model, options);
+  ASSERT_TRUE(half);
+  EXPECT_EQ(write_stl(half->solid), write_stl(whole->solid));
+}
+
+TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
+  ReliefOptions options;
+  const double plain = make_relief(figure(), options)->report.height_mm;
+  options.boundary_width = 10;
+  EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
+  options.boundary_width = 2;
+  options.steepest_deg = 10;
+  EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
+}
+
+TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
+  ReliefOptions options;
+  options.saturation = 1;
+  options.tone = "0.5,0";
+  EXPECT_NEAR(make_relief(figure(), options)->report.height_mm, 0, 1e-9);
+  options.tone = "nonsense";
+  EXPECT_EQ(make_relief(figure(), options).error().input, "--tone");
+}
+
+}  // namespace
+}  // namespace relievo

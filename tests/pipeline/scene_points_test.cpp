@@ -1,0 +1,268 @@
+// What is seen of a scene, and the relief of it.
+#include "relievo/scene.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numbers>
+
+#include "relievo/core/parallel.h"
+#include "relievo/scan/spacing.h"
+#include "relievo/scan/surface.h"
+#include "support/scene_parts.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+using namespace test;
+
+Surface surface_of(const Scene& scene, double points = 30000) {
+  auto surface = find_surface(*seen(scene, points).cloud, front);
+  EXPECT_TRUE(surface) << surface.error().message();
+  return surface.value_or(Surface{});
+}
+
+// Area of the surface in the view plane.
+double inner_area(const Surface& surface) {
+  double area = 0;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const auto [a, b, c] = surface.triangulation.triangles[t];
+    const Vec2 u = (surface.points[b] - surface.points[a]).head<2>();
+    const Vec2 v = (surface.points[c] - surface.points[a]).head<2>();
+    area += .5 * (u.x() * v.y() - u.y() * v.x());
+  }
+  return area;
+}
+
+TEST(SeenScene, OfOneModelUnplacedIsThatModel) {
+  const SceneModel cloud = model_of(test::torus(20000, 1, .4)), mesh = model_of(wedge());
+  ReliefOptions options;
+  options.points = 5000;
+  for (const SceneModel& model : {cloud, mesh}) {
+    const auto alone = make_relief(*model.file, options);
+    const auto scene = make_relief(Scene{{model}}, options);
+    ASSERT_TRUE(alone && scene);
+    EXPECT_EQ(write_stl(alone->solid), write_stl(scene->solid));
+    EXPECT_EQ(alone->report.remarks, scene->report.remarks);
+  }
+}
+
+// The file as it is in the scene.
+CloudFile baked(const CloudFile& file, const PlacedModel& place, bool is_mirrored) {
+  CloudFile made = file;
+  for (Vec3& p : made.cloud.points) p = place(p);
+  for (Vec3& p : made.mesh.points) p = place(p);
+  for (Vec3f& n : made.cloud.normals) n = place.turn.cast<float>() * n;
+  if (is_mirrored)
+    for (Triangle& t : made.mesh.triangles) std::swap(t[1], t[2]);
+  return made;
+}
+
+TEST(SeenScene, PlacingThenSeeingIsSeeingWhatWasPlaced) {
+  const Scene scene{{model_of(test::torus(20000, 1, .4), at(0, 0, 0, {40, 0, 10})),
+                     model_of(wedge(), {{10, 20, 30}, Vec3(1, .5, -1), .4, true}),
+                     model_of(test::sphere(1500, .5), at(-1, 1, .5))}};
+  const std::vector<PlacedModel> places = placed(scene);
+  Scene ready;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    CloudFile file = baked(*scene.models[i].file, places[i], scene.models[i].pose.is_mirrored);
+    ready.models.push_back({"baked", std::make_shared<const CloudFile>(std::move(file)), at(0, 0, 0)});
+  }
+  const SeenPoints a = seen(scene), b = seen(ready);
+  ASSERT_EQ(a.cloud->size(), b.cloud->size());
+  for (std::size_t i = 0; i < a.cloud->size(); ++i) {
+    ASSERT_TRUE(a.cloud->points[i].isApprox(b.cloud->points[i], 1e-6)) << i;
+    ASSERT_LT((a.cloud->normals[i] - b.cloud->normals[i]).norm(), 1e-4F) << i;
+  }
+}
+
+TEST(SeenScene, OrderOfModelsDoesNotMatter) {
+  std::vector<SceneModel> models{model_of(test::torus(20000, 1, .4), at(0, 0, 0)),
+                                 model_of(test::sphere(16000, .7), at(.8, .2, -.5)),
+                                 model_of(test::cylinder(9000, .3, 2), at(-.6, 0, .9))};
+  const Surface one = surface_of({models});
+  std::ranges::rotate(models, models.begin() + 1);
+  const Surface other = surface_of({models});
+  EXPECT_EQ(one.points, other.points);
+  EXPECT_EQ(one.normals, other.normals);
+  EXPECT_EQ(one.curvature.k, other.curvature.k);
+}
+
+TEST(SeenScene, WhatIsBehindAnotherModelDoesNotShow) {
+  const SceneModel ball = model_of(test::sphere(40000, 1), at(0, 0, 0));
+  const Surface alone = surface_of({{ball}});
+  const Surface both = surface_of({{ball, model_of(test::sphere(8000, .45), at(.2, -.1, -4))}});
+  EXPECT_TRUE(std::ranges::all_of(both.points, [&](const Vec3& p) { return (p + both.centre).z() > -1; }));
+  EXPECT_NEAR(static_cast<double>(both.visible_points), static_cast<double>(alone.visible_points),
+              .005 * static_cast<double>(alone.visible_points));
+  EXPECT_NEAR(inner_area(both), inner_area(alone), .002 * inner_area(alone));
+}
+
+TEST(SeenScene, MeshesHideEachOther) {
+  Mesh wall{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  const SeenPoints both = seen({{model_of(wall, at(0, 0, 1)), model_of(wall, at(.5, 0, -1))}}, 5000);
+  for (std::size_t i = 0; i < both.cloud->size(); ++i) {
+    const Vec3& p = both.cloud->points[i];
+    EXPECT_EQ(p.z() > 0, p.x() < 1.001) << p.transpose();
+  }
+}
+
+// Spacing of the points within a ball, and the mean angle of their normals to those of the sphere about its
+// centre.
+struct Look {
+  double spacing = 0, angle_deg = 0;
+};
+
+Look look_at_ball(const Cloud& cloud, const Vec3& centre, double radius) {
+  Cloud own;
+  double sum = 0;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3 radial = cloud.points[i] - centre;
+    if (radial.norm() > 1.2 * radius || radial.z() < .5 * radius) continue;
+    own.points.push_back(cloud.points[i]);
+    const double cosine = radial.normalized().dot(cloud.normals[i].cast<double>());
+    sum += std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+  }
+  return {measure_spacing(own).rho, sum / static_cast<double>(std::max<std::size_t>(1, own.size()))};
+}
+
+TEST(SeenScene, CoarseAndFineCloudsGetOneSpacing) {
+  const Scene scene{{model_of(test::sphere(150000, 1), at(0, 0, 0)),
+                     model_of(test::sphere(30000, 1), at(3, 0, 0)),
+                     model_of(test::sphere(3000, 1), at(6, 0, 0))}};
+  const SeenPoints together = seen(scene, 20000);
+  std::vector<Look> looks;
+  for (const double x : {0, 3, 6}) looks.push_back(look_at_ball(*together.cloud, {x, 0, 0}, 1));
+  for (const Look& look : looks) {
+    EXPECT_NEAR(look.spacing, looks[1].spacing, .25 * looks[1].spacing);
+    EXPECT_LT(look.angle_deg, 1);
+  }
+  EXPECT_EQ(together.remarks.size(), 2U);
+  const Surface surface = surface_of(scene, 20000);
+  EXPECT_NEAR(inner_area(surface), 3 * std::numbers::pi, .03 * 3 * std::numbers::pi);
+}
+
+TEST(SeenScene, CloudsAreAsFineAsTheFinestUnlessThatIsTooMany) {
+  const Scene scene{
+      {model_of(test::sphere(30000, 1), at(0, 0, 0)), model_of(test::sphere(3000, 1), at(3, 0, 0))}};
+  const double own = measure_spacing(scene.models[0].file->cloud).rho;
+  for (const double x : {0, 3})
+    EXPECT_NEAR(look_at_ball(*seen(scene, 1e6).cloud, {x, 0, 0}, 1).spacing, own, .2 * own);
+  const Cloud fewer = *seen(scene, 1500).cloud;
+  for (const double x : {0, 3})
+    EXPECT_NEAR(look_at_ball(fewer, {x, 0, 0}, 1).spacing, std::sqrt(2 * std::numbers::pi / 1500), .01);
+}
+
+TEST(SeenScene, NormalsAreSettledModelByModel) {
+  Cloud inward = test::sphere(20000, 1), without = inward;
+  for (Vec3f& n : inward.normals) n = -n;
+  without.normals.clear();
+  const Scene scene{{model_of(inward, at(0, 0, 0)), model_of(without, at(3, 0, 0)),
+                     model_of(test::sphere(20000, 1), at(6, 0, 0))}};
+  const SeenPoints together = seen(scene);
+  for (const double x : {0, 3, 6}) EXPECT_LT(look_at_ball(*together.cloud, {x, 0, 0}, 1).angle_deg, 1);
+  ASSERT_EQ(together.remarks.size(), 2U);
+  EXPECT_NE(together.remarks[0].find("inwards"), std::string::npos);
+  EXPECT_NE(together.remarks[1].find("estimated"), std::string::npos);
+}
+
+TEST(SeenScene, ModelsWithoutColoursAreWhiteBesideOthers) {
+  Cloud red = test::sphere(5000, 1);
+  red.colours.assign(red.size(), {200, 0, 0});
+  Mesh blue = wedge();
+  blue.colours.assign(blue.points.size(), {0, 0, 200});
+  const SeenPoints together = seen({{model_of(test::sphere(5000, 1), at(0, 0, 0)), model_of(red, at(3, 0, 0)),
+                                     model_of(wedge(), at(6, 0, 0)), model_of(blue, at(12, 0, 0))}});
+  ASSERT_EQ(together.cloud->colours.size(), together.cloud->size());
+  for (std::size_t i = 0; i < together.cloud->size(); ++i) {
+    const double x = together.cloud->points[i].x();
+    const Colour expected = x < 1.5   ? Colour{255, 255, 255}
+                            : x < 4.5 ? Colour{200, 0, 0}
+                            : x < 10  ? Colour{255, 255, 255}
+                                      : Colour{0, 0, 200};
+    ASSERT_EQ(together.cloud->colours[i], expected) << x;
+  }
+  EXPECT_FALSE(seen({{model_of(wedge()), model_of(wedge())}}).cloud->has_colours());
+}
+
+TEST(SeenScene, StraysGoModelByModel) {
+  Cloud cloud = test::sphere(5000, 1);
+  test::add(cloud, {60, 0, 0}, {1, 0, 0});
+  const SeenPoints together =
+      seen({{model_of(cloud, at(0, 0, 0)), model_of(test::sphere(5000, 1), at(60, 0, 0))}});
+  EXPECT_EQ(together.left_out, 1U);
+  EXPECT_EQ(together.cloud->size(), 10000U);
+}
+
+TEST(SeenScene, SaysWhichModelIsNoSurface) {
+  Cloud dot;
+  for (int i = 0; i < 20; ++i) test::add(dot, {1, 1, 1}, Vec3::UnitZ());
+  SceneModel model = model_of(dot);
+  model.name = "dot.ply";
+  const auto result = seen_points(Scene{{model_of(test::sphere(5000, 1), at(0, 0, 0)), model}}, front, 1000);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().input, "dot.ply");
+}
+
+TEST(SeenScene, RefusesTooFewPoints) {
+  const Scene scene{{model_of(test::sphere(5000, 1)), model_of(test::sphere(3, 1))}};
+  const auto of_three = seen_points(scene, front, 1000);
+  ASSERT_FALSE(of_three);
+  EXPECT_EQ(of_three.error().message(), "cloud: expected at least 4 points, found 3");
+  const auto none_wanted = seen_points(scene, front, 0);
+  ASSERT_FALSE(none_wanted);
+  EXPECT_EQ(none_wanted.error().kind, ErrorKind::option);
+}
+
+TEST(SeenScene, CanBeCancelled) {
+  Progress progress;
+  progress.cancel();
+  const Scene scene{{model_of(wedge()), model_of(wedge())}};
+  const auto result = seen_points(scene, front, 1000, &progress);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().kind, ErrorKind::cancelled);
+}
+
+TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
+  const Scene scene{{model_of(test::torus(20000, 1, .4), at(0, 0, 0, {30, 0, 0})),
+                     model_of(wedge(), at(0, 0, 0)), model_of(test::sphere(2000, 1), at(1, 1, 0))}};
+  ReliefOptions options;
+  options.points = 10000;
+  std::vector<std::vector<std::byte>> files;
+  for (const int threads : {1, 3}) {
+    set_thread_count(threads);
+    const auto made = make_relief(scene, options);
+    ASSERT_TRUE(made) << made.error().message();
+    files.push_back(write_stl(made->solid));
+  }
+  set_thread_count(0);
+  EXPECT_EQ(files[0], files[1]);
+}
+
+// A ball before another: the jump between them is no wall, and each keeps its own shape.
+TEST(SceneRelief, NoWallStandsBetweenModels) {
+  const Scene scene{
+      {model_of(test::sphere(60000, 1), at(0, 0, 0)), model_of(test::sphere(60000, 1), at(.9, 0, -8))}};
+  ReliefOptions options;
+  options.width_mm = 100;
+  options.height_mm = 4;
+  const auto made = make_relief(scene, options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
+  double steepest = 0;
+  for (std::size_t t = 0; t < made->solid.front_triangles; ++t) {
+    const auto& [a, b, c] = made->solid.triangles[t];
+    const Vec3 p = made->solid.points[b] - made->solid.points[a],
+               q = made->solid.points[c] - made->solid.points[a];
+    for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
+  }
+  // The depths differ by 8 of 100 mm; an edge is about a third of a millimetre long.
+  EXPECT_LT(steepest, 1.0);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,270 @@
+#include "relievo/plate/outline.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "relievo/make_relief.h"
+#include "relievo/plate/forms.h"
+#include "relievo/simplify.h"
+#include "support/plate_fronts.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+const std::vector<std::pair<std::string, Outline>> all_outlines = {
+    {"rectangle", Outline::rectangle}, {"round", Outline::round},     {"circle", Outline::circle},
+    {"ellipse", Outline::ellipse},     {"hexagon", Outline::hexagon}, {"none", Outline::none}};
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Least distance from the points to the lines of the polygon's edges; negative if one lies outside.
+double least_ground(const std::vector<Vec2>& polygon, const std::vector<Vec2>& points) {
+  double least = 1e300;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], edge = polygon[(i + 1) % polygon.size()] - a;
+    for (const Vec2& p : points) least = std::min(least, cross(edge, p - a) / edge.norm());
+  }
+  return least;
+}
+
+Vec2 size_of(const std::vector<Vec2>& polygon) {
+  Vec2 min = polygon[0], max = polygon[0];
+  for (const Vec2& p : polygon) min = min.cwiseMin(p), max = max.cwiseMax(p);
+  return max - min;
+}
+
+// Not symmetric: a bent half of an ellipse, far from the origin.
+std::vector<Vec2> lump() {
+  std::vector<Vec2> points = test::ellipse(41, 30, 20, .3);
+  std::erase_if(points, [](const Vec2& p) { return p.x() + p.y() < -12; });
+  for (Vec2& p : points) p += Vec2(700, -300);
+  return points;
+}
+
+TEST(OutlineAround, IsConvexAndKeepsTheMarginButNoMore) {
+  for (const auto& [name, outline] : all_outlines) {
+    if (outline == Outline::none) continue;
+    const std::vector<Vec2> polygon = outline_around(lump(), {outline, 12, 3});
+    const std::size_t n = polygon.size();
+    for (std::size_t i = 0; i < n; ++i)
+      EXPECT_GT(cross(polygon[(i + 1) % n] - polygon[i], polygon[(i + 2) % n] - polygon[(i + 1) % n]), 0)
+          << name;
+    EXPECT_NEAR(least_ground(polygon, lump()), 3, 1e-9) << name;
+  }
+}
+
+TEST(OutlineAround, ASquareHasAKnownCircleEllipseAndHexagon) {
+  const std::vector<Vec2> square = {{-10, -10}, {10, -10}, {10, 10}, {-10, 10}};
+  const double radius = 10 * std::numbers::sqrt2 + 2;
+  EXPECT_NEAR(size_of(outline_around(square, {Outline::circle, 5, 2})).x(), 2 * radius, .02);
+  EXPECT_NEAR(size_of(outline_around(square, {Outline::ellipse, 5, 2})).y(), 2 * radius, .02);
+  // The corners of the square meet the slanted sides: 10 sqrt(3)/2 + 10/2 + 2 from the middle.
+  const double width = size_of(outline_around(square, {Outline::hexagon, 5, 2})).minCoeff();
+  EXPECT_NEAR(width, 2 * (10 * std::sqrt(.75) + 5 + 2), .05);
+}
+
+TEST(OutlineAround, ACirclesPolygonLiesWithinAHundredthOfIt) {
+  for (const double size : {.5, 40.0, 900.0}) {
+    const std::vector<Vec2> square = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
+    const std::vector<Vec2> circle = outline_around(square, {Outline::circle, 5, 2});
+    const Vec2 centre = (circle[0] + circle[circle.size() / 2]) / 2;
+    const double radius = size_of(circle).x() / 2;
+    for (const Vec2& p : circle) {
+      EXPECT_GE((p - centre).norm(), radius - 1e-9);
+      EXPECT_LE((p - centre).norm(), radius + .01);
+    }
+  }
+}
+
+TEST(OutlineAround, RoundCornersWithinTheMarginKeepTheRectanglesSize) {
+  const std::vector<Vec2> box = {{0, 0}, {30, 0}, {30, 20}, {0, 20}};
+  EXPECT_LT((size_of(outline_around(box, {Outline::round, 5, 5})) - Vec2(40, 30)).norm(), 1e-9);
+  // A corner's circle of 8 mm is 8 - 8/sqrt(2) away from the rectangle's corner, 5 sqrt(2) - that is left.
+  const Vec2 grown = size_of(outline_around(box, {Outline::round, 15, 5}));
+  const double inner = 10 * (1 - std::sqrt(.5));  // corners of radius 15 - 5 would cut off so much a side
+  EXPECT_NEAR(grown.x(), 40 + 2 * inner, .02);
+  EXPECT_NEAR(grown.y(), 30 + 2 * inner, .02);
+}
+
+// ------------------------------------------------------------------------------------------------- the plate
+
+TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
+  const std::vector<Vec2> polygon = test::ellipse(37, 20, 12);
+  const Front pyramid = test::pyramid_front(polygon, 6);
+  const double relief = test::polygon_area(polygon) * 6 / 3;
+  for (const auto& [name, outline] : all_outlines) {
+    const auto solid = make_plate(pyramid, {2, 1.5, outline, 8});
+    ASSERT_TRUE(solid) << name << solid.error().message();
+    EXPECT_EQ(check_solid(*solid), "") << name;
+    const std::vector<Vec2> around = outline_around(polygon, {outline, 8, 2});
+    const double ground = test::polygon_area(around.empty() ? polygon : around);
+    EXPECT_NEAR(volume_mm3(*solid), ground * 1.5 + relief, 1e-6) << name;
+    for (const Vec3& p : solid->points) EXPECT_GE(p.minCoeff(), 0) << name;
+  }
+}
+
+// Squares of a grid that are relief: '#'. The heights do not matter.
+Front patches(const std::vector<std::string>& rows) {
+  const int n = static_cast<int>(rows.size());
+  Front front = test::grid_front({10.0 * n, 10.0 * n, n, n}, [](double x, double y) { return (x + y) / 50; });
+  for (const std::string& row : rows)
+    for (const char c : row) front.is_relief.insert(front.is_relief.end(), 2, c == '#');
+  return front;
+}
+
+std::size_t pieces(const Solid& solid) {
+  std::vector<Index> piece(solid.points.size());
+  for (Index i = 0; i < piece.size(); ++i) piece[i] = i;
+  for (bool has_changed = true; has_changed;) {
+    has_changed = false;
+    for (const Triangle& t : solid.triangles) {
+      const Index least = std::min({piece[t[0]], piece[t[1]], piece[t[2]]});
+      for (const Index i : t) has_changed |= std::exchange(piece[i], least) != least;
+    }
+  }
+  std::ranges::sort(piece);
+  return static_cast<std::size_t>(std::ranges::unique(piece).begin() - piece.begin());
+}
+
+double flat_area(const Solid& solid) {
+  double twice = 0;
+  for (const Triangle& t : std::span(solid.triangles).first(solid.front_triangles))
+    twice += cross((solid.points[t[1]] - solid.points[t[0]]).head<2>(),
+                   (solid.points[t[2]] - solid.points[t[0]]).head<2>());
+  return twice / 2;
+}
+
+TEST(MakePlate, WithoutGroundHolesStayHolesAndPiecesBecomeBodies) {
+  const auto solid =
+      make_plate(patches({"##...", "##...", ".....", "..###", "..#.#"}), {5, 2, Outline::none});
+  ASSERT_TRUE(solid);
+  EXPECT_EQ(check_solid(*solid), "");
+  EXPECT_EQ(pieces(*solid), 2U);
+  EXPECT_NEAR(flat_area(*solid), 9 * 100, 1e-9);
+  const auto ring = make_plate(patches({"....", ".###", ".#.#", ".###"}), {5, 2, Outline::none});
+  EXPECT_EQ(check_solid(*ring), "");
+  EXPECT_EQ(pieces(*ring), 1U);
+  EXPECT_NEAR(flat_area(*ring), 8 * 100, 1e-9);
+}
+
+TEST(MakePlate, WithoutGroundNothingHangsOnByACorner) {
+  // Two blocks touch in one point. The diagonals of the cells run through it, so two triangles of each meet
+  // there: those of one block go.
+  const auto solid = make_plate(patches({"##..", "##..", "..##", "..##"}), {5, 2, Outline::none});
+  ASSERT_TRUE(solid);
+  EXPECT_EQ(check_solid(*solid), "");
+  EXPECT_EQ(pieces(*solid), 2U);
+  EXPECT_NEAR(flat_area(*solid), 8 * 100 - 100, 1e-9);
+}
+
+TEST(MakePlate, WithoutGroundAndReliefThereIsNothing) {
+  const auto solid = make_plate(patches({"..", ".."}), {5, 2, Outline::none});
+  ASSERT_FALSE(solid);
+  EXPECT_EQ(solid.error().message(), "front: expected triangles of the relief, found ground only");
+}
+
+TEST(MakePlate, RefusesACornerWithoutARadius) {
+  const Front front = test::flat_front({10, 10, 2, 2});
+  EXPECT_FALSE(make_plate(front, {5, 3, Outline::round, 0}));
+  EXPECT_TRUE(make_plate(front, {5, 3, Outline::circle, 0}));
+}
+
+// ----------------------------------------------------------------------------------------- the whole
+// pipeline
+
+// A torus, which has a hole, and a ball beside it.
+Cloud two_pieces() {
+  Cloud cloud = test::torus(9000, 1, .35);
+  const Cloud ball = test::sphere(4000, .5);
+  for (std::size_t i = 0; i < ball.size(); ++i)
+    test::add(cloud, ball.points[i] + Vec3(2.6, .4, 0), ball.normals[i].cast<double>());
+  return cloud;
+}
+
+const ReliefModel& model() {
+  static const ReliefModel it = *ReliefModel::prepare(*find_surface(two_pieces(), View{}));
+  return it;
+}
+
+ReliefOptions options_for(const std::string& outline, const std::string& form, bool is_simpler) {
+  ReliefOptions options;
+  options.outline = outline;
+  options.form = form;
+  options.height_mm = 3;
+  options.corner_mm = 15;
+  if (is_simpler) options.tolerance_mm = .05;
+  return options;
+}
+
+TEST(Outlines, AreWatertightInEveryFormAndSimplified) {
+  for (const auto& [name, outline] : all_outlines)
+    for (const std::string form : {"relief", "mirror", "die", "lithophane"})
+      for (const bool is_simpler : {false, true}) {
+        const auto made = make_relief(model(), options_for(name, form, is_simpler));
+        ASSERT_TRUE(made) << name << form << is_simpler << made.error().message();
+        EXPECT_EQ(check_solid(made->solid), "") << name << form << is_simpler;
+        if (is_simpler)
+          EXPECT_LE(*made->report.simplification_error_mm, .05) << name;
+        else
+          EXPECT_EQ(pieces(made->solid), outline == Outline::none ? 2U : 1U) << name << form;
+      }
+}
+
+TEST(Outlines, SimplifyingKeepsTheSilhouette) {
+  const auto full = make_relief(model(), options_for("none", "relief", false));
+  const auto simpler = make_relief(model(), options_for("none", "relief", true));
+  ASSERT_TRUE(full && simpler);
+  EXPECT_LT(simpler->solid.triangles.size(), full->solid.triangles.size() * 3 / 4);
+  EXPECT_NEAR(flat_area(simpler->solid), flat_area(full->solid), 1e-6);
+}
+
+// Half cells at the rim: their diagonals need not be Delaunay's choice, for the corners lie on a circle.
+TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
+  const int n = 24;
+  Front front = test::grid_front({24, 24, n, n}, [](double x, double y) { return std::sin(x / 3) * y / 24; });
+  for (const Triangle& t : front.triangles) {
+    const Vec3 middle = (front.points[t[0]] + front.points[t[1]] + front.points[t[2]]) / 3;
+    front.is_relief.push_back((middle.head<2>() - Vec2(12, 12)).norm() < 9);
+  }
+  const auto simpler = simplify(front, .05);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  const auto full = make_plate(front, {5, 2, Outline::none});
+  const auto body = make_plate(simpler->front, {5, 2, Outline::none});
+  ASSERT_TRUE(full && body);
+  EXPECT_EQ(check_solid(*body), "");
+  EXPECT_EQ(pieces(*body), 1U);
+  EXPECT_LT(body->triangles.size(), full->triangles.size());
+  EXPECT_NEAR(flat_area(*body), flat_area(*full), 12);  // of 254
+}
+
+// The transform of the report puts each visible point over its place in the solid, however it is cut out.
+TEST(Outlines, TheReportTellsWhereTheScanLies) {
+  const Surface& surface = model().surface();
+  for (const auto& [name, outline] : all_outlines) {
+    if (outline == Outline::none) continue;
+    const auto made = make_relief(model(), options_for(name, "relief", false));
+    const ReliefReport& r = made->report;
+    for (std::size_t i = 0; i < surface.points.size(); i += 50) {
+      const Vec3 p = surface.view.rotation.transpose() * surface.points[i] + surface.centre;
+      const Vec3 mm = r.scale * r.rotation * p + r.offset;
+      EXPECT_LT((mm - made->solid.points[i]).head<2>().norm(), 1e-9) << name;
+    }
+  }
+}
+
+TEST(Outlines, AreToldByTheirNames) {
+  for (const auto& [name, outline] : all_outlines) EXPECT_EQ(*parse_outline(name), outline);
+  ReliefOptions options;
+  options.outline = "star";
+  EXPECT_EQ(check(options).error().message(),
+            "--outline: expected rectangle, round, circle, ellipse, hexagon or none, found 'star'");
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,260 @@
+// Plates on curved bases.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <set>
+#include <string>
+
+#include "relievo/geometry/triangulation.h"
+#include "relievo/plate/solid.h"
+#include "support/admesh.h"
+#include "support/plate_fronts.h"
+
+namespace relievo {
+namespace {
+
+constexpr Outline outlines[] = {Outline::rectangle, Outline::round,   Outline::circle,
+                                Outline::ellipse,   Outline::hexagon, Outline::none};
+constexpr const char* shapes[] = {"plane",           "fold", "wave:direction=30", "cylinder", "dome",
+                                  "cylinder:hollow", "image"};
+
+double bump(double x, double y) {
+  const double to_middle = std::hypot(x - 15, y - 10);
+  return to_middle < 8 ? 1 + std::cos(to_middle * std::numbers::pi / 8) : 0;
+}
+
+// A hill in the middle of flat ground.
+Front hill() {
+  Front front = test::grid_front({30, 20, 30, 20}, bump);
+  for (const Triangle& t : front.triangles)
+    front.is_relief.push_back(std::ranges::any_of(t, [&](Index i) { return front.points[i].z() > 0; }));
+  return front;
+}
+
+// The same with points in no order, whose triangles are Delaunay's; the hill ends in flat ground, too.
+Front scattered_hill() {
+  std::vector<Vec2> places;
+  std::uint64_t random = 7;
+  const auto next = [&random] {
+    random = random * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(random >> 11) / 9007199254740992.0;
+  };
+  for (int i = 0; i < 1500; ++i) places.emplace_back(30 * next(), 20 * next());
+  const Triangulation mesh = delaunay(places);
+  Front front{{}, mesh.triangles, mesh.hull};
+  for (const Vec2& p : places) front.points.emplace_back(p.x(), p.y(), bump(p.x(), p.y()));
+  return front;
+}
+
+PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectangle, double rim = 0) {
+  PlateOptions options{2, 1.5, outline, 3, {rim, .8, .4}, *parse_base(shape)};
+  HeightGrid grid{40, 30, std::vector<float>(1200)};
+  for (std::size_t i = 0; i < 1200; ++i)
+    grid.values[i] = std::sin(.2F * static_cast<float>(i % 40)) + std::cos(.15F * static_cast<float>(i / 40));
+  options.base.image = std::make_shared<const HeightGrid>(grid);
+  return options;
+}
+
+Solid plate(const Front& front, const PlateOptions& options) {
+  const Result<Solid> solid = make_plate(front, options);
+  EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
+  return solid.value_or(Solid{});
+}
+
+// Calls f(place) for seven places of each of the front's triangles.
+void each_place(const Solid& solid, const std::function<void(const Vec3&)>& f) {
+  for (std::size_t t = 0; t < solid.front_triangles; ++t) {
+    const auto& [a, b, c] = solid.triangles[t];
+    const Vec3 &p = solid.points[a], &q = solid.points[b], &r = solid.points[c];
+    for (const Vec3& w : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(.5, .5, 0), Vec3(0, .5, .5),
+                          Vec3(.5, 0, .5), Vec3(.4, .3, .3)})
+      f(w.x() * p + w.y() * q + w.z() * r);
+  }
+}
+
+// Heights of a plate's front, by looking at all triangles in a place's row and column of cells.
+class Heights {
+ public:
+  explicit Heights(const Solid& solid) : solid_(solid), cells_(80 * 80) {
+    for (Index t = 0; t < solid.front_triangles; ++t) {
+      Box box;
+      for (const Index i : solid.triangles[t]) box.extend(solid.points[i]);
+      for (int y = cell(box.min.y()); y <= cell(box.max.y()); ++y)
+        for (int x = cell(box.min.x()); x <= cell(box.max.x()); ++x)
+          cells_[static_cast<std::size_t>(80 * y + x)].push_back(t);
+    }
+  }
+
+  // NaN beside the front.
+  double at(const Vec2& place) const {
+    for (const Index t : cells_[static_cast<std::size_t>(80 * cell(place.y()) + cell(place.x()))]) {
+      const auto& [a, b, c] = solid_.triangles[t];
+      const Vec3 p = solid_.points[b] - solid_.points[a], q = solid_.points[c] - solid_.points[a];
+      const Vec2 d = place - solid_.points[a].head<2>();
+      const double area = p.x() * q.y() - p.y() * q.x(), u = (d.x() * q.y() - d.y() * q.x()) / area,
+                   v = (p.x() * d.y() - p.y() * d.x()) / area;
+      if (u >= -1e-6 && v >= -1e-6 && u + v <= 1 + 1e-6) return solid_.points[a].z() + u * p.z() + v * q.z();
+    }
+    return std::nan("");
+  }
+
+ private:
+  static int cell(double x) { return std::clamp(static_cast<int>(x), 0, 79); }
+  const Solid& solid_;
+  std::vector<std::vector<Index>> cells_;
+};
+
+// ------------------------------------------------------------------------------------------------------
+// shape
+
+// The relief minus its base is the relief on the plane, everywhere: on hill, ground and rim.
+TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
+  for (const Front& front : {scattered_hill()})
+    for (const Outline outline : {Outline::rectangle, Outline::circle})
+      for (const char* shape : shapes) {
+        const PlateOptions options = plate_on(shape, outline, 1);
+        PlateOptions planar = options;
+        planar.base = {};
+        const Solid solid = plate(front, options), flat = plate(front, planar);
+        const Base base = *plate_base(front, options);
+        const Heights heights(flat);
+        const double lift = solid.ground_mm - flat.ground_mm;
+        double worst = 0;
+        std::size_t seen = 0;
+        each_place(solid, [&](const Vec3& p) {
+          const Vec2 in_front = (p - solid.shift).head<2>();
+          const double expected = heights.at(in_front + flat.shift.head<2>()) + lift + base.height(in_front);
+          if (std::isnan(expected)) return;
+          worst = std::max(worst, std::abs(p.z() - expected));
+          ++seen;
+        });
+        EXPECT_GT(seen, 6 * solid.front_triangles) << shape;
+        EXPECT_LT(worst, .011) << shape;  // of 2 mm: half a percent
+        EXPECT_LE(solid.error_mm, .01) << shape;
+      }
+}
+
+TEST(PlateBase, KeepsTheLeastThicknessOnAFlatBack) {
+  for (const char* shape : shapes) {
+    const Solid solid = plate(hill(), plate_on(shape, Outline::circle));
+    double lowest = 1e9;
+    each_place(solid, [&](const Vec3& p) { lowest = std::min(lowest, p.z()); });
+    EXPECT_EQ(lowest, 1.5) << shape;
+    std::set<double> backs;
+    for (std::size_t t = solid.front_triangles; t < solid.triangles.size(); ++t)
+      for (const Index i : solid.triangles[t])
+        if (solid.points[i].z() < 1.5) backs.insert(solid.points[i].z());
+    EXPECT_EQ(backs, std::set<double>{0}) << shape;
+  }
+}
+
+TEST(PlateBase, AFoldHasItsRidgeInTheMesh) {
+  const Front front = hill();
+  const PlateOptions options = plate_on("fold:angle=30");
+  const Solid solid = plate(front, options);
+  // No triangle has corners on both sides.
+  const double middle = 17;
+  for (std::size_t t = 0; t < solid.front_triangles; ++t) {
+    double left = 0, right = 0;
+    for (const Index i : solid.triangles[t]) {
+      left = std::max(left, middle - solid.points[i].x());
+      right = std::max(right, solid.points[i].x() - middle);
+    }
+    EXPECT_LT(std::min(left, right), .05) << t;
+  }
+}
+
+TEST(PlateBase, ASteepDomeOverEmptyGroundIsRoundEverywhere) {
+  const Front front = test::flat_front({4, 4, 1, 1});
+  const PlateOptions options{20, 2, Outline::circle, 5, {}, *parse_base("dome:height=12")};
+  const Solid solid = plate(front, options);
+  ASSERT_EQ(check_solid(solid), "");
+  const Base base = *plate_base(front, options);
+  each_place(solid, [&](const Vec3& p) {
+    EXPECT_NEAR(p.z() - solid.ground_mm, base.height((p - solid.shift).head<2>()), .011);
+  });
+  const double radius = std::sqrt(8.) + 20, height = 12, pi = std::numbers::pi;
+  const double cap = pi * height / 6 * (3 * radius * radius + height * height);
+  EXPECT_NEAR(volume_mm3(solid), pi * radius * radius * 2 + cap, .01 * pi * radius * radius);
+}
+
+// --------------------------------------------------------------------------------------------------
+// watertight
+
+TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
+  const Front front = hill(), scattered = scattered_hill();
+  for (const Outline outline : outlines)
+    for (const char* shape : shapes)
+      for (const double rim : {0., 1.5}) {
+        if (outline == Outline::none && rim > 0) continue;
+        const std::string name = std::to_string(static_cast<int>(outline)) + " " + shape;
+        EXPECT_EQ(check_solid(plate(front, plate_on(shape, outline, rim))), "") << name;
+        if (outline == Outline::none) continue;
+        const Solid solid = plate(scattered, plate_on(shape, outline, rim));
+        EXPECT_EQ(check_solid(solid), "") << name;
+        EXPECT_EQ(test::complaint_of_admesh(solid), "") << name;
+      }
+}
+
+// ------------------------------------------------------------------------------------------------- fewer
+// triangles
+
+TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
+  const Front front = scattered_hill();
+  for (const char* shape : shapes) {
+    if (std::string_view(shape) == "plane") continue;
+    for (const double rim : {0., 1.5}) {
+      PlateOptions options = plate_on(shape, Outline::circle, rim);
+      options.tolerance_mm = .004;
+      const Solid full = plate(front, options);
+      options.simplify_mm = .03;
+      const Solid solid = plate(front, options);
+      EXPECT_EQ(check_solid(solid), "") << shape;
+      EXPECT_LT(solid.front_triangles, full.front_triangles / 2) << shape;
+      EXPECT_LE(solid.error_mm, .034) << shape;
+      // Both ways: where either bends.
+      double worst = 0;
+      const Heights of_full(full), of_solid(solid);
+      each_place(solid, [&](const Vec3& p) {
+        const double off = std::abs(p.z() - of_full.at(p.head<2>()) + full.ground_mm - solid.ground_mm);
+        if (!std::isnan(off)) worst = std::max(worst, off);
+      });
+      each_place(full, [&](const Vec3& p) {
+        const double off = std::abs(p.z() - of_solid.at(p.head<2>()) - full.ground_mm + solid.ground_mm);
+        if (!std::isnan(off)) worst = std::max(worst, off);
+      });
+      EXPECT_LE(worst, solid.error_mm + 1e-4) << shape;
+      EXPECT_GE(worst, solid.error_mm / 2) << shape;
+    }
+  }
+}
+
+// -------------------------------------------------------------------------------------------------- the
+// report's
+
+TEST(PlateBase, TheGroundIsWhereItIsToldToBe) {
+  for (const char* shape : shapes) {
+    const Front front = scattered_hill();
+    const PlateOptions options = plate_on(shape, Outline::hexagon, 1);
+    const Solid solid = plate(front, options);
+    const Base base = *plate_base(front, options);
+    for (const Index i : front.hull) {
+      const Vec3 p = front.points[i];
+      EXPECT_NEAR(Heights(solid).at((p + solid.shift).head<2>()),
+                  solid.ground_mm + p.z() + base.height(p.head<2>()), .011);
+      break;
+    }
+  }
+}
+
+TEST(PlateBase, RefusesABaseThatThePlateIsTooLargeFor) {
+  const Result<Solid> solid = make_plate(hill(), plate_on("cylinder:diameter=30"));
+  ASSERT_FALSE(solid);
+  EXPECT_EQ(solid.error().kind, ErrorKind::option);
+  EXPECT_TRUE(solid.error().message().starts_with("--base: expected a diameter of at least "));
+}
+
+}  // namespace
+}  // namespace relievo

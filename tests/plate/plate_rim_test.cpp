@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geometry/convex_polygon.h"
+#include "relievo/plate/solid.h"
+#include "support/plate_fronts.h"
+
+namespace relievo {
+namespace {
+
+using test::depth_in;
+
+constexpr Outline outlines[] = {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
+                                Outline::hexagon};
+
+Front hill() {
+  return test::pyramid_front(test::ellipse(31, 20, 12, .3), 3);
+}
+
+Solid plate(const Front& front, const PlateOptions& options) {
+  const Result<Solid> solid = make_plate(front, options);
+  EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
+  return solid.value_or(Solid{});
+}
+
+Box box_of(const Solid& solid) {
+  Box box;
+  for (const Vec3& p : solid.points) box.extend(p);
+  return box;
+}
+
+// Corners of the plate's bottom in order: its outline.
+std::vector<Vec2> outline_of(const Solid& solid) {
+  std::vector<Vec2> outline;
+  for (const Vec3& p : solid.points)
+    if (p.z() == 0) outline.push_back(p.head<2>());
+  return outline;
+}
+
+TEST(Rim, OfARectangleHasItsClosedFormVolume) {
+  const Solid solid = plate(test::flat_front({60, 40, 6, 4}), {5, 3, Outline::rectangle, 5, {4, 2, 1}});
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_LT((box_of(solid).max - Vec3(78, 58, 5)).norm(), 1e-12);
+  // The hollow within the rim is a frustum: 70 x 50 below, 72 x 52 above; Simpson's rule is exact.
+  const double hollow = 2.0 / 6 * (70. * 50 + 4 * 71. * 51 + 72. * 52);
+  EXPECT_NEAR(volume_mm3(solid), 78. * 58 * 5 - hollow, 1e-8);
+}
+
+TEST(Rim, OfACircleHasItsClosedFormVolume) {
+  const Front coin = test::fan_front(test::ellipse(720, 10, 10));
+  const Solid solid = plate(coin, {1, 2, Outline::circle, 5, {2, 1, .5}});
+  EXPECT_EQ(check_solid(solid), "");
+  const double pi = std::numbers::pi, outer = 13, top = 11.5, foot = 11;
+  const double hollow = pi / 3 * (top * top + top * foot + foot * foot);
+  EXPECT_NEAR(volume_mm3(solid), pi * outer * outer * 3 - hollow, .01 * 3 * 2 * pi * outer);
+}
+
+TEST(Rim, IsWatertightAndAsHighAsItsDistanceFromTheOutlineAsks) {
+  for (const Outline outline : outlines)
+    for (const RimOptions& rim : {RimOptions{3, 1, .5}, {3, 4, 3}, {.5, .2, .1}, {6, 1, 1}}) {
+      const Solid solid = plate(hill(), {1, 2, outline, 5, rim});
+      ASSERT_EQ(check_solid(solid), "") << static_cast<int>(outline);
+      const std::vector<Vec2> edge = outline_of(solid);
+      for (std::size_t i = hill().points.size(); i < solid.points.size(); ++i) {
+        const Vec3& p = solid.points[i];
+        if (p.z() == 0) continue;
+        const double depth = depth_in(edge, p.head<2>());
+        const double height = rim.height_mm * std::clamp((rim.width_mm - depth) / rim.bevel_mm, 0., 1.);
+        EXPECT_NEAR(p.z() - 2, height, 1e-3 * rim.height_mm / rim.bevel_mm);
+      }
+      for (const Vec3& p : hill().points) {
+        const Vec2 place = p.head<2>() + (solid.points[0] - hill().points[0]).head<2>();
+        EXPECT_GE(depth_in(edge, place), 1 + rim.width_mm - 1e-9);
+      }
+    }
+}
+
+TEST(Rim, InADieIsTheGrooveThatItFits) {
+  for (const Outline outline : outlines) {
+    const RimOptions rim{2, .8, .3};
+    const Solid coin = plate(hill(), {1, 2, outline, 5, rim});
+    Front hollow = hill();
+    for (Vec3& p : hollow.points) p.z() = -p.z();
+    const Solid die = plate(hollow, {1, 2, outline, 5, {2, -.8, .3}});
+    ASSERT_EQ(check_solid(die), "");
+    EXPECT_EQ(box_of(die).max.z(), 5);
+    // Places in the coin's plane, the first point of the front the same.
+    const Vec3 shift = die.points[0] - coin.points[0];
+    const std::vector<Vec2> inside = outline_of(coin), outside = outline_of(die);
+    for (const Vec2& p : inside) EXPECT_NEAR(depth_in(outside, p + shift.head<2>()), 2.3, 1e-3);
+    std::size_t deep = 0;
+    for (std::size_t i = hill().points.size(); i < die.points.size(); ++i) {
+      const Vec3 p = die.points[i] - shift;
+      if (die.points[i].z() == 0) continue;
+      const double depth = depth_in(inside, p.head<2>());
+      const double expected = .8 * std::clamp(std::min((2 - depth) / .3, (depth + .3) / .3), 0., 1.);
+      EXPECT_NEAR(5 - die.points[i].z(), expected, 3e-3);
+      deep += expected > .79;
+    }
+    EXPECT_GE(deep, inside.size());
+  }
+}
+
+TEST(Rim, RefusesWhatCannotBe) {
+  const auto complaint = [](const PlateOptions& options) {
+    const Result<Solid> solid = make_plate(hill(), options);
+    return solid ? "" : solid.error().message();
+  };
+  EXPECT_EQ(complaint({1, 2, Outline::none, 5, {2, 1, .5}}),
+            "rim: expected an outline to lie along, found none");
+  EXPECT_TRUE(complaint({1, 2, Outline::circle, 5, {-2, 1, .5}}).starts_with("rim:"));
+  EXPECT_TRUE(complaint({1, 2, Outline::circle, 5, {2, std::nan(""), .5}}).starts_with("rim-height:"));
+  EXPECT_TRUE(complaint({1, 2, Outline::circle, 5, {2, 1, 2.5}}).starts_with("rim-bevel:"));
+  EXPECT_TRUE(complaint({1, 2, Outline::circle, 5, {2, 1, 0}}).starts_with("rim-bevel:"));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,173 @@
+#include "relievo/simplify.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include "relievo/geometry/triangulation.h"
+#include "support/plate_fronts.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+using test::flat_front, test::grid_front;
+
+// The Delaunay front of scattered points with a rectangle at 0 around them.
+Front scattered_front(int n, const std::function<double(double, double)>& z, std::uint64_t seed = 7) {
+  test::Random random(seed);
+  Front front;
+  for (const Vec2& corner : {Vec2(0, 0), Vec2(60, 0), Vec2(60, 40), Vec2(0, 40)})
+    front.points.emplace_back(corner.x(), corner.y(), 0);
+  for (int i = 0; i < n; ++i) {
+    const double x = random.uniform(.5, 59.5), y = random.uniform(.5, 39.5);
+    front.points.emplace_back(x, y, z(x, y));
+  }
+  std::vector<Vec2> plane;
+  for (const Vec3& p : front.points) plane.push_back(p.head<2>());
+  Triangulation mesh = delaunay(plane);
+  front.triangles = std::move(mesh.triangles);
+  front.hull = std::move(mesh.hull);
+  return front;
+}
+
+double waves(double x, double y) {
+  return std::sin(x / 4) * std::cos(y / 5) + (x > 30 ? 1 : 0);
+}
+
+// Height of a front at a place, found by looking at every triangle; NaN outside.
+double height_at(const Front& front, const Vec2& place) {
+  for (const auto& [a, b, c] : front.triangles) {
+    const Vec2 p = front.points[a].head<2>() - place, q = front.points[b].head<2>() - place,
+               r = front.points[c].head<2>() - place;
+    const auto cross = [](const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); };
+    const double wa = cross(q, r), wb = cross(r, p), wc = cross(p, q);
+    if (wa < 0 || wb < 0 || wc < 0 || wa + wb + wc <= 0) continue;
+    return (wa * front.points[a].z() + wb * front.points[b].z() + wc * front.points[c].z()) / (wa + wb + wc);
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+TEST(Simplify, FlatGroundBecomesTwoTriangles) {
+  const auto simpler = simplify(flat_front({60, 40, 30, 20}), .01);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  EXPECT_EQ(simpler->front.triangles.size(), 2U);
+  EXPECT_EQ(simpler->error_mm, 0);
+}
+
+TEST(Simplify, StaysWithinTheToleranceEverywhere) {
+  const Front full = scattered_front(3000, waves);
+  for (const double tolerance : {.3, .05, .01}) {
+    const auto simpler = simplify(full, tolerance);
+    ASSERT_TRUE(simpler) << simpler.error().message();
+    EXPECT_LE(simpler->error_mm, tolerance);
+    EXPECT_LT(simpler->front.points.size(), full.points.size());
+    test::Random random(11);
+    double worst = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const Vec2 place(random.uniform(.01, 59.99), random.uniform(.01, 39.99));
+      worst = std::max(worst, std::abs(height_at(full, place) - height_at(simpler->front, place)));
+    }
+    EXPECT_LE(worst, simpler->error_mm + 1e-9);
+    EXPECT_GT(worst, .3 * simpler->error_mm);  // the error told is not a guess far above
+  }
+}
+
+TEST(Simplify, TheErrorToldIsReached) {
+  // One narrow peak that the tolerance allows to widen to the whole square.
+  const Front peak = grid_front({4, 4, 4, 4}, [](double x, double y) { return x == 2 && y == 2 ? 1 : 0; });
+  const auto flat = simplify(peak, 1.5);
+  ASSERT_TRUE(flat) << flat.error().message();
+  EXPECT_EQ(flat->front.triangles.size(), 4U);  // corners and the peak, which stays
+  // Where the original is down already, half a cell from the peak along the other diagonal, it is at 3/4.
+  EXPECT_NEAR(flat->error_mm, .75, 1e-12);
+}
+
+TEST(Simplify, ATinyToleranceKeepsTheSurface) {
+  const auto simpler = simplify(scattered_front(500, waves), 1e-9);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  EXPECT_LE(simpler->error_mm, 1e-9);
+}
+
+TEST(Simplify, GridsWithTheOtherDiagonalAreMetToo) {
+  // Four corners on a circle: Delaunay may cut the cell the other way, and the saddle then differs inside.
+  const Front saddle =
+      grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x + y, 4) < 2 ? .5 : 0; });
+  const auto simpler = simplify(saddle, .01);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  EXPECT_LE(simpler->error_mm, .01);
+}
+
+TEST(Simplify, PlatesOfItAreClosed) {
+  for (const double tolerance : {.2, .02}) {
+    const auto simpler = simplify(scattered_front(4000, waves), tolerance);
+    ASSERT_TRUE(simpler);
+    const auto solid = make_plate(simpler->front, {});
+    ASSERT_TRUE(solid) << solid.error().message();
+    EXPECT_EQ(check_solid(*solid), "");
+  }
+}
+
+TEST(Simplify, ColoursFollowTheirPoints) {
+  Front full = scattered_front(300, waves);
+  for (const Vec3& p : full.points) full.colours.push_back({static_cast<std::uint8_t>(p.x() * 4), 0, 9});
+  const auto simpler = simplify(full, .05);
+  ASSERT_TRUE(simpler);
+  ASSERT_EQ(simpler->front.colours.size(), simpler->front.points.size());
+  for (std::size_t i = 0; i < simpler->front.points.size(); ++i)
+    EXPECT_NEAR(simpler->front.colours[i][0], 4 * simpler->front.points[i].x(), 1.6);
+}
+
+TEST(Simplify, RefusesWhatItCannotDo) {
+  EXPECT_EQ(simplify(flat_front({1, 1, 1, 1}), 0).error().kind, ErrorKind::option);
+  EXPECT_EQ(simplify(flat_front({1, 1, 1, 1}), std::nan("")).error().kind, ErrorKind::option);
+  EXPECT_EQ(simplify({}, .1).error().kind, ErrorKind::geometry);
+  Progress progress;
+  progress.cancel();
+  EXPECT_EQ(simplify(flat_front({1, 1, 1, 1}), .1, &progress).error().kind, ErrorKind::cancelled);
+}
+
+TEST(SimplifyProperty, AnyScatterStaysWithinItsTolerance) {
+  ASSERT_TRUE(rc::check([] {
+    const auto seed = *rc::gen::arbitrary<std::uint64_t>();
+    test::Random heights(seed);
+    const Front full = scattered_front(
+        *rc::gen::inRange(0, 200), [&](double, double) { return heights.uniform(); }, seed);
+    const double tolerance = *rc::gen::inRange(1, 100) / 100.0;
+    const auto simpler = simplify(full, tolerance);
+    RC_ASSERT(simpler.has_value());
+    RC_ASSERT(simpler->error_mm <= tolerance);
+    for (const Vec3& p : full.points) {
+      const Vec2 place = p.head<2>().cwiseMax(Vec2(1e-9, 1e-9)).cwiseMin(Vec2(60 - 1e-9, 40 - 1e-9));
+      RC_ASSERT(std::abs(height_at(simpler->front, place) - p.z()) <= tolerance + 1e-6);
+    }
+  }));
+}
+
+double steepest(const Front& front) {
+  double most = 0;
+  for (const Triangle& t : front.triangles) {
+    const Vec3 p = front.points[t[1]] - front.points[t[0]], q = front.points[t[2]] - front.points[t[0]];
+    const double area = p.x() * q.y() - p.y() * q.x();
+    most = std::max(most, Vec2(p.z() * q.y() - q.z() * p.y(), q.z() * p.x() - p.z() * q.x()).norm() / area);
+  }
+  return most;
+}
+
+TEST(Simplify, MakesNoTriangleSteeperThanAsked) {
+  // Folds with slopes of 1.1, cut off by ramps of slope 1 at the rim.
+  const auto folds = [](double x, double y) {
+    const double along = x + .5 * y + 100;
+    return std::min({std::abs(along - 6 * std::round(along / 6)), x, 60 - x, y, 40 - y});
+  };
+  const Front full = test::grid_front({60, 40, 120, 80}, folds);
+  const double limit = 1.0001 * steepest(full), tolerance = .3;
+  EXPECT_GT(steepest(simplify(full, tolerance)->front), 1.3 * limit);
+  const auto simpler = simplify(full, SimplifyOptions{tolerance, limit});
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  EXPECT_LE(steepest(simpler->front), limit * (1 + 1e-4));
+  EXPECT_LE(simpler->error_mm, tolerance);
+  EXPECT_LT(simpler->front.triangles.size(), full.triangles.size() / 2);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,379 @@
+#include "relievo/plate/solid.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+#include "support/admesh.h"
+#include "support/plate_fronts.h"
+
+namespace relievo {
+namespace {
+
+using test::ellipse, test::fan_front, test::flat_front, test::grid_front, test::polygon_area,
+    test::pyramid_front;
+
+Solid plate(const Front& front, const PlateOptions& options = {}) {
+  Result<Solid> solid = make_plate(front, options);
+  EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
+  return solid.value_or(Solid{});
+}
+
+Box used_box(const Solid& solid) {
+  Box box;
+  for (const Triangle& t : solid.triangles)
+    for (const Index i : t) box.extend(solid.points[i]);
+  return box;
+}
+
+double area_from_above(const Solid& solid, std::size_t begin, std::size_t end) {
+  double twice = 0;
+  for (std::size_t t = begin; t < end; ++t) {
+    const auto& [a, b, c] = solid.triangles[t];
+    const Vec3 p = solid.points[b] - solid.points[a], q = solid.points[c] - solid.points[a];
+    const double one = p.x() * q.y() - p.y() * q.x();
+    EXPECT_GT(one, 0) << "triangle " << t;
+    twice += one;
+  }
+  return twice / 2;
+}
+
+Solid bumpy_plate() {
+  const auto bump = [](double x, double y) { return std::sin(x / 5) * std::cos(y / 7) + 1.5; };
+  return plate(grid_front({60, 40, 30, 20}, bump), {4, 2});
+}
+
+// ---------------------------------------------------------------------------------------------- make_plate
+
+TEST(MakePlate, FlatFrontGivesABox) {
+  const Solid solid = plate(flat_front({60, 40, 6, 4}), {5, 3});
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_NEAR(volume_mm3(solid), 70.0 * 50 * 3, 1e-8);
+  EXPECT_EQ(used_box(solid).min, Vec3::Zero());
+  EXPECT_EQ(used_box(solid).max, Vec3(70, 50, 3));
+}
+
+TEST(MakePlate, HasTheCountsItsConstructionImplies) {
+  const Front front = flat_front({60, 40, 6, 4});
+  const Solid solid = plate(front);
+  const std::size_t hull = 20, corners = 4;
+  ASSERT_EQ(front.hull.size(), hull);
+  EXPECT_EQ(solid.points.size(), front.points.size() + 2 * corners);
+  EXPECT_EQ(solid.front_triangles, front.triangles.size() + hull + corners);
+  EXPECT_EQ(solid.triangles.size(), solid.front_triangles + 2 * corners + corners - 2);
+}
+
+TEST(MakePlate, KeepsTheFrontFirstAndMovesItOnly) {
+  Front front = pyramid_front({{-3, 7}, {9, 7}, {9, 20}}, 4);
+  const Solid solid = plate(front, {5, 3});
+  for (std::size_t t = 0; t < front.triangles.size(); ++t) EXPECT_EQ(solid.triangles[t], front.triangles[t]);
+  for (std::size_t i = 0; i < front.points.size(); ++i)
+    EXPECT_LT((solid.points[i] - front.points[i] - Vec3(8, -2, 3)).norm(), 1e-12);
+}
+
+TEST(MakePlate, PyramidHasItsClosedFormVolume) {
+  const std::vector<Vec2> polygon = ellipse(7, 20, 12);
+  const Solid solid = plate(pyramid_front(polygon, 6), {2, 1.5});
+  const Vec3 size = used_box(solid).max;
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_NEAR(volume_mm3(solid), size.x() * size.y() * 1.5 + polygon_area(polygon) * 6 / 3, 1e-8);
+}
+
+TEST(MakePlate, ParaboloidCapHasItsVolumeUpToTheGridsError) {
+  const double radius = 20, height = 5;
+  const auto cap = [&](double x, double y) {
+    return height * std::max(0.0, 1 - ((x - 25) * (x - 25) + (y - 25) * (y - 25)) / (radius * radius));
+  };
+  const Solid solid = plate(grid_front({50, 50, 500, 500}, cap), {5, 3});
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_NEAR(volume_mm3(solid), 60.0 * 60 * 3 + std::numbers::pi * radius * radius * height / 2, 0.3);
+}
+
+TEST(MakePlate, GroovesBelowTheGroundKeepTheThickness) {
+  const auto wave = [](double x, double y) { return 2 * std::sin(x) * std::sin(y) - 0.3; };
+  Front front = grid_front({30, 30, 90, 90}, wave);
+  for (Vec3& p : front.points) p.z() += 17.3;
+  front.ground_mm = 17.3;
+  const auto [low, high] = std::ranges::minmax(front.points, {}, [](const Vec3& p) { return p.z(); });
+  const Solid solid = plate(front, {5, 0.7});
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_EQ(used_box(solid).max.z(), (high.z() - low.z()) + 0.7);
+  double lowest = 1e9;
+  for (std::size_t i = 0; i < front.points.size(); ++i) lowest = std::min(lowest, solid.points[i].z());
+  EXPECT_EQ(lowest, 0.7);
+}
+
+TEST(MakePlate, RingOfAnyConvexFrontCoversTheRectangleOnce) {
+  EXPECT_TRUE(rc::check([] {
+    // Corners on an ellipse at random angles.
+    auto angles = *rc::gen::suchThat(
+        rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 3600)), [](const std::vector<int>& a) {
+          return a.size() >= 3 && std::ranges::max(a) - std::ranges::min(a) > 1800;
+        });
+    std::ranges::sort(angles);
+    const auto repeated = std::ranges::unique(angles);
+    angles.erase(repeated.begin(), repeated.end());
+    RC_PRE(angles.size() >= 3U);
+    std::vector<Vec2> polygon;
+    for (const int tenths : angles) {
+      const double angle = tenths * std::numbers::pi / 1800;
+      polygon.emplace_back(30 * std::cos(angle), 20 * std::sin(angle));
+    }
+    const Solid solid = plate(fan_front(polygon), {*rc::gen::element(0.01, 1.0, 50.0), 2});
+    RC_ASSERT(check_solid(solid) == "");
+    const Vec3 size = used_box(solid).max;
+    // Positive areas that sum to the rectangle's: no overlap, no gap.
+    const double area = area_from_above(solid, 0, solid.front_triangles);
+    RC_ASSERT(std::abs(area - size.x() * size.y()) < 1e-9 * area);
+  }));
+}
+
+TEST(MakePlate, EdgesAlongTheRectangleGiveNoTriangleWithoutArea) {
+  const Solid solid = plate(flat_front({60, 40, 60, 40}), {0.001, 1});
+  EXPECT_NEAR(area_from_above(solid, 0, solid.front_triangles), 60.002 * 40.002, 1e-8);
+}
+
+TEST(MakePlate, PointsThatTheFrontDoesNotUseCountForNothing) {
+  Front front = flat_front({10, 10, 2, 2});
+  front.points.emplace_back(500, -500, -40);
+  const Solid solid = plate(front, {5, 3});
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_EQ(used_box(solid).max, Vec3(20, 20, 3));
+}
+
+TEST(MakePlate, SeparatesPointsThatSinglePrecisionWouldMerge) {
+  // Two inner points 1e-9 mm apart, in a plate of 100 mm.
+  Front front = fan_front({{0, 0}, {100, 0}, {100, 100}, {0, 100}});
+  front.points.emplace_back(50, 50, 2);
+  front.points.emplace_back(50 + 1e-9, 50, 2);
+  front.triangles = {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 4, 5}, {2, 3, 4}, {3, 0, 4}};
+  const Solid solid = plate(front);
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_NEAR(solid.points[5].z(), solid.points[4].z(), 1e-6);
+  EXPECT_EQ(used_box(solid).max.z(), 5);
+}
+
+TEST(MakePlate, RejectsBadOptionsAndFronts) {
+  const Front good = flat_front({10, 10, 2, 2});
+  const auto kind = [](const Front& front, const PlateOptions& options) {
+    const auto solid = make_plate(front, options);
+    EXPECT_FALSE(solid.has_value());
+    return solid ? ErrorKind::cancelled : solid.error().kind;
+  };
+  for (const double bad : {0.0, -1.0, 1e-4, std::nan(""), static_cast<double>(INFINITY)}) {
+    EXPECT_EQ(kind(good, {bad, 3}), ErrorKind::option) << bad;
+    EXPECT_EQ(kind(good, {5, bad}), ErrorKind::option) << bad;
+  }
+  EXPECT_EQ(kind({}, {}), ErrorKind::geometry);
+  Front hullless = good, dangling = good, infinite = good;
+  hullless.hull.clear();
+  dangling.triangles[0][1] = 9;
+  infinite.points[4].z() = INFINITY;
+  for (const Front& bad : {hullless, dangling, infinite}) EXPECT_EQ(kind(bad, {}), ErrorKind::geometry);
+  EXPECT_EQ(make_plate(good, {-1, 3}).error().message(),
+            "margin: expected a finite length of at least 0.001 mm, found -1");
+}
+
+// --------------------------------------------------------------------------------------------- check_solid
+
+TEST(CheckSolid, NamesWhatIsBroken) {
+  const Solid good = bumpy_plate();
+  ASSERT_EQ(check_solid(good), "");
+  const auto wrong = [&](auto&& breaks) {
+    Solid solid = good;
+    breaks(solid);
+    return check_solid(solid);
+  };
+  const auto has = [](const std::string& text, std::string_view part) { return text.contains(part); };
+  EXPECT_PRED2(has, wrong([](Solid& s) { std::swap(s.triangles[70][0], s.triangles[70][1]); }),
+               "opposite directions");
+  EXPECT_PRED2(has, wrong([](Solid& s) { s.triangles.pop_back(); }), "opposite directions");
+  EXPECT_PRED2(has, wrong([](Solid& s) { s.triangles.push_back(s.triangles[3]); }), "opposite directions");
+  EXPECT_PRED2(has, wrong([](Solid& s) { s.triangles[5][1] = s.triangles[5][2]; }),
+               "triangle 5 has two equal corners");
+  EXPECT_PRED2(has, wrong([](Solid& s) { s.triangles[5][1] = 1 << 30; }),
+               "triangle 5 has a corner that does not exist");
+  EXPECT_PRED2(has, wrong([](Solid& s) { s.points[40].y() = std::nan(""); }), "point 40 is not finite");
+  EXPECT_PRED2(has, wrong([](Solid& s) { s.points[40] = s.points[41] * (1 + 1e-12); }), "points 40 and 41");
+  EXPECT_PRED2(has, wrong([](Solid& s) { s.front_triangles = s.triangles.size() + 1; }), "front triangles");
+  EXPECT_PRED2(has, wrong([](Solid& s) {
+                 for (Triangle& t : s.triangles) std::swap(t[0], t[1]);
+               }),
+               "volume");
+  EXPECT_PRED2(has, check_solid({}), "volume");
+}
+
+TEST(CheckSolid, RejectsTwoSolidsThatShareAnEdgeFourTimes) {
+  // The same closed body twice, the second inside out: each edge is used by four triangles.
+  Solid solid = bumpy_plate();
+  const std::vector<Triangle> once = solid.triangles;
+  for (const Triangle& t : once) solid.triangles.push_back({t[1], t[0], t[2]});
+  EXPECT_TRUE(check_solid(solid).contains("not shared by exactly two"));
+}
+
+TEST(Volume, DoesNotDependOnThePlace) {
+  Solid solid = bumpy_plate();
+  const double here = volume_mm3(solid);
+  for (Vec3& p : solid.points) p += Vec3(1e7, -2e7, 3e7);
+  EXPECT_NEAR(volume_mm3(solid), here, 1e-5 * here);
+  for (Triangle& t : solid.triangles) std::swap(t[1], t[2]);
+  EXPECT_NEAR(volume_mm3(solid), -here, 1e-5 * here);
+}
+
+// ------------------------------------------------------------------------------------------------- writers
+
+// Takes numbers from the front of bytes, as the formats lay them down.
+struct Reader {
+  std::span<const std::byte> rest;
+  template <typename T>
+  T take() {
+    T value{};
+    EXPECT_GE(rest.size(), sizeof value);
+    std::memcpy(&value, rest.data(), sizeof value);
+    rest = rest.subspan(sizeof value);
+    return value;
+  }
+  Vec3f take_vector() {
+    const auto x = take<float>(), y = take<float>(), z = take<float>();
+    return {x, y, z};
+  }
+};
+
+std::string_view as_text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(WriteStl, HoldsEveryTriangleWithItsNormal) {
+  const Solid solid = bumpy_plate();
+  const std::vector<std::byte> bytes = write_stl(solid);
+  ASSERT_EQ(bytes.size(), 84 + 50 * solid.triangles.size());
+  EXPECT_TRUE(as_text(bytes).starts_with("relievo "));
+  EXPECT_TRUE(as_text(bytes).substr(0, 80).contains(" mm"));
+  Reader reader{std::span(bytes).subspan(80)};
+  EXPECT_EQ(reader.take<std::uint32_t>(), solid.triangles.size());
+  for (const Triangle& t : solid.triangles) {
+    const Vec3f normal = reader.take_vector();
+    const Vec3f a = reader.take_vector(), b = reader.take_vector(), c = reader.take_vector();
+    EXPECT_EQ(a, solid.points[t[0]].cast<float>());
+    EXPECT_EQ(b, solid.points[t[1]].cast<float>());
+    EXPECT_EQ(c, solid.points[t[2]].cast<float>());
+    const Vec3 edges_cross = (b - a).cast<double>().cross((c - a).cast<double>());
+    EXPECT_LT((normal.cast<double>() - edges_cross.normalized()).norm(), 1e-6);
+    EXPECT_EQ(reader.take<std::uint16_t>(), 0);
+  }
+  EXPECT_TRUE(reader.rest.empty());
+}
+
+TEST(WriteStl, ATriangleWithoutAreaHasNoNormal) {
+  const Solid line{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}, 0};
+  const std::vector<std::byte> bytes = write_stl(line);
+  Reader reader{std::span(bytes).subspan(84)};
+  EXPECT_EQ(reader.take_vector(), Vec3f::Zero());
+}
+
+TEST(WritePly, HoldsEveryPointAndTriangle) {
+  const Solid solid = bumpy_plate();
+  const std::vector<std::byte> bytes = write_ply(solid);
+  const std::string_view end = "end_header\n";
+  const std::size_t header = as_text(bytes).find(end) + end.size();
+  const std::string_view lines = as_text(bytes).substr(0, header);
+  EXPECT_TRUE(lines.starts_with("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_TRUE(lines.contains("element vertex " + std::to_string(solid.points.size()) + "\n"));
+  EXPECT_TRUE(lines.contains("element face " + std::to_string(solid.triangles.size()) + "\n"));
+  Reader reader{std::span(bytes).subspan(header)};
+  for (const Vec3& p : solid.points) EXPECT_EQ(reader.take_vector(), p.cast<float>());
+  for (const Triangle& t : solid.triangles) {
+    EXPECT_EQ(reader.take<std::uint8_t>(), 3);
+    for (const Index i : t) EXPECT_EQ(reader.take<std::int32_t>(), static_cast<std::int32_t>(i));
+  }
+  EXPECT_TRUE(reader.rest.empty());
+}
+
+// Reads " x y z" from the front of text.
+template <typename T>
+std::array<T, 3> take_three(std::string_view& text) {
+  std::array<T, 3> numbers{};
+  for (T& x : numbers) {
+    EXPECT_EQ(text.front(), ' ');
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), x);
+    EXPECT_EQ(error, std::errc{});
+    text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  }
+  return numbers;
+}
+
+TEST(WriteObj, HoldsEveryPointAndTriangleToTheLastBit) {
+  Solid solid = bumpy_plate();
+  solid.points[3] = {-1.17549435e-38, 3.40282347e38, -1.23456789e-7};  // the longest numbers
+  const std::vector<std::byte> bytes = write_obj(solid);
+  std::string_view text = as_text(bytes);
+  EXPECT_TRUE(text.starts_with("# relievo"));
+  text.remove_prefix(text.find('\n'));
+  for (const Vec3& p : solid.points) {
+    ASSERT_TRUE(text.starts_with("\nv"));
+    text.remove_prefix(2);
+    const auto [x, y, z] = take_three<float>(text);
+    EXPECT_EQ(Vec3f(x, y, z), p.cast<float>());
+  }
+  for (const Triangle& t : solid.triangles) {
+    ASSERT_TRUE(text.starts_with("\nf"));
+    text.remove_prefix(2);
+    EXPECT_EQ(take_three<Index>(text), (Triangle{t[0] + 1, t[1] + 1, t[2] + 1}));
+  }
+  EXPECT_EQ(text, "\n");
+}
+
+TEST(Writers, AnEmptySolidGivesAnEmptyFileWithItsHeader) {
+  EXPECT_EQ(write_stl({}).size(), 84U);
+  EXPECT_TRUE(as_text(write_ply({})).ends_with("end_header\n"));
+  EXPECT_TRUE(as_text(write_obj({})).ends_with("mm\n"));
+}
+
+// ------------------------------------------------------------------------------------------- outside judge
+
+TEST(WriteStl, AdmeshFindsNothingToRepair) {
+  if (!test::has_admesh()) GTEST_SKIP() << "admesh is not installed";
+  const Front pyramid = pyramid_front(ellipse(101, 30, 20, 0.3), 3);
+  EXPECT_EQ(test::complaint_of_admesh(bumpy_plate()), "");
+  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
+                                Outline::hexagon, Outline::none})
+    EXPECT_EQ(test::complaint_of_admesh(plate(pyramid, {1, 1, outline})), "");
+}
+
+TEST(InUnit, ScalesAndSeparates) {
+  const Solid mm = make_plate(test::pyramid_front({{0, 0}, {60, 0}, {60, 40}, {0, 40}}, 7), {}).value();
+  const Solid inches = in_unit(mm, LengthUnit::inch);
+  EXPECT_EQ(inches.unit, LengthUnit::inch);
+  EXPECT_EQ(inches.triangles, mm.triangles);
+  for (std::size_t i = 0; i < mm.points.size(); ++i)
+    EXPECT_LT((inches.points[i] * 25.4 - mm.points[i]).norm(), 1e-12);
+  EXPECT_EQ(in_unit(mm, LengthUnit::mm).points, mm.points);
+}
+
+// Two points of a needle, which a file in millimetres tells apart, and one in inches does not always.
+TEST(InUnit, KeepsPointsApart) {
+  int merged = 0;
+  for (int i = 0; i < 20; ++i) {
+    const double width = 43 + .01 * i;
+    Front front = test::pyramid_front({{0, 0}, {width, 0}, {width, 40}, {0, 40}}, 7);
+    front.points.push_back({width / 2 + 2e-6, 20, 7});
+    front.triangles[1] = {1, 2, 5};
+    front.triangles.push_back({1, 5, 4});
+    front.triangles.push_back({2, 4, 5});
+    const Solid mm = make_plate(front, {10, 3}).value();
+    Solid scaled = mm;
+    for (Vec3& p : scaled.points) p /= 25.4;
+    merged += check_solid(scaled) != "";
+    EXPECT_EQ(check_solid(in_unit(mm, LengthUnit::inch)), "");
+  }
+  EXPECT_GT(merged, 0);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,217 @@
+#include "relievo/relief/baselines.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/method.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+ReliefModel model_of(const Cloud& cloud) {
+  return ReliefModel::prepare(find_surface(cloud, {}).value()).value();
+}
+
+// A roof of that slope, its ridge along y.
+Cloud roof(double slope, std::size_t n = 30000) {
+  return test::height_field(
+      n, 1, [=](double x, double) { return -slope * std::abs(x); },
+      [=](double x, double) { return Vec2(x > 0 ? -slope : slope, 0); });
+}
+
+// Largest difference of heights from f(x, y) up to a constant, away from the rim and the roof's ends, of the
+// height.
+template <typename F>
+double misfit(const Surface& surface, const Relief& relief, F f) {
+  double low = 1e300, high = -1e300;
+  for (std::size_t i = 0; i < relief.heights.size(); ++i) {
+    const Vec3& p = surface.points[i];
+    if (std::abs(p.x()) > .8 || std::abs(p.y()) > .8) continue;
+    const double offset = relief.heights[i] - f(p);
+    low = std::min(low, offset), high = std::max(high, offset);
+  }
+  return (high - low) / relief.height;
+}
+
+TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
+  const auto model =
+      ReliefModel::prepare(find_surface(test::sphere(20000, 1), {}).value(), nullptr, Mode::subspace);
+  ASSERT_TRUE(model);
+  for (const MethodInfo& info : methods) {
+    const auto relief = make_by_method(info.method, *model, .05, default_shape(info.method), 1);
+    const bool needs_all_points = info.method == Method::gradient || info.method == Method::detail;
+    ASSERT_EQ(relief.has_value(), !needs_all_points) << info.name;
+    if (!relief) {
+      EXPECT_EQ(relief.error().kind, ErrorKind::option);
+    }
+  }
+}
+
+TEST(Linear, IsTheDepthScaled) {
+  const Surface surface = find_surface(test::sphere(20000, 1), {}).value();
+  const Relief relief = linear_relief(surface, .1);
+  double lowest = 1, highest = -1;
+  for (std::size_t i = 0; i < relief.heights.size(); ++i) {
+    const double z = surface.points[i].z();
+    lowest = std::min(lowest, z);
+    if (!surface.boundary.is_boundary[i]) highest = std::max(highest, z);
+  }
+  for (std::size_t i = 0; i < relief.heights.size(); ++i) {
+    const double scaled = .1 * (surface.points[i].z() - lowest) / (highest - lowest);
+    ASSERT_NEAR(relief.heights[i], surface.boundary.is_boundary[i] ? 0 : scaled, 1e-12);
+  }
+}
+
+TEST(Attenuated, IsTheLogarithmAlongTheGradient) {
+  for (const double a : {.1, 1.0, 30.0})
+    for (const double length : {1e-9, .3, 5.0, 1e3}) {
+      const Vec2 g = attenuated(length * Vec2(.6, -.8), a);
+      EXPECT_NEAR(g.norm(), std::log(1 + a * length) / a, 1e-9 * length + 1e-15);
+      EXPECT_NEAR(g.x() * -.8, g.y() * .6, 1e-12 * length);
+    }
+  EXPECT_EQ(attenuated(Vec2::Zero(), 5), Vec2(Vec2::Zero()));
+}
+
+// Weyrich et al.: the attenuated gradients integrated, then scaled.
+TEST(Gradient, IntegratesAttenuatedGradients) {
+  const ReliefModel model = model_of(test::sphere(20000, 1));
+  const GradientOptions options{.attenuation = 3, .silhouette = 50, .band_weights = {1}};
+  const Relief relief = gradient_relief(model, .1, options);
+  std::vector<Vec2> slopes;
+  for (const Vec3f& n : model.surface().normals) {
+    const Vec2 g = -n.head<2>().cast<double>() / static_cast<double>(n.z());
+    slopes.push_back(g.norm() > 50 ? Vec2(Vec2::Zero())
+                                   : Vec2(g.normalized() * std::log(1 + 3 * g.norm()) / 3));
+  }
+  std::vector<double> heights(slopes.size());
+  model.system()->solve(slopes, heights);
+  const double highest = *std::ranges::max_element(heights);
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);
+}
+
+TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
+  const ReliefModel model = model_of(roof(.5));
+  const GradientOptions options{.attenuation = 5, .silhouette = 100, .band_weights = {1}};
+  const Relief attenuated_roof = gradient_relief(model, .1, options);
+  const Relief plain_roof =
+      gradient_relief(model, .1, {.attenuation = 1e-9, .silhouette = 100, .band_weights = {1}});
+  for (std::size_t i = 0; i < plain_roof.heights.size(); ++i)
+    ASSERT_NEAR(attenuated_roof.heights[i], plain_roof.heights[i], 1e-6);
+}
+
+TEST(Gradient, EqualBandWeightsChangeNothing) {
+  const ReliefModel model = model_of(test::sphere(20000, 1));
+  GradientOptions options;
+  options.band_weights = {1};
+  const Relief one = gradient_relief(model, .1, options);
+  options.band_weights = {1, 1, 1, 1};
+  const Relief four = gradient_relief(model, .1, options);
+  for (std::size_t i = 0; i < one.heights.size(); ++i) ASSERT_NEAR(one.heights[i], four.heights[i], 1e-6);
+}
+
+TEST(Gradient, RemovesSilhouettes) {
+  const ReliefModel model = model_of(roof(3));
+  EXPECT_EQ(gradient_relief(model, .1, {.attenuation = 5, .silhouette = 2.9, .band_weights = {1}}).height, 0);
+  EXPECT_NEAR(gradient_relief(model, .1, {.attenuation = 5, .silhouette = 3.1, .band_weights = {1}}).height,
+              .1, 1e-12);
+}
+
+TEST(Gradient, LosesTheJumpBetweenTwoSheets) {
+  const ReliefModel model = model_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, 3, 9)));
+  EXPECT_EQ(gradient_relief(model, .1).height, 0);
+}
+
+TEST(Equalise, OfDepthsSpreadEvenlyIsLinear) {
+  const Cloud ramp = test::height_field(
+      40000, 1, [](double x, double) { return x; }, [](double, double) { return Vec2(1, 0); });
+  const Surface surface = find_surface(ramp, {}).value();
+  EqualiseOptions options;
+  options.windows = 1;
+  options.picture_px = 128;
+  options.largest_window_px = 1024;  // all of the picture
+  const Relief relief = equalised_relief(surface, 1, options);
+  EXPECT_LT(misfit(surface, relief, [](const Vec3& p) { return .5 * p.z(); }), .03);
+}
+
+// Two gentle slopes with an empty range of depths between them.
+TEST(Equalise, ShrinksDepthsThatNothingHas) {
+  const Cloud cloud = test::joined(
+      test::height_field(
+          40000, 1, [](double x, double) { return .3 * x; }, [](double, double) { return Vec2(.3, 0); }),
+      test::height_field(
+          10000, .5, [](double x, double) { return 5 + .3 * x; }, [](double, double) { return Vec2(.3, 0); },
+          9));
+  const Surface surface = find_surface(cloud, {}).value();
+  const double linear_gap = 5 - .3 * 1.5;
+  const auto gap = [&](const Relief& relief) {
+    double below = 0, above = 1e300;
+    for (std::size_t i = 0; i < relief.heights.size(); ++i) {
+      if (surface.boundary.is_boundary[i]) continue;
+      const double z = surface.points[i].z() + surface.centre.z();
+      if (z < 1) below = std::max(below, relief.heights[i]);
+      if (z > 1) above = std::min(above, relief.heights[i]);
+    }
+    return (above - below) / relief.height;
+  };
+  EXPECT_NEAR(gap(linear_relief(surface, 1)), linear_gap / (5 + .45), .1);
+  EXPECT_LT(gap(equalised_relief(surface, 1, {.clip = 50})), .5 * gap(linear_relief(surface, 1)));
+}
+
+TEST(BaseAndDetail, WithoutAmplificationIsLinear) {
+  const ReliefModel model = model_of(test::sphere(20000, 1));
+  const Relief linear = linear_relief(model.surface(), .1);
+  const Relief base = base_and_detail_relief(model, .1, {.amplification = 0});
+  for (std::size_t i = 0; i < linear.heights.size(); ++i)
+    ASSERT_NEAR(base.heights[i], linear.heights[i], 1e-9);
+}
+
+// A fine wave on a coarse one: the Gaussian leaves the coarse one and takes the fine one away.
+TEST(BaseAndDetail, AmplifiesWhatIsFine) {
+  const auto z = [](double x, double) { return .2 * std::cos(3 * x) + .004 * std::cos(60 * x); };
+  const auto gradient = [](double x, double) {
+    return Vec2(-.6 * std::sin(3 * x) - .24 * std::sin(60 * x), 0);
+  };
+  const ReliefModel model = model_of(test::height_field(80000, 1, z, gradient));
+  const auto wave = [&](double frequency, const Relief& relief) {
+    double sum = 0, weight = 0;
+    for (std::size_t i = 0; i < relief.heights.size(); ++i) {
+      const Vec3& p = model.surface().points[i];
+      if (std::abs(p.x()) > .8 || std::abs(p.y()) > .8) continue;
+      const double c = std::cos(frequency * (p.x() + model.surface().centre.x()));
+      sum += c * relief.heights[i], weight += c * c;
+    }
+    return sum / weight;
+  };
+  const auto fine_share = [&](double amplification) {
+    const Relief relief = base_and_detail_relief(model, .1, {.amplification = amplification, .scale = .05});
+    return wave(60, relief) / relief.height;
+  };
+  EXPECT_GT(fine_share(5), 3 * fine_share(0));
+}
+
+TEST(Rivals, AreTheHeightAskedAndLieOnTheBase) {
+  const ReliefModel model = model_of(test::torus(30000, 1, .4));
+  for (const MethodInfo& info : methods) {
+    const Result<Relief> relief = make_by_method(info.method, model, .05, default_shape(info.method), 1);
+    ASSERT_TRUE(relief) << info.name;
+    const auto [low, high] = std::ranges::minmax(relief->heights);
+    EXPECT_NEAR(std::max(high, 0.0) - std::min(low, 0.0), .05, 1e-6) << info.name;
+    for (std::size_t i = 0; i < relief->heights.size(); ++i)
+      ASSERT_TRUE(!model.surface().boundary.is_boundary[i] || relief->heights[i] == 0) << info.name;
+  }
+}
+
+TEST(Method, NamesLeadBack) {
+  for (const MethodInfo& info : methods) {
+    EXPECT_EQ(parse_method(info.name), info.method);
+    EXPECT_EQ(name_of(info.method), info.name);
+  }
+  EXPECT_EQ(parse_method("carving"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,379 @@
+#include "relievo/relief/draft.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <numbers>
+
+#include "relievo/core/parallel.h"
+#include "relievo/make_relief.h"
+#include "relievo/simplify.h"
+#include "support/plate_fronts.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+ReliefModel model_of(const Cloud& cloud, Mode mode = Mode::exact) {
+  return ReliefModel::prepare(find_surface(cloud, {}).value(), nullptr, mode).value();
+}
+
+// Walls at depth jumps, curvature of both signs, a hole.
+Cloud figure(std::size_t n = 12000) {
+  return test::joined(test::torus(n, 1.5, .4), test::sphere(n, .8));
+}
+
+// A relief over points of the plane, 0 at the boundary.
+template <typename F>
+Relief relief_of(const ReliefModel& model, F f) {
+  Relief relief;
+  for (std::size_t i = 0; i < model.surface().points.size(); ++i) {
+    const Vec3& p = model.surface().points[i];
+    relief.heights.push_back(model.surface().boundary.is_boundary[i] ? 0 : f(p.x(), p.y()));
+  }
+  return relief;
+}
+
+double largest_difference(const Relief& a, const Relief& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.heights.size(); ++i)
+    largest = std::max(largest, std::abs(a.heights[i] - b.heights[i]));
+  return largest;
+}
+
+struct Slope {
+  Vec2 slope;
+  double area;
+};
+
+// By the book, from the three corners' normal.
+Slope slope_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 p = b - a, q = c - a;
+  const Vec3 normal(p.y() * q.z() - p.z() * q.y(), p.z() * q.x() - p.x() * q.z(),
+                    p.x() * q.y() - p.y() * q.x());
+  return {-normal.head<2>() / normal.z(), normal.z() / 2};
+}
+
+// Of the relief's triangles.
+std::vector<Slope> slopes_of(const ReliefModel& model, const std::vector<double>& heights) {
+  const Surface& surface = model.surface();
+  std::vector<Slope> slopes;
+  for (std::size_t i = 0; i < surface.triangulation.triangles.size(); ++i) {
+    if (!surface.boundary.is_inside[i]) continue;
+    const Triangle& t = surface.triangulation.triangles[i];
+    const auto at = [&](Index p) { return Vec3(surface.points[p].x(), surface.points[p].y(), heights[p]); };
+    slopes.push_back(slope_of(at(t[0]), at(t[1]), at(t[2])));
+  }
+  return slopes;
+}
+
+double steepest(const std::vector<Slope>& slopes) {
+  double most = 0;
+  for (const Slope& s : slopes) most = std::max(most, s.slope.norm());
+  return most;
+}
+
+// Angle of the steepest triangle that looks up, in degrees, as another program would find it in the file.
+double steepest_deg_in_stl(const std::vector<std::byte>& file, std::size_t triangles) {
+  double most = 0;
+  for (std::size_t t = 0; t < triangles; ++t) {
+    std::array<float, 9> v{};
+    std::memcpy(v.data(), file.data() + 84 + 50 * t + 12, sizeof v);
+    const auto corner = [&](std::size_t i) { return Vec3(v[3 * i], v[3 * i + 1], v[3 * i + 2]); };
+    const Slope s = slope_of(corner(0), corner(1), corner(2));
+    if (v[2] == v[5] && v[5] == v[8]) continue;  // level, even where rounding turned a sliver over
+    most = std::max(most, s.area > 0 ? std::atan(s.slope.norm()) * 180 / std::numbers::pi : 90.0);
+  }
+  return most;
+}
+
+TEST(Draft, AnglesAreMeasuredFromTheVertical) {
+  EXPECT_NEAR(slope_at_draft(45), 1, 1e-15);
+  EXPECT_NEAR(slope_at_draft(30), std::sqrt(3), 1e-14);
+  EXPECT_GT(slope_at_draft(5), slope_at_draft(15));
+}
+
+TEST(Draft, AReliefWithinTheLimitStaysBitForBit) {
+  const ReliefModel model = model_of(figure());
+  Shape shape = default_shape(Method::ours);
+  const Relief relief = model.make(shape);
+  const DraftOptions wide{1.01 * steepest(slopes_of(model, relief.heights))};
+  EXPECT_EQ(limit_draft(model, relief, wide)->heights, relief.heights);
+  const auto free = make_by_method(Method::ours, model, .2, shape, 1);
+  const auto limited = make_with_draft(model, {Method::ours, shape, .2}, {100});
+  EXPECT_EQ(limited->heights, free->heights);
+}
+
+// The steepest cone that may be is the nearest one: its slopes are the given ones, cut.
+TEST(Draft, ACone) {
+  const ReliefModel model = model_of(test::sheet(20000, 1, 0));
+  const auto cone = [](double slope) {
+    return [slope](double x, double y) { return slope * std::max(0.0, .8 - std::hypot(x, y)); };
+  };
+  const Relief wanted = relief_of(model, cone(1));
+  const Relief limited = limit_draft(model, relief_of(model, cone(2)), {1}).value();
+  EXPECT_LT(largest_difference(limited, wanted), .02);  // at the tip: points are .014 apart
+  EXPECT_LT(limited.height, .8);
+}
+
+TEST(Draft, APyramidOnAllOfTheBase) {
+  const ReliefModel model = model_of(test::sheet(20000, 1, 0));
+  const auto pyramid = [](double slope) {
+    return [slope](double x, double y) { return slope * (1 - std::max(std::abs(x), std::abs(y))); };
+  };
+  const Relief wanted = relief_of(model, pyramid(.5));
+  const Relief limited = limit_draft(model, relief_of(model, pyramid(3)), {.5}).value();
+  EXPECT_LT(largest_difference(limited, wanted), .02);
+}
+
+// Of a least-squares problem under convex limits z is the solution if and only if, for every y that keeps the
+// limits, the sum of area (slope of z - slope given) . (slope of y - slope of z) is not negative.
+TEST(Draft, NoOtherReliefUnderTheLimitIsNearer) {
+  const ReliefModel model = model_of(test::sheet(3000, 1, 0));
+  const Relief given = relief_of(model, [](double x, double y) {
+    return .5 * (1 - x * x) * (1 - y * y) * std::sin(7 * x + y) * std::cos(5 * y);
+  });
+  constexpr double limit = 1.5;
+  std::vector<Slope> first = slopes_of(model, given.heights);
+  ASSERT_GT(steepest(first), 1.5 * limit);
+  for (Slope& s : first)
+    if (s.slope.norm() > 2 * limit) s.slope *= 2 * limit / s.slope.norm();
+  const Relief nearest = limit_draft(model, given, {limit}).value();
+  const std::vector<Slope> z = slopes_of(model, nearest.heights);
+  EXPECT_LE(steepest(z), limit);
+  test::Random random(11);
+  for (int trial = 0; trial < 40; ++trial) {
+    const double a = random.uniform(1, 12), b = random.uniform(-9, 9), phase = random.uniform(0, 6);
+    const double share = trial % 2 ? 1 : 0;
+    Relief other = relief_of(model, [&](double x, double y) { return std::sin(a * x + b * y + phase); });
+    for (std::size_t i = 0; i < other.heights.size(); ++i)
+      other.heights[i] = .1 * other.heights[i] + share * given.heights[i];
+    const double scale = limit / steepest(slopes_of(model, other.heights));
+    for (double& height : other.heights) height *= scale;
+    const std::vector<Slope> y = slopes_of(model, other.heights);
+    double sum = 0, norm = 0;
+    for (std::size_t t = 0; t < z.size(); ++t) {
+      sum += z[t].area * (z[t].slope - first[t].slope).dot(y[t].slope - z[t].slope);
+      norm += z[t].area * (z[t].slope - first[t].slope).norm() * (y[t].slope - z[t].slope).norm();
+    }
+    EXPECT_GT(sum, -.002 * norm);
+  }
+}
+
+TEST(Draft, TheHeightIsMetExactlyByAllMethods) {
+  const ReliefModel model = model_of(figure(6000));
+  for (const MethodInfo& info : methods) {
+    const DraftOrder order{info.method, default_shape(info.method), .35};
+    const auto made = make_with_draft(model, order, {.8});
+    ASSERT_TRUE(made) << info.name << ": " << made.error().message();
+    const auto [low, high] = std::ranges::minmax(made->heights);
+    EXPECT_NEAR(std::max(high, 0.0) - std::min(low, 0.0), .35, 1e-12) << info.name;
+    EXPECT_EQ(made->height, .35);
+    EXPECT_LE(steepest(slopes_of(model, made->heights)), .8) << info.name;
+    for (std::size_t i = 0; i < made->heights.size(); ++i) {
+      if (model.surface().boundary.is_boundary[i]) {
+        ASSERT_EQ(made->heights[i], 0);
+      }
+    }
+  }
+}
+
+TEST(Draft, AHeightOutOfReachTellsTheLargest) {
+  const ReliefModel model = model_of(figure(6000));
+  const Shape shape = default_shape(Method::ours);
+  for (const double height : {1.2, 50.0}) {  // in reach without the limit, and not
+    const auto made = make_with_draft(model, {Method::ours, shape, height, 10}, {.4});
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().kind, ErrorKind::geometry);
+    const std::string text = made.error().message();
+    const std::size_t at = text.find("at most ");
+    ASSERT_NE(at, std::string::npos) << text;
+    const double largest = std::stod(text.substr(at + 8)) / 10;
+    EXPECT_LT(largest, height);
+    EXPECT_TRUE(make_with_draft(model, {Method::ours, shape, .99 * largest}, {.4}));
+  }
+}
+
+TEST(Draft, HoldsOnABaseToo) {
+  const ReliefModel model = model_of(figure(6000));
+  std::vector<double> base;
+  for (const Vec3& p : model.surface().points) base.push_back(.3 * p.x() + .1 * p.y() * p.y());
+  const DraftOptions options{1.2, base};
+  const auto made = make_with_draft(model, {Method::ours, default_shape(Method::ours), .45}, options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(made->height, .45);
+  std::vector<double> whole = made->heights;
+  for (std::size_t i = 0; i < whole.size(); ++i) whole[i] += base[i];
+  EXPECT_LE(steepest(slopes_of(model, whole)), 1.2);
+  const auto steep = make_with_draft(model, {Method::ours, default_shape(Method::ours), .5}, {.2, base});
+  ASSERT_FALSE(steep);
+  EXPECT_NE(steep.error().message().find("base"), std::string::npos);
+}
+
+TEST(Draft, HoldsForModelsOfControlPoints) {
+  const ReliefModel model = model_of(figure(12000), Mode::subspace);
+  const auto made = make_with_draft(model, {Method::ours, default_shape(Method::ours), .35}, {.7});
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_LE(steepest(slopes_of(model, made->heights)), .7);
+  EXPECT_EQ(made->height, .35);
+}
+
+TEST(Draft, IsTheSameForAnyNumberOfThreads) {
+  const ReliefModel model = model_of(figure());
+  const DraftOrder order{Method::ours, default_shape(Method::ours), .4};
+  set_thread_count(1);
+  const auto one = make_with_draft(model, order, {.8});
+  set_thread_count(3);
+  const auto three = make_with_draft(model, order, {.8});
+  set_thread_count(0);
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->heights, three->heights);
+}
+
+TEST(Draft, ScalesWithTheCloud) {
+  Cloud cloud = figure(6000);
+  const auto small = make_with_draft(model_of(cloud), {Method::ours, default_shape(Method::ours), .35}, {.8});
+  for (Vec3& p : cloud.points) p *= 1024;
+  const auto large =
+      make_with_draft(model_of(cloud), {Method::ours, default_shape(Method::ours), .35 * 1024}, {.8});
+  ASSERT_TRUE(small && large);
+  for (std::size_t i = 0; i < small->heights.size(); ++i)
+    ASSERT_NEAR(large->heights[i] / 1024, small->heights[i], 1e-4);
+}
+
+TEST(Draft, CanBeCancelled) {
+  const ReliefModel model = model_of(figure(3000));
+  Progress progress;
+  progress.cancel();
+  EXPECT_EQ(limit_draft(model, model.make(default_shape(Method::paper)), {.1}, &progress).error().kind,
+            ErrorKind::cancelled);
+}
+
+// All that a front goes through on its way to a file.
+TEST(Draft, IsKeptInFiles) {
+  const ReliefModel model = model_of(figure());
+  ReliefOptions options;
+  options.height_mm = 8;
+  for (const char* form : {"relief", "mirror", "die"})
+    for (const char* outline : {"rectangle", "circle", "none"})
+      for (const bool is_simple : {false, true}) {
+        options.draft_deg = is_simple ? 50 : 35;
+        options.form = form;
+        options.outline = outline;
+        options.tolerance_mm = is_simple ? std::optional(.05) : std::nullopt;
+        const auto made = make_relief(model, options);
+        ASSERT_TRUE(made) << made.error().message();
+        ASSERT_EQ(check_solid(made->solid), "");
+        const double found = steepest_deg_in_stl(write_stl(made->solid), made->solid.front_triangles);
+        EXPECT_LE(found, 90 - *options.draft_deg + 1e-9) << form << " " << outline << " " << is_simple;
+        EXPECT_NEAR(made->report.steepest_deg, found, 1e-9);
+        EXPECT_NEAR(made->report.height_mm, 8, 1e-12);
+        if (is_simple) {
+          EXPECT_LE(*made->report.simplification_error_mm, .05);
+        }
+      }
+}
+
+TEST(Draft, RimsLeanAsMuch) {
+  const ReliefModel model = model_of(figure(6000));
+  ReliefOptions options;
+  options.height_mm = 4;
+  options.draft_deg = 40;
+  options.rim_mm = 5;
+  for (const char* outline : {"rectangle", "round", "circle", "hexagon"})
+    for (const char* form : {"relief", "die"}) {
+      options.outline = outline;
+      options.form = form;
+      const auto made = make_relief(model, options);
+      ASSERT_TRUE(made) << made.error().message();
+      EXPECT_EQ(check_solid(made->solid), "");
+      const double found = steepest_deg_in_stl(write_stl(made->solid), made->solid.front_triangles);
+      EXPECT_LE(found, 50) << outline << " " << form;
+    }
+  options.rim_bevel_mm = 1;
+  EXPECT_EQ(make_relief(model, options).error().input, "--rim-bevel");
+  options.rim_bevel_mm = {};
+  options.rim_mm = 2;
+  options.rim_height_mm = 4;
+  EXPECT_EQ(make_relief(model, options).error().input, "--rim");
+}
+
+TEST(Draft, WithoutAHeightTooAndNotForLithophanes) {
+  ReliefOptions options;
+  options.alpha = .5;
+  options.draft_deg = 60;
+  const auto made = make_relief(figure(6000), options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_LE(made->report.steepest_deg, 30);
+  options.form = "lithophane";
+  EXPECT_NE(make_relief(figure(6000), options).error().message().find("--draft"), std::string::npos);
+}
+
+TEST(SteepestSlope, OfARampAndOfAWall) {
+  Front ramp = test::flat_front({10, 10, 2, 2});
+  ramp.points[4].z() = 5;  // 5 mm up over 5 mm
+  Solid solid = make_plate(ramp, {}).value();
+  EXPECT_NEAR(steepest_slope(solid), std::sqrt(2), 1e-6);
+  solid.points[4].x() = solid.points[1].x();
+  solid.points[4].y() = solid.points[1].y();
+  EXPECT_TRUE(std::isinf(steepest_slope(solid)));
+}
+
+// Dense points far from the origin, where single precision alone makes slopes of needles.
+TEST(HoldDraft, TakesWhatRoundingAdds) {
+  ASSERT_TRUE(rc::check([] {
+    test::Random random(*rc::gen::arbitrary<std::uint64_t>());
+    Cloud cloud = test::sheet(400, .03, 0, random.bits());
+    const ReliefModel model = model_of(cloud);
+    Relief steep = relief_of(model, [&](double, double) { return random.uniform(0, .01); });
+    const Relief limited = limit_draft(model, steep, {1}).value();
+    Front front{{}, model.surface().triangulation.triangles, model.surface().triangulation.hull};
+    for (std::size_t i = 0; i < limited.heights.size(); ++i)
+      front.points.emplace_back(model.surface().points[i].x(), model.surface().points[i].y(),
+                                limited.heights[i]);
+    Solid solid = make_plate(front, {20, 3}).value();
+    const Box before = [&] {
+      Box box;
+      for (const Vec3& p : solid.points) box.extend(p);
+      return box;
+    }();
+    const auto moved = hold_draft(solid, 1);
+    RC_ASSERT(moved.has_value());
+    RC_ASSERT(*moved < .001);
+    RC_ASSERT(steepest_deg_in_stl(write_stl(solid), solid.front_triangles) <= 45);
+    Box after;
+    for (const Vec3& p : solid.points) after.extend(p);
+    RC_ASSERT(after.min == before.min && after.max == before.max);
+    RC_ASSERT(check_solid(solid).empty());
+  }));
+}
+
+TEST(HoldDraft, RefusesAFrontThatIsTooSteep) {
+  Front peak = test::flat_front({10, 10, 2, 2});
+  peak.points[4].z() = 50;
+  Solid solid = make_plate(peak, {}).value();
+  const std::vector<Vec3> before = solid.points;
+  EXPECT_EQ(hold_draft(solid, 1).error().kind, ErrorKind::geometry);
+  EXPECT_EQ(solid.points, before);
+}
+
+TEST(HoldDraft, RefusesWhatRoundingDoesBetweenPointsThatStay) {
+  Solid solid;  // walls stand under all of the front
+  solid.points = {{20.0011017003, 20.0058829037, 3.00011886031},
+                  {20.0012021058, 20.0057975004, 3},
+                  {20.0012861059, 20.0059675612, 3.00011886031}};
+  solid.triangles = {{0, 1, 2}, {0, 2, 1}};
+  solid.front_triangles = 1;
+  ASSERT_LT(slope_of(solid.points[0], solid.points[1], solid.points[2]).slope.norm(), .995);
+  ASSERT_GT(steepest_slope(solid), 1);
+  const auto moved = hold_draft(solid, 1);
+  ASSERT_FALSE(moved);
+  EXPECT_EQ(moved.error().kind, ErrorKind::geometry);
+  EXPECT_NE(moved.error().message().find("single precision"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace relievo

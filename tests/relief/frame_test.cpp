@@ -1,0 +1,234 @@
+#include "relievo/relief/frame.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/core/parallel.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+const ReliefModel& model() {
+  static const ReliefModel made = [] {
+    const Cloud bumps = test::height_field(
+        30000, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },
+        [](double x, double y) {
+          return Vec2(std::cos(5 * x) * std::cos(4 * y), -.8 * std::sin(5 * x) * std::sin(4 * y));
+        });
+    return ReliefModel::prepare(find_surface(test::joined(bumps, test::torus(30000, 1.5, .4)), {}).value())
+        .value();
+  }();
+  return made;
+}
+
+Frame frame_of(const FrameOptions& options) {
+  FrameMaker maker(model());
+  Frame frame;
+  maker.make(options, frame);
+  return frame;
+}
+
+TEST(Frame, AgreesWithTheExactReliefToAPartInAHundredThousand) {
+  for (const double beta : {0.0, .01, 1.0, 2.0}) {
+    FrameOptions options;
+    options.shape = {{.7, beta}, .04};
+    const Relief exact = model().make(options.shape);
+    const Frame frame = frame_of(options);
+    double worst = 0;
+    for (std::size_t i = 0; i < exact.heights.size(); ++i)
+      worst = std::max(worst, std::abs(static_cast<double>(frame.heights[i]) - exact.heights[i]));
+    EXPECT_LT(worst, 1e-5 * exact.height) << beta;
+    EXPECT_NEAR(frame.height / exact.height, 1, 1e-5) << beta;
+  }
+}
+
+// The stencil against the cross products themselves.
+TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
+  const Frame frame = frame_of({});
+  const Surface& surface = model().surface();
+  std::vector<Vec3> sums(surface.points.size(), Vec3::Zero());
+  const auto at = [&](Index i) {
+    return Vec3(surface.points[i].x(), surface.points[i].y(), static_cast<double>(frame.heights[i]));
+  };
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const auto [a, b, c] = surface.triangulation.triangles[t];
+    const Vec3 u = at(b) - at(a), v = at(c) - at(a);
+    const Vec3 cross(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
+                     u.x() * v.y() - u.y() * v.x());
+    for (const Index corner : {a, b, c}) sums[corner] += cross;
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const Vec3 normal = sums[i].norm() > 0 ? Vec3(sums[i].normalized()) : Vec3(Vec3::UnitZ());
+    ASSERT_LT((frame.normals[i].cast<double>() - normal).norm(), 2e-4);
+  }
+}
+
+TEST(Frame, ShadingIsTheCosineToTheLight) {
+  FrameOptions options;
+  options.light = Vec3f(2, 0, 1);
+  const Frame frame = frame_of(options);
+  for (std::size_t i = 0; i < frame.normals.size(); ++i)
+    ASSERT_NEAR(frame.shading[i], std::max(0.F, frame.normals[i].dot(options.light.normalized())), 1e-5F);
+}
+
+TEST(Frame, AgreesWithTheExactReliefInLayersToo) {
+  for (const double beta : {0.0, 1.0})
+    for (const double u : {.3, 2.0}) {
+      FrameOptions options;
+      options.shape = {{u, beta}, .04};
+      options.shape.style = Style::layered;
+      const Relief exact = model().make(options.shape);
+      const Frame frame = frame_of(options);
+      double worst = 0;
+      for (std::size_t i = 0; i < exact.heights.size(); ++i)
+        worst = std::max(worst, std::abs(static_cast<double>(frame.heights[i]) - exact.heights[i]));
+      EXPECT_LT(worst, 1e-4 * exact.height) << beta;
+    }
+}
+
+TEST(Frame, AreHeldAsTheirShapeSays) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  options.shape = layered_shape();
+  for (const std::optional<Hold>& hold : {std::optional<Hold>(), {{.6, .1}}, {{.9, .06}}, {}}) {
+    options.shape.hold = hold;
+    maker.make(options, frame);
+    EXPECT_EQ(frame.options.shape.hold, hold.value_or(model().hold_at(1)));
+    const Relief exact = model().make(options.shape);
+    for (std::size_t i = 0; i < exact.heights.size(); ++i)
+      ASSERT_NEAR(static_cast<double>(frame.heights[i]), exact.heights[i], 1e-4 * exact.height);
+  }
+}
+
+TEST(Frame, KeepsALockedHeightInLayers) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  for (const double share : {.05, .0125, .09}) {
+    options.height = share * model().surface().diagonal;
+    for (const double gamma : {0.0, .02, .04, .08}) {
+      options.shape = {{1, 0}, gamma};
+      options.shape.style = Style::layered;
+      maker.make(options, frame);
+      ASSERT_TRUE(frame.is_height_met) << share << ' ' << gamma;
+      ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << share << ' ' << gamma;
+    }
+  }
+}
+
+TEST(Frame, KeepsALockedHeightWhileOthersMove) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  for (const double share : {.05, .0125, .1}) {
+    options.height = share * model().surface().diagonal;
+    for (const double beta : {0.0, .01, .5, 5.0, .2})
+      for (const double gamma : {0.0, .04, .1}) {
+        options.shape = {{1, beta}, gamma};
+        maker.make(options, frame);
+        ASSERT_TRUE(frame.is_height_met) << share << ' ' << beta << ' ' << gamma;
+        ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << share << ' ' << beta << ' ' << gamma;
+      }
+  }
+}
+
+TEST(Frame, FollowsASliderInTwoSolves) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  options.height = .025 * model().surface().diagonal;
+  maker.make(options, frame);
+  maker.make(options, frame);
+  EXPECT_EQ(frame.times.solves, 1);
+  int solves = 0;
+  for (int step = 1; step <= 20; ++step) {
+    options.shape.gamma = .002 * step;
+    maker.make(options, frame);
+    solves += frame.times.solves;
+  }
+  EXPECT_LE(solves, 50);
+}
+
+TEST(Frame, TellsThatAHeightIsOutOfReach) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  options.height = 10 * model().surface().diagonal;
+  maker.make(options, frame);
+  EXPECT_FALSE(frame.is_height_met);
+  const double highest = frame.height;
+  options.height = .99 * highest;
+  maker.make(options, frame);
+  EXPECT_TRUE(frame.is_height_met);
+  EXPECT_LT(frame.height, highest);
+}
+
+TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
+  FrameOptions options;
+  const Frame narrow = frame_of(options);
+  options.shape.boundary_width = 8;
+  const Frame wide = frame_of(options);
+  EXPECT_LT(wide.height, narrow.height);
+  EXPECT_GT(wide.height, 0);
+}
+
+TEST(Frame, ABaseIsAddedToTheHeights) {
+  FrameOptions options;
+  const Frame plane = frame_of(options);
+  auto base = std::make_shared<std::vector<float>>(plane.heights.size());
+  for (std::size_t i = 0; i < base->size(); ++i)
+    (*base)[i] = static_cast<float>(model().surface().points[i].x());
+  options.base = base;
+  const Frame curved = frame_of(options);
+  EXPECT_EQ(curved.height, plane.height);
+  for (std::size_t i = 0; i < base->size(); ++i) ASSERT_EQ(curved.heights[i], plane.heights[i] + (*base)[i]);
+}
+
+const ReliefModel& subspace_model() {
+  static const ReliefModel made = ReliefModel::prepare(model().surface(), nullptr, Mode::subspace).value();
+  return made;
+}
+
+TEST(Frame, OfASubspaceIsItsRelief) {
+  FrameOptions options;
+  options.shape = {{.7, .5}, .04};
+  options.shape.boundary_width = 3;
+  FrameMaker maker(subspace_model());
+  Frame frame;
+  maker.make(options, frame);
+  const Relief relief = subspace_model().make(options.shape);
+  for (std::size_t i = 0; i < relief.heights.size(); ++i)
+    ASSERT_NEAR(static_cast<double>(frame.heights[i]), relief.heights[i], 1e-5 * relief.height);
+}
+
+TEST(Frame, OfASubspaceKeepsALockedHeight) {
+  FrameMaker maker(subspace_model());
+  Frame frame;
+  FrameOptions options;
+  options.height = .05 * model().surface().diagonal;
+  for (const double beta : {0.0, .01, .5}) {
+    options.shape = {{1, beta}, .04};
+    maker.make(options, frame);
+    ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << beta;
+  }
+}
+
+TEST(Frame, HasTheSameBitsForAnyNumberOfThreads) {
+  set_thread_count(1);
+  const Frame one = frame_of({});
+  for (const int threads : {2, 4}) {
+    set_thread_count(threads);
+    const Frame many = frame_of({});
+    EXPECT_EQ(one.heights, many.heights);
+    EXPECT_EQ(one.normals, many.normals);
+  }
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace relievo

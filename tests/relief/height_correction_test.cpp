@@ -1,0 +1,259 @@
+#include "membrane.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "jumps.h"
+#include "relievo/core/parallel.h"
+#include "relievo/weights.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+Surface surface_of(const Cloud& cloud) {
+  return find_surface(cloud, {}).value();
+}
+
+// Level, and longer in y: far from its ends only x matters.
+Surface strip(double half_width) {
+  Cloud cloud = test::sheet(60000, 1, 0);
+  for (Vec3& p : cloud.points) p.x() *= half_width;
+  return surface_of(cloud);
+}
+
+// Bumps on a square of side 2, 0 at its rim, up to .3 high.
+double bump(double x, double y) {
+  return (1 - x * x) * (1 - y * y) * (.15 + .15 * std::sin(9 * x) * std::sin(7 * y));
+}
+
+Surface bumpy(std::size_t points = 60000) {
+  return surface_of(test::height_field(points, 1, bump, [](double x, double y) -> Vec2 {
+    constexpr double d = 1e-4;
+    return Vec2(bump(x + d, y) - bump(x - d, y), bump(x, y + d) - bump(x, y - d)) / (2 * d);
+  }));
+}
+
+std::vector<double> depths(const Surface& surface) {
+  std::vector<double> z;
+  for (const Vec3& p : surface.points) z.push_back(p.z() + surface.centre.z());
+  return z;
+}
+
+constexpr double reach = .085;
+
+template <typename Real>
+std::vector<Real> held(const Surface& surface, std::vector<Real> heights, double height) {
+  const Membrane membrane(surface, jump_weights(surface));
+  Membrane::Workspace workspace = membrane.make_workspace();
+  membrane.spread(std::span<const Real>(heights), {height, reach}, workspace);
+  for (std::size_t i = 0; i < heights.size(); ++i)
+    if (!surface.boundary.is_boundary[i]) heights[i] += static_cast<Real>(membrane.at(i, workspace));
+  return heights;
+}
+
+// On a level surface all ranks are 0: nothing but the rim draws heights away from the base. With limits far
+// off, u = z + b solves l^2 u'''' - u'' + u / R^2 = 0; away from the rim the slower of its solutions,
+// cosh(k x), is left, whatever the rim does. Relaxation stops near it.
+TEST(Membrane, SolvesItsEquationWhereItHasRoom) {
+  constexpr double side = 2, z = .1, R = reach * side, l = Membrane::stiff_reach * side;
+  const double k = std::sqrt((1 - std::sqrt(1 - 4 * l * l / (R * R))) / (2 * l * l));
+  const Surface level = strip(.4);
+  const std::vector<double> u = held(level, std::vector<double>(level.points.size(), z), 1);
+  double middle = 0, points = 0;
+  const auto is_seen = [&](std::size_t i) { return std::abs(level.points[i].y()) < .3; };
+  for (std::size_t i = 0; i < u.size(); ++i)
+    if (is_seen(i) && std::abs(level.points[i].x()) < .02) middle += u[i], ++points;
+  middle /= points;
+  for (std::size_t i = 0; i < u.size(); ++i)
+    if (const double x = level.points[i].x(); is_seen(i) && std::abs(x) < .1) {
+      ASSERT_NEAR(u[i] / middle, std::cosh(k * x), .08 * std::cosh(k * x)) << x;
+    }
+  EXPECT_GT(middle, .05 * z);
+}
+
+// Drawn down inside, it is the further from 0 at the silhouette, the less it is anchored there.
+TEST(Membrane, KeepsToTheGroundAsItsAnchorDraws) {
+  const Surface surface = strip(.4);
+  const Membrane membrane(surface, jump_weights(surface));
+  Membrane::Workspace workspace = membrane.make_workspace();
+  const std::vector<double> z(surface.points.size(), .1);
+  double last = 0;
+  for (const double anchor : {1.0, .5, .1}) {
+    membrane.spread(std::span<const double>(z), {1, reach, anchor}, workspace);
+    double off = 0;
+    for (std::size_t i = 0; i < z.size(); ++i)
+      if (std::abs(surface.points[i].x()) > .38) off -= static_cast<double>(membrane.at(i, workspace));
+    EXPECT_GT(off, 1.02 * last) << anchor;
+    last = off;
+  }
+}
+
+TEST(Membrane, AnchorsWhatIsHeldLoosely) {
+  EXPECT_EQ(Membrane::Limits::of(.1, {1, .2}).anchor, 1);
+  EXPECT_NEAR(Membrane::Limits::of(.1, {.9, .2}).anchor, .6, 1e-12);
+  EXPECT_EQ(Membrane::Limits::of(.1, {.3, .2}).anchor, .1);
+}
+
+TEST(Membrane, HoldsHeightsBetweenTheBaseAndTheirHeight) {
+  const Surface surface = bumpy();
+  for (const double height : {.15, .2, .4}) {
+    const std::vector<double> z = held(surface, depths(surface), height);
+    std::size_t outside = 0;
+    double furthest = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (surface.boundary.is_boundary[i]) continue;
+      const double beyond = std::max(-z[i], z[i] - height) / height;
+      outside += beyond > .03;
+      furthest = std::max(furthest, beyond);
+    }
+    EXPECT_LT(static_cast<double>(outside), .01 * static_cast<double>(z.size())) << height;
+    EXPECT_LT(furthest, .1) << height;
+  }
+}
+
+// Where points are few, cells are wider; without a point near them they are bridged.
+TEST(Membrane, DoesNotDependOnHowManyPointsThereAre) {
+  const auto mean = [](std::size_t points) {
+    const Surface surface = bumpy(points);
+    const std::vector<double> z = held(surface, depths(surface), .12);
+    double sum = 0;
+    for (const double value : z) sum += value;
+    return sum / static_cast<double>(z.size());
+  };
+  const double whole = mean(60000);
+  EXPECT_NEAR(mean(15000) / whole, 1, .03);
+  EXPECT_NEAR(mean(2500) / whole, 1, .06);
+}
+
+// The problem has no scale of its own in z.
+TEST(Membrane, IsProportionalToHeights) {
+  const Surface surface = bumpy();
+  std::vector<double> z = depths(surface), twice = z;
+  for (double& value : twice) value *= 2;
+  z = held(surface, z, .1), twice = held(surface, twice, .2);
+  for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(twice[i], 2 * z[i], 1e-6);
+}
+
+// What is finer than its cells it leaves alone: it adds the same to ripples as to none.
+TEST(Membrane, KeepsFineDetail) {
+  const Surface surface = bumpy();
+  const std::vector<double> plain = depths(surface);
+  std::vector<double> rippled = plain;
+  const auto ripple = [&](std::size_t i) { return .002 * std::sin(400 * surface.points[i].x()); };
+  for (std::size_t i = 0; i < plain.size(); ++i) rippled[i] += ripple(i);
+  const std::vector<double> a = held(surface, plain, .15), b = held(surface, rippled, .15);
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < plain.size(); ++i)
+    if (!surface.boundary.is_boundary[i])
+      product += (b[i] - a[i]) * ripple(i), square += ripple(i) * ripple(i);
+  EXPECT_NEAR(product / square, 1, .03);
+}
+
+// Of two equal sheets, one behind the other, the nearer comes to lie higher.
+TEST(Membrane, DrawsToTheFrontWhatIsInFront) {
+  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
+  const std::vector<double> z = held(sheets, std::vector<double>(sheets.points.size(), .05), .1);
+  double near = 0, far = 0, near_points = 0, far_points = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const double away = sheets.points[i].head<2>().cwiseAbs().maxCoeff();
+    if (away < .3) near += z[i], ++near_points;
+    if (away > .5 && away < .8) far += z[i], ++far_points;
+  }
+  EXPECT_GT(near / near_points, far / far_points + .03);
+}
+
+// The shorter the reach, the nearer heights come to their ranks: .1 in front, 0 behind.
+TEST(Membrane, DrawsHarderWithLessReach) {
+  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
+  const Membrane membrane(sheets, jump_weights(sheets));
+  Membrane::Workspace workspace = membrane.make_workspace();
+  const std::vector<double> z(sheets.points.size(), .05);
+  double last = 1;
+  for (const double r : {.4, .1, .05, .02}) {
+    membrane.spread(std::span(z), {.1, r}, workspace);
+    double square = 0, points = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const double away = sheets.points[i].head<2>().cwiseAbs().maxCoeff();
+      if (away > .8 || (away > .3 && away < .5)) continue;
+      const double off = z[i] + static_cast<double>(membrane.at(i, workspace)) - (away < .3 ? .1 : 0);
+      square += off * off, ++points;
+    }
+    EXPECT_LT(std::sqrt(square / points), last) << r;
+    last = std::sqrt(square / points);
+  }
+  EXPECT_LT(last, .02);
+}
+
+// Where the nearer sheet ends there is a jump: what draws it to the front bends the membrane there, and
+// hardly anywhere else.
+TEST(Membrane, IsHingedAtJumps) {
+  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
+  const std::vector<double> z = held(sheets, std::vector<double>(sheets.points.size(), .05), .1);
+  constexpr double step = .02;
+  std::vector<double> sum(40), points(40);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const Vec2 p = sheets.points[i].head<2>();
+    const auto bin = static_cast<std::size_t>(std::max(p.x(), 0.0) / step);
+    if (p.x() > 0 && bin < sum.size() && std::abs(p.y()) < .2) sum[bin] += z[i], ++points[bin];
+  }
+  const auto bend = [&](std::size_t first, std::size_t last) {
+    double most = 0;
+    for (std::size_t b = first; b <= last; ++b)
+      most = std::max(
+          most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
+    return most;
+  };
+  EXPECT_GT(bend(18, 21), 4 * bend(5, 15));
+  EXPECT_GT(bend(18, 21), 4 * bend(24, 34));
+}
+
+TEST(Membrane, IsTheSameInSinglePrecision) {
+  const Surface surface = bumpy();
+  const std::vector<double> z = depths(surface), exact = held(surface, z, .1);
+  const std::vector<float> single = held(surface, std::vector<float>(z.begin(), z.end()), .1);
+  for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(static_cast<double>(single[i]), exact[i], 2e-6);
+}
+
+// Rims end as w_b says, and the height is just the one asked for.
+TEST(Membrane, GivesHeightsTheirHeight) {
+  const Surface surface = bumpy();
+  const Membrane membrane(surface, jump_weights(surface));
+  Membrane::Workspace workspace = membrane.make_workspace();
+  const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
+  std::vector<double> z = depths(surface);
+  membrane.hold<double>({z, weight, {.15, reach}}, workspace);
+  const auto [low, high] = std::ranges::minmax(z);
+  EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    if (surface.boundary.is_boundary[i]) {
+      ASSERT_EQ(z[i], 0);
+    }
+}
+
+TEST(Membrane, LeavesWhatHasNoHeight) {
+  const Surface surface = strip(.5);
+  const Membrane membrane(surface, jump_weights(surface));
+  Membrane::Workspace workspace = membrane.make_workspace();
+  const std::vector<float> weight(surface.points.size(), 1);
+  std::vector<float> flat(surface.points.size(), 0), some(surface.points.size(), .1F);
+  membrane.hold<float>({flat, weight, {.1, reach}}, workspace);
+  EXPECT_EQ(flat, std::vector<float>(flat.size(), 0));
+  const std::vector<float> before = some;
+  membrane.hold<float>({some, weight, {0, reach}}, workspace);
+  EXPECT_EQ(some, before);
+}
+
+TEST(Membrane, HasTheSameBitsForAnyNumberOfThreads) {
+  const Surface surface = bumpy();
+  set_thread_count(1);
+  const std::vector<float> one = held(surface, std::vector<float>(surface.points.size(), .3F), .1);
+  set_thread_count(3);
+  EXPECT_EQ(held(surface, std::vector<float>(surface.points.size(), .3F), .1), one);
+  set_thread_count(0);
+}
+
+}  // namespace
+}  // namespace relievo

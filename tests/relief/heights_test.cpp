@@ -1,0 +1,218 @@
+#include "relievo/relief/heights.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "relievo/core/parallel.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+// Points in a disc of radius 1, the first `rim` of them on its circle: the boundary.
+struct DiscCase {
+  std::vector<Vec2> points;
+  Triangulation mesh;
+  Boundary boundary;
+
+  explicit DiscCase(std::size_t inside, std::size_t rim = 300) {
+    for (std::size_t i = 0; i < rim; ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(rim);
+      points.emplace_back(std::cos(angle), std::sin(angle));
+    }
+    test::Random random(31);
+    while (points.size() < inside + rim) {
+      const Vec2 p(random.uniform(-1, 1), random.uniform(-1, 1));
+      if (p.norm() < .99) points.push_back(p);
+    }
+    mesh = delaunay(points);
+    boundary.is_inside.assign(mesh.triangles.size(), 1);
+    boundary.is_boundary.assign(points.size(), 0);
+    std::fill_n(boundary.is_boundary.begin(), rim, std::uint8_t{1});
+  }
+
+  HeightSystem system(const std::vector<float>& weights = {}) const {
+    return HeightSystem::build(points, mesh, boundary, weights).value();
+  }
+  // From .1 to 1.
+  std::vector<float> uneven() const {
+    test::Random random(7);
+    std::vector<float> weights;
+    while (weights.size() < points.size()) weights.push_back(static_cast<float>(random.uniform(.1, 1)));
+    return weights;
+  }
+};
+
+template <typename F>
+std::vector<Vec2> slopes_of(const std::vector<Vec2>& points, F slope) {
+  std::vector<Vec2> slopes(points.size());
+  std::transform(points.begin(), points.end(), slopes.begin(), slope);
+  return slopes;
+}
+
+std::vector<double> heights_of(const HeightSystem& system, const std::vector<Vec2>& slopes) {
+  std::vector<double> z(system.size());
+  system.solve(slopes, z);
+  return z;
+}
+
+// The mean of two slopes is exact along an edge for a quadratic: the paraboloid comes back to rounding,
+// whatever edges count for.
+TEST(Heights, OfAParaboloidAreExact) {
+  const DiscCase disc(5000);
+  const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
+  for (const std::vector<float>& weights : {std::vector<float>(), disc.uneven()}) {
+    const std::vector<double> z = heights_of(disc.system(weights), slopes);
+    for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(z[i], 1 - disc.points[i].squaredNorm(), 1e-6);
+  }
+}
+
+TEST(Heights, InSinglePrecisionAgreeWithDouble) {
+  const DiscCase disc(20000);
+  const HeightSystem system = disc.system();
+  const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(std::sin(9 * p.x()), p.y()); });
+  std::vector<Vec2f> single(slopes.size());
+  std::transform(slopes.begin(), slopes.end(), single.begin(),
+                 [](const Vec2& s) { return Vec2f(s.cast<float>()); });
+  std::vector<float> z(system.size());
+  HeightSystem::Workspace workspace = system.make_workspace();
+  system.solve(single, z, workspace);
+  const std::vector<double> truth = heights_of(system, slopes);
+  const auto [lowest, highest] = std::minmax_element(truth.begin(), truth.end());
+  for (std::size_t i = 0; i < z.size(); ++i)
+    ASSERT_NEAR(static_cast<double>(z[i]), truth[i], 1e-5 * (*highest - *lowest));
+}
+
+TEST(Heights, OfNoSlopesAreZero) {
+  const DiscCase disc(500);
+  for (const double z : heights_of(disc.system(), std::vector<Vec2>(disc.points.size(), Vec2(0, 0))))
+    EXPECT_EQ(z, 0);
+}
+
+TEST(Heights, AreLinearInTheSlopes) {
+  const DiscCase disc(1000);
+  const HeightSystem system = disc.system();
+  const auto a = slopes_of(disc.points, [](const Vec2& p) { return Vec2(std::sin(5 * p.y()), p.x()); });
+  const auto b = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
+  std::vector<Vec2> both(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) both[i] = 3 * a[i] - b[i];
+  const auto za = heights_of(system, a), zb = heights_of(system, b), zc = heights_of(system, both);
+  for (std::size_t i = 0; i < zc.size(); ++i) ASSERT_NEAR(zc[i], 3 * za[i] - zb[i], 1e-10);
+}
+
+// Against the dense least-squares problem, assembled from equation (9) edge by edge.
+void expect_least_squares(const std::vector<float>& weights) {
+  const DiscCase disc(40, 20);
+  const auto weight_of = [&](Index p, Index q) {
+    return weights.empty() ? 1 : static_cast<double>(weights[p] + weights[q]) / 2;
+  };
+  const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(p.y() + .3, p.x() * p.x()); });
+  const auto n = static_cast<Eigen::Index>(disc.points.size());
+  std::vector<Eigen::RowVectorXd> rows;
+  std::vector<double> right;
+  for (const Triangle& t : disc.mesh.triangles)
+    for (int corner = 0; corner < 3; ++corner) {
+      const Index apex = t[corner], p = t[(corner + 1) % 3], q = t[(corner + 2) % 3];
+      const Vec2 u = disc.points[p] - disc.points[apex], v = disc.points[q] - disc.points[apex];
+      // Half the cotangent from this side: the two sides of an edge add up. Complex where it is negative: use
+      // A directly.
+      const double weight = .5 * weight_of(p, q) * u.dot(v) / (u.x() * v.y() - u.y() * v.x());
+      Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(n + 1);
+      row[p] = 1, row[q] = -1, row[n] = weight;
+      rows.push_back(row);
+      right.push_back(.5 * (slopes[p] + slopes[q]).dot(disc.points[p] - disc.points[q]));
+    }
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd b = Eigen::VectorXd::Zero(n);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const Eigen::RowVectorXd row = rows[r].head(n);
+    A += rows[r][n] * row.transpose() * row;
+    b += rows[r][n] * right[r] * row.transpose();
+  }
+  for (Eigen::Index i = 0; i < 20; ++i) {  // z = 0 on the boundary
+    A.row(i).setZero();
+    A(i, i) = 1;
+    b[i] = 0;
+  }
+  const Eigen::VectorXd truth = A.fullPivLu().solve(b);
+  const std::vector<double> z = heights_of(disc.system(weights), slopes);
+  for (Eigen::Index i = 0; i < n; ++i) EXPECT_NEAR(z[static_cast<std::size_t>(i)], truth[i], 1e-4);
+}
+
+TEST(Heights, MinimiseEquationNine) {
+  expect_least_squares({});
+}
+
+TEST(Heights, MinimiseItWithWeights) {
+  expect_least_squares(DiscCase(40, 20).uneven());
+}
+
+TEST(Heights, HaveTheSameBitsForAnyNumberOfThreads) {
+  const DiscCase disc(20000);
+  const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(std::sin(9 * p.x()), p.y()); });
+  set_thread_count(1);
+  const std::vector<double> one = heights_of(disc.system(), slopes);
+  set_thread_count(3);
+  const std::vector<double> three = heights_of(disc.system(), slopes);
+  set_thread_count(0);
+  EXPECT_EQ(one, three);
+}
+
+// A second disc beside the first: their triangulation with the triangles between them left out.
+struct TwoDiscs {
+  std::vector<Vec2> points;
+  Triangulation mesh;
+  Boundary boundary;
+
+  explicit TwoDiscs(bool is_second_held) {
+    const DiscCase large(2000), small(20, 30);
+    points = large.points;
+    for (const Vec2& p : small.points) points.push_back(.1 * p + Vec2(3, 0));
+    mesh = delaunay(points);
+    boundary.is_boundary = large.boundary.is_boundary;
+    boundary.is_boundary.resize(points.size(), 0);
+    if (is_second_held)
+      std::fill_n(boundary.is_boundary.begin() + static_cast<std::ptrdiff_t>(large.points.size()), 30, 1);
+    for (const Triangle& t : mesh.triangles) {
+      const auto is_first = [&](Index i) { return points[i].x() < 2; };
+      boundary.is_inside.push_back(is_first(t[0]) == is_first(t[1]) && is_first(t[1]) == is_first(t[2]));
+    }
+  }
+};
+
+TEST(Heights, OfAFragmentApartAreExactToo) {
+  const TwoDiscs discs(true);
+  const HeightSystem system = HeightSystem::build(discs.points, discs.mesh, discs.boundary).value();
+  const Vec2 centre(3, 0);
+  const auto slopes = slopes_of(discs.points, [&](const Vec2& p) -> Vec2 {
+    return p.x() > 2 ? Vec2(-2 * (p - centre)) : Vec2(-2 * p);
+  });
+  const std::vector<double> z = heights_of(system, slopes);
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    const bool is_second = discs.points[i].x() > 2;
+    const double expected =
+        is_second ? .01 - (discs.points[i] - centre).squaredNorm() : 1 - discs.points[i].squaredNorm();
+    ASSERT_NEAR(z[i], expected, 1e-8);
+  }
+}
+
+TEST(Heights, OfAFragmentThatNothingHoldsAreAnError) {
+  const TwoDiscs discs(false);
+  const auto system = HeightSystem::build(discs.points, discs.mesh, discs.boundary);
+  ASSERT_FALSE(system);
+  EXPECT_EQ(system.error().kind, ErrorKind::geometry);
+}
+
+TEST(Heights, OfBoundaryAloneAreZero) {
+  DiscCase disc(0, 50);
+  const HeightSystem system = disc.system();
+  EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,160 @@
+#include "relievo/relief/layers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
+#include "relievo/weights.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Surface surface_of(const Cloud& cloud) {
+  return find_surface(cloud, {}).value();
+}
+
+// A wave of that length along x, of slope 0.2, on a square of side 2.
+Surface wavy(double length) {
+  const double k = 2 * std::numbers::pi / length, a = .2 / k;
+  return surface_of(test::height_field(
+      60000, 1, [=](double x, double) { return a * std::sin(k * x); },
+      [=](double x, double) { return Vec2(a * k * std::cos(k * x), 0); }));
+}
+
+// Root mean square of a layer, away from the rim.
+template <typename Layer>
+double size_of(const Surface& surface, Layer layer) {
+  double sum = 0, n = 0;
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+    if (surface.points[i].head<2>().cwiseAbs().maxCoeff() < .7)
+      sum += static_cast<double>(layer(surface.layers[i]).squaredNorm()), ++n;
+  return std::sqrt(sum / n);
+}
+
+Vec2f sum(const PointLayers& l) {
+  return Vec2f(l.fine) + Vec2f(l.middle) + Vec2f(l.coarse) + Vec2f(l.broad);
+}
+
+// What rounding leaves of the sum of four layers.
+constexpr float rounding = 4 * LayerXy::part;
+
+TEST(LayerXy, KeepsWhatItIsGivenToAPart) {
+  for (const Vec2f& xy : {Vec2f(0, 0), Vec2f(1, -1), Vec2f(.12345F, -1.98765F), Vec2f(1e-6F, .5F)})
+    EXPECT_LE((Vec2f(LayerXy(xy)) - xy).cwiseAbs().maxCoeff(), LayerXy::part / 2);
+  EXPECT_LT((Vec2f(LayerXy({9, -9})) - Vec2f(2, -2)).norm(), 2 * LayerXy::part);
+}
+
+TEST(Layers, AddUpToTheNormal) {
+  const Surface sphere = surface_of(test::sphere(20000, 1));
+  for (std::size_t i = 0; i < sphere.points.size(); ++i) {
+    if (sphere.normals[i].z() < .6F) continue;
+    ASSERT_LT((sum(sphere.layers[i]) + sphere.normals[i].head<2>()).norm(), rounding);
+  }
+}
+
+TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
+  std::vector<Vec3> points;
+  std::vector<Vec3f> normals;
+  for (const double slope : {1.0, 12.0, 100.0}) {
+    points.emplace_back(10.0 * static_cast<double>(points.size()), static_cast<double>(points.size() % 2), 0);
+    normals.push_back(Vec3(-slope, 0, 1).normalized().cast<float>());
+  }
+  const auto layers = normal_layers(points, normals);
+  const auto kept = [&](std::size_t i) { return -sum(layers[i]).x() / normals[i].x(); };
+  EXPECT_NEAR(kept(0), 1, 2 * rounding);
+  EXPECT_NEAR(kept(1), .5, 2 * rounding);
+  EXPECT_LT(kept(2), 2 * rounding);
+}
+
+TEST(Layers, HoldWhatTheirSizeSays) {
+  const auto fine = [](const PointLayers& l) { return Vec2f(l.fine); };
+  const auto middle = [](const PointLayers& l) { return Vec2f(l.middle); };
+  const auto coarse = [](const PointLayers& l) { return Vec2f(l.coarse); };
+  const auto broad = [](const PointLayers& l) { return Vec2f(l.broad); };
+  const Surface ripples = wavy(.02), waves = wavy(.15), bumps = wavy(1), swell = wavy(8);
+  EXPECT_GT(size_of(ripples, fine), 2 * size_of(ripples, middle));
+  EXPECT_GT(size_of(waves, middle), 2 * size_of(waves, fine));
+  EXPECT_GT(size_of(waves, middle), 2 * size_of(waves, coarse));
+  EXPECT_GT(size_of(bumps, coarse), 2 * size_of(bumps, broad));
+  EXPECT_GT(size_of(swell, broad), 2 * size_of(swell, coarse));
+}
+
+TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
+  const auto layers = [](int threads) {
+    set_thread_count(threads);
+    const Surface s = surface_of(test::torus(20000, 1, .4));
+    std::vector<Vec2f> all;
+    for (const PointLayers& l : s.layers)
+      all.insert(all.end(), {Vec2f(l.fine), Vec2f(l.middle), Vec2f(l.coarse), Vec2f(l.broad)});
+    return all;
+  };
+  EXPECT_EQ(layers(1), layers(3));
+  set_thread_count(0);
+}
+
+TEST(LayerWeights, AreEquationSixLayerByLayerTimesWhatLevellingHides) {
+  for (const double u : {.1, 1.0, 5.0}) {
+    const double share = .3 + .1 * u, more = 2 - share;
+    const LayerWeights even = LayerWeights::of(u, 0, share);
+    EXPECT_FLOAT_EQ(even.fine, static_cast<float>(more * (1 - std::exp(-u))));
+    EXPECT_EQ(even.middle, even.fine);
+    EXPECT_EQ(even.coarse, even.fine);
+    EXPECT_EQ(even.broad, even.fine);
+    const LayerWeights held = LayerWeights::of(u, .04, share);
+    EXPECT_EQ(held.fine, even.fine);
+    EXPECT_LT(held.middle, held.fine);
+    EXPECT_LT(held.coarse, held.middle);
+    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-2.2)))));
+  }
+  EXPECT_EQ(LayerWeights::of(infinity, .04, 1).broad, 1);
+  EXPECT_EQ(LayerWeights::of(0, .04, .5).fine, 0);
+  EXPECT_EQ(LayerWeights::of(2, .04, .5).held, .5F);
+}
+
+// Kept in full, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
+TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
+  PointLayers layers;
+  layers.fine = Vec2f(.3F, 0);
+  layers.coarse = Vec2f(.3F, -.2F);
+  const Vec2 whole = layered_slope(layers, {1, 1, 1, 0}, 1.0, 100.0);
+  const double nz = std::sqrt(1 - .6 * .6 - .2 * .2);
+  EXPECT_NEAR((whole - Vec2(.6, -.2) / nz).norm(), 0, 2 * rounding);
+  const Vec2 half = layered_slope(layers, {.5F, 1, .5F, 0}, 1.0, 100.0);
+  EXPECT_NEAR((half - Vec2(.3, -.1) / std::sqrt(1 - .1)).norm(), 0, 2 * rounding);
+  const Vec2 flat = layered_slope(layers, {1, 1, 1, 0}, 0.0, 100.0);
+  EXPECT_EQ(flat.norm(), 0);
+}
+
+// Of a surface that is all but levelled, x and y are the slope; in between it is as steep as what stays of
+// it.
+TEST(LayeredSlope, ReckonsWithTheMembrane) {
+  PointLayers layers;
+  layers.coarse = Vec2f(.6F, -.2F);
+  const auto slope = [&](float held) { return layered_slope(layers, {1, 1, 1, 1, held}, 1.0, 100.0); };
+  EXPECT_NEAR((slope(0) - Vec2(.6, -.2)).norm(), 0, 2 * rounding);
+  EXPECT_NEAR((slope(.5F) - Vec2(.6, -.2) / std::sqrt(1 - .25 * .4)).norm(), 0, 2 * rounding);
+}
+
+TEST(LayeredSlope, IsNeverSteeperThanAllowed) {
+  PointLayers layers;
+  for (const float x : {.2F, .96F, .9999F, 1.F, 1.9F}) {
+    layers.coarse = Vec2f(0, x);
+    for (const double most : {.1, 1.0, 4.0}) {
+      for (const float held : {.5F, 1.F}) {
+        const Vec2 slope = layered_slope(layers, {1, 1, 1, 1, held}, 1.0, most);
+        EXPECT_LE(slope.norm(), most * (1 + 1e-12)) << x;
+        EXPECT_GT(slope.y(), 0);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,105 @@
+#include "relief/sliced_ell_matrix.h"
+
+#include <gtest/gtest.h>
+
+#include "core/simd.h"
+#include "relievo/core/parallel.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+// Points with 0 to 9 links each to any others, and a slope and a height each.
+struct Linked {
+  std::vector<Index> begin = {0};
+  std::vector<PointLink> links;
+  std::vector<Vec2f> slopes;
+  std::vector<float> heights;
+
+  explicit Linked(std::size_t n) {
+    test::Random random(17);
+    const auto number = [&] { return static_cast<float>(random.uniform(-1, 1)); };
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t count = random.bits() % 10; count > 0; --count)
+        links.push_back({static_cast<Index>(random.bits() % n), {number(), number()}});
+      begin.push_back(static_cast<Index>(links.size()));
+      slopes.emplace_back(number(), number());
+      heights.push_back(number());
+    }
+  }
+
+  std::span<const PointLink> of(std::size_t i) const {
+    return std::span(links).subspan(begin[i], begin[i + 1] - begin[i]);
+  }
+
+  std::vector<float> divergence() const {
+    std::vector<float> sums(heights.size(), -1.F);
+    PointLinks(begin, links).divergence(slopes, sums);
+    return sums;
+  }
+
+  std::pair<std::vector<Vec3f>, std::vector<float>> normals(const Vec3f& light) const {
+    std::pair<std::vector<Vec3f>, std::vector<float>> out(heights.size(), heights.size());
+    PointLinks(begin, links).normals(heights, light, {out.first, out.second});
+    return out;
+  }
+};
+
+class PointLinksOf : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(PointLinksOf, GiveTheDivergence) {
+  const Linked linked(GetParam());
+  const std::vector<float> sums = linked.divergence();
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    float expected = 0;
+    for (const PointLink& link : linked.of(i))
+      expected += (linked.slopes[i] + linked.slopes[link.other]).dot(link.pull);
+    ASSERT_NEAR(sums[i], expected, 1e-5F);
+  }
+}
+
+TEST_P(PointLinksOf, GiveTheSameDivergenceInDouble) {
+  const Linked linked(GetParam());
+  std::vector<Vec2> slopes;
+  for (const Vec2f& s : linked.slopes) slopes.push_back(s.cast<double>());
+  std::vector<double> sums(slopes.size(), -1);
+  PointLinks(linked.begin, linked.links).divergence(slopes, sums);
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    double expected = 0;
+    for (const PointLink& link : linked.of(i))
+      expected += (slopes[i] + slopes[link.other]).dot(link.pull.cast<double>());
+    ASSERT_NEAR(sums[i], expected, 1e-14);
+  }
+}
+
+TEST_P(PointLinksOf, GiveNormalsAndTheirShading) {
+  const Linked linked(GetParam());
+  const Vec3f light = Vec3f(1, -2, .5F).normalized();
+  const auto [normals, shading] = linked.normals(light);
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    Vec3f expected = Vec3f::UnitZ();
+    for (const PointLink& link : linked.of(i)) expected.head<2>() += linked.heights[link.other] * link.pull;
+    ASSERT_LT((normals[i] - expected.normalized()).norm(), 1e-5F);
+    ASSERT_NEAR(shading[i], std::max(0.F, expected.normalized().dot(light)), 1e-5F);
+  }
+}
+
+TEST_P(PointLinksOf, GiveTheSameBitsForAnyThreadsAndInstructions) {
+  const Linked linked(GetParam());
+  const auto all = [&] { return std::pair(linked.divergence(), linked.normals(Vec3f::UnitX())); };
+  set_thread_count(1);
+  const auto expected = all();
+  set_thread_count(3);
+  EXPECT_EQ(all(), expected);
+  set_thread_count(0);
+  const bool could = uses_avx2();
+  allow_avx2(false);
+  EXPECT_EQ(all(), expected);
+  allow_avx2(could);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, PointLinksOf, testing::Values(0, 1, 7, 8, 9, 257, 5000),
+                         testing::PrintToStringParamName());
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,93 @@
+#include "relievo/boundary.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "relievo/scan/spacing.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+// The boundary of a flat cloud, all of it visible.
+struct FlatCase {
+  std::vector<Vec2> points;
+  double rho;
+  Triangulation mesh;
+  Boundary boundary;
+
+  explicit FlatCase(const Cloud& cloud) : rho(measure_spacing(cloud).rho) {
+    for (const Vec3& p : cloud.points) points.push_back(p.head<2>());
+    mesh = delaunay(points);
+    boundary = find_boundary(points, mesh, rho);
+  }
+
+  double inside_area() const {
+    double area = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      if (!boundary.is_inside[t]) continue;
+      const auto [a, b, c] = mesh.triangles[t];
+      const Vec2 u = points[b] - points[a], v = points[c] - points[a];
+      area += .5 * (u.x() * v.y() - u.y() * v.x());
+    }
+    return area;
+  }
+};
+
+template <typename IsKept>
+Cloud sheet_where(IsKept is_kept, std::size_t n = 40000, double z = 0) {
+  Cloud kept;
+  for (const Vec3& p : test::sheet(n, 1, z).points)
+    if (is_kept(p)) test::add(kept, p, Vec3::UnitZ());
+  return kept;
+}
+
+TEST(Boundary, OfASquareIsItsRimOnePointThick) {
+  const FlatCase square(test::sheet(40000, 1, 0));
+  EXPECT_NEAR(square.inside_area(), 4, .04);  // random points stop short of the rim
+  const double rho = square.rho;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < square.points.size(); ++i) {
+    if (!square.boundary.is_boundary[i]) continue;
+    ++count;
+    EXPECT_GT(square.points[i].cwiseAbs().maxCoeff(), 1 - 4 * rho);
+  }
+  EXPECT_LT(static_cast<double>(count), 1.5 * 8 / rho);  // no more than a few per rho of the rim
+}
+
+TEST(Boundary, OfARingHasTheInnerHole) {
+  const auto is_ring = [](const Vec3& p) { return p.head<2>().norm() < 1 && p.head<2>().norm() > .4; };
+  const FlatCase ring(sheet_where(is_ring));
+  EXPECT_NEAR(ring.inside_area(), 3.14159 * (1 - .16), .06);
+  std::size_t inner = 0;
+  for (std::size_t i = 0; i < ring.points.size(); ++i)
+    inner += ring.boundary.is_boundary[i] && ring.points[i].norm() < .5;
+  EXPECT_GT(inner, 100U);
+}
+
+TEST(Boundary, ClosesPinHolesOfSampling) {
+  const Cloud whole = test::sheet(40000, 1, 0);
+  const double rho = measure_spacing(whole).rho;
+  const FlatCase pinholes(
+      sheet_where([&](const Vec3& p) { return (p - Vec3(.3, .3, 0)).norm() > 3.5 * rho; }));
+  for (std::size_t i = 0; i < pinholes.points.size(); ++i) {
+    const bool is_inner = pinholes.points[i].cwiseAbs().maxCoeff() < .9;
+    ASSERT_FALSE(is_inner && pinholes.boundary.is_boundary[i]);
+  }
+}
+
+TEST(Boundary, OfAPlaneGraphHasItsDistances) {
+  const FlatCase square(test::sheet(5000, 1, 0));
+  for (std::size_t i = 0; i < square.points.size(); i += 50) {
+    double nearest = 1e9;
+    for (std::size_t j = 0; j < square.points.size(); ++j)
+      if (square.boundary.is_boundary[j])
+        nearest = std::min(nearest, (square.points[i] - square.points[j]).norm());
+    EXPECT_FLOAT_EQ(square.boundary.distance[i], static_cast<float>(nearest));
+  }
+}
+
+}  // namespace
+}  // namespace relievo

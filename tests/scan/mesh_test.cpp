@@ -1,0 +1,199 @@
+#include "relievo/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <numbers>
+
+#include "relievo/make_relief.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+// A sphere of radius 1 in `rings` bands of latitude, closed and looking outwards.
+Mesh sphere_mesh(int rings) {
+  Mesh mesh;
+  const int sides = 2 * rings;
+  const auto at = [&](int ring, int side) { return static_cast<Index>(ring * sides + side % sides); };
+  for (int ring = 0; ring <= rings; ++ring)
+    for (int side = 0; side < sides; ++side) {
+      const double polar = std::numbers::pi * ring / rings, around = 2 * std::numbers::pi * side / sides;
+      mesh.points.emplace_back(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
+                               std::cos(polar));
+    }
+  for (int ring = 0; ring < rings; ++ring)
+    for (int side = 0; side < sides; ++side) {
+      mesh.triangles.push_back({at(ring, side), at(ring + 1, side), at(ring + 1, side + 1)});
+      mesh.triangles.push_back({at(ring, side), at(ring + 1, side + 1), at(ring, side + 1)});
+    }
+  return mesh;
+}
+
+Mesh square(double z, bool looks_away = false) {
+  Mesh mesh{{{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}}};
+  if (looks_away)
+    for (Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+const View front = *parse_view("front");
+
+TEST(SampleMesh, GivesAboutTheNumberAskedForOnTheVisibleSide) {
+  for (const double wanted : {2000.0, 50000.0}) {
+    const auto cloud = sample_mesh(sphere_mesh(60), front, {wanted});
+    ASSERT_TRUE(cloud) << cloud.error().message();
+    EXPECT_NEAR(static_cast<double>(cloud->size()), wanted, .15 * wanted);
+    for (std::size_t i = 0; i < cloud->size(); ++i) {
+      EXPECT_GT(cloud->points[i].z(), -.05);
+      EXPECT_NEAR(cloud->points[i].norm(), 1, 2e-3);
+      EXPECT_GT(cloud->normals[i].z(), 0);
+    }
+  }
+}
+
+TEST(SampleMesh, NormalsAreThoseOfTheSmoothShape) {
+  const auto cloud = sample_mesh(sphere_mesh(40), front, {20000});
+  ASSERT_TRUE(cloud);
+  double sum = 0, worst = 0;
+  std::size_t inner = 0;
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    if (cloud->points[i].z() < .2) continue;
+    const double sine = cloud->normals[i].cast<double>().cross(cloud->points[i].normalized()).norm();
+    sum += std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi;
+    worst = std::max(worst, sine);
+    ++inner;
+  }
+  EXPECT_LT(sum / static_cast<double>(inner), .1);  // the flat triangles are off by 1.5 degrees
+  EXPECT_LT(worst, std::sin(1 * std::numbers::pi / 180));
+}
+
+TEST(SampleMesh, ThePointsLieOnTheMeshInAnyView) {
+  const View view = *view_towards(Vec3(1, -2, .5), Vec3(0, 0, 1));
+  const auto cloud = sample_mesh(square(3), view, {10000});
+  ASSERT_TRUE(cloud);
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    EXPECT_NEAR(cloud->points[i].z(), 3, 1e-6);
+    EXPECT_LE(cloud->points[i].head<2>().cwiseAbs().maxCoeff(), 1 + 1e-3);
+    EXPECT_LT((cloud->normals[i] - Vec3f::UnitZ()).norm(), 1e-5F);
+  }
+}
+
+TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
+  Mesh both = square(0);
+  const Mesh nearer = square(1, true);  // seen from behind: hides all the same
+  for (const Vec3& p : nearer.points) both.points.push_back(p.cwiseProduct(Vec3(.5, .5, 1)));
+  for (const auto& [a, b, c] : nearer.triangles) both.triangles.push_back({a + 4, b + 4, c + 4});
+  const auto cloud = sample_mesh(both, front, {10000});
+  ASSERT_TRUE(cloud);
+  std::size_t near = 0;
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    const bool is_inside = cloud->points[i].head<2>().cwiseAbs().maxCoeff() < .499;
+    const bool is_outside = cloud->points[i].head<2>().cwiseAbs().maxCoeff() > .501;
+    if (is_inside || is_outside) {
+      EXPECT_NEAR(cloud->points[i].z(), is_inside ? 1 : 0, 1e-6);
+    }
+    near += is_inside;
+    EXPECT_GT(cloud->normals[i].z(), .99F);
+  }
+  EXPECT_NEAR(static_cast<double>(near) / static_cast<double>(cloud->size()), .25, .02);
+}
+
+TEST(SampleMesh, TheOutlineIsFinerThanTheGrid) {
+  const auto cloud = sample_mesh(sphere_mesh(200), front, {3000});
+  ASSERT_TRUE(cloud);
+  const double pixel = std::sqrt(std::numbers::pi / 3000);
+  // Largest radius seen in each of 90 directions: on the grid alone it would fall short by up to a pixel.
+  std::vector<double> reach(90, 0);
+  for (const Vec3& p : cloud->points) {
+    const double angle = std::atan2(p.y(), p.x()) + std::numbers::pi;
+    double& r =
+        reach[std::min<std::size_t>(89, static_cast<std::size_t>(angle / (2 * std::numbers::pi) * 90))];
+    r = std::max(r, p.head<2>().norm());
+  }
+  for (const double r : reach) EXPECT_GT(r, 1 - .55 * pixel);
+}
+
+TEST(SampleMesh, FindsAWireThatIsAThousandTimesLongerThanWide) {
+  Mesh mesh = square(0);
+  for (Vec3& p : mesh.points) p.x() *= 2e-4;
+  const auto cloud = sample_mesh(mesh, front, {5000});
+  ASSERT_TRUE(cloud) << cloud.error().message();
+  EXPECT_GT(cloud->size(), 1000U);
+}
+
+TEST(SampleMesh, ColoursAreInterpolated) {
+  Mesh mesh = square(0);
+  mesh.colours = {{0, 0, 0}, {200, 0, 0}, {200, 100, 0}, {0, 100, 0}};
+  const auto cloud = sample_mesh(mesh, front, {1000});
+  ASSERT_TRUE(cloud);
+  ASSERT_EQ(cloud->colours.size(), cloud->size());
+  for (std::size_t i = 0; i < cloud->size(); ++i) {
+    EXPECT_NEAR(cloud->colours[i][0], 100 * (cloud->points[i].x() + 1), 1.5);
+    EXPECT_NEAR(cloud->colours[i][1], 50 * (cloud->points[i].y() + 1), 1.5);
+  }
+}
+
+TEST(SampleMesh, NothingToSeeIsAnError) {
+  const auto edge_on = sample_mesh(square(0), *parse_view("right"), {1000});
+  ASSERT_FALSE(edge_on);
+  EXPECT_EQ(edge_on.error().kind, ErrorKind::geometry);
+  EXPECT_EQ(sample_mesh({}, front).error().kind, ErrorKind::geometry);
+  EXPECT_EQ(sample_mesh(square(0), front, {5}).error().kind, ErrorKind::option);
+  Progress progress;
+  progress.cancel();
+  EXPECT_EQ(sample_mesh(square(0), front, {1000}, &progress).error().kind, ErrorKind::cancelled);
+}
+
+TEST(Scatter, IsEvenByAreaOnAllSides) {
+  const Cloud cloud = scatter(sphere_mesh(40), 20000);
+  EXPECT_EQ(cloud.size(), 20000U);
+  std::array<int, 8> octants = {};
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3& p = cloud.points[i];
+    EXPECT_NEAR(p.norm(), 1, 4e-3);
+    EXPECT_GT(cloud.normals[i].dot(p.cast<float>()), .99F);
+    ++octants[static_cast<std::size_t>((p.x() > 0) + 2 * (p.y() > 0) + 4 * (p.z() > 0))];
+  }
+  for (const int n : octants) EXPECT_NEAR(n, 2500, 60);
+  EXPECT_EQ(scatter({}, 100).size(), 0U);
+}
+
+TEST(SmoothNormals, StopAtCreases) {
+  // Two squares that meet at a right angle, and two that meet at 20 degrees.
+  const auto bent = [](double degrees) {
+    const double a = degrees * std::numbers::pi / 180;
+    return Mesh{{{0, 0, 0},
+                 {0, 1, 0},
+                 {-1, 1, 0},
+                 {-1, 0, 0},
+                 {std::cos(a), 0, std::sin(a)},
+                 {std::cos(a), 1, std::sin(a)}},
+                {{0, 1, 2}, {0, 2, 3}, {0, 4, 5}, {0, 5, 1}}};
+  };
+  for (const auto& normals : smooth_normals(bent(90)))
+    for (const Vec3f& n : normals) EXPECT_NEAR(n.cwiseAbs().maxCoeff(), 1, 1e-6);
+  const Mesh shallow = bent(20);
+  const auto normals = smooth_normals(shallow);
+  const Vec3f middle(static_cast<float>(-std::sin(std::numbers::pi / 18)), 0,
+                     static_cast<float>(std::cos(std::numbers::pi / 18)));
+  EXPECT_LT((normals[0][0] - middle).norm(), 1e-3F);
+  EXPECT_LT((normals[3][2] - middle).norm(), 1e-3F);
+}
+
+TEST(MakeRelief, OfAMeshIsThatOfItsDenseCloud) {
+  CloudFile file;
+  file.mesh = sphere_mesh(12);  // 0.26 between its points: as a cloud they would make a poor relief
+  file.cloud.points = file.mesh.points;
+  ReliefOptions options;
+  options.height_mm = 5;
+  options.points = 20000;
+  const auto made = make_relief(file, options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
+  EXPECT_NEAR(made->report.height_mm, 5, .01);
+  EXPECT_NEAR(static_cast<double>(made->report.visible_points), 20000, 3000);
+}
+
+}  // namespace
+}  // namespace relievo

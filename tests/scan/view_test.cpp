@@ -1,0 +1,97 @@
+#include "relievo/view.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+// Where the view puts the model's axis `axis`: the column of the rotation.
+Vec3 seen(std::string_view view, const Vec3& axis, std::string_view up = {}) {
+  return parse_view(view, up)->rotation * axis;
+}
+
+TEST(View, FrontLooksAlongMinusZWithYUp) {
+  EXPECT_EQ(parse_view("front")->rotation, Mat3(Mat3::Identity()));
+}
+
+TEST(View, NamedSidesFaceTheViewerUpright) {
+  EXPECT_TRUE(seen("back", -Vec3::UnitZ()).isApprox(Vec3::UnitZ()));
+  EXPECT_TRUE(seen("back", Vec3::UnitY()).isApprox(Vec3::UnitY()));
+  EXPECT_TRUE(seen("right", Vec3::UnitX()).isApprox(Vec3::UnitZ()));
+  EXPECT_TRUE(seen("right", -Vec3::UnitZ()).isApprox(Vec3::UnitX()));
+  EXPECT_TRUE(seen("left", -Vec3::UnitX()).isApprox(Vec3::UnitZ()));
+  EXPECT_TRUE(seen("top", Vec3::UnitY()).isApprox(Vec3::UnitZ()));
+  EXPECT_TRUE(seen("top", -Vec3::UnitZ()).isApprox(Vec3::UnitY()));
+  EXPECT_TRUE(seen("bottom", -Vec3::UnitY()).isApprox(Vec3::UnitZ()));
+}
+
+TEST(View, TakesADirectionAndAnUp) {
+  EXPECT_TRUE(seen("0,-2,0", -Vec3::UnitY(), "0,0,1").isApprox(Vec3::UnitZ()));
+  EXPECT_TRUE(seen("0,-2,0", Vec3::UnitZ(), "0,0,1").isApprox(Vec3::UnitY()));
+  EXPECT_TRUE(seen("1,1,1", Vec3(1, 1, 1)).isApprox(Vec3(0, 0, std::sqrt(3))));
+}
+
+TEST(View, RotationsAreProper) {
+  for (const char* text :
+       {"front", "back", "left", "right", "top", "bottom", "0,1,0", "0,-1,0", "1e-3,5,2", "3,-1,.2"}) {
+    const Mat3 R = parse_view(text)->rotation;
+    EXPECT_TRUE((R * R.transpose()).isIdentity(1e-12)) << text;
+    EXPECT_NEAR(R.determinant(), 1, 1e-12) << text;
+  }
+}
+
+TEST(View, TakesDirectionsOfAnyLength) {
+  for (const char* up : {"0,1e9,0", "0,1e-9,0", "1e9,1e9,0"}) {
+    const Mat3 R = parse_view("0,1,0", up)->rotation;
+    EXPECT_TRUE((R * R.transpose()).isIdentity(1e-12)) << up;
+  }
+}
+
+TEST(View, RefusesWhatIsNoDirection) {
+  for (const char* text : {"", "up", "1,2", "1,2,3,4", "0,0,0", "a,b,c", "1,2,nan", "1e999,0,0", "1, 2, 3"})
+    EXPECT_FALSE(parse_view(text)) << text;
+  EXPECT_FALSE(parse_view("front", "sideways"));
+  EXPECT_FALSE(parse_view("front", "0,0,0"));
+  EXPECT_EQ(parse_view("up").error().kind, ErrorKind::option);
+}
+
+TEST(View, EulerAnglesAreEquationOne) {
+  const double x = .3, y = -.8;
+  Mat3 Rx, Ry;
+  Rx << 1, 0, 0, 0, std::cos(x), -std::sin(x), 0, std::sin(x), std::cos(x);
+  Ry << std::cos(y), 0, std::sin(y), 0, 1, 0, -std::sin(y), 0, std::cos(y);
+  EXPECT_TRUE(view_from_euler(x, y).rotation.isApprox(Ry * Rx));
+}
+
+TEST(View, QuaternionsAreNormalised) {
+  const double half = std::sqrt(.5);
+  EXPECT_TRUE(
+      (view_from_quaternion(3 * half, 0, 3 * half, 0)->rotation * Vec3::UnitX()).isApprox(-Vec3::UnitZ()));
+  EXPECT_FALSE(view_from_quaternion(0, 0, 0, 0));
+}
+
+TEST(View, TurnsPointsAboutTheBoxCentreAndNormalsWithThem) {
+  const Cloud cloud{{Vec3(1e6, 5, 0), Vec3(1e6 + 2, 5, 0)}, {Vec3f::UnitX(), Vec3f::UnitZ()}};
+  const Cloud seen_cloud = in_view(cloud, *parse_view("right"));
+  EXPECT_TRUE(seen_cloud.points[1].isApprox(Vec3(0, 0, 1)));
+  EXPECT_TRUE(seen_cloud.normals[0].isApprox(Vec3f::UnitZ()));
+}
+
+// A slab with one carved face: that face is the best view.
+TEST(View, RanksTheCarvedSideFirst) {
+  Cloud slab = test::height_field(
+      20000, 1, [](double x, double y) { return .1 * std::sin(9 * x) * std::sin(9 * y); },
+      [](double x, double y) {
+        return Vec2(.9 * std::cos(9 * x) * std::sin(9 * y), .9 * std::sin(9 * x) * std::cos(9 * y));
+      });
+  Cloud back = test::sheet(20000, 1, -.3);
+  for (Vec3f& n : back.normals) n = -n;
+  EXPECT_EQ(rank_views(test::joined(slab, back))[0].name, "front");
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,129 @@
+#include "relievo/visible.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+std::vector<Index> visible(const Cloud& cloud) {
+  return visible_points(cloud, measure_spacing(cloud));
+}
+
+// The share of points of [first, last) that is visible.
+double share(const std::vector<Index>& found, std::size_t first, std::size_t last) {
+  const auto begin = std::lower_bound(found.begin(), found.end(), first);
+  const auto end = std::lower_bound(found.begin(), found.end(), last);
+  return static_cast<double>(end - begin) / static_cast<double>(last - first);
+}
+
+TEST(Visible, OfTwoSheetsTheFrontOneHidesTheOther) {
+  const std::size_t n = 150000;
+  for (const double distance : {.05, .3, 5.0}) {
+    const Cloud both = test::joined(test::sheet(n, 1, 0, 11), test::sheet(n, 1, distance, 12));
+    const std::vector<Index> found = visible(both);
+    EXPECT_LT(share(found, 0, n), 1e-5) << "hidden sheet, at distance " << distance;
+    EXPECT_GT(share(found, n, 2 * n), .999) << "front sheet, at distance " << distance;
+  }
+}
+
+TEST(Visible, OfASphereAlmostAllThatFacesTheViewer) {
+  const Cloud sphere = test::sphere(200000, 1);
+  const std::vector<Index> found = visible(sphere);
+  std::size_t facing = 0, facing_found = 0, behind_found = 0;
+  for (const Vec3f& n : sphere.normals) facing += n.z() > .15F;
+  for (const Index i : found) {
+    facing_found += sphere.normals[i].z() > .15F;
+    behind_found += sphere.normals[i].z() < 0;
+  }
+  EXPECT_GE(static_cast<double>(facing_found), .995 * static_cast<double>(facing));
+  EXPECT_EQ(behind_found, 0U);
+}
+
+// A front sheet ten times sparser on its right half still hides what is behind.
+TEST(Visible, UnevenDensityLeavesNoHoles) {
+  Cloud front = test::sheet(60000, 1, .5, 21);
+  test::Random random(22);
+  Cloud uneven;
+  for (std::size_t i = 0; i < front.size(); ++i)
+    if (front.points[i].x() < 0 || random.uniform() < .1) test::add(uneven, front.points[i], Vec3::UnitZ());
+  const std::size_t n = 60000;
+  const std::vector<Index> found = visible(test::joined(test::sheet(n, .98, 0, 23), uneven));
+  EXPECT_LT(share(found, 0, n), 1e-4);
+  EXPECT_GT(share(found, n, n + uneven.size()), .999);
+}
+
+TEST(Visible, StraysNeitherShowNorHide) {
+  const std::size_t n = 20000;
+  Cloud cloud = test::sheet(n, 1, 0);
+  for (int i = 0; i < 5; ++i) test::add(cloud, Vec3(.1 * i, .001 * i, 1), Vec3::UnitZ());
+  const std::vector<Index> found = visible(cloud);
+  EXPECT_GT(share(found, 0, n), .999);
+  EXPECT_EQ(share(found, n, n + 5), 0);
+}
+
+TEST(Visible, OfTwinsInTheViewPlaneTheNearerStays) {
+  Cloud cloud = test::sheet(5000, 1, 0);
+  const double rho = measure_spacing(cloud).rho;
+  const std::size_t n = cloud.size();
+  for (std::size_t i = 0; i < 100; ++i)
+    test::add(cloud, cloud.points[i] + Vec3(0, 0, .1 * rho), Vec3::UnitZ());
+  const std::vector<Index> found = visible(cloud);
+  EXPECT_EQ(share(found, n, n + 100), 1);
+  EXPECT_EQ(share(found, 0, 100), 0);
+}
+
+TEST(Visible, IsTheSameForAnyOrder) {
+  Cloud cloud = test::torus(20000, 1, .4);
+  const std::vector<Index> found = visible(cloud);
+  std::reverse(cloud.points.begin(), cloud.points.end());
+  std::reverse(cloud.normals.begin(), cloud.normals.end());
+  std::vector<Index> reversed = visible(cloud);
+  for (Index& i : reversed) i = static_cast<Index>(cloud.size()) - 1 - i;
+  std::sort(reversed.begin(), reversed.end());
+  EXPECT_EQ(found, reversed);
+}
+
+// A box whose front has a hole: through it one sees the inside of its back, which faces away.
+TEST(FillerPoints, StandInWhereOnlyTheOtherSideWasScanned) {
+  Cloud front;
+  for (const Vec3& p : test::sheet(40000, 1, 0).points)
+    if (p.head<2>().norm() > .2) test::add(front, p, Vec3::UnitZ());
+  Cloud back = test::sheet(40000, 1, -.5, 15);
+  for (Vec3f& n : back.normals) n = -n;
+  const Cloud box = test::joined(front, back);
+  const Spacing spacing = measure_spacing(box);
+  const std::vector<Index> seen = visible_points(box, spacing);
+  const std::vector<Index> fillers = filler_points(box, spacing, seen);
+  EXPECT_EQ(share(seen, front.size(), box.size()), 0);
+  const double squares = 3.14 * .2 * .2 / (spacing.rho * spacing.rho);
+  EXPECT_GT(static_cast<double>(fillers.size()), .3 * squares);
+  EXPECT_LT(static_cast<double>(fillers.size()), 1.2 * squares);
+  for (const Index i : fillers) {
+    EXPECT_GE(i, front.size());
+    EXPECT_LT(box.points[i].head<2>().norm(), .2 - spacing.rho);
+  }
+}
+
+TEST(FillerPoints, AreNotNeededOnAClosedModel) {
+  const Cloud torus = test::torus(30000, 1, .4);
+  const Spacing spacing = measure_spacing(torus);
+  EXPECT_TRUE(filler_points(torus, spacing, visible_points(torus, spacing)).empty());
+}
+
+TEST(Visible, OfNothingIsNothing) {
+  const Cloud no_normals{test::sheet(1000, 1, 0).points, {}};
+  EXPECT_TRUE(visible(no_normals).empty());
+  EXPECT_TRUE(filler_points(no_normals, measure_spacing(no_normals), std::vector<Index>{0}).empty());
+  EXPECT_TRUE(visible({}).empty());
+  Cloud away = test::sheet(1000, 1, 0);
+  for (Vec3f& n : away.normals) n = -n;
+  EXPECT_TRUE(visible(away).empty());
+  EXPECT_TRUE(visible({std::vector<Vec3>(10, Vec3::Zero()), std::vector<Vec3f>(10, Vec3f::UnitZ())}).empty());
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,186 @@
+#include "solver/obstacle_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t width = 40, height = 30;
+constexpr float far = 1e6F;
+
+bool is_rim(std::size_t n) {
+  const std::size_t x = n % width, y = n / width;
+  return x == 0 || y == 0 || x == width - 1 || y == height - 1;
+}
+
+// Free but for the lattice's rim.
+Stiffness even(float bending) {
+  Stiffness all{std::vector<float>(width * height, bending), std::vector<float>(width * height, 1)};
+  for (std::size_t n = 0; n < all.bending.size(); ++n)
+    if (is_rim(n)) all.bending[n] = 0;
+  return all;
+}
+
+// The same, but for two columns of nodes.
+Stiffness yielding(float bending, std::size_t column, float hinge, float tension) {
+  Stiffness all = even(bending);
+  for (std::size_t n = 0; n < all.bending.size(); ++n)
+    if (n % width / 2 == column / 2 && !is_rim(n)) all.bending[n] = hinge, all.tension[n] = tension;
+  return all;
+}
+
+// What draws a bump up on the left and down on the right.
+float load(std::size_t n) {
+  const double x = static_cast<double>(n % width) / width, y = static_cast<double>(n / width) / height;
+  return static_cast<float>(.02 * std::sin(6.283 * x) * std::sin(3.1416 * y) + .004 * std::sin(40 * x * y));
+}
+
+struct Problem {
+  Ties ties;
+  ElasticSheet sheet;
+  ElasticSheet::Workspace workspace = sheet.make_workspace();
+
+  Problem(Stiffness stiffness, const Ties& t, float lowest, float highest)
+      : ties(t), sheet(width, std::move(stiffness)) {
+    ElasticSheet::Fields& f = workspace[0];
+    std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
+    for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
+  }
+  const std::vector<float>& solved() {
+    sheet.solve(ties, workspace);
+    return workspace[0].b;
+  }
+};
+
+// The energy's matrix: L' C L + tension + ties, rows of fixed nodes those of the identity.
+Eigen::MatrixXd matrix(const Stiffness& stiffness, const Ties& ties) {
+  const auto& [bending, tensions] = stiffness;
+  const auto n = static_cast<Eigen::Index>(bending.size());
+  Eigen::MatrixXd lap = Eigen::MatrixXd::Zero(n, n), a = lap;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!(bending[static_cast<std::size_t>(i)] > 0)) continue;
+    lap(i, i) = -4, a(i, i) = static_cast<double>(ties.pull);
+    for (const Eigen::Index side :
+         {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
+      const bool is_fixed = !(bending[static_cast<std::size_t>(i + side)] > 0);
+      const float mean =
+          (tensions[static_cast<std::size_t>(i)] + tensions[static_cast<std::size_t>(i + side)]) / 2;
+      const auto tension = static_cast<double>(is_fixed ? ties.anchor * mean : mean);
+      a(i, i) += tension;
+      if (is_fixed) continue;
+      lap(i, i + side) = 1, a(i, i + side) = -tension;
+    }
+  }
+  const Eigen::VectorXd c = Eigen::Map<const Eigen::VectorXf>(bending.data(), n).cast<double>();
+  a += lap.transpose() * c.asDiagonal() * lap;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!(c[i] > 0)) a(i, i) = 1;
+  return a;
+}
+
+Eigen::VectorXd loads(const Stiffness& stiffness) {
+  const std::vector<float>& bending = stiffness.bending;
+  Eigen::VectorXd f(static_cast<Eigen::Index>(bending.size()));
+  for (std::size_t n = 0; n < bending.size(); ++n)
+    f[static_cast<Eigen::Index>(n)] = bending[n] > 0 ? static_cast<double>(load(n)) : 0;
+  return f;
+}
+
+double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vector<float>& b) {
+  const Eigen::VectorXd x =
+      Eigen::Map<const Eigen::VectorXf>(b.data(), static_cast<Eigen::Index>(b.size())).cast<double>();
+  return .5 * x.dot(a * x) - f.dot(x);
+}
+
+// Without limits the least energy is that of a linear system.
+TEST(ElasticSheet, ComesNearTheLeastEnergy) {
+  using Case = std::pair<Stiffness, Ties>;
+  for (const auto& [stiffness, ties] : {Case{even(1), {.1F}},
+                                        {even(10), {.02F}},
+                                        {even(10), {}},
+                                        {yielding(10, width / 3, .1F, 1), {.02F}},
+                                        {yielding(10, width / 3, .1F, .2F), {.02F}},
+                                        {yielding(10, width - 3, 10, .2F), {.02F, .1F}},
+                                        {even(10), {.02F, .1F}}}) {
+    const Eigen::MatrixXd a = matrix(stiffness, ties);
+    const Eigen::VectorXd f = loads(stiffness), exact = a.llt().solve(f);
+    Problem problem(stiffness, ties, -far, far);
+    const double least = -.5 * f.dot(exact);
+    EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
+    EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
+  }
+}
+
+TEST(ElasticSheet, StaysWithinItsLimits) {
+  Problem problem(even(4), {.02F}, -.1F, .2F);
+  const std::vector<float>& b = problem.solved();
+  EXPECT_EQ(*std::ranges::min_element(b), -.1F);
+  EXPECT_EQ(*std::ranges::max_element(b), .2F);
+  for (std::size_t n = 0; n < b.size(); ++n)
+    if (is_rim(n)) {
+      ASSERT_EQ(b[n], 0);
+    }
+}
+
+// Limits cost energy; of what keeps to them it is better than the free sheet cut off.
+TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
+  constexpr Ties ties{.02F};
+  const Stiffness stiffness = even(4);
+  const Eigen::MatrixXd a = matrix(stiffness, ties);
+  const Eigen::VectorXd f = loads(stiffness);
+  Problem unlimited(stiffness, ties, -far, far), limited(stiffness, ties, -.1F, .2F);
+  std::vector<float> cut = unlimited.solved();
+  const double least = energy(a, f, cut);
+  for (float& b : cut) b = std::clamp(b, -.1F, .2F);
+  const double held = energy(a, f, limited.solved());
+  EXPECT_GT(held, least);
+  EXPECT_LT(held, energy(a, f, cut) - .05 * std::abs(least));
+}
+
+// Pushed from both sides, a node stays where its limits meet.
+TEST(ElasticSheet, TakesLimitsThatMeet) {
+  Problem problem(even(4), {.02F}, .05F, .05F);
+  const std::vector<float>& b = problem.solved();
+  for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
+}
+
+// Bends at a hinge: there the second difference is greater than where it is stiff.
+TEST(ElasticSheet, BendsAtAHinge) {
+  constexpr std::size_t middle = width / 2;
+  Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);
+  for (std::size_t n = 0; n < problem.workspace[0].wanted.size(); ++n) problem.workspace[0].wanted[n] = .01F;
+  const std::vector<float>& b = problem.solved();
+  const std::size_t n = middle + height / 2 * width;
+  const auto bend = [&](std::size_t at) { return std::abs(b[at - 1] + b[at + 1] - 2 * b[at]); };
+  EXPECT_GT(bend(n), 5 * bend(n - 4));
+  EXPECT_GT(bend(n), 5 * bend(n + 4));
+}
+
+// Where it is hinged and tension is low, it is all but torn: what pulls on one side leaves the other alone.
+TEST(ElasticSheet, KeepsApartWhatYields) {
+  const auto step_at_middle = [](float tension) {
+    constexpr std::size_t middle = width / 2;
+    Problem problem(yielding(50, middle, .05F, tension), {}, -far, far);
+    std::vector<float>& wanted = problem.workspace[0].wanted;
+    for (std::size_t n = 0; n < wanted.size(); ++n) wanted[n] = n % width < middle ? .01F : -.01F;
+    const float* b = problem.solved().data() + middle + height / 2 * width;
+    return (b[-1] - b[2]) / (b[-6] - b[7]);
+  };
+  EXPECT_GT(step_at_middle(.01F), .9F);
+  EXPECT_LT(step_at_middle(1), .7F);
+}
+
+TEST(ElasticSheet, HasNothingToDoWhereAllIsFixed) {
+  Problem problem(even(0), {}, -1, 1);
+  EXPECT_EQ(problem.solved(), std::vector<float>(width * height));
+  int free = 0;
+  problem.sheet.each_free_node([&](Index) { ++free; });
+  EXPECT_EQ(free, 0);
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,61 @@
+// A second opinion on solids: what admesh, a program that repairs STL files, finds to repair.
+#pragma once
+
+#include <unistd.h>
+
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "relievo/plate/solid.h"
+
+namespace relievo::test {
+
+inline std::string output_of(const std::string& command) {
+  std::string output;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) return output;
+  for (int c = fgetc(pipe); c != EOF; c = fgetc(pipe)) output += static_cast<char>(c);
+  pclose(pipe);
+  return output;
+}
+
+// The number that admesh's report gives for `label`, after its repairs; -1 if it has no such line. Its lines
+// hold either one number, or one before and one after the repairs, then perhaps another label.
+inline int reported(const std::string& report, const std::string& label) {
+  const std::size_t line = report.find("\n" + label);
+  if (line == std::string::npos) return -1;
+  std::istringstream rest(report.substr(report.find(':', line) + 1));
+  int before = -1, after = -1;
+  rest >> before;
+  while (rest.peek() == ' ') rest.ignore();
+  return std::isdigit(rest.peek()) && rest >> after ? after : before;
+}
+
+inline bool has_admesh() {
+  static const bool is_there = !output_of("command -v admesh").empty();
+  return is_there;
+}
+
+// An empty string if admesh has nothing to repair, or is not installed; else its report.
+inline std::string complaint_of_admesh(const Solid& solid, int parts = 1) {
+  if (!has_admesh()) return {};
+  const auto path = std::filesystem::temp_directory_path() / ("relievo_" + std::to_string(getpid()) + ".stl");
+  const std::vector<std::byte> bytes = write_stl(solid);
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  const std::string report = output_of("LC_ALL=C admesh '" + path.string() + "' 2>&1");
+  std::filesystem::remove(path);
+  bool is_good = reported(report, "Number of facets") == static_cast<int>(solid.triangles.size()) &&
+                 reported(report, "Number of parts") == parts &&
+                 report.contains("All facets connected.  No nearby check necessary.");
+  for (const char* label : {"Total disconnected facets", "Degenerate facets", "Edges fixed", "Facets removed",
+                            "Facets added", "Facets reversed", "Backwards edges", "Normals fixed"})
+    is_good &= reported(report, label) == 0;
+  return is_good ? "" : report;
+}
+
+}  // namespace relievo::test

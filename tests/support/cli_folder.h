@@ -1,0 +1,78 @@
+// A folder with a scan in it and the program `relievo` to run there.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "relievo/io.h"
+#include "support/shapes.h"
+
+namespace relievo::test {
+
+namespace fs = std::filesystem;
+
+inline std::string read_all(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+inline void write_all(const fs::path& path, std::string_view text) {
+  std::ofstream(path, std::ios::binary) << text;
+}
+
+struct Outcome {
+  int exit_code = 0;
+  std::string out, err;
+};
+
+class CliFolder : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = fs::temp_directory_path() / "relievo-cli-XXXXXX";
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+    const std::vector<std::byte> bytes = write_ply(torus(20000, 1, .4));
+    write_all(folder_ / "torus.ply", {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  }
+  void TearDown() override {
+    fs::permissions(folder_, fs::perms::owner_all);
+    fs::remove_all(folder_);
+  }
+
+  // Runs `relievo ARGUMENTS` in the test's folder.
+  Outcome run(const std::string& arguments, const std::string& before = "") const {
+    const fs::path out = folder_.string() + ".out", err = folder_.string() + ".err";
+    const std::string command = "cd '" + folder_.string() + "' && " + before + " '" RELIEVO_CLI "' " +
+                                arguments + " >'" + out.string() + "' 2>'" + err.string() + "' </dev/null";
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_all(out), read_all(err)};
+    fs::remove(out);
+    fs::remove(err);
+    return outcome;
+  }
+
+  // Expects failure with one line on stderr that holds `part`, and nothing new in the folder.
+  void expect_refusal(const std::string& arguments, const std::string& part,
+                      const std::string& before = "") const {
+    const auto files = [&] { return std::distance(fs::directory_iterator(folder_), {}); };
+    const auto before_run = files();
+    const Outcome outcome = run(arguments, before);
+    EXPECT_GT(outcome.exit_code, 0) << arguments;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(files(), before_run) << arguments;
+  }
+
+  fs::path folder_;
+};
+
+}  // namespace relievo::test

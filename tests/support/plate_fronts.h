@@ -1,0 +1,104 @@
+// Fronts of known shape for the tests.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+
+#include "relievo/plate/solid.h"
+
+namespace relievo::test {
+
+// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each cut into two triangles. `z(x, y)` is
+// called for inner points, the rim is at 0.
+struct Grid {
+  double width = 1, height = 1;
+  int cells_x = 1, cells_y = 1;
+};
+
+inline void add_cells(const Grid& grid, Front& front) {
+  const auto at = [&](int i, int j) { return static_cast<Index>(j * (grid.cells_x + 1) + i); };
+  for (int j = 0; j < grid.cells_y; ++j) {
+    for (int i = 0; i < grid.cells_x; ++i) {
+      front.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      front.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  for (int i = 0; i < grid.cells_x; ++i) front.hull.push_back(at(i, 0));
+  for (int j = 0; j < grid.cells_y; ++j) front.hull.push_back(at(grid.cells_x, j));
+  for (int i = grid.cells_x; i > 0; --i) front.hull.push_back(at(i, grid.cells_y));
+  for (int j = grid.cells_y; j > 0; --j) front.hull.push_back(at(0, j));
+}
+
+inline Front grid_front(const Grid& grid, const std::function<double(double, double)>& z) {
+  Front front;
+  for (int j = 0; j <= grid.cells_y; ++j) {
+    for (int i = 0; i <= grid.cells_x; ++i) {
+      const double x = grid.width * i / grid.cells_x, y = grid.height * j / grid.cells_y;
+      const bool is_rim = i == 0 || j == 0 || i == grid.cells_x || j == grid.cells_y;
+      front.points.emplace_back(x, y, is_rim ? 0 : z(x, y));
+    }
+  }
+  add_cells(grid, front);
+  return front;
+}
+
+inline Front flat_front(const Grid& grid) {
+  return grid_front(grid, [](double, double) { return 0.0; });
+}
+
+// A convex polygon, counter-clockwise, cut into a fan; flat at `ground_mm`, or with an apex over its centre.
+inline Front fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
+  Front front;
+  front.ground_mm = ground_mm;
+  for (Index i = 0; i < polygon.size(); ++i) {
+    front.points.emplace_back(polygon[i].x(), polygon[i].y(), ground_mm);
+    front.hull.push_back(i);
+    if (i >= 2) front.triangles.push_back({0, i - 1, i});
+  }
+  return front;
+}
+
+inline Front pyramid_front(const std::vector<Vec2>& polygon, double height) {
+  Front front = fan_front(polygon);
+  front.triangles.clear();
+  Vec2 centre = Vec2::Zero();
+  for (const Vec2& p : polygon) centre += p / static_cast<double>(polygon.size());
+  const auto n = static_cast<Index>(polygon.size());
+  front.points.emplace_back(centre.x(), centre.y(), height);
+  for (Index i = 0; i < n; ++i) front.triangles.push_back({i, (i + 1) % n, n});
+  return front;
+}
+
+// Polygon of an ellipse with `n` corners, all exactly convex for the sizes tests use.
+inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
+  std::vector<Vec2> polygon;
+  for (int i = 0; i < n; ++i) {
+    const double angle = turn + 2 * std::numbers::pi * i / n;
+    polygon.emplace_back(radius_x * std::cos(angle), radius_y * std::sin(angle));
+  }
+  return polygon;
+}
+
+inline double polygon_area(const std::vector<Vec2>& polygon) {
+  double twice = 0;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+// How far a place lies inside the polygon's nearest side; negative outside.
+inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
+  double depth = 1e9;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 along = (polygon[(i + 1) % polygon.size()] - polygon[i]).normalized();
+    const Vec2 to_place = place - polygon[i];
+    depth = std::min(depth, along.x() * to_place.y() - along.y() * to_place.x());
+  }
+  return depth;
+}
+
+}  // namespace relievo::test

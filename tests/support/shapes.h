@@ -1,0 +1,113 @@
+// Analytic shapes for tests, scattered at random, with a portable generator.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "relievo/scan/cloud.h"
+
+namespace relievo::test {
+
+// SplitMix64: the same numbers on every platform.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t bits() {
+    std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
+    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
+    z = (z ^ z >> 27) * 0x94D049BB133111EBU;
+    return z ^ z >> 31;
+  }
+  double uniform(double low = 0, double high = 1) {
+    return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
+  }
+  double gaussian() {
+    return std::sqrt(-2 * std::log(1 - uniform())) * std::cos(2 * std::numbers::pi * uniform());
+  }
+
+ private:
+  std::uint64_t state_;
+};
+
+inline void add(Cloud& cloud, const Vec3& point, const Vec3& normal) {
+  cloud.points.push_back(point);
+  cloud.normals.push_back(normal.normalized().cast<float>());
+}
+
+// Uniform on the sphere of that radius.
+inline Cloud sphere(std::size_t n, double radius, std::uint64_t seed = 1) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double z = random.uniform(-1, 1), angle = random.uniform(0, 2 * std::numbers::pi);
+    const double r = std::sqrt(1 - z * z);
+    const Vec3 normal(r * std::cos(angle), r * std::sin(angle), z);
+    add(cloud, radius * normal, normal);
+  }
+  return cloud;
+}
+
+// Uniform on the lateral surface of a cylinder about the y axis.
+inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t seed = 2) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    const Vec3 normal(std::cos(angle), 0, std::sin(angle));
+    add(cloud, radius * normal + random.uniform(-length / 2, length / 2) * Vec3::UnitY(), normal);
+  }
+  return cloud;
+}
+
+// Uniform on a torus about the z axis; R to the middle of the tube, r the tube's radius.
+inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double u = random.uniform(0, 2 * std::numbers::pi), v = random.uniform(0, 2 * std::numbers::pi);
+    const double ring = R + r * std::cos(v);
+    if (random.uniform(0, R + r) > ring) continue;
+    const Vec3 normal(std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v));
+    add(cloud, ring * Vec3(std::cos(u), std::sin(u), 0) + r * std::sin(v) * Vec3::UnitZ(), normal);
+  }
+  return cloud;
+}
+
+// z = f(x, y) over the square of that half side; `gradient` is (df/dx, df/dy). Uniform in x and y.
+template <typename F, typename G>
+Cloud height_field(std::size_t n, double half, F f, G gradient, std::uint64_t seed = 4) {
+  Random random(seed);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const double x = random.uniform(-half, half), y = random.uniform(-half, half);
+    const Vec2 g = gradient(x, y);
+    add(cloud, {x, y, f(x, y)}, {-g.x(), -g.y(), 1});
+  }
+  return cloud;
+}
+
+// A square of that half side parallel to the view plane.
+inline Cloud sheet(std::size_t n, double half, double z, std::uint64_t seed = 5) {
+  return height_field(
+      n, half, [z](double, double) { return z; }, [](double, double) { return Vec2(0, 0); }, seed);
+}
+
+inline Cloud joined(Cloud a, const Cloud& b) {
+  a.points.insert(a.points.end(), b.points.begin(), b.points.end());
+  a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
+  return a;
+}
+
+// Moves every point along its normal and turns every normal, by Gaussian noise.
+inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t seed = 6) {
+  Random random(seed);
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    cloud.points[i] += sigma * random.gaussian() * cloud.normals[i].cast<double>();
+    const Vec3 tilt(random.gaussian(), random.gaussian(), random.gaussian());
+    cloud.normals[i] = (cloud.normals[i].cast<double>() + normal_sigma * tilt).normalized().cast<float>();
+  }
+  return cloud;
+}
+
+}  // namespace relievo::test
