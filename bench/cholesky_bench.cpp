@@ -84,14 +84,14 @@ const System& system_of(const benchmark::State& state) {
 
 void cholesky_factor(benchmark::State& state) {
   const System& system = system_of(state);
-  for (auto _ : state) benchmark::DoNotOptimize(Cholesky::factor(system.A, system.positions));
+  for (auto _ : state) benchmark::DoNotOptimize(solver::Cholesky::factor(system.A, system.positions));
 }
 
 void cholesky_solve_single(benchmark::State& state) {
   const System& system = system_of(state);
   set_thread_count(static_cast<int>(state.range(1)));
-  const auto factor = Cholesky::factor(system.A, system.positions);
-  Cholesky::Workspace workspace = factor->make_workspace();
+  const auto factor = solver::Cholesky::factor(system.A, system.positions);
+  solver::Cholesky::Workspace workspace = factor->make_workspace();
   const Eigen::VectorXf b = system.b.cast<float>();
   Eigen::VectorXf x(b.size());
   const auto n = static_cast<std::size_t>(b.size());
@@ -103,8 +103,8 @@ void cholesky_solve_single(benchmark::State& state) {
 
 void cholesky_solve_double(benchmark::State& state) {
   const System& system = system_of(state);
-  const auto factor = Cholesky::factor(system.A, system.positions);
-  Cholesky::Workspace workspace = factor->make_workspace();
+  const auto factor = solver::Cholesky::factor(system.A, system.positions);
+  solver::Cholesky::Workspace workspace = factor->make_workspace();
   Eigen::VectorXd x(system.b.size());
   const auto n = static_cast<std::size_t>(x.size());
   for (auto _ : state)

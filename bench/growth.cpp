@@ -5,10 +5,11 @@
 #include <cstdlib>
 #include <vector>
 
-#include "frame_figures.h"
+#include "cli/frame_figures.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/progress.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
@@ -31,9 +32,9 @@ Result<Measured> measure(std::size_t visible) {
   Measured m{static_cast<double>(model->surface().points.size())};
   for (const StageTime& stage : progress.times()) m.preparation_s += stage.seconds;
   const int threads = thread_count();
-  m.frame_ms = cli::measure_frames(*model, {threads, 30, false}).whole.percentile(.5);
-  m.locked_ms = cli::measure_frames(*model, {threads, 30, true}).whole.percentile(.5);
-  m.mib = cli::bytes_per_point(*model) * m.points / 1048576;
+  m.frame_ms = app::cli::measure_frames(*model, {threads, 30, false}).whole.percentile(.5);
+  m.locked_ms = app::cli::measure_frames(*model, {threads, 30, true}).whole.percentile(.5);
+  m.mib = app::cli::bytes_per_point(*model) * m.points / 1048576;
   return m;
 }
 

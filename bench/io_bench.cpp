@@ -1,5 +1,6 @@
 // Reading a generated cloud with normals: binary PLY, ascii PLY and XYZ text.
-#include "relievo/io.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 
 #include <benchmark/benchmark.h>
 

@@ -3,11 +3,15 @@
 
 #include <map>
 
-#include "jumps.h"
-#include "relievo/io.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 #include "relievo/make_relief.h"
-#include "relievo/relief.h"
+#include "relievo/relief/heights.h"
+#include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/surface.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {

@@ -5,10 +5,12 @@
 #include <iterator>
 #include <string>
 
-#include "frame_figures.h"
+#include "cli/frame_figures.h"
 #include "relievo/core/parallel.h"
-#include "relievo/io.h"
+#include "relievo/io/read.h"
 #include "relievo/relief/subspace.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/surface.h"
 #include "stock_pipeline.h"
 
 namespace relievo {
@@ -26,8 +28,8 @@ Result<Surface> surface_of(const std::string& path, const std::string& side) {
   return find_surface(read->cloud, *view);
 }
 
-cli::FrameFigures measure_stock(StockPipeline& pipeline, std::string name, std::size_t control_points) {
-  cli::FrameFigures figures{std::move(name), control_points, 1, {}, {}, {}, {}, 1};
+app::cli::FrameFigures measure_stock(StockPipeline& pipeline, std::string name, std::size_t control_points) {
+  app::cli::FrameFigures figures{std::move(name), control_points, 1, {}, {}, {}, {}, 1};
   Shape shape{{.5, .01}, .04};
   for (int i = 0; i < frames; ++i, shape.gamma += .001) {
     const auto [t1, t2, t3] = pipeline.make(shape);
@@ -46,7 +48,7 @@ Result<ControlPoints> print_ours(const Surface& surface) {
   for (const Mode mode : {Mode::exact, Mode::subspace}) {
     const Result<ReliefModel> model = ReliefModel::prepare(surface, nullptr, mode);
     if (!model) return std::unexpected(model.error());
-    cli::print_frames(cli::measure_frames(*model, {threads, frames, false}), surface.points.size());
+    app::cli::print_frames(app::cli::measure_frames(*model, {threads, frames, false}), surface.points.size());
     if (model->subspace()) control = model->subspace()->control_points();
   }
   return control;
@@ -57,14 +59,14 @@ Result<void> run(const std::string& path, const std::string& side) {
   if (!surface) return std::unexpected(surface.error());
   const std::size_t n = surface->points.size();
   std::printf("%s\n", path.c_str());
-  cli::print_frame_head();
+  app::cli::print_frame_head();
   const Result<ControlPoints> control = print_ours(*surface);
   if (!control) return std::unexpected(control.error());
   StockPipeline subspace(*surface, *control), exact(*surface);
   const std::size_t m = control->points.size();
-  cli::print_frames(measure_stock(subspace, "stock parts, control points", m), n);
-  cli::print_frames(measure_stock(exact, "stock parts, all points", 0), n);
-  cli::print_paper_rows();
+  app::cli::print_frames(measure_stock(subspace, "stock parts, control points", m), n);
+  app::cli::print_frames(measure_stock(exact, "stock parts, all points", 0), n);
+  app::cli::print_paper_rows();
   return {};
 }
 

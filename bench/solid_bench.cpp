@@ -3,8 +3,11 @@
 
 #include <cmath>
 
+#include "relievo/io/write.h"
+#include "relievo/picture/height_map.h"
+#include "relievo/picture/preview.h"
 #include "relievo/plate/solid.h"
-#include "relievo/preview.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
@@ -17,8 +20,8 @@ double height_mm(double x, double y) {
   return r < 1 ? 4 * (1 - r * r) * (1.2 + std::sin(x / 2) * std::sin(y / 3) + 0.3 * std::sin(3 * x)) : 0;
 }
 
-Front front() {
-  Front front;
+HeightFieldMesh front() {
+  HeightFieldMesh front;
   const auto at = [](int i, int j) { return static_cast<Index>(j * (cells + 1) + i); };
   for (int j = 0; j <= cells; ++j)
     for (int i = 0; i <= cells; ++i) {
@@ -48,7 +51,7 @@ void run(benchmark::State& state, F&& f) {
 }
 
 void make_plate_700k(benchmark::State& state) {
-  const Front relief = front();
+  const HeightFieldMesh relief = front();
   run(state, [&] { return make_plate(relief, {}); });
 }
 void check_solid_700k(benchmark::State& state) {

@@ -6,8 +6,9 @@
 #include <limits>
 #include <utility>
 
-#include "jumps.h"
 #include "relievo/relief/control_points.h"
+#include "relievo/scan/surface.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
@@ -67,7 +68,8 @@ const std::vector<double>& StockHeights::solve(const Shape& shape) {
     const Index i = equations_.free_points[f];
     b_[f] = 0;
     for (Index e = equations_.begin[i]; e < equations_.begin[i + 1]; ++e)
-      b_[f] += (slopes_[i] + slopes_[equations_.edges[e].other]).dot(equations_.edges[e].pull.cast<double>());
+      b_[f] += (slopes_[i] + slopes_[equations_.edges[e].other])
+                   .dot(equations_.edges[e].coefficient.cast<double>());
   }
   const std::span<const double> x = system_.solve(b_);
   for (std::size_t f = 0; f < b_.size(); ++f) heights_[equations_.free_points[f]] = x[f];

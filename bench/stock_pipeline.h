@@ -8,8 +8,8 @@
 #include "cholmod_system.h"
 #include "relief/height_equations.h"
 #include "relief/subspace/control_mesh.h"
+#include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"
-#include "relievo/weights.h"
 
 namespace relievo {
 

@@ -3,9 +3,10 @@
 
 #include <limits>
 
-#include "relievo/relief.h"
+#include "relievo/relief/relief.h"
 #include "relievo/relief/subspace.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
@@ -21,7 +22,7 @@ const Prepared& prepared() {
     Surface surface = *find_surface(*make_sample("shell", {1'130'000}), {});
     constexpr double keep_all = std::numeric_limits<double>::infinity();
     std::vector<double> z0 = ReliefModel::prepare(surface)->make({{keep_all, 0}}).heights;
-    SubspaceModel model = *SubspaceModel::prepare(surface, {}, z0);
+    SubspaceModel model = *SubspaceModel::prepare(surface, {}, {z0, {}});
     return Prepared{std::move(surface), std::move(z0), std::move(model)};
   }();
   return it;
@@ -29,7 +30,7 @@ const Prepared& prepared() {
 
 void subspace_prepare(benchmark::State& state) {
   const Prepared& p = prepared();
-  for (auto _ : state) benchmark::DoNotOptimize(SubspaceModel::prepare(p.surface, {}, p.reference));
+  for (auto _ : state) benchmark::DoNotOptimize(SubspaceModel::prepare(p.surface, {}, {p.reference, {}}));
 }
 BENCHMARK(subspace_prepare)->Unit(benchmark::kMillisecond)->UseRealTime();
 

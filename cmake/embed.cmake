@@ -20,9 +20,9 @@ foreach(file IN LISTS FILES)
   string(APPEND entries "    {\"${name}\", \"${types_${ending}}\", {file_${number}, ${size}}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE ${OUTPUT} "#include \"page_files.h\"
+file(WRITE ${OUTPUT} "#include \"studio/page_files.h\"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 namespace {
 
 ${arrays}
@@ -37,5 +37,5 @@ const PageFile* find_page_file(std::string_view name) {
   return nullptr;
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio
 ")

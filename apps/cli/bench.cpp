@@ -4,16 +4,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
-#include "files.h"
-#include "frame_figures.h"
-#include "read_inputs.h"
+#include "cli/commands.h"
+#include "cli/frame_figures.h"
+#include "cli/input_flags.h"
+#include "common/files.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
-#include "relievo/io.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 namespace {
 
 struct BenchArguments {
@@ -62,21 +63,18 @@ Result<std::vector<Mode>> modes_of(const BenchArguments& arguments, const Surfac
   if (arguments.mode == "all") return std::vector{Mode::exact, Mode::subspace};
   const Result<Mode> mode = parse_mode(arguments.mode);
   if (!mode) return std::unexpected(mode.error());
-  return std::vector{settle(*mode, surface)};
+  return std::vector{resolve_mode(*mode, surface)};
 }
 
 Result<BenchResult> measure(const BenchArguments& arguments) {
   Progress progress;
-  const Result<Surface> surface = read_surface(arguments.scene, &progress);
-  if (!surface) return std::unexpected(surface.error());
+  RELIEVO_TRY(const SampledView seen, read_sample(arguments.scene, &progress));
+  RELIEVO_TRY(const Surface surface, find_surface(*seen.sample.cloud, seen.view, {}, &progress));
   progress.finish();
 
-  BenchResult result{surface->input_points, surface->points.size(), progress.times(), {}, {}};
-  const Result<std::vector<Mode>> modes = modes_of(arguments, *surface);
-  if (!modes) return std::unexpected(modes.error());
-  for (const Mode mode : *modes)
-    if (auto ok = measure_mode(*surface, mode, arguments.frames, result); !ok)
-      return std::unexpected(ok.error());
+  BenchResult result{surface.input_points, surface.points.size(), progress.times(), {}, {}};
+  RELIEVO_TRY(const std::vector<Mode> modes, modes_of(arguments, surface));
+  for (const Mode mode : modes) RELIEVO_CHECK(measure_mode(surface, mode, arguments.frames, result));
   return result;
 }
 
@@ -141,4 +139,4 @@ void add_bench(CLI::App& program, Result<void>& result) {
   command.callback([arguments, &result] { result = bench(*arguments); });
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

@@ -5,7 +5,7 @@
 
 #include "relievo/core/error.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 
 void add_make(CLI::App& program, Result<void>& result);
 void add_info(CLI::App& program, Result<void>& result);
@@ -13,5 +13,6 @@ void add_sample(CLI::App& program, Result<void>& result);
 void add_bench(CLI::App& program, Result<void>& result);
 void add_studio(CLI::App& program, Result<void>& result);
 void add_compare(CLI::App& program, Result<void>& result);
+void add_options(CLI::App& program, Result<void>& result);
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

@@ -5,19 +5,23 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "commands.h"
-#include "files.h"
-#include "read_inputs.h"
+#include "cli/commands.h"
+#include "cli/input_flags.h"
+#include "cli/sheet.h"
+#include "cli/terminal.h"
+#include "common/files.h"
+#include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/io.h"
-#include "relievo/method.h"
+#include "relievo/io/write.h"
+#include "relievo/make_relief.h"
 #include "relievo/quality/measures.h"
-#include "relievo/view.h"
-#include "sheet.h"
-#include "terminal.h"
+#include "relievo/relief/method.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
+#include "relievo/scan/view.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 namespace {
 
 struct CompareArguments {
@@ -50,32 +54,19 @@ Result<std::vector<Method>> parse_methods(const std::vector<std::string>& names)
   if (names.empty())
     for (const MethodInfo& info : methods) chosen.push_back(info.method);
   for (const std::string& name : names) {
-    const std::optional<Method> method = parse_method(name);
-    if (!method)
-      return std::unexpected(Error{ErrorKind::option,
-                                   "--methods",
-                                   {},
-                                   cat("expected some of ", method_names(), ", found '", name, "'")});
-    chosen.push_back(*method);
+    RELIEVO_TRY(const Method method, parse_method(name, "methods"));
+    chosen.push_back(method);
   }
   return chosen;
 }
 
 double longer_side(const Surface& surface) {
-  Box box;
-  for (const Vec3& p : surface.points) box.extend(p);
-  return std::max(box.size().x(), box.size().y());
-}
-
-Result<ReliefModel> prepare(const CompareArguments& arguments, Progress& progress) {
-  Result<Surface> surface = read_surface(arguments.scene, &progress);
-  if (!surface) return std::unexpected(surface.error());
-  return ReliefModel::prepare(std::move(*surface), &progress);
+  return Box::of(surface.points).longer_side();
 }
 
 // Reliefs of one height by each method, measured.
 Result<std::vector<Entry>> entries_at(double share, const std::vector<Method>& chosen,
-                                      const ReliefModel& model, const Judge& judge) {
+                                      const ReliefModel& model, const ReliefMetrics& judge) {
   const double width = longer_side(model.surface());
   std::vector<Entry> entries;
   for (const Method method : chosen) {
@@ -90,18 +81,18 @@ Result<std::vector<Entry>> entries_at(double share, const std::vector<Method>& c
 
 Result<Comparison> compare_all(const CompareArguments& arguments, const std::vector<Method>& chosen,
                                Progress& progress) {
-  const Result<ReliefModel> model = prepare(arguments, progress);
-  if (!model) return std::unexpected(model.error());
-  if (auto go = progress.stage("comparison", .85); !go) return std::unexpected(go.error());
-  const Judge judge(model->surface());
-  Comparison result{model->surface().visible_points,
+  RELIEVO_TRY(const SampledView seen, read_sample(arguments.scene, &progress));
+  RELIEVO_TRY(const ReliefModel model, prepare(*seen.sample.cloud, seen.view, Mode::exact, &progress));
+  RELIEVO_CHECK(progress.stage("comparison", .85));
+  const ReliefMetrics judge(model.surface());
+  Comparison result{model.surface().visible_points,
                     judge.pixels(),
                     judge.shade_model(Vec3f(light_x, light_y, light_z)),
                     {},
                     {}};
   std::optional<Error> out_of_reach;
   for (const double share : arguments.heights) {
-    Result<std::vector<Entry>> entries = entries_at(share, chosen, *model, judge);
+    Result<std::vector<Entry>> entries = entries_at(share, chosen, model, judge);
     if (!entries) {
       if (entries.error().kind != ErrorKind::geometry) return std::unexpected(entries.error());
       out_of_reach = entries.error();
@@ -237,4 +228,4 @@ void add_compare(CLI::App& program, Result<void>& result) {
   command.callback([arguments, &result] { result = compare(*arguments); });
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

@@ -4,50 +4,72 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <optional>
 #include <string>
 
+#include "common/option_list.h"
 #include "relievo/core/length.h"
+#include "relievo/core/option_field.h"
 #include "relievo/core/text.h"
-#include "relievo/options.h"
+#include "relievo/option_texts.h"
+#include "relievo/plate/tool.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 
 struct FlagAdder {
   CLI::App& command;
 
   void operator()(const OptionField& field, double& value) const {
-    take_units(describe(command.add_option(flag(field), value, help(field)), field), field)
-        ->capture_default_str();
+    describe(command.add_option(flag(field), value, number_help(field)), field)->capture_default_str();
   }
   void operator()(const OptionField& field, std::optional<double>& value) const {
-    take_units(describe(command.add_option(flag(field), value, help(field)), field), field);
+    describe(command.add_option(flag(field), value, number_help(field)), field);
   }
   void operator()(const OptionField& field, std::string& value) const {
-    CLI::Option* option = command.add_option(flag(field), value, std::string(field.help));
-    describe(option, field)->capture_default_str();
+    describe(command.add_option(flag(field), value, with_default(help_text(field), field)), field)
+        ->capture_default_str();
   }
 
   static std::string flag(const OptionField& field) { return cat("--", field.name); }
-  static std::string help(const OptionField& field) {
-    return cat(field.help, " [", field.min, " to ", field.max, "]");
+  static std::string number_help(const OptionField& field) {
+    return with_default(cat(field.help, " [", field.min, " to ", field.max, "]"), field);
   }
-  static CLI::Option* describe(CLI::Option* option, const OptionField& field) {
-    const bool has_unit = !field.unit.empty();
-    return has_unit ? option->type_name(std::string(field.unit)) : option;
+
+  // The default, where it is no value of the field.
+  static std::string with_default(std::string help, const OptionField& field) {
+    const auto row = std::ranges::find(option_fields(), field.name, &OptionField::name);
+    if (!field.otherwise.empty()) return cat(help, "; default: ", field.otherwise);
+    if (row != option_fields().end() && row->effective) return cat(help, "; default: ", default_text(*row));
+    return help;
   }
+
+  CLI::Option* describe(CLI::Option* option, const OptionField& field) const {
+    option->type_name(std::string(field.unit));
+    if (field.unit == "MM") option->transform(in_mm(length_in_mm));
+    if (field.unit == "TOOL") option->transform(in_mm(tool_in_mm));
+    return option;
+  }
+
   // Lengths may carry a unit, or be in that of --units, wherever that stands.
-  CLI::Option* take_units(CLI::Option* option, const OptionField& field) const {
-    if (field.unit != "MM") return option;
-    const auto in_mm = [&at = command](std::string& text) {
-      const Result<double> mm = parse_length(text, unit_of(at));
+  CLI::Validator in_mm(Result<std::string> (*convert)(std::string_view, LengthUnit)) const {
+    const auto transform = [&at = command, convert](std::string& text) {
+      const Result<std::string> mm = convert(text, unit_of(at));
       if (!mm) return mm.error().expected;
-      std::array<char, 32> digits{};
-      text.assign(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), *mm).ptr);
+      text = *mm;
       return std::string();
     };
-    return option->transform(CLI::Validator(in_mm, ""));
+    return CLI::Validator(transform, "");
+  }
+
+  static Result<std::string> length_in_mm(std::string_view text, LengthUnit bare) {
+    RELIEVO_TRY(const double mm, parse_length(text, bare));
+    std::array<char, 32> digits{};
+    return std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), mm).ptr);
+  }
+
+  static Result<std::string> tool_in_mm(std::string_view text, LengthUnit bare) {
+    RELIEVO_TRY(const Tool tool, parse_tool(text, bare));
+    return text_of(tool);
   }
 
   // What --units of the command says; millimetres if it does not, or is none of its flags.
@@ -59,9 +81,9 @@ struct FlagAdder {
 };
 
 // Adds one flag for each field.
-template <typename Options>
-void add_flags(CLI::App& command, Options& options) {
-  visit(options, FlagAdder{command});
+template <typename Texts>
+void add_flags(CLI::App& command, Texts& texts) {
+  visit(texts, FlagAdder{command});
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

@@ -1,12 +1,15 @@
-#include "frame_figures.h"
+#include "cli/frame_figures.h"
 
 #include <algorithm>
 #include <cstdio>
 
 #include "relievo/core/parallel.h"
+#include "relievo/relief/control_points.h"
 #include "relievo/relief/frame.h"
+#include "relievo/relief/subspace.h"
+#include "relievo/scan/surface.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 
 double Series::percentile(double share) const {
   if (ms.empty()) return 0;
@@ -69,4 +72,4 @@ void print_paper_rows() {
                 row.control_points, 6, row.t1, row.t2, row.t3, "", "", row.frames_per_second);
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "relievo/relief.h"
+#include "relievo/relief/relief.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 
 // Milliseconds of one part of a frame over many frames.
 struct Series {
@@ -67,4 +67,4 @@ void print_frame_head();
 void print_frames(const FrameFigures& figures, std::size_t visible_points);
 void print_paper_rows();
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

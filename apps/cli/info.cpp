@@ -4,17 +4,18 @@
 #include <limits>
 #include <memory>
 
-#include "commands.h"
-#include "files.h"
-#include "read_inputs.h"
+#include "cli/commands.h"
+#include "cli/input_flags.h"
+#include "common/files.h"
 #include "relievo/core/text.h"
-#include "relievo/depth_image.h"
-#include "relievo/io.h"
-#include "relievo/normals.h"
+#include "relievo/io/read.h"
+#include "relievo/scan/depth_image.h"
+#include "relievo/scan/normals.h"
+#include "relievo/scan/scan_file.h"
 #include "relievo/scan/spacing.h"
-#include "relievo/view.h"
+#include "relievo/scan/view.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 namespace {
 
 // Ten digits, for geo-referenced coordinates.
@@ -110,13 +111,10 @@ void add_info(CLI::App& program, Result<void>& result) {
   const auto inputs = std::make_shared<std::vector<std::string>>();
   CLI::App& command = *program.add_subcommand("info", "Tell what is in a scan");
   command
-      .add_option(
-          "input", *inputs,
-          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, TIFF); "
-          "several, or a scene (JSON): where each stands")
+      .add_option("input", *inputs, readable_formats() + "; several, or a scene (JSON): where each stands")
       ->required()
       ->type_name("INPUT");
   command.callback([inputs, &result] { result = info(*inputs); });
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

@@ -1,10 +1,11 @@
-#include "letters.h"
+#include "cli/letters.h"
+#include "relievo/core/image.h"
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 namespace {
 
 constexpr int columns = 5, rows = 9, scale = 2;
@@ -92,4 +93,4 @@ void write_text(Image8& image, int x, int y, std::string_view text, std::uint8_t
   }
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

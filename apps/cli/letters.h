@@ -3,9 +3,10 @@
 
 #include <string_view>
 
-#include "relievo/preview.h"
+#include "relievo/core/image.h"
+#include "relievo/picture/preview.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 
 inline constexpr int letter_width_px = 12, letter_height_px = 20;  // with the gaps between
 
@@ -13,4 +14,4 @@ inline constexpr int letter_width_px = 12, letter_height_px = 20;  // with the g
 // out, and what is no letter, digit or one of .,%-+/:()= is blank.
 void write_text(Image8& image, int x, int y, std::string_view text, std::uint8_t grey);
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

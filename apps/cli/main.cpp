@@ -1,9 +1,21 @@
 #include <cstdio>
 #include <new>
 
-#include "commands.h"
-#include "files.h"
+#include "cli/commands.h"
+#include "common/files.h"
 #include "relievo/core/version.h"
+
+namespace {
+
+// Returns the line to print; an option is named by its flag: "--height: expected ...".
+std::string line_of(relievo::Error error, const CLI::App& program) {
+  const std::string flag = "--" + error.input;
+  for (const CLI::App* command : program.get_subcommands())
+    if (command->get_option_no_throw(flag) != nullptr) error.input = flag;
+  return error.message();
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App program{"Relievo turns a 3D scan into a bas-relief.", "relievo"};
@@ -13,12 +25,13 @@ int main(int argc, char** argv) {
     return std::string("relievo: ") + error.what() + "; see relievo --help\n";
   });
   relievo::Result<void> result;
-  relievo::cli::add_make(program, result);
-  relievo::cli::add_info(program, result);
-  relievo::cli::add_sample(program, result);
-  relievo::cli::add_bench(program, result);
-  relievo::cli::add_studio(program, result);
-  relievo::cli::add_compare(program, result);
+  relievo::app::cli::add_make(program, result);
+  relievo::app::cli::add_info(program, result);
+  relievo::app::cli::add_sample(program, result);
+  relievo::app::cli::add_bench(program, result);
+  relievo::app::cli::add_studio(program, result);
+  relievo::app::cli::add_compare(program, result);
+  relievo::app::cli::add_options(program, result);
   program.footer(
       "Examples:\n"
       "  relievo sample shell -o shell.ply\n"
@@ -32,7 +45,7 @@ int main(int argc, char** argv) {
         argv[1]);
     return 2;
   }
-  relievo::cli::remove_temporary_files_on_signals();
+  relievo::app::remove_temporary_files_on_signals();
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -42,6 +55,6 @@ int main(int argc, char** argv) {
     return 1;
   }
   if (result) return 0;
-  std::fprintf(stderr, "relievo: %s\n", result.error().message().c_str());
+  std::fprintf(stderr, "relievo: %s\n", line_of(result.error(), program).c_str());
   return result.error().kind == relievo::ErrorKind::option ? 2 : 1;
 }

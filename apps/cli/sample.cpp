@@ -1,13 +1,14 @@
 #include <cstdio>
 #include <memory>
 
-#include "commands.h"
-#include "files.h"
+#include "cli/commands.h"
+#include "common/files.h"
 #include "relievo/core/text.h"
-#include "relievo/io.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 #include "relievo/samples/sample.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 namespace {
 
 struct SampleArguments {
@@ -52,4 +53,4 @@ void add_sample(CLI::App& program, Result<void>& result) {
   command.callback([arguments, &result] { result = sample(*arguments); });
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

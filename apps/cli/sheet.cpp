@@ -1,10 +1,11 @@
-#include "sheet.h"
+#include "cli/sheet.h"
+#include "relievo/core/image.h"
 
 #include <algorithm>
 
-#include "letters.h"
+#include "cli/letters.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 namespace {
 
 constexpr int gap_px = 16;
@@ -58,4 +59,4 @@ Image8 make_sheet(const std::vector<std::vector<SheetCell>>& rows) {
   return sheet;
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

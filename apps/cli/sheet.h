@@ -4,9 +4,10 @@
 #include <string>
 #include <vector>
 
-#include "relievo/preview.h"
+#include "relievo/core/image.h"
+#include "relievo/picture/preview.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 
 struct SheetCell {
   Image8 picture;                  // one channel
@@ -16,4 +17,4 @@ struct SheetCell {
 // Rows of cells on a light ground; cells are as large as the largest, rows may differ in length.
 Image8 make_sheet(const std::vector<std::vector<SheetCell>>& rows);
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

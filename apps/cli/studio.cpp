@@ -4,13 +4,13 @@
 #include <memory>
 #include <thread>
 
-#include "commands.h"
-#include "engine.h"
-#include "files.h"
-#include "server.h"
-#include "store.h"
+#include "cli/commands.h"
+#include "common/files.h"
+#include "studio/engine.h"
+#include "studio/server.h"
+#include "studio/store.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 namespace {
 
 struct StudioArguments {
@@ -33,7 +33,7 @@ Result<void> studio(const StudioArguments& arguments) {
   if (!arguments.input.empty()) {
     if (const auto bytes = read_file(arguments.input); !bytes) return std::unexpected(bytes.error());
     const std::string path = std::filesystem::absolute(arguments.input).string();
-    const studio::Input input{{}, path, std::filesystem::path(path).filename().string(), {}};
+    const ScanSource input{{}, path, std::filesystem::path(path).filename().string(), {}};
     engine.open(input, "front", "");
     if (auto kept = store.remember(input); !kept) return kept;
   }
@@ -72,4 +72,4 @@ void add_studio(CLI::App& program, Result<void>& result) {
   command.callback([arguments, &result] { result = studio(*arguments); });
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

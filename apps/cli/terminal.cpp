@@ -1,10 +1,12 @@
-#include "terminal.h"
+#include "cli/terminal.h"
 
 #include <unistd.h>
 
 #include <cstdio>
 
-namespace relievo::cli {
+#include "common/stage_names.h"
+
+namespace relievo::app::cli {
 
 Progress::Watcher progress_bar(bool is_quiet) {
   if (is_quiet || !::isatty(STDERR_FILENO)) return {};
@@ -17,10 +19,10 @@ Progress::Watcher progress_bar(bool is_quiet) {
     const int filled = static_cast<int>(fraction * width);
     std::string bar(static_cast<std::size_t>(width), '-');
     bar.replace(0, static_cast<std::size_t>(filled), static_cast<std::size_t>(filled), '#');
-    std::fprintf(stderr, "\r\x1b[K[%s] %3.0f %%  %.*s", bar.c_str(), fraction * 100,
-                 static_cast<int>(stage.size()), stage.data());
+    const std::string name(name_of_stage(stage));
+    std::fprintf(stderr, "\r\x1b[K[%s] %3.0f %%  %s", bar.c_str(), fraction * 100, name.c_str());
     std::fflush(stderr);
   };
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

@@ -5,9 +5,9 @@
 
 #include "relievo/core/progress.h"
 
-namespace relievo::cli {
+namespace relievo::app::cli {
 
 // A progress bar with stage names on standard error if that is a terminal, else nothing. Erased at the end.
 Progress::Watcher progress_bar(bool is_quiet);
 
-}  // namespace relievo::cli
+}  // namespace relievo::app::cli

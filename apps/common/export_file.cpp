@@ -1,41 +1,79 @@
-#include "export_file.h"
+#include "common/export_file.h"
 
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+#include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
+#include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
-#include "relievo/preview.h"
+#include "relievo/picture/preview.h"
 
-namespace relievo::studio {
+namespace relievo::app {
 namespace {
 
 std::string text_of(const std::vector<std::byte>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// As `relievo make` writes it.
-std::string as_3mf(const Solid& solid) {
+std::vector<std::byte> as_3mf(const Solid& solid) {
   const std::pair<std::string, std::string> metadata[] = {{"Title", "Relief"},
                                                           {"Application", cat("relievo ", version)}};
-  return text_of(write_3mf(solid, metadata));
+  return write_3mf(solid, metadata);
 }
+
+constexpr std::array<FileFormat, 7> formats{
+    {{"stl", ".stl", "model/stl", "STL", "printing and milling, in millimetres", write_stl},
+     {"3mf", ".3mf", "model/3mf", "3MF", "printing, with units", as_3mf},
+     {"ply", ".ply", "application/octet-stream", "PLY", "the same, with shared corners", write_ply},
+     {"obj", ".obj", "model/obj", "OBJ", "as text, for 3D programs", write_obj},
+     {"heightmap", "-heights.png", "image/png", "Height map", "16-bit PNG for CNC and engraving"},
+     {"tiff", "-heights.tif", "image/tiff", "Heights in mm", "32-bit TIFF"},
+     {"preview", ".png", "image/png", "Picture", "front and oblique view"}}};
 
 }  // namespace
 
-bool is_format(const std::string& format) {
-  for (const char* known : {"stl", "3mf", "ply", "obj", "heightmap", "tiff", "preview"})
-    if (format == known) return true;
-  return false;
+std::span<const FileFormat> file_formats() {
+  return formats;
 }
 
-ExportedFile export_file(const MadeRelief& made, const std::string& format, int heightmap_px) {
-  const Solid& solid = made.solid;
-  if (format == "stl") return {text_of(write_stl(solid)), "model/stl"};
-  if (format == "ply") return {text_of(write_ply(solid)), "application/octet-stream"};
-  if (format == "obj") return {text_of(write_obj(solid)), "model/obj"};
-  if (format == "preview") return {text_of(write_png(render_preview(solid, {}))), "image/png"};
-  if (format == "3mf") return {as_3mf(solid), "model/3mf"};
-  const bool is_tiff = format == "tiff";
-  return {text_of(height_map_file(made, {heightmap_px, is_tiff})), is_tiff ? "image/tiff" : "image/png"};
+const FileFormat* find_format(std::string_view name) {
+  const auto found = std::ranges::find(formats, name, &FileFormat::name);
+  return found == formats.end() ? nullptr : found;
+}
+
+const FileFormat* find_solid_format(std::string_view ending) {
+  const FileFormat* const format = find_format(ending);
+  return format && format->write_solid ? format : nullptr;
+}
+
+std::string solid_endings() {
+  std::vector<std::string_view> endings;
+  for (const FileFormat& format : formats)
+    if (format.write_solid) endings.push_back(format.ending);
+  return either(endings);
+}
+
+nlohmann::json format_list() {
+  nlohmann::json list = nlohmann::json::array();
+  for (const FileFormat& format : formats)
+    list.push_back({{"name", format.name},
+                    {"label", format.label},
+                    {"use", format.use},
+                    {"ending", format.ending},
+                    {"type", format.type}});
+  return list;
+}
+
+ExportedFile export_file(const MadeRelief& made, const FileFormat& format, int heightmap_px) {
+  const auto bytes = [&] {
+    if (format.write_solid) return format.write_solid(made.solid);
+    if (format.name == "preview") return write_png(render_preview(made.solid, {}));
+    return height_map_file(made, {heightmap_px, format.name == "tiff"});
+  };
+  return {text_of(bytes()), std::string(format.type)};
 }
 
 std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order) {
@@ -60,4 +98,4 @@ std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOr
   return write_png(map.image, scale, map.mm_per_pixel);
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app

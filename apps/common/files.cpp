@@ -1,4 +1,4 @@
-#include "files.h"
+#include "common/files.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@
 #include <list>
 #include <utility>
 
-namespace relievo::cli {
+namespace relievo::app {
 namespace {
 
 std::unexpected<Error> system_error(ErrorKind kind, const std::string& path, const std::string& expected) {
@@ -203,4 +203,4 @@ std::string ending_of(const std::string& path) {
   return ending;
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app

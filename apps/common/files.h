@@ -8,7 +8,7 @@
 
 #include "relievo/core/error.h"
 
-namespace relievo::cli {
+namespace relievo::app {
 
 // Returns the bytes of a file. Errors: kind input, telling why it cannot be read.
 Result<std::vector<std::byte>> read_file(const std::string& path);
@@ -37,4 +37,4 @@ void remove_temporary_files_on_signals();
 // The path's ending in lower case, without the dot.
 std::string ending_of(const std::string& path);
 
-}  // namespace relievo::cli
+}  // namespace relievo::app

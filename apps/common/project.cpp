@@ -1,16 +1,19 @@
-#include "project.h"
+#include "common/project.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "files.h"
-#include "read_inputs.h"
+#include "common/files.h"
+#include "common/read_inputs.h"
+#include "relievo/core/option_field.h"
 #include "relievo/core/text.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/scan_file.h"
 
-namespace relievo::studio {
+namespace relievo::app {
 namespace {
 
 using Json = nlohmann::json;
@@ -53,18 +56,26 @@ struct FieldReader {
 };
 
 std::string unknown_name(const Json& json) {
-  const ReliefOptions defaults;
   for (const auto& [key, value] : json.items()) {
-    bool is_known = false;
-    visit(defaults, [&](const OptionField& field, const auto&) { is_known |= field.name == key; });
-    if (!is_known) return key;
+    const auto is_known = [&](const ReliefField& field) { return field.name == key; };
+    if (std::ranges::none_of(option_fields(), is_known)) return key;
   }
   return {};
 }
 
+// Projects of older versions use former names.
+Json renamed(Json json) {
+  if (json.contains("surface")) {
+    json["finish"] = json["surface"];
+    json.erase("surface");
+  }
+  if (json.value("method", Json()) == "ours") json["method"] = "layered";
+  return json;
+}
+
 }  // namespace
 
-Json to_json(const ReliefOptions& options) {
+Json to_json(const OptionTexts& options) {
   Json json = Json::object();
   visit(options, [&]<typename T>(const OptionField& field, const T& value) {
     const std::string key(field.name);
@@ -79,27 +90,32 @@ Json to_json(const ReliefOptions& options) {
   return json;
 }
 
-Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
-  if (!json.is_object()) return fail(name, "options", "expected an object");
-  ReliefOptions options;
+Result<OptionTexts> texts_from_json(const Json& given, std::string_view name) {
+  if (!given.is_object()) return fail(name, "options", "expected an object");
+  const Json json = renamed(given);
+  OptionTexts options;
   FieldReader reader{json, {}};
   visit(options, reader);
   if (!reader.wrong.empty()) return fail(name, cat("options.", reader.wrong), "expected a value of its type");
   if (reader.taken != json.size())
     return fail(name, "options", cat("expected known options, found '", unknown_name(json), "'"));
-  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
   return options;
 }
 
-Json to_json(const Input& input) {
+Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
+  RELIEVO_TRY(const OptionTexts texts, texts_from_json(json, name));
+  return parse_options(texts);
+}
+
+Json to_json(const ScanSource& input) {
   if (!input.sample.empty()) return {{"sample", input.sample}, {"name", input.name}};
   return {{"path", input.path}, {"name", input.name}, {"hash", input.hash}};
 }
 
-Result<Input> input_from_json(const Json& json, std::string_view name) {
+Result<ScanSource> input_from_json(const Json& json, std::string_view name) {
   if (!json.is_object()) return fail(name, "input", "expected an object");
-  Input input{text_or_nothing(json, "sample"), text_or_nothing(json, "path"), text_or_nothing(json, "name"),
-              text_or_nothing(json, "hash")};
+  ScanSource input{text_or_nothing(json, "sample"), text_or_nothing(json, "path"),
+                   text_or_nothing(json, "name"), text_or_nothing(json, "hash")};
   if (input.sample.empty() == input.path.empty())
     return fail(name, "input", "expected either a path or a sample");
   if (input.name.empty())
@@ -112,11 +128,9 @@ Result<Project> read_project(std::string_view text, std::string_view name) {
   if (!json.is_object()) return fail(name, {}, "expected a project in JSON");
   if (!json.contains("relievo") || json["relievo"] != 1)
     return fail(name, "relievo", "expected a project of version 1");
-  const Result<Input> input = input_from_json(json.value("input", Json()), name);
-  if (!input) return std::unexpected(input.error());
-  const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), name);
-  if (!options) return std::unexpected(options.error());
-  return Project{*input, *options};
+  RELIEVO_TRY(const ScanSource input, input_from_json(json.value("input", Json()), name));
+  RELIEVO_TRY(const OptionTexts options, texts_from_json(json.value("options", Json()), name));
+  return Project{input, options};
 }
 
 std::string hash_of(std::string_view bytes) {
@@ -136,27 +150,27 @@ Scene scene_of(const std::string& name, CloudFile file) {
 
 }  // namespace
 
-Result<Scene> load_input(Input& input, const std::string& folder) {
+Result<Scene> load_input(ScanSource& input, const std::string& folder) {
   if (!input.sample.empty()) {
     Result<Cloud> sample = make_sample(input.sample);
     if (!sample) return std::unexpected(sample.error());
     return scene_of(input.sample, {std::move(*sample), "sample"});
   }
   const std::string path = (std::filesystem::path(folder) / input.path).string();
-  const Result<std::vector<std::byte>> bytes = cli::read_file(path);
+  const Result<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
   const std::string hash = hash_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
-  if (cli::is_scene_file(path)) {
-    Result<cli::SceneInput> read = cli::read_scene({path}, {}, {}, nullptr);
+  if (is_scene_file(path)) {
+    Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
     if (!read) return std::unexpected(read.error());
     return std::move(read->scene);
   }
-  Result<cli::Input> read = cli::parse_input(*bytes, path, {}, ReliefOptions{}.points, nullptr);
+  Result<LoadedFile> read = parse_input(*bytes, path, {}, NumericOptions{}.points, nullptr);
   if (!read) return std::unexpected(read.error());
   return scene_of(input.name, std::move(read->file));
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app

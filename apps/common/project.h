@@ -5,13 +5,13 @@
 #include <string>
 #include <string_view>
 
-#include "relievo/options.h"
+#include "relievo/option_texts.h"
 #include "relievo/scene.h"
 
-namespace relievo::studio {
+namespace relievo::app {
 
 // Where the points come from: a file, or a generated sample if `sample` is not empty.
-struct Input {
+struct ScanSource {
   std::string sample;
   std::string path;
   std::string name;  // for people
@@ -19,20 +19,27 @@ struct Input {
 };
 
 struct Project {
-  Input input;
-  ReliefOptions options;
+  ScanSource input;
+  OptionTexts options;
 };
 
 // Returns a project from the bytes of its file, called `name` in errors. Unknown options are errors, so that
-// nothing is left out silently; what else is in the file belongs to the studio. Errors: kind input.
+// nothing is left out silently, but their values are for parse_options() to check; what else is in the file
+// belongs to the studio. Errors: kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// The options with the names that the command line gives them; those without a value are left out.
-nlohmann::json to_json(const ReliefOptions& options);
+// Returns the options with the names of the table; those without a value are left out.
+nlohmann::json to_json(const OptionTexts& options);
+
+// Returns the texts of an object as to_json() makes it. Errors: kind input for names that are not in the table and
+// values of another type, calling the object `name`.
+Result<OptionTexts> texts_from_json(const nlohmann::json& json, std::string_view name);
+
+// The same, read by parse_options(). Errors: also those of it.
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
-nlohmann::json to_json(const Input& input);
-Result<Input> input_from_json(const nlohmann::json& json, std::string_view name);
+nlohmann::json to_json(const ScanSource& input);
+Result<ScanSource> input_from_json(const nlohmann::json& json, std::string_view name);
 
 // Tells changed files from unchanged ones: 64 bits of FNV-1a. No protection against intent.
 std::string hash_of(std::string_view bytes);
@@ -40,6 +47,6 @@ std::string hash_of(std::string_view bytes);
 // Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
 // path starts at `folder`. Errors: kind input, also if the file is not the one that the hash was taken from;
 // kind option for an unknown sample.
-Result<Scene> load_input(Input& input, const std::string& folder);
+Result<Scene> load_input(ScanSource& input, const std::string& folder);
 
-}  // namespace relievo::studio
+}  // namespace relievo::app

@@ -1,18 +1,19 @@
-#include "read_inputs.h"
+#include "common/read_inputs.h"
 
 #include <filesystem>
 #include <fstream>
 #include <map>
 
-#include "files.h"
-#include "flags.h"
+#include "common/files.h"
+#include "common/scene_file.h"
 #include "relievo/core/text.h"
+#include "relievo/io/read.h"
 #include "relievo/io/stream.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/view.h"
 #include "relievo/scene.h"
-#include "relievo/view.h"
-#include "scene_file.h"
 
-namespace relievo::cli {
+namespace relievo::app {
 namespace {
 
 // What was left out of a file.
@@ -48,8 +49,8 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   return line + cat(", smoothed within ", made.noise, " pixels");
 }
 
-Result<Input> read_depths(std::span<const std::byte> bytes, const std::string& path, DepthOptions options,
-                          const std::string& camera, Progress* progress) {
+Result<LoadedFile> read_depths(std::span<const std::byte> bytes, const std::string& path,
+                               DepthOptions options, const std::string& camera, Progress* progress) {
   const auto image = read_depth_image(bytes, path);
   if (!image) return std::unexpected(image.error());
   const auto parsed = read_camera(camera);
@@ -57,7 +58,7 @@ Result<Input> read_depths(std::span<const std::byte> bytes, const std::string& p
   options.camera = *parsed;
   auto made = depth_cloud(*image, options, progress);
   if (!made) return std::unexpected(made.error());
-  Input input;
+  LoadedFile input;
   input.remarks.push_back(cat(path, ": ", remark_on(*image, *made)));
   input.file.cloud = std::move(made->cloud);
   input.file.format = image->format;
@@ -84,12 +85,6 @@ class FileSource : public ByteSource {
   std::ifstream file_;
 };
 
-// How much is seen of a file, and from where.
-struct Seen {
-  View view;  // in the file's frame
-  double points = 0;
-};
-
 // Size of a file that is to be read piece by piece if that is possible; nothing for small ones.
 std::optional<std::uintmax_t> large_size(const std::string& path, const InputArguments& arguments) {
   std::error_code failed;
@@ -100,8 +95,8 @@ std::optional<std::uintmax_t> large_size(const std::string& path, const InputArg
 }
 
 // Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
-Result<std::optional<Input>> read_large(const std::string& path, const InputArguments& arguments,
-                                        const Seen& seen, Progress* progress) {
+Result<std::optional<LoadedFile>> read_large(const std::string& path, const InputArguments& arguments,
+                                             const PointsWanted& seen, Progress* progress) {
   const std::optional<std::uintmax_t> size = large_size(path, arguments);
   if (!size) return std::nullopt;
   FileSource source(path, *size);
@@ -109,7 +104,7 @@ Result<std::optional<Input>> read_large(const std::string& path, const InputArgu
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
   auto streamed = stream_front(source, path, seen.view, seen.points, progress);
   if (!streamed) return std::unexpected(streamed.error());
-  Input input;
+  LoadedFile input;
   input.remarks.push_back(
       cat(path, ": ", streamed->cloud.size(), " points for the ", streamed->input_points, " of the file"));
   input.file.cloud = std::move(streamed->cloud);
@@ -118,8 +113,8 @@ Result<std::optional<Input>> read_large(const std::string& path, const InputArgu
 }
 
 // Reads the file of that path.
-Result<Input> read_input(const std::string& path, const InputArguments& arguments, const Seen& seen,
-                         Progress* progress) {
+Result<LoadedFile> read_input(const std::string& path, const InputArguments& arguments,
+                              const PointsWanted& seen, Progress* progress) {
   if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
   auto large = read_large(path, arguments, seen, progress);
   if (!large) return std::unexpected(large.error());
@@ -147,8 +142,8 @@ Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths
 
 // The view of the scene in the frame of a model's file; which side of it is left does not matter there.
 View seen_by_model(const View& view, const Pose& pose) {
-  View own{view.rotation * turn_of(pose)};
-  if (pose.is_mirrored) own.rotation.row(0) = -own.rotation.row(0);
+  View own{view.R_view_model * turn_of(pose)};
+  if (pose.is_mirrored) own.R_view_model.row(0) = -own.R_view_model.row(0);
   return own;
 }
 
@@ -158,58 +153,19 @@ bool is_scene_file(const std::string& path) {
   return ending_of(path) == "json";
 }
 
-void add_input_flags(CLI::App& command, InputArguments& arguments) {
-  add_flags(command, arguments.depth);
-  command
-      .add_option("--camera", arguments.camera,
-                  "of a depth image: focal lengths and centre, or a file with them")
-      ->type_name("FX,FY,CX,CY");
-  command
-      .add_option("--stream-above", arguments.stream_above_mb,
-                  "size from which binary PLY, PCD and LAS are read piece by piece")
-      ->type_name("MB")
-      ->capture_default_str();
-}
-
-Result<Input> parse_input(std::span<const std::byte> bytes, const std::string& path,
-                          const InputArguments& arguments, double points, Progress* progress) {
+Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::string& path,
+                               const InputArguments& arguments, double points, Progress* progress) {
   DepthOptions depth = arguments.depth;
   depth.points = points;
   if (is_picture(bytes)) return read_depths(bytes, path, depth, arguments.camera, progress);
   auto file = read_cloud(bytes, path);
   if (!file) return std::unexpected(file.error());
   std::vector<std::string> remarks = remarks_on(*file, path);
-  return Input{std::move(*file), std::move(remarks)};
-}
-
-void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
-  command
-      .add_option("input", arguments.paths,
-                  "point cloud, mesh or depth image, several of them, or a scene (JSON), as for make")
-      ->required()
-      ->type_name("INPUT");
-  command.add_option("--view", arguments.view, "as for make")->type_name("SIDE")->capture_default_str();
-  command.add_option("--up", arguments.up, "as for make")->type_name("X,Y,Z");
-  add_input_flags(command, arguments.in);
-}
-
-Result<Surface> read_surface(const SceneArguments& arguments, Progress* progress) {
-  ReliefOptions relief;
-  relief.view = arguments.view;
-  relief.up = arguments.up;
-  const Result<SceneInput> input = read_scene(arguments.paths, arguments.in, relief, progress);
-  if (!input) return std::unexpected(input.error());
-  const Result<View> view = parse_view(arguments.view, arguments.up);
-  if (!view) return std::unexpected(view.error());
-  const Result<SeenPoints> seen = seen_points(input->scene, *view, relief.points, progress);
-  if (!seen) return std::unexpected(seen.error());
-  return find_surface(*seen->cloud, *view, {}, progress);
+  return LoadedFile{std::move(*file), std::move(remarks)};
 }
 
 Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
-                              const ReliefOptions& relief, Progress* progress) {
-  const Result<View> view = parse_view(relief.view, relief.up);
-  if (!view) return std::unexpected(view.error());
+                              const PointsWanted& wanted, Progress* progress) {
   const Result<std::vector<SceneEntry>> entries = entries_of(paths);
   if (!entries) return std::unexpected(entries.error());
   SceneInput made;
@@ -219,8 +175,8 @@ Result<SceneInput> read_scene(const std::vector<std::string>& paths, const Input
       made.scene.models.push_back({entry.path, known[entry.path], entry.pose});
       continue;
     }
-    Result<Input> read =
-        read_input(entry.path, arguments, {seen_by_model(*view, entry.pose), relief.points}, progress);
+    Result<LoadedFile> read =
+        read_input(entry.path, arguments, {seen_by_model(wanted.view, entry.pose), wanted.points}, progress);
     if (!read) return std::unexpected(read.error());
     const auto file = std::make_shared<const CloudFile>(std::move(read->file));
     if (!large_size(entry.path, arguments)) known[entry.path] = file;
@@ -236,4 +192,4 @@ std::string joined(const std::vector<std::string>& paths) {
   return all;
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app

@@ -1,11 +1,11 @@
-#include "scene_file.h"
+#include "common/scene_file.h"
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "relievo/core/text.h"
 
-namespace relievo::cli {
+namespace relievo::app {
 namespace {
 
 using Json = nlohmann::json;
@@ -105,4 +105,4 @@ Result<std::vector<SceneEntry>> read_scene_file(std::string_view text, const std
   return SceneReader(name).read(Json::parse(text, nullptr, false));
 }
 
-}  // namespace relievo::cli
+}  // namespace relievo::app

@@ -7,7 +7,7 @@
 
 #include "relievo/scene.h"
 
-namespace relievo::cli {
+namespace relievo::app {
 
 struct SceneEntry {
   std::string path;  // as the program opens it
@@ -20,4 +20,4 @@ struct SceneEntry {
 // values of another type or size, and files that are not there, naming the key: "models[1].rotate".
 Result<std::vector<SceneEntry>> read_scene_file(std::string_view text, const std::string& name);
 
-}  // namespace relievo::cli
+}  // namespace relievo::app

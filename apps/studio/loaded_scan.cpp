@@ -1,15 +1,16 @@
-#include "loaded_scan.h"
+#include "studio/loaded_scan.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "relievo/scan/scan_file.h"
 #include "relievo/scan/spacing.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 namespace {
 
-// The share of each model's points that makes all about equally dense: they are drawn as discs of one size.
-// Nothing is thinned to more than three times the distances of the finest.
+// Returns the share of each model's points that makes all models about equally dense, because they are drawn
+// as discs of one size. No model is thinned to more than three times the spacing of the finest.
 std::vector<double> even_shares(const Scene& scene, const std::vector<PlacedModel>& places) {
   std::vector<double> apart;
   if (places.empty()) return apart;
@@ -25,14 +26,14 @@ Cloud share_of(const Cloud& cloud, double share) {
   std::vector<Index> left_out;
   for (Index i = 0; i < cloud.size(); ++i)
     if (std::floor((i + 1) * share) == std::floor(i * share)) left_out.push_back(i);
-  return without(cloud, left_out);
+  return erase_points(cloud, left_out);
 }
 
 }  // namespace
 
-OpenScan::OpenScan(Input input, Scene scene) : input_(std::move(input)), scene_(std::move(scene)) {
+LoadedScan::LoadedScan(ScanSource input, Scene scene) : input_(std::move(input)), scene_(std::move(scene)) {
   const std::shared_ptr<const CloudFile> first = scene_.models[0].file;
-  if (is_one_file() && (!first->mesh.empty() || far_points(first->cloud).empty())) {
+  if (is_one_file() && (!first->mesh.empty() || outliers(first->cloud).empty())) {
     cloud_ = {first, &first->cloud};
     return;
   }
@@ -43,16 +44,16 @@ OpenScan::OpenScan(Input input, Scene scene) : input_(std::move(input)), scene_(
   cloud_ = std::make_shared<const Cloud>(std::move(all));
 }
 
-bool OpenScan::is_one_file() const {
+bool LoadedScan::is_one_file() const {
   return scene_.models.size() == 1 && scene_.models[0].pose == Pose{};
 }
 
-// Normals are kept as long as every model has some, colours likewise.
-void OpenScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
+// Keeps normals as long as every model has some, and colours likewise.
+void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
   const bool is_mesh = !file.mesh.empty();
-  const std::vector<Index> strays = is_mesh ? std::vector<Index>() : far_points(file.cloud);
+  const std::vector<Index> strays = is_mesh ? std::vector<Index>() : outliers(file.cloud);
   left_out_ += strays.size();
-  const Cloud near = share_of(without(file.cloud, strays), share);
+  const Cloud near = share_of(erase_points(file.cloud, strays), share);
   const bool is_first = all.size() == 0;
   const bool has_normals = near.has_normals() && (is_first || all.has_normals());
   const bool has_colours = near.has_colours() && (is_first || all.has_colours());
@@ -64,11 +65,10 @@ void OpenScan::add(const CloudFile& file, const PlacedModel& place, double share
   if (has_colours) all.colours.insert(all.colours.end(), near.colours.begin(), near.colours.end());
 }
 
-Result<std::shared_ptr<const Cloud>> OpenScan::seen_from(const View& view) const {
+Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, Progress* progress) const {
   if (is_one_file() && scene_.models[0].file->mesh.empty()) return cloud_;
-  Result<SeenPoints> seen = seen_points(scene_, view, ReliefOptions{}.points);
-  if (!seen) return std::unexpected(seen.error());
-  return seen->cloud;
+  RELIEVO_TRY(const ViewSample sample, sample_for_view(scene_, view, NumericOptions{}.points, progress));
+  return sample.cloud;
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

@@ -1,39 +1,40 @@
-// What is known of the scan, or the scene of several, that is open.
+// A scan, or a scene of several, that was read.
 #pragma once
 
 #include <memory>
 
-#include "project.h"
+#include "common/project.h"
+#include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 
-// Shared by copies; nothing of it changes.
-class OpenScan {
+// Immutable; copies are cheap, for they share the points.
+class LoadedScan {
  public:
-  OpenScan() = default;                // none
-  OpenScan(Input input, Scene scene);  // of at least one model
+  LoadedScan() = default;                     // none
+  LoadedScan(ScanSource input, Scene scene);  // of at least one model
 
-  const Input& input() const { return input_; }
+  const ScanSource& input() const { return input_; }
 
-  // To look at, all models as they stand seen from the front: without far points; of meshes their corners.
-  // Null if no scan is open.
+  // Returns the points to show while a view is chosen: all models as they stand seen from the front, without
+  // outliers; of meshes their corners. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
-  // Number of the points of clouds that lie far from all others.
+  // Returns the number of outliers: points of clouds that lie far from all others.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns what the relief is made of in that view. Errors: those of seen_points().
-  Result<std::shared_ptr<const Cloud>> seen_from(const View& view) const;
+  // Returns the points that the relief of that view is made of. Errors: those of sample_for_view().
+  Result<std::shared_ptr<const Cloud>> seen_from(const View& view, Progress* progress) const;
 
  private:
   bool is_one_file() const;
   void add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all);
 
-  Input input_;
+  ScanSource input_;
   Scene scene_;
   std::shared_ptr<const Cloud> cloud_;
   std::size_t left_out_ = 0;
 };
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

@@ -1,15 +1,15 @@
-// The page's files, part of the program.
+// The page's files, which are embedded in the program.
 #pragma once
 
 #include <string_view>
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 
 struct PageFile {
   std::string_view name, type, bytes;
 };
 
-// The file of that name; null if there is none.
+// Returns the file of that name; null if there is none.
 const PageFile* find_page_file(std::string_view name);
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

@@ -1,4 +1,4 @@
-#include "request_guard.h"
+#include "studio/request_guard.h"
 
 #include <sys/random.h>
 
@@ -8,7 +8,7 @@
 
 #include "relievo/core/text.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 namespace {
 
 using httplib::Request;
@@ -27,7 +27,7 @@ std::string random_token() {
   return text;
 }
 
-// In a time that does not tell how much of them is equal.
+// Compares in a time that does not depend on how much of the texts is equal.
 bool is_equal(std::string_view a, std::string_view b) {
   unsigned different = a.size() == b.size() ? 0 : 1;
   for (std::size_t i = 0; i < a.size() && i < b.size(); ++i)
@@ -44,17 +44,17 @@ void refuse(Response& response, int status, const std::string& text) {
   response.set_header("Connection", "close");
 }
 
-Guard::Guard() : token_(random_token()) {}
+RequestGuard::RequestGuard() : token_(random_token()) {}
 
-std::string Guard::address() const {
+std::string RequestGuard::address() const {
   return cat("http://127.0.0.1:", port_, "/", token_, "/");
 }
 
-bool Guard::is_here(const std::string& host) const {
+bool RequestGuard::is_here(const std::string& host) const {
   return host == cat("127.0.0.1:", port_) || host == cat("localhost:", port_);
 }
 
-std::optional<std::string> Guard::admit(const Request& request, Response& response) const {
+std::optional<std::string> RequestGuard::admit(const Request& request, Response& response) const {
   const auto say = [&](int status, const char* text) -> std::optional<std::string> {
     refuse(response, status, text);
     return std::nullopt;
@@ -75,4 +75,4 @@ std::optional<std::string> Guard::admit(const Request& request, Response& respon
   return request.path.substr(slash + 1);
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

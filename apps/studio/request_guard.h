@@ -1,4 +1,4 @@
-// Who may ask the studio's server: its own page, on this machine.
+// Authorises requests to the studio's server: only its own page, on this machine, may send them.
 #pragma once
 
 // Before the server's header, which defines a macro _res that Eigen cannot live with.
@@ -9,16 +9,16 @@
 #include <optional>
 #include <string>
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 
-// Answers with an error that the page can show, and closes the connection: what else the request holds is not
-// read.
+// Answers with an error that the page can show, and closes the connection without reading the rest of the
+// request.
 void refuse(httplib::Response& response, int status, const std::string& text);
 
-// A secret in the page's address, and the checks that a request knows it and comes from there.
-class Guard {
+// Draws a random token for the page's address and checks that requests know it and come from there.
+class RequestGuard {
  public:
-  Guard();
+  RequestGuard();
 
   void set_port(int port) { port_ = port; }
   const std::string& token() const { return token_; }
@@ -34,4 +34,4 @@ class Guard {
   int port_ = 0;
 };
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

@@ -1,18 +1,26 @@
-#include "requests.h"
+#include "studio/requests.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 
+#include "common/stage_names.h"
 #include "relievo/core/text.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::array material_names{"plaster", "silver", "bronze", "walnut", "porcelain"};
+struct MaterialName {
+  std::string_view id, name;
+};
+constexpr std::array materials{MaterialName{"plaster", "Plaster"}, MaterialName{"silver", "Struck silver"},
+                               MaterialName{"bronze", "Bronze"}, MaterialName{"walnut", "Walnut"},
+                               MaterialName{"porcelain", "Porcelain, lit from behind"}};  // as in Material
 constexpr double most_pixels = 8e6, most_fine_pixels = 2.5e6;
 
 std::unexpected<Error> wrong(std::string field, std::string expected) {
@@ -23,7 +31,7 @@ struct Range {
   double min, max, otherwise;
 };
 
-// A number of the object; `otherwise` if it is missing, nothing if it is no number in the range.
+// Returns a number of the object; `otherwise` if it is missing, nothing if it is no number in the range.
 std::optional<double> number(const Json& json, const char* key, const Range& range) {
   const auto found = json.find(key);
   if (found == json.end()) return range.otherwise;
@@ -72,13 +80,10 @@ Result<RenderOptions> render_from(const Json& json) {
   const std::string material = json.value("material", Json("plaster")).is_string()
                                    ? json.value("material", Json("plaster")).get<std::string>()
                                    : "";
-  bool is_known = false;
-  for (std::size_t i = 0; i < material_names.size(); ++i) {
-    if (material != material_names[i]) continue;
-    render.material = static_cast<Material>(i);
-    is_known = true;
-  }
-  if (!is_known) return wrong("material", cat("expected a known material, found '", material, "'"));
+  const auto known = std::ranges::find(materials, std::string_view(material), &MaterialName::id);
+  if (known == materials.end())
+    return wrong("material", cat("expected a known material, found '", material, "'"));
+  render.material = static_cast<Material>(known - materials.begin());
   const Result<Camera> camera = camera_from(json.value("camera", Json::object()));
   if (!camera) return std::unexpected(camera.error());
   render.camera = *camera;
@@ -87,6 +92,17 @@ Result<RenderOptions> render_from(const Json& json) {
 
 Json number_or_null(double x) {
   return std::isfinite(x) ? Json(x) : Json();
+}
+
+Json to_json(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+// A thousandth is a quarter of a pixel of the page's curve, and keeps the header with these short.
+Json rounded(const std::vector<double>& samples) {
+  Json json = Json::array();
+  for (const double sample : samples) json.push_back(std::round(sample * 1e3) / 1e3);
+  return json;
 }
 
 }  // namespace
@@ -154,9 +170,11 @@ Json to_json(const ModelFacts& facts) {
 }
 
 Json to_json(const PictureAnswer& answer) {
-  return {{"width", answer.picture.width},
-          {"height", answer.picture.height},
+  return {{"width", answer.picture.image.width},
+          {"height", answer.picture.image.height},
           {"pixels_per_mm", answer.picture.pixels_per_mm},
+          {"scene", answer.scene},
+          {"curve", {{"share", rounded(answer.curve.share)}, {"kept", rounded(answer.curve.kept)}}},
           {"height_mm", answer.height_mm},
           {"is_height_met", answer.is_height_met},
           {"u", number_or_null(answer.compression.u)},
@@ -169,16 +187,41 @@ Json to_json(const PictureAnswer& answer) {
           {"drawing_ms", answer.drawing_s * 1e3}};
 }
 
-Json option_list() {
-  const ReliefOptions defaults;
+Json defaults_by_method() {
+  Json json = Json::object();
+  for (const Method method : {Method::layered, Method::paper}) {
+    ReliefOptions options;
+    options.method = method;
+    const double steepest_deg = std::atan(Shape{}.max_slope) * 180 / std::numbers::pi;
+    json[std::string(name_of(method))] = {{"saturation", options.effective_saturation()},
+                                          {"detail", options.effective_detail()},
+                                          {"boundary", options.effective_boundary_width()},
+                                          {"steepest", std::round(steepest_deg)}};
+  }
+  return json;
+}
+
+Json view_list() {
   Json list = Json::array();
-  visit(defaults, [&]<typename T>(const OptionField& field, const T& value) {
-    Json entry{{"name", field.name}, {"unit", field.unit}, {"help", field.help}};
-    if constexpr (!std::is_same_v<T, std::string>) entry.update({{"min", field.min}, {"max", field.max}});
-    if constexpr (!std::is_same_v<T, std::optional<double>>) entry["default"] = value;
-    list.push_back(entry);
-  });
+  for (const char* const name : {"front", "back", "left", "right", "top", "bottom"}) {
+    const Mat3 rotation = parse_view(name).value_or(View{}).R_view_model;
+    list.push_back({{"name", name},
+                    {"towards", to_json(rotation.row(2).transpose())},
+                    {"up", to_json(rotation.row(1).transpose())}});
+  }
   return list;
+}
+
+Json material_list() {
+  Json list = Json::array();
+  for (const auto& [id, name] : materials) list.push_back({{"id", id}, {"name", name}});
+  return list;
+}
+
+Json stage_list() {
+  Json json = Json::object();
+  for (const auto& [stage, text] : stage_names()) json[std::string(stage)] = text;
+  return json;
 }
 
 Json error_json(const Error& error) {
@@ -186,4 +229,4 @@ Json error_json(const Error& error) {
   return {{"kind", kinds[static_cast<std::size_t>(error.kind)]}, {"text", error.message()}};
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

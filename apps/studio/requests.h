@@ -1,14 +1,14 @@
-// What the page and the engine tell each other, as JSON.
+// The page's requests and the engine's answers as JSON.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
 #include <string_view>
 
-#include "engine.h"
+#include "studio/engine.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 
-// A body of a request as JSON; errors of kind input for text that is none, or no object.
+// Returns a request's body as JSON. Errors: kind input if it is not JSON, or no object.
 Result<nlohmann::json> parse_body(std::string_view body);
 
 // Errors: kind input or option, naming the field.
@@ -19,12 +19,21 @@ Result<View> view_from(const nlohmann::json& json);
 nlohmann::json to_json(const EngineStatus& status);
 nlohmann::json to_json(const ModelFacts& facts);
 
-// What comes with a picture's pixels.
+// Returns what is sent along with a picture's pixels.
 nlohmann::json to_json(const PictureAnswer& answer);
 
-// Name, unit, help and range of every option, with its default.
-nlohmann::json option_list();
+// Returns, by method, the values that rule where an option is not given, for reliefs of a given height.
+nlohmann::json defaults_by_method();
+
+// Returns the six sides: name, direction towards the viewer, direction shown upright.
+nlohmann::json view_list();
+
+// Returns the materials of pictures: id, and name for people.
+nlohmann::json material_list();
+
+// Returns, by stage, its name for people.
+nlohmann::json stage_list();
 
 nlohmann::json error_json(const Error& error);
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

@@ -1,4 +1,4 @@
-#include "server.h"
+#include "studio/server.h"
 
 #include <httplib.h>
 #include <sys/socket.h>
@@ -9,15 +9,18 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "files.h"
-#include "page_files.h"
+#include "common/export_file.h"
+#include "common/files.h"
+#include "common/option_list.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
+#include "relievo/io/read.h"
 #include "relievo/samples/sample.h"
-#include "request_guard.h"
-#include "requests.h"
+#include "studio/page_files.h"
+#include "studio/request_guard.h"
+#include "studio/requests.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 namespace {
 
 using Json = nlohmann::json;
@@ -27,7 +30,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_json = 4U << 20, most_scan = std::size_t{4} << 30;
 constexpr int most_waiting = 32, most_pages = 8;
-constexpr std::size_t threads = 64;  // each open connection holds one while it is kept alive
+constexpr std::size_t threads = 64;  // each open connection occupies one while it is kept alive
 
 void answer(Response& response, const Json& json, int status = 200) {
   response.status = status;
@@ -54,7 +57,8 @@ void answer(Response& response, const Error& error) {
 void answer(Response& response, const Picture& picture, const Json& about) {
   response.status = 200;
   response.set_header("X-Relievo", about.dump());
-  response.set_content(reinterpret_cast<const char*>(picture.rgba.data()), picture.rgba.size(),
+  const auto& pixels = picture.image.pixels;
+  response.set_content(reinterpret_cast<const char*>(pixels.data()), pixels.size(),
                        "application/octet-stream");
 }
 
@@ -64,13 +68,15 @@ class PatientServer : public httplib::Server {
   void widen_queue() { ::listen(svr_sock_, 1024); }
 };
 
-// Counts what is under way, for the time it lives.
-class Turn {
+// Raises a counter by one for as long as it lives.
+class ScopedCount {
  public:
-  explicit Turn(std::atomic<int>& count) : count_(count), number_(++count) {}
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-  ~Turn() { --count_; }
+  explicit ScopedCount(std::atomic<int>& count) : count_(count), number_(++count) {}
+  ScopedCount(const ScopedCount&) = delete;
+  ScopedCount& operator=(const ScopedCount&) = delete;
+  ~ScopedCount() { --count_; }
+
+  // Returns the count when this was made, itself included.
   int number() const { return number_; }
 
  private:
@@ -85,7 +91,7 @@ struct Server::State {
   const Store& store;
   ServerOptions options;
   std::mutex storing;
-  Guard guard;
+  RequestGuard guard;
   std::atomic<int> pages = 0, waiting = 0;
   std::atomic<bool> had_page = false, is_stopping = false;
   PatientServer http;
@@ -101,10 +107,10 @@ struct Server::State {
   // ------------------------------------------------------------------------------------------------ actions
 
   void open(const Json& json, Response& response) {
-    Result<Input> input = input_from_json(json.value("input", Json()), "input");
+    Result<ScanSource> input = input_from_json(json.value("input", Json()), "input");
     if (!input) return answer(response, input.error());
     engine.open(*input, json.value("view", "front"), json.value("up", ""));
-    const std::lock_guard turn(storing);
+    const std::lock_guard lock(storing);
     if (auto kept = store.remember(*input); !kept) return answer(response, kept.error());
     answer(response, Json::object());
   }
@@ -133,7 +139,7 @@ struct Server::State {
     if (!view || !size) return answer(response, view ? size.error() : view.error());
     const Result<Picture> picture = engine.scan_picture(*view, size->render.width, size->render.height);
     if (!picture) return answer(response, picture.error());
-    answer(response, *picture, {{"width", picture->width}, {"height", picture->height}});
+    answer(response, *picture, {{"width", picture->image.width}, {"height", picture->image.height}});
   }
 
   void profile(const Json& json, Response& response) {
@@ -141,7 +147,7 @@ struct Server::State {
     const Result<Vec2> from = place_from(json, "from"), to = place_from(json, "to");
     if (!request) return answer(response, request.error());
     if (!from || !to) return answer(response, from ? to.error() : from.error());
-    const auto heights = engine.profile(*request, *from, *to, 400);
+    const auto heights = engine.profile(*request, {*from, *to});
     if (!heights) return answer(response, heights.error());
     answer(response, {{"heights_mm", *heights}});
   }
@@ -158,7 +164,7 @@ struct Server::State {
   }
 
   void keep_state(const Json& json, Response& response) {
-    const std::lock_guard turn(storing);
+    const std::lock_guard lock(storing);
     const auto ok = store.keep_state(json.dump());
     ok ? answer(response, Json::object()) : answer(response, ok.error());
   }
@@ -167,7 +173,8 @@ struct Server::State {
     const std::string name = json.value("name", "project");
     const Result<Project> project = read_project(json.value("text", ""), name);
     if (!project) return answer(response, project.error());
-    answer(response, {{"input", to_json(project->input)}, {"options", to_json(project->options)}});
+    if (auto ok = parse_options(project->options); !ok) return answer(response, ok.error());
+    answer(response, {{"input", app::to_json(project->input)}, {"options", app::to_json(project->options)}});
   }
 
   // -------------------------------------------------------------------------------------------------- reads
@@ -177,11 +184,18 @@ struct Server::State {
     for (const SampleInfo& sample : relievo::samples())
       samples.push_back({{"name", sample.name}, {"description", sample.description}});
     Json recent = Json::array();
-    const std::lock_guard turn(storing);
-    for (const Input& input : store.recent()) recent.push_back(to_json(input));
+    const std::lock_guard lock(storing);
+    for (const ScanSource& input : store.recent()) recent.push_back(to_json(input));
     const Json state = Json::parse(store.state(), nullptr, false);
     return {{"version", version},
             {"options", option_list()},
+            {"endings", readable_endings()},
+            {"defaults", defaults_by_method()},
+            {"views", view_list()},
+            {"materials", material_list()},
+            {"stages", stage_list()},
+            {"curve", {{"most_points", ToneCurve::most_points}}},
+            {"formats", format_list()},
             {"samples", samples},
             {"recent", recent},
             {"status", to_json(engine.status())},
@@ -208,31 +222,31 @@ struct Server::State {
     response.status = 200;
     if (options.page_folder.empty())
       return response.set_content(file->bytes.data(), file->bytes.size(), std::string(file->type));
-    const auto bytes = cli::read_file(options.page_folder + "/" + name);
+    const auto bytes = read_file(options.page_folder + "/" + name);
     if (!bytes) return refuse(response, 404, "no such file in the page's folder");
     response.set_content(reinterpret_cast<const char*>(bytes->data()), bytes->size(),
                          std::string(file->type));
   }
 
-  // A stream of the engine's status as it changes. The page holds it open for as long as it lives.
+  // Streams the engine's status as it changes. The page keeps the stream open for as long as it lives.
   void follow(Response& response) {
     if (pages >= most_pages) return refuse(response, 503, "too many pages are open");
-    auto turn = std::make_shared<Turn>(pages);
+    auto count = std::make_shared<ScopedCount>(pages);
     had_page = true;
     auto last = std::make_shared<std::string>();
     response.status = 200;
-    response.set_chunked_content_provider(
-        "text/event-stream", [this, turn, last](std::size_t, httplib::DataSink& sink) {
-          if (is_stopping) return false;
-          const std::string text = to_json(engine.status()).dump();
-          const std::string event =
-              text == *last ? ":\n"
-                            : "data: " + text + "\n\n";  // a comment tells whether the page is still there
-          *last = text;
-          const bool is_sent = sink.write(event.data(), event.size());
-          std::this_thread::sleep_for(80ms);
-          return is_sent;
-        });
+    response.set_chunked_content_provider("text/event-stream", [this, count, last](std::size_t,
+                                                                                   httplib::DataSink& sink) {
+      if (is_stopping) return false;
+      const std::string text = to_json(engine.status()).dump();
+      const std::string event =
+          text == *last ? ":\n"
+                        : "data: " + text + "\n\n";  // a comment finds out whether the page is still there
+      *last = text;
+      const bool is_sent = sink.write(event.data(), event.size());
+      std::this_thread::sleep_for(80ms);
+      return is_sent;
+    });
   }
 
   // ------------------------------------------------------------------------------------------------- guards
@@ -280,8 +294,8 @@ struct Server::State {
     if (!name.starts_with("api/") || action == actions.end()) return refuse(response, 404, "no such action");
     const std::optional<std::string> body = body_of(request, response, most_json, read);
     if (!body) return;
-    const Turn turn(waiting);
-    if (turn.number() > most_waiting) return refuse(response, 503, "too much at once");
+    const ScopedCount count(waiting);
+    if (count.number() > most_waiting) return refuse(response, 503, "too much at once");
     const Result<Json> json = parse_body(*body);
     if (!json) return answer(response, json.error());
     (this->*action->second)(*json, response);
@@ -290,8 +304,8 @@ struct Server::State {
   void upload(const Request& request, Response& response, const httplib::ContentReader& read) {
     const std::optional<std::string> body = body_of(request, response, most_scan, read);
     if (!body) return;
-    const std::lock_guard turn(storing);
-    const Result<Input> input = store.keep_scan(*body, request.get_param_value("name"));
+    const std::lock_guard lock(storing);
+    const Result<ScanSource> input = store.keep_scan(*body, request.get_param_value("name"));
     if (!input) return answer(response, input.error());
     answer(response, {{"input", to_json(*input)}});
   }
@@ -348,8 +362,7 @@ Result<std::string> Server::bind() {
     port = state_->http.bind_to_any_port(host);
   else if (!state_->http.bind_to_port(host, port))
     port = -1;
-  if (port <= 0)
-    return std::unexpected(Error{ErrorKind::option, "--port", {}, "expected a port that is free"});
+  if (port <= 0) return std::unexpected(Error{ErrorKind::option, "port", {}, "expected a port that is free"});
   state_->http.widen_queue();
   state_->guard.set_port(port);
   return state_->guard.address();
@@ -362,4 +375,4 @@ void Server::run() {
   watcher.join();
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

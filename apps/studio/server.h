@@ -5,10 +5,10 @@
 #include <memory>
 #include <string>
 
-#include "engine.h"
-#include "store.h"
+#include "studio/engine.h"
+#include "studio/store.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 
 struct ServerOptions {
   int port = 0;  // 0 takes a free one
@@ -24,7 +24,7 @@ class Server {
   Server(Engine& engine, const Store& store, const ServerOptions& options);
   ~Server();
 
-  // Takes the port. Returns the page's address. Errors: kind option if the port is taken.
+  // Opens the port and returns the page's address. Errors: kind option if the port is taken.
   Result<std::string> bind();
 
   // Answers until the last page has gone for good. Before a first page came, it waits for one.
@@ -35,4 +35,4 @@ class Server {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

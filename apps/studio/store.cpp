@@ -1,4 +1,4 @@
-#include "store.h"
+#include "studio/store.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -6,16 +6,16 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "files.h"
+#include "common/files.h"
 #include "relievo/core/text.h"
 
-namespace relievo::studio {
+namespace relievo::app::studio {
 namespace {
 
 namespace fs = std::filesystem;
 
 std::string read_text(const fs::path& path) {
-  const auto bytes = cli::read_file(path.string());
+  const auto bytes = read_file(path.string());
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
 }
 
@@ -24,11 +24,11 @@ std::string variable(const char* name) {
   return value ? value : "";
 }
 
-bool is_same(const Input& a, const Input& b) {
+bool is_same(const ScanSource& a, const ScanSource& b) {
   return a.sample == b.sample && a.path == b.path;
 }
 
-// Only the last part of a path, and nothing that a file system could read as more than a name.
+// Returns the last part of a path, without anything that a file system could read as more than a name.
 std::string plain_name(const std::string& name) {
   std::string plain = fs::path(name).filename().string();
   std::erase_if(plain, [](unsigned char c) { return c < 32 || c == '/' || c == '\\'; });
@@ -52,8 +52,8 @@ Result<void> Store::write(const std::string& name, std::string_view text) const 
   fs::create_directories(path.parent_path(), ignored);
   fs::permissions(folder_, fs::perms::owner_all, ignored);
   const auto bytes = std::as_bytes(std::span(text));
-  const cli::OutputFile file{path.string(), {bytes.begin(), bytes.end()}};
-  return cli::write_files({&file, 1});
+  const OutputFile file{path.string(), {bytes.begin(), bytes.end()}};
+  return write_files({&file, 1});
 }
 
 std::string Store::state() const {
@@ -64,42 +64,42 @@ Result<void> Store::keep_state(std::string_view state) const {
   return write("state.json", state);
 }
 
-std::vector<Input> Store::recent() const {
-  std::vector<Input> inputs;
+std::vector<ScanSource> Store::recent() const {
+  std::vector<ScanSource> inputs;
   const nlohmann::json json =
       nlohmann::json::parse(read_text(fs::path(folder_) / "recent.json"), nullptr, false);
   if (!json.is_array()) return inputs;
   for (const nlohmann::json& entry : json) {
-    Result<Input> input = input_from_json(entry, "recent.json");
+    Result<ScanSource> input = input_from_json(entry, "recent.json");
     std::error_code ignored;
     if (input && (!input->sample.empty() || fs::exists(input->path, ignored))) inputs.push_back(*input);
   }
   return inputs;
 }
 
-Result<void> Store::remember(const Input& input) const {
-  std::vector<Input> inputs = recent();
-  std::erase_if(inputs, [&](const Input& other) { return is_same(other, input); });
+Result<void> Store::remember(const ScanSource& input) const {
+  std::vector<ScanSource> inputs = recent();
+  std::erase_if(inputs, [&](const ScanSource& other) { return is_same(other, input); });
   inputs.insert(inputs.begin(), input);
   if (inputs.size() > most_recent) inputs.resize(most_recent);
   nlohmann::json json = nlohmann::json::array();
-  for (const Input& entry : inputs) json.push_back(to_json(entry));
+  for (const ScanSource& entry : inputs) json.push_back(to_json(entry));
   remove_old_scans(inputs);
   return write("recent.json", json.dump(1));
 }
 
-Result<Input> Store::keep_scan(std::string_view bytes, const std::string& name) const {
+Result<ScanSource> Store::keep_scan(std::string_view bytes, const std::string& name) const {
   const std::string hash = hash_of(bytes), plain = plain_name(name);
   const std::string place = cat("scans/", hash.substr(hash.find(':') + 1), "/", plain);
   if (auto ok = write(place, bytes); !ok) return std::unexpected(ok.error());
-  return Input{{}, (fs::path(folder_) / place).string(), plain, hash};
+  return ScanSource{{}, (fs::path(folder_) / place).string(), plain, hash};
 }
 
-void Store::remove_old_scans(const std::vector<Input>& recent) const {
+void Store::remove_old_scans(const std::vector<ScanSource>& recent) const {
   std::error_code ignored;
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(fs::path(folder_) / "scans", ignored)) {
-    const auto is_in_it = [&](const Input& input) {
+    const auto is_in_it = [&](const ScanSource& input) {
       return fs::path(input.path).parent_path() == entry.path();
     };
     if (std::ranges::none_of(recent, is_in_it)) old.push_back(entry.path());
@@ -107,4 +107,4 @@ void Store::remove_old_scans(const std::vector<Input>& recent) const {
   for (const fs::path& path : old) fs::remove_all(path, ignored);
 }
 
-}  // namespace relievo::studio
+}  // namespace relievo::app::studio

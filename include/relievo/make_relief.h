@@ -1,28 +1,30 @@
-// One call from a cloud to a body that can be cut: the whole pipeline.
+// One call from a scan to a body that can be cut. Its steps: points that show a view (sample_for_view), their surface
+// with its factored system (prepare), and a relief of it as a body (make_relief).
 #pragma once
 
-#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "relievo/core/progress.h"
-#include "relievo/io.h"
 #include "relievo/options.h"
 #include "relievo/plate/solid.h"
 #include "relievo/plate/tool.h"
-#include "relievo/relief.h"
-#include "relievo/scan/cloud.h"
+#include "relievo/view_sample.h"
 
 namespace relievo {
+
+class Progress;
+class ReliefModel;
+struct CloudFile;
+struct Shape;
+struct Surface;
 
 // What was made, and how.
 struct ReliefReport {
   std::size_t input_points = 0, visible_points = 0;
-  double rho = 0;       // sampling distance, in the cloud's units
-  double diagonal = 0;  // L_d: diagonal of the cloud's box, in its units
-  std::string method;   // its name, see method.h; alpha, beta, gamma and u mean nothing for the rivals
-  double alpha = 0;     // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
+  double rho = 0;                 // sampling distance, in the cloud's units
+  double diagonal = 0;            // L_d: diagonal of the cloud's box, in its units
+  Method method = Method::paper;  // alpha, beta, gamma and u mean nothing where it has no shape
+  double alpha = 0;  // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
   double beta = 0, gamma = 0;
   double u = 0;  // alpha^-beta, see Compression
   std::optional<double> height_requested_mm;
@@ -38,11 +40,12 @@ struct ReliefReport {
   double scale = 1;
   Vec3 offset = Vec3::Zero();
 
-  // What the tool asked for reaches of the front; there are no samples without one.
-  std::optional<ToolReach> reach;
+  std::optional<Tool> tool;        // that was asked for
+  std::optional<ToolReach> reach;  // what it reaches of the front
 
   // Largest difference to the front before it was made simpler, if a tolerance was given.
   std::optional<double> simplification_error_mm;
+  std::size_t front_triangles = 0, full_triangles = 0;  // of the front, and of the full relief
 
   // Of a wrap: the ground's diameter, how far the plate goes around, and how wide a degree is on the ground
   // and so in the flat plate.
@@ -51,7 +54,11 @@ struct ReliefReport {
   };
   std::optional<Wrapped> wrap;  // offset and scale are then those of the flat plate
 
-  std::vector<std::string> remarks;  // what the user should know: normals estimated, or turned
+  // What a user may want to be warned of.
+  bool has_idle_alpha = false;         // an alpha was given, which has no effect
+  bool has_estimated_normals = false;  // the points had none
+  bool has_turned_normals = false;     // they pointed inwards
+  std::vector<SampleNote> sample;      // none for a model that the caller prepared
 };
 
 struct MadeRelief {
@@ -60,42 +67,28 @@ struct MadeRelief {
   Solid flat = {};  // the solid before it was bent around its wrap, for height maps; empty without one
 };
 
-// What a relief is made of.
-struct SeenPoints {
-  std::shared_ptr<const Cloud> cloud;  // in the model's frame; the file's own where nothing had to be made
-  std::size_t left_out = 0;            // points far from all others, see far_points()
-  std::vector<std::string> remarks;    // on that and on the mesh
-};
+// Returns the surface that the points show in that view, with its factored system. Errors: those of
+// find_surface() and ReliefModel::prepare().
+Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode = Mode::exact,
+                            Progress* progress = nullptr);
 
-// Returns the points of a file: of a mesh those that the viewer sees of it, about as many as wanted; without
-// those far from all others. The file must outlive them. Errors: those of sample_mesh().
-Result<SeenPoints> seen_points(const CloudFile& file, const View& view, double points,
-                               Progress* progress = nullptr);
-
-// Returns the plate with the relief of the cloud. Stages and their times are in `progress`; the caller ends
-// the last one. Errors: those of check(), parse_view(), find_surface() and ReliefModel::make_at_height();
-// kind cancelled.
-Result<MadeRelief> make_relief(const Cloud& cloud, const ReliefOptions& options,
-                               Progress* progress = nullptr);
-
-// The same for what a file holds: of a mesh the points that the viewer sees of it, see sample_mesh().
-Result<MadeRelief> make_relief(const CloudFile& file, const ReliefOptions& options,
-                               Progress* progress = nullptr);
-
-// The same for points that were seen in that view; options.view and options.up are not looked at.
-Result<MadeRelief> make_relief(const SeenPoints& seen, const View& view, const ReliefOptions& options,
-                               Progress* progress = nullptr);
-
-// The same, bit for bit, in a fraction of the time: from a model that was prepared from the
-// seen_points() in the view asked for. options.view and options.up are not looked at.
+// Returns the plate with the relief of a prepared model; options.view, mode and points are not looked at. Stages and
+// their times are in `progress`; the caller ends the last one. Errors: those of check(), of
+// ReliefModel::make_at_height() and of the plate's parts; kind cancelled.
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
-// The shape that the options ask for; where they give a height, at its starting point. Errors: kind option
-// for a tone curve that is none.
-Result<Shape> shape_of(const ReliefOptions& options);
+// The same, bit for bit, for what a file holds: of a mesh the points that the viewer sees, without outliers. scene.h
+// has the same for several files. Errors: also those of sample_for_view() and prepare().
+Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);
 
-// Millimetres per unit of the surface at the width asked for.
+// The same for a cloud.
+Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
+
+// Returns the shape that the options ask for; where they give a height, its starting point.
+Shape shape_of(const ReliefOptions& options);
+
+// Returns millimetres per unit of the surface at the width asked for.
 double mm_per_unit(const Surface& surface, const ReliefOptions& options);
 
 }  // namespace relievo

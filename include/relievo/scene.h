@@ -6,9 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "relievo/make_relief.h"
+#include "relievo/core/types.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/view.h"
+#include "relievo/view_sample.h"
 
 namespace relievo {
+
+class Progress;
+struct MadeRelief;
+struct ReliefOptions;
 
 // How a model stands in a scene. It is mirrored, scaled and turned about the centre of its own box, strays
 // left out, and then moved.
@@ -25,7 +32,7 @@ struct Pose {
 Mat3 turn_of(const Pose& pose);
 
 struct SceneModel {
-  std::string name;                       // in errors and remarks
+  std::string name;                       // in errors and notes
   std::shared_ptr<const CloudFile> file;  // not null
   Pose pose = {};
 };
@@ -54,15 +61,15 @@ struct PlacedModel {
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
 // Returns the points of all models as they stand, in the scene's frame. Meshes are seen together, hidden
-// parts left out; clouds come whole, without strays. All have about one sampling distance: that of the
-// finest cloud, or the one at which the viewer sees about as many points as wanted, if that is wider or the
-// scene has meshes. Finer clouds are thinned to it, clouds that are much coarser, of which only what the
-// viewer sees is taken, get points in between. Normals are estimated, or turned, for each model by itself.
-// If any model has colours, the others are white. A single model that is not moved gives what its file does.
-// Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones,
-// naming the model; kind cancelled.
-Result<SeenPoints> seen_points(const Scene& scene, const View& view, double points,
-                               Progress* progress = nullptr);
+// parts left out, with about as many points as wanted; clouds come whole, without outliers. All have about one
+// sampling distance: that of the finest cloud, or the one at which the viewer sees about as many points as
+// wanted, if that is wider or the scene has meshes. Finer clouds are thinned to it; clouds that are much coarser,
+// of which only what the viewer sees is taken, get points in between. Normals are estimated, or turned, for each
+// model by itself. If any model has colours, the others are white. A single model that is not moved gives what
+// its file has. Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal
+// ones, naming the model; kind cancelled.
+Result<ViewSample> sample_for_view(const Scene& scene, const View& view, double points,
+                                   Progress* progress = nullptr);
 
 // Returns the plate with the relief of the scene, as make_relief() does for a file.
 Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options,

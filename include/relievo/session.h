@@ -1,49 +1,57 @@
-// Real time: a model prepared in the background, frames on request, the latest request first.
+// A model that is prepared in the background while the one before it can still be used.
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
-#include "relievo/relief/frame.h"
+#include "relievo/core/progress.h"
+#include "relievo/relief/mode.h"
+#include "relievo/scan/view.h"
 
 namespace relievo {
 
+class ReliefModel;
+
 struct SessionStatus {
   bool is_preparing = false;
-  std::string stage;           // of the preparation, for people
-  double fraction = 0;         // of it that is done, in [0, 1]
-  std::optional<Error> error;  // why the last preparation failed or that it was cancelled
-  std::uint64_t requested = 0,
-                finished = 0;  // numbers of the newest request and of the newest finished frame
+  std::string stage;    // of the preparation, see Progress
+  double fraction = 0;  // of the preparation that is done, in [0, 1]
+  std::optional<Error>
+      error;  // why the last preparation failed or that it was cancelled; none while one runs
+};
+
+// One model to prepare. Both functions are called in the session's own thread.
+struct Preparation {
+  using Points = Result<std::shared_ptr<const Cloud>>;
+  using Model = std::shared_ptr<const ReliefModel>;
+
+  std::function<Points(Progress&)> points;  // returns the cloud; may read files and may take long
+  View view = {};
+  Mode mode = Mode::automatic;
+
+  // Called with the model just before status() says that it is ready. It must not call the session.
+  std::function<void(const Model&)> ready = {};
 };
 
 // Every method may be called from any thread, and none waits for work but wait_until_idle() and the
-// destructor.
-//
-// - open() prepares in the background; a newer open() cancels an older one. Until it is done the old model
-// and its frames
-//   stay; if it fails they stay, too.
-// - request() asks for a frame. Requests that a newer one overtakes are never worked on.
-// - Models and frames are immutable and live as long as someone holds them.
+// destructor. Frames of the model are made by a FrameMaker, by whoever shows them.
 class Session {
  public:
   Session();
   ~Session();  // cancels what runs and waits for it
 
-  void open(std::shared_ptr<const Cloud> cloud, const View& view, const SurfaceOptions& options = {},
-            Mode mode = Mode::automatic);
+  // Prepares a model in the background. A newer call cancels an older one, whose end is not reported. The
+  // model before stays until the new one is ready, and for good if the preparation fails.
+  void open(Preparation preparation);
 
-  // Cancels the preparation that runs or waits, if any. Frames are too short for that.
+  // Cancels the preparation that runs or waits, if any.
   void cancel();
 
-  // Returns the request's number. Before a model is ready the request waits for it.
-  std::uint64_t request(const FrameOptions& options);
-
   SessionStatus status() const;
-  std::shared_ptr<const ReliefModel> model() const;  // null before the first
-  std::shared_ptr<const Frame> frame() const;        // the newest; null before the first
+  std::shared_ptr<const ReliefModel> model() const;  // the newest; null before the first
 
   // Waits until nothing is left to do. Returns false if that takes longer than the timeout.
   bool wait_until_idle(std::chrono::milliseconds timeout);

@@ -1,4 +1,5 @@
-// Union and find over numbers 0 .. n - 1.
+// Disjoint sets of the numbers 0 to n - 1 (union-find), with union by size and path halving.
+// Tested by tests/core/disjoint_sets_test.cpp.
 #pragma once
 
 #include <numeric>
@@ -15,11 +16,13 @@ class DisjointSets {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
 
+  // Returns the number that represents the set of i.
   Index find(Index i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
 
+  // Unites the sets of a and b.
   void join(Index a, Index b) {
     a = find(a), b = find(b);
     if (a == b) return;
@@ -28,6 +31,7 @@ class DisjointSets {
     size_[a] += size_[b];
   }
 
+  // Returns how many numbers are in the set of i.
   std::size_t size_of(Index i) { return size_[find(i)]; }
 
  private:

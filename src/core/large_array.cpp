@@ -9,13 +9,14 @@
 namespace relievo {
 
 LargeArray make_large_array(std::size_t floats) {
+  // Large pages have 2 MB on x86 and ARM. Rounding up smaller arrays to whole ones would waste too much.
   const std::size_t page = std::size_t{1} << 21, bytes = floats * sizeof(float);
   const std::size_t alignment = bytes >= 4 * page ? page : 64;
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
   void* array = std::aligned_alloc(alignment, rounded);
   if (array == nullptr) throw std::bad_alloc();
 #if defined(__linux__)
-  // A wish: whether it is granted changes the speed alone.
+  // Only a request: whether the system grants it affects the speed alone.
   if (alignment == page) static_cast<void>(madvise(array, rounded, MADV_HUGEPAGE));
 #endif
   return LargeArray(static_cast<float*>(array));

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// The number at the beginning of the text, which loses it.
+// Removes a number from the beginning of the text and returns it; nothing if there is no finite number.
 std::optional<double> take_number(std::string_view& text) {
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -20,6 +20,7 @@ std::optional<double> take_number(std::string_view& text) {
   return value;
 }
 
+// Returns the millimetres of a unit, or nothing if the unit is unknown.
 std::optional<double> mm_of(std::string_view unit, LengthUnit bare) {
   while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   if (unit.empty()) return mm_per(bare);
@@ -35,11 +36,11 @@ std::optional<double> mm_of(std::string_view unit, LengthUnit bare) {
 Result<LengthUnit> parse_unit(std::string_view name) {
   if (name == "mm") return LengthUnit::mm;
   if (name == "in") return LengthUnit::inch;
-  return std::unexpected(
-      Error{ErrorKind::option, "--units", {}, cat("expected mm or in, found '", name, "'")});
+  return std::unexpected(Error{ErrorKind::option, "units", {}, cat("expected mm or in, found '", name, "'")});
 }
 
 Result<double> parse_length(std::string_view text, LengthUnit bare) {
+  // std::from_chars does not depend on the locale, in which a comma might be the decimal point.
   std::string_view rest = text;
   std::optional<double> value = take_number(rest);
   if (value && rest.starts_with('/')) {

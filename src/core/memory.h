@@ -1,4 +1,4 @@
-// How much memory things hold.
+// Memory accounting.
 #pragma once
 
 #include <cstddef>
@@ -6,6 +6,7 @@
 
 namespace relievo {
 
+// Returns the bytes that a vector has allocated, not counting what its elements own.
 template <typename T>
 std::size_t bytes(const std::vector<T>& v) {
   return v.capacity() * sizeof(T);

@@ -8,8 +8,10 @@
 namespace relievo {
 namespace {
 
+// Set while a thread works on a block: a nested parallel call would otherwise wait for the job it is part of.
 thread_local bool is_inside_parallel_call = false;
 
+// The blocks of one parallel call. Threads take the next block from a shared counter until none is left.
 struct Job {
   detail::BlockFunction f = nullptr;
   void* context = nullptr;
@@ -23,7 +25,7 @@ struct Job {
   }
 };
 
-// Workers sleep between jobs. One job runs at a time; a second caller waits for its turn.
+// The worker threads, which sleep between jobs. One job runs at a time; a second caller waits for its end.
 class Pool {
  public:
   static Pool& instance() {
@@ -45,6 +47,7 @@ class Pool {
     start(threads - 1);
   }
 
+  // The caller works, too. It returns only when every worker has left the job, which lives on its stack.
   void run(std::size_t blocks, detail::BlockFunction f, void* context) {
     const std::lock_guard turn(turn_);
     Job job{f, context, blocks};
@@ -79,6 +82,7 @@ class Pool {
     workers_.clear();
   }
 
+  // `seen` is the last generation of jobs that the worker knows: it makes each worker take each job once.
   void loop(std::size_t seen) {
     std::unique_lock lock(mutex_);
     for (;;) {
@@ -121,11 +125,12 @@ void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
 }
 
 void BlockFlags::wait(std::size_t block) const {
-  // Waits are short as a rule: look again at once, and let others run only after a while.
+  // Waits are usually short: spin at first, and give the processor to other threads only after a while.
   for (int look = 0; flags_[block].load(std::memory_order_acquire) == 0; ++look)
     if (look > 2000) std::this_thread::yield();
 }
 
+// Lives until the thread has ended, as the destructor of BackgroundLoop joins it.
 struct BackgroundLoop::State {
   std::function<bool()> step;
   std::mutex mutex;

@@ -16,6 +16,7 @@ Result<void> Progress::stage(std::string_view name, double fraction) {
   if (is_cancelled_) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
   running_ = name;
   started_ = Clock::now();
+  // Stages whose work turns out smaller than expected must not make the fraction go back.
   fraction_ = std::clamp(fraction, fraction_, 1.0);
   if (watcher_) watcher_(name, fraction_);
   return {};

@@ -1,15 +1,18 @@
-// A root of an increasing function of one variable, without an interval given.
+// Root finding for functions of one variable.
 #pragma once
 
 #include <cmath>
 
 namespace relievo {
 
-// Calls f until |f(x)| < tolerance, and returns that x; the last call of f is f(x). f must increase from
-// below 0 to above 0 somewhere within 750 of 0, where exp(x) is a finite double; if it does not, the last
-// call is beyond that. Brackets by growing steps from 0, then false position with the Illinois rule (the end
-// that stays is weighed half), which never leaves the bracket; where that is slow, every other step halves
-// it. At most 100 calls.
+// Returns an x with |f(x)| < tolerance for an increasing function f; the last call of f is f(x). No bracket
+// is needed: f must change its sign somewhere in [-750, 750], the range in which exp(x) is a finite double.
+// If it does not, the returned x is just outside that range and f(x) is not near 0. f is called at most 100
+// times.
+//
+// The root is first bracketed by growing steps from 0. Then the Illinois variant of false position, which
+// halves the value at the end that stays, narrows the bracket; if it has not converged after 8 steps, every
+// other step bisects.
 template <typename F>
 double find_root(F&& f, double tolerance) {
   double a = 0, fa = f(a);

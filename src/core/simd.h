@@ -1,16 +1,17 @@
 // Vectors of a fixed width, the same on every processor, and the choice of instructions at run time.
+// Tested by tests/solver/cholesky_test.cpp, HasTheSameBitsWithAndWithoutWideVectors.
 #pragma once
 
 #include <cstring>
 
-// How a vector would be passed to a function depends on the instructions; ours are inlined.
+// GCC warns that passing such a vector to a function depends on the instruction set; ours are all inlined.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace relievo {
 
-// Eight floats or four doubles. Code written with them compiles to AVX2 inside a function marked
-// RELIEVO_AVX2 and to pairs of SSE2 instructions elsewhere; both give the same bits, as products and sums
-// are never contracted. Unaligned, and allowed to alias.
+// Vectors of eight or four floats, or four doubles. Code written with them compiles to AVX2 inside a function
+// marked RELIEVO_AVX2 and to pairs of SSE2 instructions elsewhere; both give the same bits, because products
+// and sums are never contracted. The vectors need no alignment and may alias other types.
 using Float8 = float __attribute__((vector_size(32), aligned(4), may_alias));
 using Float4 = float __attribute__((vector_size(16), aligned(4), may_alias));
 using Double4 = double __attribute__((vector_size(32), aligned(8), may_alias));
@@ -22,10 +23,10 @@ using Double4 = double __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
-// Whether functions marked RELIEVO_AVX2 are called: at first, if the processor can.
+// Returns whether functions marked RELIEVO_AVX2 shall be called; initially, whether the processor has AVX2.
 bool uses_avx2();
 
-// For tests: turns them off, or on again where the processor can.
+// For tests: turns them off, or on again if the processor has AVX2.
 void allow_avx2(bool is_allowed);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-#include "blur.h"
+#include "geometry/blur.h"
 
 #include <algorithm>
 #include <array>
@@ -50,8 +50,10 @@ void average(const Strip& strip, std::size_t radius, std::vector<Lanes>& line) {
 
 }  // namespace
 
-void blur(std::vector<float>& values, int width, int radius) {
-  const auto w = static_cast<std::size_t>(width), h = values.size() / w, r = static_cast<std::size_t>(radius);
+void blur(Image<float>& image, int radius) {
+  const auto w = static_cast<std::size_t>(image.width), h = static_cast<std::size_t>(image.height),
+             r = static_cast<std::size_t>(radius);
+  float* const values = image.pixels.data();
   const int passes = 2;
   for (int pass = 0; pass < passes; ++pass) {
     parallel_ranges(h, lanes, [&](std::size_t begin, std::size_t end) {

@@ -1,7 +1,11 @@
-// Why the checks suffice. Linked triangles form a surface whose border is the hull. As all of them turn left,
-// each place is covered as often as the border goes round it: once, as the hull turns left once around. So
-// the triangles cover the hull without overlap, edge to edge. Circles that are empty across every edge are
-// empty (B. Delaunay, "Sur la sphere vide", 1934).
+// Proof that these local checks are sufficient.
+// 1. Each triangle is linked with its neighbours across equal edges, and the edges without a neighbour are
+//    those of the hull. So the linked triangles form a surface bounded by the hull.
+// 2. All triangles are counter-clockwise, so each point of the plane is covered as often as the hull winds
+//    around it. The hull turns left only, once around: it winds once around each point inside, and around no
+//    other. So the triangles cover the hull without gaps or overlaps.
+// 3. If no edge has a corner beyond it inside its triangle's circle, no point lies in any triangle's circle
+//    (B. Delaunay, "Sur la sphere vide", 1934).
 #include <algorithm>
 #include <numeric>
 
@@ -17,7 +21,7 @@ struct Edge {
   Index from, to;
 };
 
-// The edge opposite to corner i.
+// Returns the edge opposite to corner i.
 Edge edge(const Triangle& corners, std::size_t i) {
   return {corners[(i + 1) % 3], corners[(i + 2) % 3]};
 }
@@ -42,6 +46,7 @@ std::size_t facing_corner(const Triangulation& it, Index n, Index t, const Edge&
   return 3;
 }
 
+// Everything that the later checks use as an index must be one, and the predicates must be exact.
 std::string check_numbers(Points points, const Triangulation& it) {
   if (it.neighbours.size() != it.triangles.size()) return "as many neighbours as triangles expected";
   const auto outside = std::find_if_not(points.begin(), points.end(), is_exact_point);
@@ -84,8 +89,9 @@ std::string check_links_and_circles(Points points, const Triangulation& it) {
   return {};
 }
 
-// The sides without neighbours must be the hull's edges. They form closed polygons, and the hull is a single
-// one, so that none of its edges is left over.
+// The edges without a neighbour must be the hull's edges, each once. It is enough to check that each is one
+// of the hull's: they form closed polygons, and the hull is a single polygon, so that none of its edges can
+// be left over.
 std::string check_border(Points points, const Triangulation& it) {
   std::vector<Index> hull_next(points.size(), no_index);
   for (std::size_t k = 0; k < it.hull.size(); ++k) {
@@ -103,7 +109,8 @@ std::string check_border(Points points, const Triangulation& it) {
   return {};
 }
 
-// A closed polygon that only turns left turns once if its direction changes from downwards to upwards once.
+// The hull may not turn right and must go around once. A closed polygon that only turns left goes around once
+// if its direction changes from downwards to upwards once.
 std::string check_convexity(Points points, const Triangulation& it) {
   const std::size_t n = it.hull.size();
   const auto corner = [&](std::size_t k) -> const Vec2& { return points[it.hull[k % n]]; };
@@ -121,7 +128,7 @@ std::string check_convexity(Points points, const Triangulation& it) {
   return turns == 1 ? "" : "hull: does not go round once";
 }
 
-// Of equal points the one with the lowest number must be used, and no other.
+// Of points with equal coordinates the one with the lowest number must be in a triangle, and no other.
 std::string check_use_of_points(Points points, const Triangulation& it) {
   std::vector<bool> is_used(points.size(), false);
   for (const Triangle& corners : it.triangles) {
@@ -134,15 +141,16 @@ std::string check_use_of_points(Points points, const Triangulation& it) {
     return p.x() != q.x() ? p.x() < q.x() : p.y() != q.y() ? p.y() < q.y() : a < b;
   });
   for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_twin = k > 0 && points[order[k]] == points[order[k - 1]];
-    if (is_used[order[k]] != is_twin) continue;
+    const bool is_coincident = k > 0 && points[order[k]] == points[order[k - 1]];
+    if (is_used[order[k]] != is_coincident) continue;
     return name("point", order[k]) +
-           (is_twin ? ": used, but not the first at its place" : ": in no triangle");
+           (is_coincident ? ": used, but not the first at its place" : ": in no triangle");
   }
   return {};
 }
 
-// No triangles: right if no three points span one.
+// A result without triangles is right if all points are on one line. That is so if all are on one line with
+// the first point and the first one that differs from it.
 std::string check_empty(Points points, const Triangulation& it) {
   if (!it.neighbours.empty() || !it.hull.empty()) return "hull or neighbours without triangles";
   if (!std::all_of(points.begin(), points.end(), is_exact_point)) return {};

@@ -2,31 +2,36 @@
 
 #include <cstddef>
 
+#include "geometry/plane.h"
+
 namespace relievo {
 namespace {
 
-constexpr double shortest_mm = 1e-4;
+constexpr double shortest_mm =
+    1e-4;  // shorter sides cannot be seen, and make neighbouring lines nearly parallel
 
-// The places p with p.dot(normal) == reach.
+// The line of points p with p.dot(normal) == offset.
 struct Line {
   Vec2 normal;  // unit length, outwards
-  double reach = 0;
+  double offset = 0;
 };
 
+// Returns the point where two lines meet.
 Vec2 crossing(const Line& a, const Line& b) {
-  const double sine = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
-  return Vec2(a.reach * b.normal.y() - b.reach * a.normal.y(),
-              b.reach * a.normal.x() - a.reach * b.normal.x()) /
+  const double sine = cross(a.normal, b.normal);
+  return Vec2(a.offset * b.normal.y() - b.offset * a.normal.y(),
+              b.offset * a.normal.x() - a.offset * b.normal.x()) /
          sine;
 }
 
-// Negative if the side's neighbours meet before it begins.
+// Returns the length of a side between its neighbours; negative if they meet before reaching it.
 double length_of(const Line& before, const Line& side, const Line& after) {
   const Vec2 along(-side.normal.y(), side.normal.x());
   return (crossing(side, after) - crossing(before, side)).dot(along);
 }
 
-// A side that has no length is none of the polygon's; without it others may have none.
+// Removes sides that vanish when all are moved. Removing one changes the lengths of its neighbours, so the
+// search goes back by one and ends after a whole round without a removal.
 void drop_short(std::vector<Line>& lines) {
   for (std::size_t i = 0, good = 0; good < lines.size() && lines.size() > 3;) {
     const std::size_t n = lines.size();

@@ -1,4 +1,4 @@
-// Convex polygons of the plane, counter-clockwise.
+// Convex polygons of the plane, with counter-clockwise corners.
 #pragma once
 
 #include <span>
@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// Returns the polygon with every side moved inwards by `mm`, outwards if negative; sides that are shorter
-// than 0.0001 mm then are left out. Neighbouring sides of the polygon are not parallel, and so much of it
-// must remain that its sides still go all the way around.
+// Returns the polygon with every side moved inwards by `mm`, outwards if negative. Sides that are then
+// shorter than 0.0001 mm are removed. Neighbouring sides of the polygon must not be parallel, and the polygon
+// must not vanish: its remaining sides must still go all the way around.
 std::vector<Vec2> inset(std::span<const Vec2> polygon, double mm);
 
 }  // namespace relievo

@@ -1,4 +1,5 @@
 // Uniform cubic B-splines in the plane, at packed places. Section 3.1 of Lee, Wolberg and Shin, 1997.
+// Tested by tests/geometry/spline_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +10,7 @@ namespace relievo {
 
 using CubicRow = Eigen::Array4f;
 
-// A share of a cell as a SplinePlace holds it, and back; [0, 1).
+// Convert a position within a cell, in [0, 1), to the 16 bits of a SplinePlace, and back.
 inline std::uint16_t packed_share(float t) {
   return static_cast<std::uint16_t>(std::clamp(t * 65536 + .5F, 0.F, 65535.F));
 }
@@ -17,18 +18,18 @@ inline float unpacked_share(std::uint16_t share) {
   return static_cast<float>(share) * 0x1p-16F;
 }
 
-// The four that count at t in [0, 1] of a cell.
+// Returns the values of the four basis functions at t in [0, 1] of a cell.
 inline CubicRow cubic_basis(float t) {
   const CubicRow c0(1 / 6.F, 4 / 6.F, 1 / 6.F, 0), c1(-.5F, 0, .5F, 0), c2(.5F, -1, .5F, 0),
       c3(-1 / 6.F, .5F, -.5F, 1 / 6.F);
   return c0 + t * (c1 + t * (c2 + t * c3));
 }
 
-// A place's weights in x and y.
+// The weights of the nodes around a place, along x and along y.
 struct CubicStencil {
   CubicRow x, y;
 
-  // The sum over 4 x 4 nodes, of which the first is given.
+  // Returns the weighted sum of 4 x 4 nodes, given the first one and the number of nodes per row.
   float operator()(const float* node, std::size_t columns) const {
     using Nodes = Eigen::Map<const CubicRow>;
     CubicRow sum = y[0] * Nodes(node);

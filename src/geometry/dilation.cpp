@@ -22,20 +22,19 @@ struct Framed {
   // And of each square of such runs.
   std::vector<float> highest_of_square;
 
-  Framed(const Grid& grid, int frame_width)
+  Framed(const Image<float>& image, int frame_width)
       : frame(frame_width),
-        stride((grid.width + 2 * frame + 2 * block - 1) / block * block),
-        rows(grid.height + 2 * frame),
+        stride((image.width + 2 * frame + 2 * block - 1) / block * block),
+        rows(image.height + 2 * frame),
         values(static_cast<std::size_t>(stride) * static_cast<std::size_t>(rows), least),
         runs(stride / block),
         highest(static_cast<std::size_t>(runs) * static_cast<std::size_t>(rows), least) {
     parallel_for(
-        static_cast<std::size_t>(grid.height),
+        static_cast<std::size_t>(image.height),
         [&](std::size_t y) {
           const std::size_t row = y + static_cast<std::size_t>(frame);
-          for (int x = 0; x < grid.width; ++x) {
-            const float value =
-                grid.values[y * static_cast<std::size_t>(grid.width) + static_cast<std::size_t>(x)];
+          for (int x = 0; x < image.width; ++x) {
+            const float value = image.at(x, static_cast<int>(y));
             if (!(value > least)) continue;
             const auto place = static_cast<std::size_t>(x + frame);
             values[row * static_cast<std::size_t>(stride) + place] = value;
@@ -153,11 +152,11 @@ void envelope_plain(const Framed& from, const Profile& profile, int x, int y, fl
 
 }  // namespace
 
-Grid dilate(const Grid& grid, const Profile& profile, int border) {
-  Grid out{grid.width + 2 * border, grid.height + 2 * border, {}};
-  if (out.width <= 0 || out.height <= 0) return {};
-  out.values.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
-  const Framed from(grid, std::max(border, 0) + profile.reach() + block);
+Image<float> dilate(const Image<float>& image, const Profile& profile, int border) {
+  const int width = image.width + 2 * border, height = image.height + 2 * border;
+  if (width <= 0 || height <= 0) return {};
+  Image<float> out = filled_image(width, height, 0.F);
+  const Framed from(image, std::max(border, 0) + profile.reach() + block);
   parallel_for(
       static_cast<std::size_t>(out.height),
       [&](std::size_t row) {
@@ -166,7 +165,7 @@ Grid dilate(const Grid& grid, const Profile& profile, int border) {
           (uses_avx2() ? envelope_avx2 : envelope_plain)(from, profile, x - border + from.frame,
                                                          static_cast<int>(row) - border + from.frame, result);
           const int count = std::min(block, out.width - x);
-          std::copy_n(result, count, out.values.begin() + static_cast<std::ptrdiff_t>(row) * out.width + x);
+          std::copy_n(result, count, &out.at(x, static_cast<int>(row)));
         }
       },
       4);

@@ -4,12 +4,9 @@
 #include <limits>
 #include <vector>
 
-namespace relievo {
+#include "relievo/core/image.h"
 
-struct Grid {
-  int width = 0, height = 0;
-  std::vector<float> values;  // row-major
-};
+namespace relievo {
 
 // Heights of a shape, symmetric in x and y, over offsets of whole samples.
 class Profile {
@@ -30,8 +27,8 @@ class Profile {
 };
 
 // Returns, for every sample p, the largest value(q) - profile(p - q); NaN counts as -infinity. The result has
-// `border` more samples on each side than the grid, or fewer if it is negative. Exact: what is skipped cannot
+// `border` more samples on each side than the image, or fewer if it is negative. Exact: what is skipped cannot
 // be the largest. Same bits for any number of threads.
-Grid dilate(const Grid& grid, const Profile& profile, int border);
+Image<float> dilate(const Image<float>& image, const Profile& profile, int border);
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Exact arithmetic on doubles: a number is kept as a sum of doubles, an expansion.
+// Exact arithmetic on doubles. A number is represented as a sum of doubles, an expansion.
 //
 // J. R. Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997.
 // Exact as long as nothing overflows or underflows, doubles round to nearest even, and the compiler neither
@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// A rounded result and what rounding took away: high + low is the exact value.
+// A rounded result and its rounding error: high + low is the exact value.
 struct TwoDoubles {
   double high, low;
 };
@@ -46,19 +46,19 @@ inline TwoDoubles two_product(double a, double b) {
   return {product, x.low * y.low - error};
 }
 
-// An exact sum of at most `capacity` doubles: strongly nonoverlapping, growing in magnitude, no zeros, so
-// that the last one tells the sign. Sums and products are exact, and as short as their values allow.
+// An exact sum of at most `capacity` doubles, its components: strongly nonoverlapping, of growing magnitude
+// and without zeros, so that the last one has the sign of the sum. Sums and products are exact.
 template <std::size_t capacity>
 class Expansion {
  public:
-  Expansion() : size_(0) {}  // zero; the components stay uninitialised, as most are never used
+  Expansion() : size_(0) {}  // zero; the components stay uninitialised because most are never used
   explicit Expansion(double a) : Expansion() { append(a); }
   explicit Expansion(TwoDoubles a) : Expansion() { append(a.low), append(a.high); }
 
   std::size_t size() const { return size_; }
   double operator[](std::size_t i) const { return components_[i]; }
 
-  // Appends a component that is not smaller than those before; zeros are left out.
+  // Appends a component whose magnitude is not smaller than that of those before; zeros are left out.
   void append(double a) {
     components_[size_] = a;
     size_ += a != 0;
@@ -80,7 +80,7 @@ class Expansion {
   }
 
  private:
-  std::array<double, capacity + 1> components_;  // one more, where append() parks a last zero
+  std::array<double, capacity + 1> components_;  // one more, where append() writes a zero without counting it
   std::size_t size_;
 };
 

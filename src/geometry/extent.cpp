@@ -7,9 +7,7 @@
 namespace relievo {
 
 double longer_side_of(std::span<const Vec3> points) {
-  Box box;
-  for (const Vec3& p : points) box.extend(p);
-  return std::max(box.size().x(), box.size().y());
+  return Box::of(points).longer_side();
 }
 
 std::vector<double> depth_ranks(std::span<const Vec3> points) {

@@ -1,4 +1,5 @@
-// How far points reach: across the view plane, and in depth.
+// The extent of points across the view plane and in depth. Tested by
+// tests/geometry/extent_test.cpp.
 #pragma once
 
 #include <span>
@@ -8,11 +9,11 @@
 
 namespace relievo {
 
-// The longer side of the points' box in the view plane.
+// Returns the longer side of the points' box in the view plane; 0 without points.
 double longer_side_of(std::span<const Vec3> points);
 
-// 0 for the deepest point, below 1 for the nearest: the share of the points that lie deeper, so that equal
-// depths have equal ranks.
+// Returns for each point the fraction of the points that lie deeper (smaller z): 0 for the deepest, below 1
+// for the nearest. Points of equal depth have equal ranks.
 std::vector<double> depth_ranks(std::span<const Vec3> points);
 
 }  // namespace relievo

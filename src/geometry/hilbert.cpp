@@ -7,9 +7,9 @@
 namespace relievo {
 namespace {
 
-constexpr unsigned bits = 12;  // per axis; a cell that holds many points is divided again
+constexpr unsigned bits = 12;  // per axis; cells with many points are divided again
 
-// Place on the curve in the upper half, number of the point in the lower.
+// The position on the curve in the upper 32 bits, the number of the point in the lower.
 using Entry = std::uint64_t;
 using Entries = std::span<Entry>;
 
@@ -37,7 +37,7 @@ std::uint32_t place_of_cell(std::uint32_t x, std::uint32_t y) {
   return place;
 }
 
-// Sorts the entries along a curve through their bounding square. Returns false if they are all at one place.
+// Sorts the entries along a curve through their bounding square. Returns false if all points coincide.
 bool sort_along_curve(std::span<const Vec2> points, Entries entries) {
   Vec2 low = points[number(entries.front())], high = low;
   for (const Entry e : entries) {
@@ -62,6 +62,8 @@ std::vector<Index> hilbert_order(std::span<const Vec2> points) {
   std::vector<Entry> entries(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) entries[i] = i;
 
+  // Cells with more points than this are sorted along a curve of their own, until none is left; an explicit
+  // stack replaces recursion, whose depth clusters within clusters could make large.
   constexpr std::ptrdiff_t most_in_a_cell = 8;
   std::vector<Entries> todo;
   if (!entries.empty()) todo.emplace_back(entries);

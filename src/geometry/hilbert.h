@@ -1,4 +1,4 @@
-// An order of points in which neighbours in the list are neighbours in the plane.
+// Order of points along a Hilbert curve: neighbours in the order are neighbours in the plane.
 #pragma once
 
 #include <span>
@@ -8,8 +8,9 @@
 
 namespace relievo {
 
-// Returns the numbers of the points in the order in which a Hilbert curve passes them, points at the same
-// place by number. Clusters are resolved at any scale. Coordinates must be finite, their differences too.
+// Returns the numbers of the points in the order in which a Hilbert curve passes them; coincident points are
+// in the order of their numbers. Clusters are resolved at any scale. Coordinates and their differences must
+// be finite.
 std::vector<Index> hilbert_order(std::span<const Vec2> points);
 
 }  // namespace relievo

@@ -5,18 +5,19 @@
 #include <limits>
 
 #include "core/memory.h"
+#include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
 
-constexpr Index most_counted = 12;  // of a cell
+constexpr Index most_counted =
+    12;  // points per cell: more hardly change a cell's mean, but cost time in every frame
 
-// Corners run counter-clockwise.
+// Returns whether p is in the triangle or on its border; the corners are counter-clockwise.
 bool is_in(const Vec2& p, const std::array<Vec2, 3>& corners) {
   for (std::size_t k = 0; k < 3; ++k) {
-    const Vec2 side = corners[(k + 1) % 3] - corners[k], away = p - corners[k];
-    if (side.x() * away.y() - side.y() * away.x() < 0) return false;
+    if (cross(corners[(k + 1) % 3] - corners[k], p - corners[k]) < 0) return false;
   }
   return true;
 }
@@ -29,14 +30,15 @@ Lattice::Lattice(std::span<const Vec3> points, std::span<const Index> counted, d
   set_first_nodes();
   count(counted);
   std::vector<Corners> sums(nodes());
+  // gather() with all shares 1 and all values 1 returns the sums of squared weights, whose inverses are the
+  // shares.
   share_.assign(nodes(), 1);
   gather(std::span<const float>(std::vector<float>(points.size(), 1)), sums, share_);
   for (float& s : share_) s = s > 0 ? 1 / s : 0;
 }
 
 void Lattice::set_places(std::span<const Vec3> points, double cell) {
-  Box box;
-  for (const Vec3& p : points) box.extend(p);
+  const Box box = Box::of(points);
   const auto nodes_along = [&](int axis) { return static_cast<std::size_t>(box.size()[axis] / cell) + 4; };
   width_ = nodes_along(0);
   share_.resize(width_ * nodes_along(1));
@@ -49,6 +51,7 @@ void Lattice::set_places(std::span<const Vec3> points, double cell) {
   });
 }
 
+// refine() runs in every frame; listing the cells with points saves it the others.
 void Lattice::set_first_nodes() {
   std::vector<std::uint8_t> is_first(nodes());
   for (const SplinePlace& p : places_) is_first[p.node] = 1;
@@ -65,12 +68,13 @@ void Lattice::count(std::span<const Index> counted) {
   std::vector<Index> next(begin_.begin(), begin_.end() - 1);
   for (const Index i : counted) {
     const std::size_t c = cell_of(places_[i]);
+    // Keeps `kept` of the cell's points, evenly spread over their order.
     const Index n = seen[c]++, kept = std::min(all[c], most_counted);
     if (n * kept / all[c] != (n + 1) * kept / all[c]) counted_[next[c]++] = {i, places_[i]};
   }
 }
 
-// In cells from the first node.
+// Returns the position of a point, in cells from the first node.
 Vec2 Lattice::place(std::size_t point) const {
   const SplinePlace& p = places_[point];
   const std::size_t cell = cell_of(p);
@@ -91,7 +95,7 @@ std::size_t Lattice::memory() const {
   return bytes(places_) + bytes(first_nodes_) + bytes(counted_) + bytes(begin_) + bytes(share_);
 }
 
-// Calls f(cell, its counted points), concurrently.
+// Calls f(cell, the counted points in it) for each cell, concurrently.
 template <typename F>
 void Lattice::for_cells(F&& f) const {
   constexpr std::size_t grain = 256;

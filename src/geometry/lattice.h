@@ -1,4 +1,4 @@
-// A square lattice over the view plane, for what changes slowly from point to point.
+// A square lattice over the view plane, for quantities that change slowly from point to point.
 #pragma once
 
 #include <array>
@@ -11,39 +11,41 @@
 
 namespace relievo {
 
-// Fixed points on a lattice that surrounds them by at least one cell. Between its four nodes a value is
-// bilinear. Nodes are numbered row by row.
+// Given points, and a lattice of square cells that surrounds them by at least one cell. Values at its nodes
+// are interpolated bilinearly within a cell. Nodes are numbered row by row; a cell has the number of its
+// first node.
 class Lattice {
  public:
-  // The corners of a cell: the first, and those next to it in x, in y and in both.
+  // One value per corner of a cell: the first node, and its neighbours in x, in y and in both.
   using Corners = std::array<float, 4>;
 
-  // Of values in a cell; none if lowest > highest.
+  // The range of the values in a cell; without values lowest > highest.
   struct Extent {
     float lowest, highest;
   };
 
-  // `counted` are the points, each once, that nodes and cells know: of a cell at most 12, spread evenly over
-  // their order. `cell` > 0 is in units of the points.
+  // gather() and compare() use the points listed in `counted` only, each listed once, and at most 12 per
+  // cell, spread evenly over their order. `cell` > 0 is the side of a cell in the unit of the points.
   Lattice(std::span<const Vec3> points, std::span<const Index> counted, double cell);
 
   std::size_t width() const { return width_; }
   std::size_t nodes() const { return share_.size(); }
 
-  // Whether a counted point has a weight at the node.
+  // Returns whether a counted point has a weight at the node.
   bool is_reached(std::size_t node) const { return share_[node] > 0; }
 
-  // Bytes held.
+  // Returns the bytes held.
   std::size_t memory() const;
 
-  // Values at 5 x 5 places of a cell, its rim included.
+  // Values at 5 x 5 places of a cell, its edges included.
   using Tile = std::array<float, 25>;
 
-  // Writes to the tiles, one per node, what cubic B-splines, which have no creases between cells, make of the
-  // nodes: weighted means of the 4 x 4 around a place. Of cells without points they are left as they are.
+  // Evaluates the cubic B-spline with the nodes as coefficients at the places of each tile; one tile per
+  // node. Unlike bilinear values it has no creases between cells. Tiles of cells without points are not
+  // written.
   void refine(std::span<const float> nodes, std::span<Tile> tiles) const;
 
-  // The value at a point, counted or not, of nodes that have been refined: bilinear in quarters of a cell.
+  // Returns the value of refined nodes at a point, counted or not, bilinear within quarters of a cell.
   float at(std::size_t point, std::span<const Tile> tiles) const {
     const SplinePlace& p = places_[point];
     const float* t = tiles[p.node].data() + 5 * (p.y >> bits_in_quarter) + (p.x >> bits_in_quarter);
@@ -52,28 +54,29 @@ class Lattice {
     return below + y * (above - below);
   }
 
-  // Sets to 1 what belongs to the nodes in a triangle of points, which runs counter-clockwise; one entry per
-  // node.
+  // Sets marks[n] to 1 for each node n inside a triangle of points, which must be counter-clockwise. `marks`
+  // has one element per node.
   void mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> marks) const;
 
-  // Sets to 1 what belongs to the four nodes around a point.
+  // Sets marks[n] to 1 for the four nodes n around a point.
   void mark_nodes_around(std::size_t point, std::span<std::uint8_t> marks) const {
     const std::size_t n = cell_of(places_[point]);
     marks[n] = marks[n + 1] = marks[n + width_] = marks[n + width_ + 1] = 1;
   }
 
-  // Writes to each node the mean of the counted points around it, by the squares of the weights that the node
-  // has at them; 0 where there are none. `sums` is scratch; it and `means` have an entry per node.
+  // Writes to each element of `means` the mean of the values of the counted points around that node, weighted
+  // by the squares of the node's bilinear weights there; 0 without such points. `sums` is scratch memory.
+  // Both have one element per node.
   template <typename Real>
   void gather(std::span<const Real> values, std::span<Corners> sums, std::span<float> means) const;
 
-  // Writes per cell, which has the number of its first node, the lowest and the highest of its counted values
-  // less the bilinear ones between its nodes.
+  // Writes for each cell the range of the differences between the values of its counted points and the values
+  // interpolated from `nodes`.
   template <typename Real>
   void compare(std::span<const Real> values, std::span<const float> nodes, std::span<Extent> cells) const;
 
-  // Calls f(cell, corner) for the four cells around a node; corner is the node's in that cell. Cells beyond
-  // the rim are left out or hold no points.
+  // Calls f(cell, corner) for the cells around a node; `corner` is which corner of the cell the node is.
+  // Cells outside the lattice are left out or contain no points.
   template <typename F>
   void each_cell(std::size_t node, F&& f) const {
     f(node, 0);
@@ -83,13 +86,13 @@ class Lattice {
   }
 
  private:
-  // A point of a cell, with its place: neighbours in memory, where points of a cell need not be.
+  // A counted point with its place, stored by cell because the points of a cell may be far apart in memory.
   struct Counted {
     Index point;
     SplinePlace place;
   };
 
-  // A share's two first bits are the quarter, the others the share of it.
+  // The two highest bits of a packed position are the quarter of the cell, the others the position in it.
   static constexpr int bits_in_quarter = 14;
   static float share_of_quarter(std::uint16_t share) {
     constexpr int whole = 1 << bits_in_quarter;
@@ -101,7 +104,7 @@ class Lattice {
     const float x = unpacked_share(p.x), y = unpacked_share(p.y);
     return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
   }
-  // `n` is the cell's first node.
+  // Interpolates between a cell's nodes, of which `n` is the first.
   float between(const Corners& w, const float* n) const {
     return w[0] * n[0] + w[1] * n[1] + w[2] * n[width_] + w[3] * n[width_ + 1];
   }
@@ -114,9 +117,9 @@ class Lattice {
 
   std::size_t width_ = 0;
   std::vector<SplinePlace> places_;  // of all points
-  std::vector<Index> first_nodes_;   // of the 4 x 4 around cells with points, each once
+  std::vector<Index> first_nodes_;   // of the 4 x 4 nodes around each cell with points, each once
   std::vector<Counted> counted_;     // by cell
-  std::vector<Index> begin_;         // of the points of a cell in counted_
+  std::vector<Index> begin_;         // per cell, where its points begin in counted_
   std::vector<float> share_;         // per node: 1 / the sum of the squared weights, 0 if that is 0
 };
 

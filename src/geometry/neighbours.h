@@ -1,4 +1,5 @@
-// Nearest neighbours in two and three dimensions: the one file that knows nanoflann.
+// Nearest neighbours in two and three dimensions; the only file that uses nanoflann.
+// Tested by tests/scan/spacing_test.cpp and tests/scan/boundary_test.cpp.
 #pragma once
 
 #include <memory>
@@ -11,7 +12,7 @@
 
 namespace relievo {
 
-// A kd-tree over points that must outlive it. Points: Vec2 or Vec3. Concurrent queries are safe.
+// A k-d tree over points of type Vec2 or Vec3, which must outlive it. Concurrent queries are safe.
 template <typename Point>
 class KdTree {
  public:
@@ -22,13 +23,13 @@ class KdTree {
       tree_ = std::make_unique<Tree>(dimension, adaptor_, nanoflann::KDTreeSingleIndexAdaptorParams(12));
   }
 
-  // Fills the arrays with the k points nearest to `query`, nearest first; returns how many there are (fewer
-  // than k only if the tree holds fewer). A point of the tree finds itself.
+  // Writes the numbers and squared distances of the k points nearest to `query` to the arrays, nearest first.
+  // Returns how many there are: k, or all points if the tree has fewer. A point of the tree finds itself.
   std::size_t nearest(const Point& query, std::size_t k, Index* indices, double* distances_sq) const {
     return tree_ ? tree_->knnSearch(query.data(), k, indices, distances_sq) : 0;
   }
 
-  // Replaces `matches` with all points nearer than `radius`, in no particular but reproducible order.
+  // Replaces `matches` with all points nearer than `radius`, in an order that is arbitrary but reproducible.
   void within(const Point& query, double radius, std::vector<Match>& matches) const {
     matches.clear();
     if (tree_)

@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-// Puts a zero between each two bits.
+// Returns 16 bits of a coordinate in [0, 1], with a zero between any two of them.
 std::uint64_t spread(float coordinate) {
   auto x = static_cast<std::uint64_t>(std::clamp(coordinate, 0.0F, 1.0F) * 65535);
   x = (x | x << 8) & 0x00FF00FF;

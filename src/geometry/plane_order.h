@@ -1,4 +1,4 @@
-// A numbering of points in the plane in which near ones are near in memory, too.
+// Order of points along a Z-order curve, so that points that are close in the plane are close in memory.
 #pragma once
 
 #include <span>
@@ -8,12 +8,12 @@
 
 namespace relievo {
 
-// Returns the points scaled into [0, 1], so that single precision resolves them; 0 where a coordinate is not
-// finite.
+// Returns the points moved and scaled into the unit square, so that single precision resolves them. Points
+// with a coordinate that is not finite become (0, 0).
 std::vector<Eigen::Vector2f> in_unit_square(std::span<const Vec2> points);
 
-// Returns the numbers of the points in Z-order on a grid of 65536 x 65536 over the unit square, those of a
-// cell by number.
+// Returns the numbers of the points in Z-order on a grid of 65536 x 65536 cells over the unit square; points
+// in one cell are in the order of their numbers.
 std::vector<Index> plane_order(std::span<const Eigen::Vector2f> points);
 
 }  // namespace relievo

@@ -5,8 +5,8 @@
 namespace relievo::detail {
 namespace {
 
-// Bounds of section 4.4: of the determinant of the rounded differences, of that with a first-order
-// correction, and of the rounding of an estimate.
+// Error bounds of section 4.4: of the determinant of the rounded differences, of the one with a first-order
+// correction, and of rounding an exact value to an estimate.
 constexpr double incircle_bound_b = (4 + 48 * epsilon) * epsilon;
 constexpr double incircle_bound_c = (44 + 576 * epsilon) * epsilon * epsilon;
 constexpr double estimate_bound = (3 + 8 * epsilon) * epsilon;
@@ -15,7 +15,7 @@ TwoDoubles difference(double a, double b) {
   return two_sum(a, -b);
 }
 
-// A point relative to another: the rounded differences (high) and what rounding took away (low).
+// A point relative to another: the rounded differences (high) and their rounding errors (low).
 struct Offset {
   TwoDoubles x, y;
 
@@ -24,7 +24,7 @@ struct Offset {
   bool is_rounded() const { return x.low != 0 || y.low != 0; }
 };
 
-// A difference with one component (rounded) or two (exact).
+// Returns a difference as an expansion of one component (rounded) or two (exact).
 template <std::size_t n>
 Expansion<n> number(const TwoDoubles& difference) {
   if constexpr (n == 1) return Expansion<1>(difference.high);
@@ -47,7 +47,8 @@ auto incircle_determinant(const Offset& a, const Offset& b, const Offset& c) {
   return lift<n>(a) * cross<n>(b, c) + lift<n>(b) * cross<n>(c, a) + lift<n>(c) * cross<n>(a, b);
 }
 
-// The determinant's value, rounded, with all terms taken positive: the scale of all error bounds.
+// Returns the sum of the absolute values of the determinant's terms, to which all error bounds are
+// proportional.
 double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
   const auto term = [](const Offset& p, const Offset& q, const Offset& r) {
     const double lifted = p.x.high * p.x.high + p.y.high * p.y.high;
@@ -56,7 +57,8 @@ double incircle_permanent(const Offset& a, const Offset& b, const Offset& c) {
   return term(a, b, c) + term(b, c, a) + term(c, a, b);
 }
 
-// What a's row and its cofactor add to the determinant, to first order in the differences' errors.
+// Returns the change of a's term of the determinant, to first order in the rounding errors of the
+// differences.
 double incircle_correction(const Offset& a, const Offset& b, const Offset& c) {
   const double cofactor = b.x.high * c.y.high - b.y.high * c.x.high;
   const double cofactor_error =
@@ -77,6 +79,8 @@ int orient2d_exact(const Vec2& a, const Vec2& b, const Vec2& c) {
 }
 
 int incircle_exact(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+  // The stages of Shewchuk's incircle(): exact with the rounded differences, which settles it if none was
+  // rounded; with a first-order correction; fully exact.
   const Offset ad(a, d), bd(b, d), cd(c, d);
   const auto determinant = incircle_determinant<1>(ad, bd, cd);
   if (!ad.is_rounded() && !bd.is_rounded() && !cd.is_rounded()) return determinant.sign();

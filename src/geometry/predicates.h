@@ -1,10 +1,11 @@
-// Exact signs of the two determinants a Delaunay triangulation rests on.
+// Exact signs of the two determinants that a Delaunay triangulation depends on.
 //
-// Each first evaluates in doubles and trusts the sign if the value exceeds a proven bound of its rounding
-// error (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates", 1997,
-// section 4); otherwise it decides with expansions. No state, no initialisation: safe from any thread. Exact
-// for coordinates that are 0 or of a magnitude between smallest_coordinate and largest_coordinate, in round
-// to nearest. The rarest case takes 45 KB of stack.
+// Each function first evaluates the determinant in doubles and trusts its sign if the value exceeds a proven
+// bound of the rounding error (Shewchuk, "Adaptive Precision Floating-Point Arithmetic and Fast Robust
+// Geometric Predicates", 1997, section 4); otherwise it computes with expansions. There is no state and no
+// initialisation, so any thread may call them. They are exact for coordinates that are 0 or of a magnitude
+// between smallest_coordinate and largest_coordinate, if the processor rounds to nearest. The rarest case
+// takes 45 KB of stack.
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,7 @@
 
 namespace relievo {
 
-// All bits of such coordinates, multiplied four times, lie between the subnormal numbers and infinity.
+// Products of four such coordinates neither overflow nor lose bits to underflow.
 inline constexpr double smallest_coordinate = 1e-60, largest_coordinate = 1e70;
 
 inline bool is_exact_coordinate(double x) {

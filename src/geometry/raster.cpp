@@ -25,16 +25,16 @@ int first_centre(int steps) {
 
 // A linear function of the pixel, not negative inside the triangle. Its numbers are integers below 2^53, so
 // exact.
-struct Edge {
+struct EdgeFunction {
   double value;  // at the centre of column 0 of the row in work
   double per_column, per_row;
 };
 
 template <typename Corner>
-Edge edge_between(const Corner& a, const Corner& b, int row) {
+EdgeFunction edge_between(const Corner& a, const Corner& b, int row) {
   const int half = steps_per_pixel / 2;
   const double dx = b.x - a.x, dy = b.y - a.y, y = row * steps_per_pixel + half - a.y;
-  Edge edge{dx * y - dy * (half - a.x), -dy * steps_per_pixel, dx * steps_per_pixel};
+  EdgeFunction edge{dx * y - dy * (half - a.x), -dy * steps_per_pixel, dx * steps_per_pixel};
   // A centre on an edge belongs to the triangle on its right, or below it.
   const bool owns_its_points = edge.per_column > 0 || (edge.per_column == 0 && edge.per_row > 0);
   if (!owns_its_points) edge.value -= 1;
@@ -47,9 +47,9 @@ struct Columns {
 
 // Columns of the row in work where no edge is negative. The quotients cannot be rounded across an integer:
 // they are at least 2^-31 away from one, or equal to it, and below 2^15.
-Columns columns_inside(const std::array<Edge, 3>& edges, int width) {
+Columns columns_inside(const std::array<EdgeFunction, 3>& edges, int width) {
   double first = 0, last = width - 1;
-  for (const Edge& edge : edges) {
+  for (const EdgeFunction& edge : edges) {
     if (edge.per_column > 0) {
       first = std::max(first, -edge.value / edge.per_column);
     } else if (edge.per_column < 0) {
@@ -65,12 +65,12 @@ Columns columns_inside(const std::array<Edge, 3>& edges, int width) {
 
 // Height over the picture: the triangle's plane, never above or below its corners, so that slivers cannot
 // spike.
-struct Plane {
+struct DepthPlane {
   double value = 0, per_column = 0, per_row = 0;  // value at the picture's corner
   double lowest = 0, highest = 0;
 };
 
-Plane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
+DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
   const auto [lowest, highest] = std::minmax({a.z(), b.z(), c.z()});
   const Vec3 p = b - a, q = c - a;
   const double area = p.x() * q.y() - p.y() * q.x();
@@ -83,7 +83,7 @@ Plane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 }  // namespace
 
-Raster::Raster(const Drawing& scene, int band_rows) : scene_(scene), band_rows_(band_rows) {
+Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene), band_rows_(band_rows) {
   corners_.resize(scene.points.size());
   parallel_for(scene.points.size(), [&](std::size_t i) {
     const Vec3& p = scene.points[i];
@@ -93,7 +93,7 @@ Raster::Raster(const Drawing& scene, int band_rows) : scene_(scene), band_rows_(
 }
 
 // Rows in which the triangle can cover a centre; none if it faces away or slips between the centres.
-Raster::Rows Raster::rows_of(const Triangle& triangle) const {
+Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
   const Corner &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
   const auto cross = std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
   if (cross >= 0) return {0, 0};  // y points down: what is counter-clockwise to the viewer is negative here
@@ -103,7 +103,7 @@ Raster::Rows Raster::rows_of(const Triangle& triangle) const {
   return {std::max(0, first_centre(top)), std::min(scene_.height, first_centre(bottom + 1))};
 }
 
-void Raster::sort_into_bands() {
+void Rasterizer::sort_into_bands() {
   std::vector<Rows> bands(scene_.triangles.size());
   first_.assign(static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_) + 1, 0);
   parallel_for(bands.size(), [&](std::size_t t) {
@@ -121,30 +121,30 @@ void Raster::sort_into_bands() {
       triangles_[next[static_cast<std::size_t>(b)]++] = static_cast<Index>(t);
 }
 
-void Raster::draw_triangle(Index t, Rows rows, Band& band) const {
+void Rasterizer::draw_triangle(Index t, Rows rows, RowBand& band) const {
   const auto& [i, j, k] = scene_.triangles[t];
   const Corner &a = corners_[i], &b = corners_[k], &c = corners_[j];  // turned: y points down
   std::array edges{edge_between(a, b, rows.begin), edge_between(b, c, rows.begin),
                    edge_between(c, a, rows.begin)};
-  const Plane plane = plane_through(scene_.points[i], scene_.points[j], scene_.points[k]);
+  const DepthPlane plane = plane_through(scene_.points[i], scene_.points[j], scene_.points[k]);
   for (int row = rows.begin; row < rows.end; ++row) {
     const Columns columns = columns_inside(edges, scene_.width);
-    Sample* const samples = band.samples.data() + std::ptrdiff_t{row - band.first_row} * scene_.width;
+    Fragment* const fragments = band.fragments.data() + std::ptrdiff_t{row - band.first_row} * scene_.width;
     const double z0 = plane.value + (row + 0.5) * plane.per_row + 0.5 * plane.per_column;
     for (int column = columns.begin; column < columns.end; ++column) {
       const double z = std::clamp(z0 + column * plane.per_column, plane.lowest, plane.highest);
-      Sample& sample = samples[column];
-      if (static_cast<float>(z) > sample.z) sample = {static_cast<float>(z), t};
+      Fragment& fragment = fragments[column];
+      if (static_cast<float>(z) > fragment.z) fragment = {static_cast<float>(z), t};
     }
-    for (Edge& edge : edges) edge.value += edge.per_row;
+    for (EdgeFunction& edge : edges) edge.value += edge.per_row;
   }
 }
 
-Band Raster::draw(std::size_t b) const {
-  Band band;
+RowBand Rasterizer::draw(std::size_t b) const {
+  RowBand band;
   band.first_row = static_cast<int>(b) * band_rows_;
   band.rows = std::min(band_rows_, scene_.height - band.first_row);
-  band.samples.resize(static_cast<std::size_t>(band.rows) * static_cast<std::size_t>(scene_.width));
+  band.fragments.resize(static_cast<std::size_t>(band.rows) * static_cast<std::size_t>(scene_.width));
   for (std::size_t at = first_[b]; at < first_[b + 1]; ++at) {
     const Index t = triangles_[at];
     const Rows rows = rows_of(scene_.triangles[t]);
@@ -154,7 +154,7 @@ Band Raster::draw(std::size_t b) const {
   return band;
 }
 
-Vec3f corner_weights(const Drawing& scene, Index triangle, double x, double y) {
+Vec3f corner_weights(const RasterInput& scene, Index triangle, double x, double y) {
   const auto& [i, j, k] = scene.triangles[triangle];
   const Vec2 place(x, y);
   const Vec2 a = scene.points[i].head<2>() - place, b = scene.points[j].head<2>() - place,

@@ -8,9 +8,9 @@
 
 namespace relievo {
 
-// What is to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. They may lie
+// The triangles to be drawn. Points are in pixels: x to the right, y down; z grows towards the viewer. They may lie
 // outside [0, width] x [0, height], by at most 2^17 pixels. The centre of the first pixel is at (0.5, 0.5).
-struct Drawing {
+struct RasterInput {
   static constexpr int most_pixels = 32768;  // of width and height: keeps the coverage test exact
 
   std::vector<Vec3> points;
@@ -18,28 +18,28 @@ struct Drawing {
   int width = 0, height = 0;
 };
 
-// What is seen at a pixel's centre.
-struct Sample {
+// The triangle that is seen at a pixel's centre.
+struct Fragment {
   float z = -std::numeric_limits<float>::infinity();
   Index triangle = no_index;  // no_index: nothing
 };
 
-// Full rows of the picture, row-major.
-struct Band {
+// Some full rows of the picture, row-major.
+struct RowBand {
   int first_row = 0, rows = 0;
-  std::vector<Sample> samples;
+  std::vector<Fragment> fragments;
 };
 
 // Triangles sorted into bands of rows, which can be drawn in any order and concurrently. The coverage test is
 // exact on corners rounded to 1/256 pixel: every centre inside a surface belongs to exactly one of its
 // triangles, also on shared edges. Of equally near triangles the first is seen. The scene must outlive the
 // object.
-class Raster {
+class Rasterizer {
  public:
-  Raster(const Drawing& scene, int band_rows);
+  Rasterizer(const RasterInput& scene, int band_rows);
 
   std::size_t bands() const { return first_.size() - 1; }
-  Band draw(std::size_t band) const;
+  RowBand draw(std::size_t band) const;
 
  private:
   struct Corner {
@@ -50,9 +50,9 @@ class Raster {
   };
   Rows rows_of(const Triangle& triangle) const;
   void sort_into_bands();
-  void draw_triangle(Index t, Rows rows, Band& band) const;
+  void draw_triangle(Index t, Rows rows, RowBand& band) const;
 
-  const Drawing& scene_;
+  const RasterInput& scene_;
   int band_rows_;
   std::vector<Corner> corners_;     // per point
   std::vector<std::size_t> first_;  // per band and one more: where its triangles begin
@@ -60,6 +60,6 @@ class Raster {
 };
 
 // Weights of the triangle's corners at a place in the picture; not negative, also for places outside.
-Vec3f corner_weights(const Drawing& scene, Index triangle, double x, double y);
+Vec3f corner_weights(const RasterInput& scene, Index triangle, double x, double y);
 
 }  // namespace relievo

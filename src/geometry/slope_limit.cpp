@@ -1,42 +1,34 @@
-#include "steep_triangles.h"
+#include "geometry/slope_limit.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/groups.h"
+#include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
 
+// Limits of the effort. A field that needs more has too many steep triangles for this method, or its fixed
+// points allow no solution.
 constexpr int most_sweeps = 4000;
-constexpr std::size_t most_visits = 10;  // per triangle of the field, besides one in every sweep
-// A triangle is made a little flatter than it must be, more so the longer it takes: else neighbours would
-// push each other over the limit by ever less, but for ever. Far flatter would push more of them over it.
+constexpr std::size_t most_visits = 10;  // per triangle of the field, in addition to one per sweep
+// A triangle is made flatter than it must be by this fraction, which grows from the least to the most with
+// the number of sweeps. Without it, neighbours would push each other over the limit forever, by less and
+// less. A larger fraction would push more neighbours over it.
 constexpr double least_spare = 2e-5, most_spare = 1e-3;
-// Of two needles on one short edge each may take back what the other does to its ends, and both wait for
-// their far corners, which least squares hardly move. So now and then a triangle is scaled instead, by a
-// little: that leaves less for the two to settle, but moves points farther than it must.
+// Two thin triangles on one short edge can undo each other's moves of its ends; only moving their distant
+// corners helps, which least squares hardly does. So in every 64th sweep triangles are flattened by scaling
+// their heights, by at most most_spare. This breaks such a cycle but moves points further than necessary,
+// hence rarely.
 constexpr int sweeps_to_scaling = 64;
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-// Gradients of the corners' hat functions.
-std::array<Vec2, 3> hat_gradients(const SteepField& field, const Triangle& t) {
-  const Vec2 &a = field.plane[t[0]], &b = field.plane[t[1]], &c = field.plane[t[2]];
-  const double twice_area = cross(b - a, c - a);
-  const auto gradient = [&](const Vec2& opposite) {
-    return Vec2(-opposite.y() / twice_area, opposite.x() / twice_area);
-  };
-  return {gradient(c - b), gradient(a - c), gradient(b - a)};
-}
-
-// Upright and overhanging triangles are steeper than any, but for level ones: slivers that rounding turned
-// over.
-double steepness(const SteepField& field, const Triangle& t, std::span<const double> heights) {
+// Returns the slope of a triangle as rise over run. Vertical and overturned triangles count as infinitely
+// steep, unless they are level: those are slivers that rounding has turned over.
+double steepness(const PlaneMesh& field, const Triangle& t, std::span<const double> heights) {
   const Vec2 &a = field.plane[t[0]], &b = field.plane[t[1]], &c = field.plane[t[2]];
   if (!(cross(b - a, c - a) > 0)) {
     const bool is_level = heights[t[0]] == heights[t[1]] && heights[t[1]] == heights[t[2]];
@@ -45,24 +37,19 @@ double steepness(const SteepField& field, const Triangle& t, std::span<const dou
   return triangle_slope(field, t, heights).norm();
 }
 
-// Triangles around each point.
-struct Fans {
-  std::vector<Index> begin, triangles;
+// The triangles around each point.
+using VertexStars = Groups<Index>;
 
-  explicit Fans(const SteepField& field) : begin(field.plane.size() + 1, 0) {
-    for (const Triangle& t : field.triangles)
-      for (const Index i : t) ++begin[i + 1];
-    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
-    triangles.resize(begin.back());
-    std::vector<Index> next(begin.begin(), begin.end() - 1);
-    for (std::size_t t = 0; t < field.triangles.size(); ++t)
-      for (const Index i : field.triangles[t]) triangles[next[i]++] = static_cast<Index>(t);
-  }
-};
+VertexStars vertex_stars(const PlaneMesh& field) {
+  return grouped<Index>(field.plane.size(), [&](auto&& add) {
+    for (Index t = 0; t < field.triangles.size(); ++t)
+      for (const Index i : field.triangles[t]) add(i, t);
+  });
+}
 
-class Flattener {
+class SlopeLimiter {
  public:
-  Flattener(const SteepField& field, double max_slope, Rounding rounding, std::span<double> heights)
+  SlopeLimiter(const PlaneMesh& field, double max_slope, Rounding rounding, std::span<double> heights)
       : field_(field),
         max_slope_(max_slope),
         rounding_(rounding),
@@ -72,16 +59,18 @@ class Flattener {
   bool run() {
     std::vector<Index> steep = all_steep();
     if (steep.empty()) return true;
-    const Fans fans(field_);
+    const VertexStars stars = vertex_stars(field_);
     std::size_t visits = 0;
     for (int sweep = 0; sweep < most_sweeps && !steep.empty(); ++sweep) {
       visits += steep.size();
       if (visits > most_visits * field_.triangles.size() + most_sweeps) return false;
       const bool is_scaling = sweep % sweeps_to_scaling == sweeps_to_scaling - 1;
       const double wanted = max_slope_ * (1 - std::min(most_spare, least_spare * (1 + sweep / 10)));
+      // One after the other, not concurrently: each projection uses the moves of those before, which
+      // converges faster and gives the same result for any number of threads.
       for (const Index t : steep)
-        if (is_steep(t)) flatten_one(field_.triangles[t], wanted, is_scaling);
-      steep = steep_around(steep, fans);
+        if (is_steep(t)) project(field_.triangles[t], wanted, is_scaling);
+      steep = steep_around(steep, stars);
     }
     return steep.empty();
   }
@@ -104,26 +93,27 @@ class Flattener {
         });
   }
 
-  // Of the triangles that share a corner with those just worked on.
-  std::vector<Index> steep_around(const std::vector<Index>& worked_on, const Fans& fans) const {
+  // Returns the steep triangles among those that share a corner with the ones just changed.
+  std::vector<Index> steep_around(const std::vector<Index>& worked_on, const VertexStars& stars) const {
     std::vector<Index> around;
     for (const Index t : worked_on)
-      for (const Index i : field_.triangles[t])
-        around.insert(around.end(), fans.triangles.begin() + fans.begin[i],
-                      fans.triangles.begin() + fans.begin[i + 1]);
+      for (const Index i : field_.triangles[t]) around.insert(around.end(), stars[i].begin(), stars[i].end());
     std::ranges::sort(around);
     around.erase(std::ranges::unique(around).begin(), around.end());
     std::erase_if(around, [&](Index t) { return !is_steep(t); });
     return around;
   }
 
-  void flatten_one(const Triangle& t, double wanted, bool is_scaling) {
+  // Moves the free corners of a triangle by the least sum of squares that reduces its slope to `wanted`.
+  void project(const Triangle& t, double wanted, bool is_scaling) {
     const Vec2 slope = triangle_slope(field_, t, heights_);
     const double steepness = slope.norm();
-    if (!slope.allFinite() || steepness < wanted) return;  // overturned, which no slope mends
+    if (!slope.allFinite() || steepness < wanted) return;  // no move of heights helps an overturned triangle
     if (is_scaling && std::ranges::count_if(t, [&](Index i) { return field_.is_fixed[i]; }) < 2)
       return scale(t, std::max(wanted / steepness, 1 - most_spare));
-    const std::array<Vec2, 3> gradients = hat_gradients(field_, t);
+    const std::array corners{field_.plane[t[0]], field_.plane[t[1]], field_.plane[t[2]]};
+    const std::array<Vec2, 3> gradients =
+        hat_gradients(corners, cross(corners[1] - corners[0], corners[2] - corners[0]));
     std::array<double, 3> pull{};
     double sum_sq = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -136,7 +126,7 @@ class Flattener {
       if (pull[i] != 0) move(t[i], (wanted - steepness) * pull[i] / sum_sq);
   }
 
-  // About the corner that stays, if one does.
+  // Scales the heights of a triangle about its fixed corner, if it has one, else about its mean.
   void scale(const Triangle& t, double share) {
     double centre = (heights_[t[0]] + heights_[t[1]] + heights_[t[2]]) / 3;
     for (const Index i : t)
@@ -151,22 +141,23 @@ class Flattener {
         rounding_ == Rounding::none ? exact_[i] : static_cast<double>(static_cast<float>(exact_[i]));
   }
 
-  SteepField field_;
+  PlaneMesh field_;
   double max_slope_;
   Rounding rounding_;
   std::span<double> heights_;
-  std::vector<double> exact_;  // before rounding, which would for ever take all of a move below half a step
+  // The heights before rounding. Without them, moves below half a rounding step would be lost each time.
+  std::vector<double> exact_;
 };
 
 }  // namespace
 
-Vec2 triangle_slope(const SteepField& field, const Triangle& t, std::span<const double> heights) {
+Vec2 triangle_slope(const PlaneMesh& field, const Triangle& t, std::span<const double> heights) {
   const Vec2 p = field.plane[t[0]] - field.plane[t[2]], q = field.plane[t[1]] - field.plane[t[2]];
   const double up_p = heights[t[0]] - heights[t[2]], up_q = heights[t[1]] - heights[t[2]];
   return Vec2(up_p * q.y() - up_q * p.y(), up_q * p.x() - up_p * q.x()) / cross(p, q);
 }
 
-double steepest_of(const SteepField& field, std::span<const double> heights) {
+double steepest_of(const PlaneMesh& field, std::span<const double> heights) {
   return parallel_reduce(
       field.triangles.size(), 0.0,
       [&](std::size_t begin, std::size_t end) {
@@ -178,8 +169,8 @@ double steepest_of(const SteepField& field, std::span<const double> heights) {
       [](double a, double b) { return std::max(a, b); });
 }
 
-bool flatten(const SteepField& field, double max_slope, Rounding rounding, std::span<double> heights) {
-  return Flattener(field, max_slope, rounding, heights).run();
+bool limit_slopes(const PlaneMesh& field, double max_slope, Rounding rounding, std::span<double> heights) {
+  return SlopeLimiter(field, max_slope, rounding, heights).run();
 }
 
 }  // namespace relievo

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// Puts two zero bits after each of the 21 low bits.
+// Returns the 21 low bits of v with two zeros after each.
 std::uint64_t spread(std::uint64_t v) {
   v = (v | v << 32) & 0x1F00000000FFFF;
   v = (v | v << 16) & 0x1F0000FF0000FF;
@@ -21,8 +21,7 @@ std::uint64_t spread(std::uint64_t v) {
 }  // namespace
 
 std::vector<Index> space_curve_order(std::span<const Vec3> points) {
-  Box box;
-  for (const Vec3& p : points) box.extend(p);
+  const Box box = Box::of(points);
   const double cells = (1 << 21) - 1;
   const double scale = cells / std::max(box.size().maxCoeff(), 1e-300);
   struct Key {

@@ -1,4 +1,4 @@
-// Order along a space-filling (Z-order) curve.
+// Order of points in space along a Z-order curve. Tested by tests/geometry/extent_test.cpp.
 #pragma once
 
 #include <span>
@@ -8,8 +8,9 @@
 
 namespace relievo {
 
-// Returns the numbers of the points in Z-order within their box; points in the same of 2^63 cells by their
-// coordinates. The result does not depend on the order given, but for exact twins.
+// Returns the numbers of the points in Z-order within their box; points in the same of its 2^63 cells are
+// ordered by their coordinates. The sequence of positions does not depend on the order in which the points
+// are given.
 std::vector<Index> space_curve_order(std::span<const Vec3> points);
 
 }  // namespace relievo

@@ -11,12 +11,13 @@
 namespace relievo {
 namespace {
 
-// Section 4: a node of the lattice of half the cells, from three (at even places) or two of the whole cells.
+// Returns a node of the refined lattice from three nodes of the coarser one, at even places, or from two
+// (section 4).
 float halved(const float* node, bool is_even) {
   return is_even ? .125F * (node[0] + node[2]) + .75F * node[1] : .5F * (node[0] + node[1]);
 }
 
-// The same for eight numbers: four in x, each twice, or four in y.
+// Returns the same as cubic_basis() with each value twice, for functions whose nodes are interleaved.
 RELIEVO_INLINE Float8 basis_of(Float8 t) {
   const Float8 c0{1 / 6.F, 1 / 6.F, 4 / 6.F, 4 / 6.F, 1 / 6.F, 1 / 6.F, 0, 0},
       c1{-.5F, -.5F, 0, 0, .5F, .5F, 0, 0}, c2{.5F, .5F, -1, -1, .5F, .5F, 0, 0},
@@ -63,6 +64,7 @@ MultilevelSpline::MultilevelSpline(std::span<const Vec2> sites, std::span<const 
   const auto cells = [&](double length) {
     return static_cast<std::size_t>(std::max(1.0, std::ceil(std::ldexp(length / options.cell, -coarsest))));
   };
+  // All lattices have whole cells of the coarsest one, so that each refines the one before exactly.
   const Vec2 size = max_ - min_;
   levels_.resize(static_cast<std::size_t>(options.levels));
   for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -84,6 +86,8 @@ MultilevelSpline::Position MultilevelSpline::locate(const Level& level, const Ve
           static_cast<float>(at.y() - static_cast<double>(row))};
 }
 
+// Precomputes all of a level's fit that does not depend on the values: the basis functions at each site and
+// the sum of the weights around each node.
 void MultilevelSpline::prepare(Level& level, std::span<const Vec2> sites, double damping) const {
   std::vector<double> weight(level.columns * level.rows, damping);
   level.sites.resize(sites.size());
@@ -126,6 +130,7 @@ void MultilevelSpline::fit(std::span<const float> values, SplineFunction& functi
   function.mean = total_weight_ > 0 ? static_cast<float>(sum / total_weight_) : 0;
   for (std::size_t i = 0; i < values.size(); ++i) workspace.rest[i] = values[i] - function.mean;
   std::fill(function.nodes.begin(), function.nodes.end(), 0.F);
+  // Each level fits the residual of the coarser ones, refined to its own lattice (section 4).
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     if (i > 0) refine(levels_[i - 1], function.nodes, workspace.coarser);
     if (!levels_[i].sites.empty()) correct(levels_[i], function.nodes, workspace);

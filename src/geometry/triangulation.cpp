@@ -1,11 +1,12 @@
-// Incremental construction: points are inserted one by one, coarse samples first, each round along a Hilbert
-// curve, so that the triangle a point falls into is a few steps from the one before. Edges are then flipped
-// until all circles are empty again (C. L. Lawson, "Software for C1 Surface Interpolation", 1977).
+// Incremental construction. Points are inserted one by one, coarse samples first, each round along a Hilbert
+// curve, so that the triangle that contains a point is a few steps from the previous one. After each
+// insertion edges are flipped until all circles are empty again (C. L. Lawson, "Software for C1 Surface
+// Interpolation", 1977).
 //
-// The outside is made of ghost triangles, one on each hull edge, which meet in a vertex at infinity. A
-// ghost's circle is the half-plane outside its edge, plus the edge. Triangles and ghosts together form a
-// closed surface, so that the hull needs no cases of its own: a point outside, or on a hull edge, is inserted
-// as any other.
+// The outside consists of ghost triangles, one on each hull edge, which meet in a vertex at infinity. The
+// circle of a ghost is the open half-plane outside its edge, plus the edge itself. Triangles and ghosts
+// together form a closed surface, so that the hull needs no special cases: a point outside or on a hull edge
+// is inserted like any other.
 #include "relievo/geometry/triangulation.h"
 
 #include <algorithm>
@@ -36,7 +37,7 @@ constexpr Index previous(Index e) {
 
 class Builder {
  public:
-  // `points` are in the order of the curve; `names` are what the result calls them.
+  // `points` are in the order of the curve; `names` are their numbers in the result.
   Builder(const std::vector<Vec2>& points, std::vector<Index> names)
       : points_(points), names_(std::move(names)) {}
 
@@ -64,7 +65,7 @@ class Builder {
   const std::vector<Vec2>& points_;
   std::vector<Index> names_;
   std::vector<HalfEdge> edges_;
-  Index near_ = 0;  // a half-edge of a triangle that is no ghost, where the last point was inserted
+  Index near_ = 0;  // a half-edge of a real triangle at the last inserted point
 };
 
 bool Builder::is_ghost(Index e) const {
@@ -84,7 +85,7 @@ bool Builder::start() {
   if (c >= n) return false;
   if (orient2d(points_[0], points_[b], points_[c]) < 0) std::swap(b, c);
 
-  edges_.reserve(8 * points_.size());
+  edges_.reserve(8 * points_.size());  // about 2 n triangles, ghosts included, of 4 half-edges
   add_triangle(0, b, c);
   add_triangle(b, 0, infinity);
   add_triangle(c, b, infinity);
@@ -96,10 +97,10 @@ bool Builder::start() {
   return true;
 }
 
-// Returns the triangle (as one of its half-edges) that holds p in its inside or on its border, or the ghost
-// of a hull edge that has p strictly outside. In a Delaunay triangulation the walk never comes back to a
-// triangle: p's power to the circles falls with each step, and among triangles on one circle the neighbours
-// form a tree.
+// Returns a half-edge of the triangle that contains p inside or on its border, or of the ghost at a hull edge
+// that has p strictly outside. In a Delaunay triangulation the walk never returns to a triangle: the power of
+// p with respect to the circles decreases with each step, and triangles with a common circle are linked as a
+// tree.
 Index Builder::locate(const Vec2& p) const {
   const auto is_right_of = [&](Index e) {
     return orient2d(points_[edges_[e].origin], points_[edges_[next(e)].origin], p) < 0;
@@ -175,8 +176,8 @@ void Builder::flip(Index e) {
 void Builder::insert(Index p) {
   const Vec2 position = points_[p];
   Index e = locate(position);
-  if (const Index twin = vertex_at(position, e); twin != no_index) {
-    names_[twin] = std::min(names_[twin], names_[p]);
+  if (const Index same = vertex_at(position, e); same != no_index) {
+    names_[same] = std::min(names_[same], names_[p]);
     return;
   }
   e = split(e, p);
@@ -207,7 +208,7 @@ void Builder::append_triangle(Index t, const std::vector<Index>& numbers, Triang
   to.neighbours.push_back(neighbours);
 }
 
-// Turns about infinity, from ghost to ghost.
+// Goes around the vertex at infinity, from ghost to ghost.
 std::vector<Index> Builder::hull() const {
   std::vector<Index> vertices;
   Index e = 0;

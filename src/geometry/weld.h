@@ -1,4 +1,4 @@
-// Points at the same place, as one.
+// Welding of coincident points. Tested by tests/geometry/extent_test.cpp.
 #pragma once
 
 #include <span>
@@ -9,6 +9,6 @@
 namespace relievo {
 
 // Returns for each point the lowest number of a point with exactly the same coordinates.
-std::vector<Index> places(std::span<const Vec3> points);
+std::vector<Index> first_coincident(std::span<const Vec3> points);
 
 }  // namespace relievo

@@ -1,4 +1,5 @@
-// PNG through libpng. It reports errors by longjmp, so decode() holds nothing that needs a destructor.
+// PNG through libpng, which reports errors by longjmp: the functions that call setjmp have no local object
+// with a destructor.
 #include <png.h>
 
 #include <algorithm>
@@ -12,7 +13,7 @@
 namespace relievo::io {
 namespace {
 
-// What the callbacks share; owned by the caller of decode().
+// The state that libpng's callbacks share; owned by Reader.
 struct Job {
   std::string_view bytes;
   std::size_t at = 0;
@@ -36,7 +37,7 @@ void take(png_structp png, png_bytep to, png_size_t size) {
   job.at += size;
 }
 
-// Grey of any depth becomes 8 or 16 bits; palettes become colours, transparency goes.
+// Sets up the conversion: grey to 8 or 16 bits, palettes to colours, no transparency.
 bool read_header(png_structp png, png_infop info, Job& job) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_read_fn(png, &job, take);
@@ -121,6 +122,10 @@ class Reader {
 };
 
 }  // namespace
+
+bool is_png(const Source& source) {
+  return source.bytes.starts_with("\x89PNG");
+}
 
 Result<DepthImage> read_depth_png(const Source& source) {
   return Reader(source).read();

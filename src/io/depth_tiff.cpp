@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "io/numbers.h"
@@ -36,7 +37,7 @@ std::optional<NumberType> type_of(const Layout& layout) {
   return layout.bits == 16 ? std::optional(uint16) : std::nullopt;
 }
 
-// libtiff hands out numbers in the machine's byte order, which is little-endian here.
+// libtiff converts numbers to the machine's byte order, which is little-endian here.
 void decode_run(NumberType type, const char* from, std::size_t n, float* to) {
   std::vector<double> values(n);
   decoder(type, false)(from, size_in_bytes(type), n, values.data());
@@ -72,6 +73,13 @@ bool read_tiles(TIFF* tiff, const Layout& layout, NumberType type, DepthImage& i
 }
 
 }  // namespace
+
+// Classic TIFF has version 42, BigTIFF version 43, each in either byte order.
+bool is_tiff(const Source& source) {
+  using namespace std::string_view_literals;
+  return std::ranges::any_of(std::array{"II*\0"sv, "MM\0*"sv, "II+\0"sv, "MM\0+"sv},
+                             [&](std::string_view mark) { return source.bytes.starts_with(mark); });
+}
 
 Result<DepthImage> read_depth_tiff(const Source& source) {
   TiffBytes file(source.bytes);

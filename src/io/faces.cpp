@@ -57,7 +57,7 @@ Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles) {
 }
 
 void weld(Mesh& mesh) {
-  const std::vector<Index> place = places(mesh.points);
+  const std::vector<Index> place = first_coincident(mesh.points);
   std::vector<Index> number(place.size());
   Index used = 0;
   for (Index i = 0; i < place.size(); ++i) {

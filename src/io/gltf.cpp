@@ -1,10 +1,11 @@
-// glTF 2.0: the triangles of the scene's meshes, each where its node places it.
+// glTF 2.0: the triangles of the scene's meshes, transformed by their nodes.
 #include "io/gltf.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "io/faces.h"
+#include "io/formats.h"
 #include "io/text.h"
 
 namespace relievo::io {
@@ -12,11 +13,12 @@ namespace {
 
 using Transform = Eigen::Affine3d;
 
-constexpr std::size_t most_vertices = 100'000'000;  // nodes may repeat a mesh: a small file can ask for more
+constexpr std::size_t most_vertices = 100'000'000;  // a small file can ask for more: nodes may repeat a mesh
 
 constexpr std::size_t triangles_mode = 4, strip_mode = 5, fan_mode = 6;
 
-// `n` numbers of a member that is an array; nothing if it is another; `otherwise` where it is missing.
+// Returns a member that is an array of `n` numbers; `otherwise` if it is missing; nothing if it is anything
+// else.
 std::optional<std::vector<double>> numbers_in(const Json& object, const char* name,
                                               std::vector<double> otherwise) {
   const auto found = object.find(name);
@@ -76,7 +78,7 @@ class GltfReader {
     return {};
   }
 
-  // The nodes that the scene begins with; all that are nobody's child where there is no scene.
+  // Returns the root nodes of the scene; without a scene, all nodes that are nobody's child.
   std::vector<std::size_t> roots() const {
     std::vector<std::size_t> found;
     const auto collect = [&](const Json& list) {
@@ -98,7 +100,8 @@ class GltfReader {
     return found;
   }
 
-  // Each node once: in a file that is right, no node has two parents.
+  // Visits each node once. In a valid file no node has two parents; in others this keeps cycles from being
+  // endless.
   Result<void> walk_nodes() {
     std::vector<Visit> open;
     for (const std::size_t i : roots()) open.push_back({i, Transform::Identity()});
@@ -165,7 +168,7 @@ class GltfReader {
     return {};
   }
 
-  // Returns how many.
+  // Returns the number of vertices.
   Result<std::size_t> add_vertices(const Json& attributes, const Transform& transform,
                                    const std::string& place) {
     const auto vectors = [&](const char* name, std::vector<double>& to) -> Result<std::size_t> {

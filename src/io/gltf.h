@@ -11,12 +11,12 @@ namespace relievo::io {
 
 using Json = nlohmann::json;
 
-// A run of vectors in a buffer.
+// An array of vectors in a buffer.
 struct Accessor {
   const char* first = nullptr;
   std::size_t count = 0, components = 1, stride = 0;
   NumberType type = NumberType::float32;
-  double scale = 1;  // of normalised integers
+  double scale = 1;  // factor of normalised integers, else 1
 
   // Appends `components` values of each vector to `values`.
   void decode(std::vector<double>& values) const;
@@ -29,10 +29,10 @@ class GltfFile {
 
   const Json& json() const { return json_; }
 
-  // Element i of an array of the file's root, an object; null if there is none.
+  // Returns element i of an array in the file's root if it is an object, else null.
   const Json* element(std::string_view array, std::size_t i) const;
 
-  // Fails for an accessor that does not exist or does not fit into its buffer. `place` names who wants it.
+  // Returns accessor i. Errors: kind input, at `place`, if it does not exist or does not fit into its buffer.
   Result<Accessor> accessor(const Source& source, std::size_t i, const std::string& place) const;
 
  private:
@@ -45,7 +45,8 @@ class GltfFile {
   std::vector<std::string_view> buffers_;
 };
 
-// A member that is a whole number from 0 on, or `otherwise` where it is missing; nothing if it is another.
+// Returns a member that is a non-negative integer; `otherwise` if it is missing; nothing if it is anything
+// else.
 std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise);
 
 }  // namespace relievo::io

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 
-// Nothing for text that is not base64.
+// Returns the bytes; nothing for text that is not base64.
 std::optional<std::string> decode_base64(std::string_view text) {
   std::string bytes;
   bytes.reserve(text.size() / 4 * 3);
@@ -98,7 +98,7 @@ Result<void> GltfFile::split_glb(const Source& source, std::string_view& text) {
 Result<void> GltfFile::take_buffers(const Source& source) {
   const auto all = json_.find("buffers");
   if (all == json_.end() || !all->is_array()) return {};
-  decoded_.reserve(all->size());  // views into its elements stay
+  decoded_.reserve(all->size());  // keeps views into its elements valid
   for (std::size_t i = 0; i < all->size(); ++i) {
     const std::string place = "buffer " + std::to_string(i);
     const Json* buffer = element("buffers", i);

@@ -1,5 +1,5 @@
 // LAS 1.0 to 1.4, point formats 0 to 10, not compressed.
-#include "io/las.h"
+#include "io/formats.h"
 
 #include <algorithm>
 #include <array>
@@ -14,9 +14,9 @@ constexpr std::array<std::size_t, 11> least_record_sizes = {20, 28, 26, 34, 57, 
 constexpr std::array<std::size_t, 11> colour_places = {0, 0, 20, 28, 0, 28, 0, 30, 30, 0, 30};
 constexpr std::size_t least_header = 227, header_1_4 = 375;
 
-class HeaderReader {
+class LasHeaderReader {
  public:
-  explicit HeaderReader(const Source& source) : source_(source), bytes_(source.bytes) {}
+  explicit LasHeaderReader(const Source& source) : source_(source), bytes_(source.bytes) {}
 
   Result<Records> read() {
     if (!bytes_.starts_with("LASF")) return source_.error_at_byte(0, "expected LASF, found other bytes");
@@ -91,7 +91,7 @@ class HeaderReader {
     return {};
   }
 
-  // Meant to be 16 bits; some programs write 8.
+  // Colours should have 16 bits, but some programs write 8.
   void take_colours() {
     const std::size_t place = colour_places[format_];
     if (place == 0) return;
@@ -119,12 +119,14 @@ bool is_las(const Source& source) {
   return source.bytes.starts_with("LASF") || has_ending(source.name, ".las");
 }
 
-Result<Records> read_las_header(const Source& source) {
-  return HeaderReader(source).read();
+Result<StreamRecords> find_las_rows(const Source& head) {
+  const auto records = LasHeaderReader(head).read();
+  if (!records) return std::unexpected(records.error());
+  return StreamRecords{*records, "LAS"};
 }
 
 Result<RawCloud> read_las(const Source& source) {
-  const auto records = read_las_header(source);
+  const auto records = LasHeaderReader(source).read();
   if (!records) return std::unexpected(records.error());
   const std::size_t left = source.bytes.size() - std::min<std::size_t>(source.bytes.size(), records->offset);
   if (records->count > left / records->stride)

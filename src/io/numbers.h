@@ -1,4 +1,4 @@
-// Numbers in binary files: columns of them, decoded to double.
+// Decodes columns of binary numbers to double.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@ enum class NumberType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32
 
 std::size_t size_in_bytes(NumberType type);
 
-// Decodes `rows` values, `stride` bytes apart.
+// Decodes `rows` values that are `stride` bytes apart.
 using Decode = void (*)(const char* first, std::size_t stride, std::size_t rows, double* values);
 
 Decode decoder(NumberType type, bool is_big_endian);
 
-// The little-endian number of type T at `from`, which may lie anywhere.
+// Returns the little-endian number of type T at `from`, which need not be aligned.
 template <typename T>
 T little(const char* from) {
   static_assert(sizeof(T) <= 8);

@@ -3,18 +3,19 @@
 #include <vector>
 
 #include "io/faces.h"
-#include "io/readers.h"
+#include "io/formats.h"
 #include "io/text.h"
 
 namespace relievo::io {
 namespace {
 
-// A corner of a face; its normal is no_index if it names none.
+// A corner of a face; `normal` is no_index if the face names none.
 struct Corner {
   Index vertex, normal;
 };
 
-// Faces may come before what they refer to: the highest index is kept, and the line where it stood.
+// The highest index that a face has used, and its line, to be checked at the end: faces may precede their
+// vertices.
 struct Highest {
   std::int64_t index = 0;  // counted from 1, 0 for none
   std::size_t line = 0;
@@ -52,7 +53,7 @@ class ObjReader {
   }
 
  private:
-  // A backslash at its end continues a line in the next one.
+  // Reads the next line, together with those that a backslash at its end continues.
   bool next_line() {
     const auto line = lines_.next();
     if (!line) return false;
@@ -101,7 +102,7 @@ class ObjReader {
     return {};
   }
 
-  // Index counted from 0 for one counted from 1, or from -1 backwards.
+  // Converts an index counted from 1, or backwards from -1, to one counted from 0.
   std::optional<Index> resolve(std::string_view word, std::size_t defined, Highest& highest) {
     std::int64_t index = parse_integer(word).value_or(0);
     if (index < 0) index += static_cast<std::int64_t>(defined) + 1;
@@ -117,7 +118,7 @@ class ObjReader {
                                                    std::to_string(highest.index));
   }
 
-  // One normal a point, or none at all. Normals of the corners of a vertex are averaged.
+  // Returns one normal per point, or none at all: the mean of those that faces name for a vertex.
   std::vector<Vec3f> point_normals() const {
     const bool has_named =
         std::ranges::any_of(corners_, [](const Corner& c) { return c.normal != no_index; });
@@ -130,7 +131,7 @@ class ObjReader {
     return units;
   }
 
-  // The triangles of the faces. What a corner does not name is left to whoever needs a normal there.
+  // Returns the triangles of the faces; corners without a normal get none.
   void add_mesh(RawCloud& raw) const {
     const auto normal_of = [&](const Corner& c) -> Vec3f {
       if (c.normal != no_index) return unit_normal(normals_[c.normal]);
@@ -162,15 +163,19 @@ class ObjReader {
   std::size_t first_line_ = 0;  // where line_ begins
   std::vector<Vec3> points_, normals_;
   std::vector<Corner> corners_;
-  std::vector<Triangle> fans_;  // numbers of corners
+  std::vector<Triangle> fans_;  // indices of corners
   Highest highest_vertex_, highest_normal_;
 };
 
 }  // namespace
 
-bool looks_like_obj(std::string_view text) {
+// Recognises text whose first word is one with which lines of OBJ begin.
+bool is_obj(const Source& source) {
+  if (!foreign_format(source).empty()) return false;
+  if (has_ending(source.name, ".obj")) return true;
+
   const std::array<std::string_view, 8> keywords = {"v", "vn", "vt", "f", "o", "g", "mtllib", "usemtl"};
-  Lines lines(text, byte_order_mark_size(text));
+  Lines lines(source.bytes, byte_order_mark_size(source.bytes));
   while (const auto line = lines.next()) {
     const std::string_view word = Words(*line).next();
     if (word.empty() || word.starts_with('#')) continue;

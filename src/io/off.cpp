@@ -1,14 +1,14 @@
-// OFF: the keyword with prefixes for what a vertex has, three counts, vertices, faces.
+// OFF: a keyword whose prefixes state the properties of a vertex, three counts, vertices, faces.
 #include <algorithm>
 
 #include "io/faces.h"
-#include "io/readers.h"
+#include "io/formats.h"
 #include "io/text.h"
 
 namespace relievo::io {
 namespace {
 
-// [ST][C][N][4]OFF: which numbers follow the position of a vertex.
+// The numbers that follow the position of a vertex, by the keyword [ST][C][N]OFF.
 struct Kind {
   bool has_texture = false, has_colours = false, has_normals = false;
 };
@@ -49,7 +49,7 @@ class OffReader {
   }
 
  private:
-  // The next line with words; without any at the end of the file.
+  // Returns the words of the next line that has any; none at the end of the file.
   Words next_row() {
     while (const auto line = lines_.next()) {
       const std::string_view text = trim(line->substr(0, line->find('#')));
@@ -96,7 +96,7 @@ class OffReader {
     return kind_.has_colours ? take_colour(words) : Result<void>{};
   }
 
-  // Whole numbers up to 255, or fractions of 1.
+  // Components are whole numbers up to 255, or fractions of 1 with a decimal point.
   Result<void> take_colour(Words words) {
     Colour colour;
     for (std::uint8_t& value : colour) {

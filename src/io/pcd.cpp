@@ -5,6 +5,7 @@
 #include <array>
 #include <cstring>
 
+#include "io/formats.h"
 #include "io/text.h"
 
 namespace relievo::io {
@@ -12,15 +13,15 @@ namespace {
 
 struct Field {
   std::string_view name;
-  std::size_t size = 4, count = 1;  // bytes of a value; values of a point
+  std::size_t size = 4, count = 1;  // bytes per value; values per point
   char type = 'F';
   std::size_t at = 0;      // byte within a row
   std::size_t column = 0;  // number of its first value within a row
 };
 
-class HeaderReader {
+class PcdHeaderReader {
  public:
-  explicit HeaderReader(const Source& source)
+  explicit PcdHeaderReader(const Source& source)
       : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
 
   Result<PcdHeader> read() {
@@ -130,7 +131,7 @@ class HeaderReader {
     return found == fields_.end() ? nullptr : &*found;
   }
 
-  // The type of a field's numbers; nothing for integers of 64 bits and other odd ones.
+  // Returns the type of a field's numbers; nothing for types that are not read, as 64-bit integers.
   static std::optional<NumberType> type_of(const Field& f) {
     using enum NumberType;
     if (f.type == 'F')
@@ -142,7 +143,7 @@ class HeaderReader {
     return is_signed ? int32 : uint32;
   }
 
-  // The columns of three fields, if all are there.
+  // Returns the columns of three fields; nothing unless all exist.
   bool place(const std::array<std::string_view, 3>& names, std::array<RecordColumn, 3>& to,
              std::array<std::size_t, 3>& ascii) const {
     for (std::size_t i = 0; i < 3; ++i) {
@@ -168,7 +169,7 @@ class HeaderReader {
     }
     const Field* colour = find("rgb") ? find("rgb") : find("rgba");
     if (!colour || colour->size != 4) return {};
-    // One number of 32 bits holds them, 0x00RRGGBB, even where it is called a float.
+    // A colour is one number of 32 bits, 0x00RRGGBB, even where its type is float.
     using enum NumberType;
     records.colour = {{{uint8, colour->at + 2}, {uint8, colour->at + 1}, {uint8, colour->at}}};
     header_.colour_column = colour->column;
@@ -302,7 +303,15 @@ bool is_pcd(const Source& source) {
 }
 
 Result<PcdHeader> read_pcd_header(const Source& source) {
-  return HeaderReader(source).read();
+  return PcdHeaderReader(source).read();
+}
+
+Result<StreamRecords> find_pcd_rows(const Source& head) {
+  const auto header = read_pcd_header(head);
+  if (!header) return std::unexpected(header.error());
+  if (header->data != PcdData::binary)
+    return head.error({}, "expected binary points, to be read piece by piece");
+  return StreamRecords{header->records, "PCD binary"};
 }
 
 Result<RawCloud> read_pcd(const Source& source) {

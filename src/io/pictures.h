@@ -1,18 +1,35 @@
-// Readers of single pictures.
+// The formats of depth images, and their readers.
 #pragma once
 
+#include <array>
+
 #include "io/readers.h"
-#include "relievo/depth_image.h"
+#include "relievo/scan/depth_image.h"
 
 namespace relievo::io {
 
+// 2^27 depths take 512 MB of memory; a picture that promises more is taken for broken.
 inline constexpr std::size_t most_pixels = std::size_t{1} << 27;
 
-// No compression that is known packs better: a picture that promises more bytes than this many times its
-// file is broken.
+// Deflate packs 1 : 1032 at best. A picture that promises more bytes than this many times its file is broken.
 inline constexpr std::size_t best_packing = 1100;
 
+// Return true if the content begins as files of the format do.
+bool is_png(const Source& source);
+bool is_tiff(const Source& source);
+
+// Return the depths of a picture. Errors: kind input.
 Result<DepthImage> read_depth_png(const Source& source);
 Result<DepthImage> read_depth_tiff(const Source& source);
+
+struct PictureFormat {
+  std::string_view name;     // for people
+  std::string_view endings;  // of file names, separated by blanks
+  bool (*is_format)(const Source&);
+  Result<DepthImage> (*read)(const Source&);
+};
+
+inline constexpr std::array picture_formats = {PictureFormat{"PNG", ".png", is_png, read_depth_png},
+                                               PictureFormat{"TIFF", ".tif .tiff", is_tiff, read_depth_tiff}};
 
 }  // namespace relievo::io

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "io/formats.h"
 #include "io/text.h"
 
 namespace relievo::io {
@@ -11,7 +12,7 @@ namespace {
 constexpr std::array<std::string_view, VertexColumns::most> column_names = {"x",  "y",   "z",     "nx",  "ny",
                                                                             "nz", "red", "green", "blue"};
 
-// Number of the property with that name; the number of properties if there is none.
+// Returns the index of the property with that name; the number of properties if there is none.
 std::size_t find_property(const PlyElement& element, std::string_view name) {
   const auto& all = element.properties;
   const auto found =
@@ -28,7 +29,7 @@ std::string names_of(const PlyElement& element) {
   return names.empty() ? "none" : names;
 }
 
-// Normals and colours are there as a whole or not at all.
+// Normals and colours count only if all three of their properties exist.
 Result<VertexColumns> find_columns(const Source& source, const PlyElement& vertex) {
   VertexColumns columns;
   for (std::size_t c = 0; c < VertexColumns::most; ++c) {
@@ -49,7 +50,7 @@ Result<VertexColumns> find_columns(const Source& source, const PlyElement& verte
   return columns;
 }
 
-std::string format_name(PlyFormat format) {
+std::string to_string(PlyFormat format) {
   switch (format) {
     case PlyFormat::ascii:
       return "PLY ascii";
@@ -61,7 +62,20 @@ std::string format_name(PlyFormat format) {
   return {};
 }
 
+Result<std::vector<PlyElement>::const_iterator> find_vertex(const Source& source, const PlyHeader& header) {
+  const auto found = std::ranges::find(header.elements, std::string_view("vertex"), &PlyElement::name);
+  if (found != header.elements.end()) return found;
+  return source.error_in_line(header.lines, "expected an element vertex before end_header, found none");
+}
+
 }  // namespace
+
+bool is_ply(const Source& source) {
+  const std::string_view text = source.bytes.substr(byte_order_mark_size(source.bytes)), magic = "ply";
+  if (!text.starts_with(magic)) return false;
+  return text.size() == magic.size() ||
+         std::string_view(" \t\r\n").find(text[magic.size()]) != std::string_view::npos;
+}
 
 Cloud sized_cloud(std::size_t points, const VertexColumns& columns) {
   Cloud cloud;
@@ -90,12 +104,6 @@ Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const 
   return records;
 }
 
-Result<Records> ply_vertex_records(const Source& source, const PlyHeader& header, const PlyElement& vertex) {
-  const auto columns = find_columns(source, vertex);
-  if (!columns) return std::unexpected(columns.error());
-  return vertex_records(header, vertex, *columns);
-}
-
 double colour_scale(NumberType type) {
   if (type == NumberType::float32 || type == NumberType::float64) return 255;
   return type == NumberType::uint16 ? 1 / 257.0 : 1;
@@ -116,11 +124,9 @@ Result<RawCloud> read_ply(const Source& source) {
   const auto header = read_ply_header(source);
   if (!header) return std::unexpected(header.error());
   const auto& elements = header->elements;
-  const auto vertex =
-      std::find_if(elements.begin(), elements.end(), [](auto& e) { return e.name == "vertex"; });
-  if (vertex == elements.end()) {
-    return source.error_in_line(header->lines, "expected an element vertex before end_header, found none");
-  }
+  const auto found = find_vertex(source, *header);
+  if (!found) return std::unexpected(found.error());
+  const auto vertex = *found;
   if (vertex->count >= no_index) {
     return source.error_in_line(
         vertex->line, "expected fewer than 4294967295 vertices, found " + std::to_string(vertex->count));
@@ -132,7 +138,31 @@ Result<RawCloud> read_ply(const Source& source) {
   auto content = header->format == PlyFormat::ascii ? read_ascii_body(body) : read_binary_body(body);
   if (!content) return std::unexpected(std::move(content.error()));
   Mesh mesh = mesh_over(content->cloud, std::move(content->triangles));
-  return RawCloud{std::move(content->cloud), format_name(header->format), std::move(mesh)};
+  return RawCloud{std::move(content->cloud), to_string(header->format), std::move(mesh)};
+}
+
+Result<StreamRecords> find_ply_rows(const Source& head) {
+  const auto header = read_ply_header(head);
+  if (!header) return std::unexpected(header.error());
+  const auto& elements = header->elements;
+  const auto found = find_vertex(head, *header);
+  if (!found) return std::unexpected(found.error());
+  const auto vertex = *found;
+  if (header->format == PlyFormat::ascii || std::any_of(elements.begin(), vertex + 1, has_lists))
+    return head.error_in_line(vertex->line,
+                              "expected binary vertices without lists, to be read piece by piece");
+  const auto columns = find_columns(head, *vertex);
+  if (!columns) return std::unexpected(columns.error());
+  Records records = vertex_records(*header, *vertex, *columns);
+  records.offset = header->data_offset;
+  for (auto element = elements.begin(); element != vertex; ++element) {
+    const std::uint64_t size = least_row_size(*element);
+    if (size > 0 && element->count > (std::uint64_t{1} << 60) / size)
+      return head.error_in_line(element->line, "expected a number of rows that fits the file, found " +
+                                                   std::to_string(element->count));
+    records.offset += size * element->count;
+  }
+  return StreamRecords{records, to_string(header->format)};
 }
 
 }  // namespace relievo::io

@@ -12,22 +12,24 @@
 
 namespace relievo::io {
 
-// What is wanted of a vertex: x y z; nx ny nz if all are there; red green blue if all are.
+// The properties of a vertex that are read: x y z; nx ny nz if all three exist; red green blue if all three
+// exist.
 struct VertexColumns {
   static constexpr std::size_t most = 9;
   std::array<bool, most> is_there = {};
-  std::array<std::size_t, most> property = {};  // number of the property of each column that is there
+  std::array<std::size_t, most> property = {};  // index of each column's property
 
   bool has_normals() const { return is_there[3]; }
   bool has_colours() const { return is_there[6]; }
 };
 
+// A file whose header has been read. Faces among the elements after the vertices are read.
 struct PlyBody {
   const Source& source;
   const PlyHeader& header;
   std::span<const PlyElement> before;  // elements to skip
   const PlyElement& vertex;
-  std::span<const PlyElement> after;  // faces among them are read
+  std::span<const PlyElement> after;
   VertexColumns columns;
 };
 
@@ -36,28 +38,26 @@ struct PlyContent {
   std::vector<Triangle> triangles;
 };
 
-// Return the vertices and faces. A body that ends early, has a word that is no number or a face with a vertex
-// that does not exist is an error that names the place; what follows the faces is not looked at.
+// Return the vertices and faces. Errors: kind input, with the place, for a body that ends early, a word that
+// is no number, and a face with a vertex that does not exist. Whatever follows the faces is ignored.
 Result<PlyContent> read_ascii_body(const PlyBody& body);
 Result<PlyContent> read_binary_body(const PlyBody& body);
 
-// Returns the rows of vertices without lists as records, apart from where they begin.
+// Returns the rows of vertices without lists as records; their offset is left 0.
 Records vertex_records(const PlyHeader& header, const PlyElement& vertex, const VertexColumns& columns);
 
-// The same for all columns that are wanted. Errors: kind input where there are no x, y and z.
-Result<Records> ply_vertex_records(const Source& source, const PlyHeader& header, const PlyElement& vertex);
-
-// Returns a cloud of that many points, with room for what `columns` has.
+// Returns a cloud of that many points, with normals and colours if `columns` has them.
 Cloud sized_cloud(std::size_t points, const VertexColumns& columns);
 
-// Factor that takes colours of that type to [0, 255].
+// Returns the factor that scales colours of that type to [0, 255].
 double colour_scale(NumberType type);
 
-// How the list property of a face element is to be understood; nothing if it has no list of vertices.
+// The list property of a face element that has its vertices.
 struct FaceList {
   std::size_t property;
   FaceKind kind;
 };
+// Returns that property; nothing if the element has none.
 std::optional<FaceList> find_face_list(const PlyElement& element);
 
 }  // namespace relievo::io

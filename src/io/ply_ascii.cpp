@@ -6,7 +6,7 @@
 namespace relievo::io {
 namespace {
 
-// Rows begin in a line of their own; a row may be wrapped over several lines.
+// Each row begins on a new line, and may be wrapped over several lines.
 class AsciiRows {
  public:
   AsciiRows(const Source& source, const PlyHeader& header)
@@ -43,16 +43,16 @@ class AsciiRows {
     return {};
   }
 
-  // The rows from here on are those of another element.
+  // Begins the rows of the next element.
   void begin_element() { rows_ = 0; }
 
-  // Fails at the line that was read last.
+  // Returns an error at the line that was read last.
   Result<void> fail(std::string expected) const {
     return source_.error_in_line(lines_.number(), std::move(expected));
   }
 
  private:
-  // Empty at the end of the file.
+  // Returns the next word, on this line or a later one; empty at the end of the file.
   std::string_view next_word() {
     std::string_view word = words_.next();
     while (word.empty()) {
@@ -96,10 +96,11 @@ class AsciiRows {
   const Source& source_;
   Lines lines_;
   Words words_;
-  std::uint64_t rows_ = 0;  // complete ones of the element being read
+  std::uint64_t rows_ = 0;  // the complete rows of the element being read
 };
 
-// Each value is at least one digit and a separator, but for the last one of the file.
+// Each value takes at least two bytes, a digit and a separator; only the last one of the file needs no
+// separator.
 bool can_hold(std::size_t bytes, const PlyElement& element) {
   return element.count <= (bytes + 1) / (2 * element.properties.size());
 }
@@ -110,7 +111,7 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
     if (body.columns.is_there[c]) column_of[body.columns.property[c]] = c;
   const double scale =
       body.columns.has_colours() ? colour_scale(body.vertex.properties[body.columns.property[6]].type) : 1;
-  std::array<double, VertexColumns::most + 1> values = {};  // the last one takes what nobody wants
+  std::array<double, VertexColumns::most + 1> values = {};  // the last one takes properties that are not read
   const auto take = [&](std::size_t property, std::string_view word) {
     const auto value = parse_number(word);
     if (value) values[column_of[property]] = *value;
@@ -160,7 +161,8 @@ Result<PlyContent> read_ascii_body(const PlyBody& body) {
     if (const auto skipped = rows.skip(element); !skipped) return std::unexpected(skipped.error());
   }
   const std::size_t left = body.source.bytes.size() - body.header.data_offset;
-  // A promise that cannot be kept leads to an error below; only the memory for it is saved.
+  // If the header promises more vertices than the bytes can contain, an error follows below; this saves the
+  // memory.
   PlyContent content{sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns), {}};
   if (const auto read = read_vertices(body, rows, content.cloud); !read) return std::unexpected(read.error());
   for (const PlyElement& element : body.after) {

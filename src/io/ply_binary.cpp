@@ -5,7 +5,7 @@
 namespace relievo::io {
 namespace {
 
-// Walks over the bytes of the body, row by row where rows have lists.
+// Walks over the bytes of the body; row by row if rows have lists.
 class BinaryRows {
  public:
   BinaryRows(const Source& source, const PlyHeader& header)
@@ -13,7 +13,7 @@ class BinaryRows {
 
   std::size_t offset() const { return at_; }
 
-  // Error if `element` cannot fit into what is left, even with empty lists.
+  // Returns an error if `element` does not fit into the remaining bytes, even with empty lists.
   Result<void> check_room(const PlyElement& element) const {
     const std::size_t row = least_row_size(element), left = source_.bytes.size() - at_;
     if (row == 0 || element.count <= left / row) return {};
@@ -36,7 +36,7 @@ class BinaryRows {
     return {};
   }
 
-  // Fails behind the row that was walked last.
+  // Returns an error at the byte after the last complete row.
   Result<void> fail(std::string expected) const { return source_.error_at_byte(at_, std::move(expected)); }
 
   bool is_big_endian() const { return format_ == PlyFormat::big_endian; }
@@ -65,7 +65,7 @@ class BinaryRows {
  private:
   std::size_t left() const { return source_.bytes.size() - at_; }
 
-  // Of the list that begins here, if that many values can follow.
+  // Returns the length of the list that begins here; nothing if so many values cannot follow.
   Result<std::size_t> list_length(const PlyProperty& list) {
     if (left() < size_in_bytes(*list.count_type)) return std::unexpected(fail_at_end(list).error());
     double length = 0;
@@ -91,11 +91,12 @@ class BinaryRows {
   std::size_t at_;
 };
 
-// Rows with lists differ in size: each is copied without its lists, then decoded as all others.
+// Rows with lists have different sizes: each is copied without its lists, and the copies are decoded as
+// usual.
 Result<void> read_rows_with_lists(const PlyBody& body, BinaryRows& rows, Cloud& cloud) {
   PlyElement plain = body.vertex;
   std::vector<char> bytes;
-  std::vector<std::size_t> place(plain.properties.size());  // of each property in the copy
+  std::vector<std::size_t> place(plain.properties.size());  // where each property is in the copy
   for (std::size_t i = 0; i < plain.properties.size(); ++i) {
     place[i] = bytes.size();
     if (!plain.properties[i].is_list()) bytes.resize(bytes.size() + size_in_bytes(plain.properties[i].type));
@@ -129,7 +130,7 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, BinaryR
     decoder(type, rows.is_big_endian())(first, size_in_bytes(type), length, values.data());
     corners.clear();
     for (const double v : values) {
-      const bool is_number = v >= -1 && v <= static_cast<double>(no_index);  // a NaN is none
+      const bool is_number = v >= -1 && v <= static_cast<double>(no_index);  // false for a NaN
       corners.push_back(is_number ? static_cast<std::int64_t>(v) : -2);
     }
   };

@@ -41,9 +41,9 @@ auto find_by_name(const Table& table, std::string_view name) {
 }
 
 // One pass over the lines; each step gets the words after the line's keyword.
-class HeaderReader {
+class PlyHeaderReader {
  public:
-  explicit HeaderReader(const Source& source)
+  explicit PlyHeaderReader(const Source& source)
       : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
 
   Result<PlyHeader> read() {
@@ -146,7 +146,7 @@ bool has_lists(const PlyElement& element) {
 }
 
 Result<PlyHeader> read_ply_header(const Source& source) {
-  return HeaderReader(source).read();
+  return PlyHeaderReader(source).read();
 }
 
 }  // namespace relievo::io

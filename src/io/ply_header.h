@@ -1,4 +1,4 @@
-// The header of a PLY file: which elements follow, and how each of their rows is built.
+// The header of a PLY file, which states the elements that follow and the layout of their rows.
 #pragma once
 
 #include <cstddef>
@@ -22,15 +22,15 @@ struct PlyProperty {
 
 struct PlyElement {
   std::string_view name;
-  std::uint64_t count = 0;  // as promised, which may be anything
+  std::uint64_t count = 0;  // as stated in the header, which may be wrong
   std::vector<PlyProperty> properties;
   std::size_t line = 0;  // of its declaration
 };
 
-// Returns the least number of bytes a binary row can have: lists empty.
+// Returns the smallest size of a binary row in bytes, with all lists empty.
 std::size_t least_row_size(const PlyElement& element);
 
-// Returns true if any property is a list, so that rows differ in size.
+// Returns true if any property is a list, so that the rows' sizes differ.
 bool has_lists(const PlyElement& element);
 
 enum class PlyFormat { ascii, little_endian, big_endian };

@@ -1,9 +1,11 @@
-#include <array>
 #include <cmath>
 
-#include "io/readers.h"
+#include "io/formats.h"
 #include "io/text.h"
 #include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
+#include "relievo/io/read.h"
+#include "relievo/scan/scan_file.h"
 
 namespace relievo {
 namespace io {
@@ -11,45 +13,24 @@ namespace io {
 Vec3f unit_normal(const Vec3& n) {
   if (!n.allFinite() || n.isZero(0)) return Vec3f::Zero();
   const Vec3f rounded = n.cast<float>();
-  const double rounding = 1e-6;  // of the squared length of three floats, with some room
+  const double rounding = 1e-6;  // of the squared length of three floats, several times what rounding makes
   if (std::abs(rounded.cast<double>().squaredNorm() - 1) <= rounding) return rounded;
-  return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();  // scaled first: squares may overflow
+  // Scaled first because squares may overflow.
+  return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
 }
 
 }  // namespace io
 
 namespace {
 
-bool is_ply(std::string_view text) {
-  const std::string_view magic = "ply";
-  if (!text.starts_with(magic)) return false;
-  return text.size() == magic.size() ||
-         std::string_view(" \t\r\n").find(text[magic.size()]) != std::string_view::npos;
-}
-
-struct Format {
-  bool (*is_format)(const io::Source&);
-  Result<io::RawCloud> (*read)(const io::Source&);
-};
-
-constexpr std::array<Format, 5> formats = {{{io::is_pcd, io::read_pcd},
-                                            {io::is_las, io::read_las},
-                                            {io::is_gltf, io::read_gltf},
-                                            {io::is_off, io::read_off},
-                                            {io::is_stl, io::read_stl}}};
-
 Result<io::RawCloud> read_by_format(const io::Source& source) {
-  const std::string_view text = source.bytes.substr(io::byte_order_mark_size(source.bytes));
-  const std::string readable =
-      "expected a point cloud (PLY, PCD, LAS, XYZ, PTS) or a mesh (PLY, STL, OBJ, OFF, glTF), found ";
-  if (text.empty()) return source.error({}, readable + "an empty file");
-  if (is_ply(text)) return io::read_ply(source);
-  for (const auto& [is_format, read] : formats)
-    if (is_format(source)) return read(source);
-  if (const std::string what = io::foreign_format(source); !what.empty())
-    return source.error({}, readable + what);
-  if (io::has_ending(source.name, ".obj") || io::looks_like_obj(text)) return io::read_obj(source);
-  return io::read_text(source);
+  const bool is_empty = source.bytes.size() == io::byte_order_mark_size(source.bytes);
+  if (!is_empty)
+    for (const io::Format& format : io::formats)
+      if (format.is_format(source)) return format.read(source);
+  return source.error({}, cat("expected a point cloud (", io::format_names(io::Content::points),
+                              ") or a mesh (", io::format_names(io::Content::triangles), "), found ",
+                              is_empty ? "an empty file" : io::foreign_format(source)));
 }
 
 template <typename IsBad>
@@ -62,7 +43,7 @@ std::size_t count_points(std::size_t n, const IsBad& is_bad) {
   return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
 }
 
-// Keeps the order of the points that stay.
+// Removes the bad points and keeps the order of the others.
 template <typename IsBad>
 void remove_points(Cloud& cloud, const IsBad& is_bad) {
   std::size_t kept = 0;
@@ -78,7 +59,8 @@ void remove_points(Cloud& cloud, const IsBad& is_bad) {
   if (cloud.has_colours()) cloud.colours.resize(kept);
 }
 
-// A few points without a normal are not worth losing all normals, nor a few normals losing all other points.
+// Removes points that are not finite. Of points without a normal, these points are removed if they are the
+// minority, else all normals: losing a few points is better than losing all normals, and the reverse.
 void drop_unusable(CloudFile& file) {
   Cloud& cloud = file.cloud;
   const auto is_finite = [&](std::size_t i) { return cloud.points[i].allFinite(); };

@@ -1,10 +1,11 @@
-// Points in rows of equal size, as binary PLY, PCD and LAS have them: any block can be decoded by itself.
+// Points in rows of equal size, as in binary PLY, PCD and LAS, of which any block can be decoded by itself.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "io/numbers.h"
 #include "relievo/scan/cloud.h"
@@ -13,7 +14,7 @@ namespace relievo::io {
 
 struct RecordColumn {
   NumberType type = NumberType::float32;
-  std::size_t at = 0;           // byte within a row
+  std::size_t at = 0;           // byte offset within a row
   double scale = 1, shift = 0;  // the value is scale * number + shift
 };
 
@@ -26,7 +27,14 @@ struct Records {
   std::optional<std::array<RecordColumn, 3>> normal, colour;  // colours scaled to [0, 255]
 };
 
-// Returns an empty cloud of `points` points, with room for what the records have.
+// The rows of a file that can be read piece by piece.
+struct StreamRecords {
+  Records records;
+  std::string format;  // for people
+};
+
+// Returns a cloud of `points` points, with normals and colours if the records have them; all values are
+// unset.
 Cloud sized_cloud(const Records& records, std::size_t points);
 
 // Decodes `rows` rows from `first` on into the cloud from point `begin` on. Normals are as unit_normal()

@@ -1,9 +1,9 @@
-// STL, binary and ascii: triangles one by one, welded where their corners agree.
+// STL, binary and ascii: single triangles, of which coincident corners are merged.
 #include <algorithm>
 
 #include "io/faces.h"
+#include "io/formats.h"
 #include "io/numbers.h"
-#include "io/readers.h"
 #include "io/text.h"
 
 namespace relievo::io {
@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t header_size = 84, triangle_size = 50;
 
-// Binary files may begin with "solid", too, though they should not.
+// Returns true for a binary file. Some begin with "solid" although the format forbids it, so the size decides
+// first.
 bool is_binary(const Source& source) {
   const std::string_view bytes = source.bytes;
   if (bytes.size() < header_size) return has_control_bytes(bytes);

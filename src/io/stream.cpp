@@ -4,22 +4,20 @@
 #include <cmath>
 #include <numeric>
 
-#include "io/stream_records.h"
+#include "core/quantile.h"
+#include "io/formats.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/normals.h"
+#include "relievo/scan/normals.h"
 
 namespace relievo {
 namespace {
 
-constexpr std::size_t head_size = 1 << 20, piece_size = 8 << 20;
-constexpr std::size_t sample_points = 200000, sample_run = 200;  // taken in runs: each is one read
+constexpr std::size_t head_size = 1 << 20;                       // bytes, more than any header has
+constexpr std::size_t piece_size = 8 << 20;                      // bytes read at a time
+constexpr std::size_t sample_points = 200000, sample_run = 200;  // points of the sample, and per read
 
-std::unexpected<Error> geometry_error(std::string expected) {
-  return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
-}
-
-// Rows of the file, decoded piece by piece.
+// Reads and decodes the rows of the file piece by piece.
 class Rows {
  public:
   Rows(ByteSource& source, const io::Records& records) : source_(source), records_(records) {}
@@ -60,7 +58,7 @@ class Rows {
   std::vector<std::byte> bytes_;
 };
 
-// Runs of rows from all over the file.
+// Returns runs of rows from all over the file.
 Result<Cloud> take_sample(Rows& rows) {
   const std::uint64_t count = rows.records().count;
   const std::uint64_t runs =
@@ -80,20 +78,14 @@ Result<Cloud> take_sample(Rows& rows) {
   return sample;
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
-// What the sample tells of the cloud.
+// Estimates from the sample.
 struct Scout {
-  Vec3 middle;       // of the points
-  double reach = 0;  // points further from it are strays
-  float sign = 1;    // -1 where the normals point inwards
+  Vec3 middle;                // median of the points
+  double outlier_radius = 0;  // points further from the middle are outliers
+  float sign = 1;             // -1 if the normals point inwards
 };
 
-// Reach as far_points() has it.
+// The outlier radius is that of outliers(): 20 times the distance that 90 % of the points keep.
 Scout scout(const Cloud& sample) {
   Scout it;
   std::vector<double> values(sample.size());
@@ -105,18 +97,20 @@ Scout scout(const Cloud& sample) {
   const auto ninth =
       values.begin() + static_cast<std::ptrdiff_t>(.9 * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), ninth, values.end());
-  it.reach = 20 * *ninth;
+  it.outlier_radius = 20 * *ninth;
   it.sign = normals_point_inward(sample) ? -1.F : 1.F;
   return it;
 }
 
-// The grid over the view, and what is kept in each of its squares.
-class Front {
+// A grid over the view that keeps, per square, the sums of the front-most points. Memory is bounded by the
+// number of squares, so each of three passes over the file adds one piece of knowledge: the box, the front
+// depth, the sums.
+class ViewGrid {
  public:
-  Front(const View& view, const Scout& scout, bool has_normals, bool has_colours)
-      : turn_(view.rotation), scout_(scout), has_normals_(has_normals), has_colours_(has_colours) {}
+  ViewGrid(const View& view, const Scout& scout, bool has_normals, bool has_colours)
+      : turn_(view.R_view_model), scout_(scout), has_normals_(has_normals), has_colours_(has_colours) {}
 
-  // First pass: the box in the view, and how many points count.
+  // First pass: finds the box in the view and counts the points that face the viewer.
   void look(const Cloud& piece) {
     place(piece);
     for (const Place& p : places_) {
@@ -127,12 +121,13 @@ class Front {
   }
   std::uint64_t points() const { return points_; }
 
-  // Squares of which about `wanted` hold points; `sample` tells how much of the box they fill.
+  // Chooses the squares' size so that about `wanted` of them contain points: the sample shows which share of
+  // the box the points fill. Returns false for a cloud without extent.
   bool lay_grid(const Cloud& sample, double wanted) {
     const Vec3 size = box_.size();
     const double longer = std::max(size.x(), size.y());
     if (!(longer > 0)) return false;
-    // Squares with so many points of the sample that hardly one of the model's is empty.
+    // About 20 points of the sample per square, so that hardly a square on the model is empty.
     const auto side =
         static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(sample.size()) / 20), 8.0, 192.0));
     const double coarse = longer / static_cast<double>(side);
@@ -154,14 +149,15 @@ class Front {
     return true;
   }
 
-  // Second pass: the nearest depth in each square.
+  // Second pass: finds the front-most depth in each square.
   void raise(const Cloud& piece) {
     place(piece);
     for (const Place& p : places_)
       if (p.counts) top_[p.square] = std::max(top_[p.square], static_cast<float>(p.at.z()));
   }
 
-  // Third pass: sums of the points near that depth. On a slope a square spans a range of depths.
+  // Third pass: adds up the points near that depth. On a slope a square spans a range of depths, by the
+  // normal or, without one, by a slope of 2.
   void gather(const Cloud& piece) {
     if (sums_.empty()) sums_.resize(top_.size());
     place(piece);
@@ -198,7 +194,7 @@ class Front {
   }
 
  private:
-  // A point in the view, relative to the middle.
+  // A point in view coordinates, relative to the middle.
   struct Place {
     Vec3 at;
     Vec3f normal;
@@ -219,7 +215,7 @@ class Front {
       const Vec3 from_middle = piece.points[i] - scout_.middle;
       p.at = turn_ * from_middle;
       p.normal = has_normals_ ? Vec3f(turn * piece.normals[i]) : Vec3f(Vec3f::UnitZ());
-      p.counts = from_middle.norm() <= scout_.reach && p.normal.z() > 0;  // false for a NaN
+      p.counts = from_middle.norm() <= scout_.outlier_radius && p.normal.z() > 0;  // false for a NaN
       if (!p.counts || top_.empty()) return;
       const auto c = static_cast<std::size_t>((p.at.x() - box_.min.x()) / square_),
                  r = static_cast<std::size_t>((p.at.y() - box_.min.y()) / square_);
@@ -230,7 +226,7 @@ class Front {
   Mat3 turn_;
   const Scout& scout_;
   bool has_normals_, has_colours_;
-  std::vector<Place> places_;  // of the piece in work
+  std::vector<Place> places_;  // of the current piece
   std::uint64_t points_ = 0;
   Box box_;
   double square_ = 0;
@@ -239,11 +235,18 @@ class Front {
   std::vector<Sum> sums_;
 };
 
+Result<io::StreamRecords> find_rows(const io::Source& head) {
+  for (const io::Format& format : io::formats)
+    if (format.find_rows && format.is_format(head)) return format.find_rows(head);
+  return head.error({},
+                    cat("expected a binary ", io::row_format_names(), " file, to be read piece by piece"));
+}
+
 Result<io::StreamRecords> open_records(ByteSource& source, std::string_view name) {
   std::vector<std::byte> head(std::min<std::uint64_t>(head_size, source.size()));
   if (const auto got = source.read(0, head); !got) return std::unexpected(got.error());
   const io::Source beginning{{reinterpret_cast<const char*>(head.data()), head.size()}, name};
-  auto found = io::find_stream_records(beginning);
+  auto found = find_rows(beginning);
   if (!found) return found;
   const io::Records& r = found->records;
   const std::uint64_t left = source.size() - std::min(source.size(), r.offset);
@@ -255,15 +258,14 @@ Result<io::StreamRecords> open_records(ByteSource& source, std::string_view name
 }  // namespace
 
 bool can_stream(std::span<const std::byte> head, std::string_view name) {
-  return io::find_stream_records({{reinterpret_cast<const char*>(head.data()), head.size()}, name})
-      .has_value();
+  return find_rows({{reinterpret_cast<const char*>(head.data()), head.size()}, name}).has_value();
 }
 
 Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view, double points,
                                    Progress* progress) {
   if (!(points >= 1000 && points <= 1e7))
-    return std::unexpected(Error{
-        ErrorKind::option, "--points", {}, cat("expected a number from 1000 to 1e+07, found ", points)});
+    return std::unexpected(
+        Error{ErrorKind::option, "points", {}, cat("expected a number from 1000 to 1e+07, found ", points)});
   const auto found = open_records(source, name);
   if (!found) return std::unexpected(found.error());
   Rows rows(source, found->records);
@@ -274,7 +276,7 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
     return std::unexpected(Error{
         ErrorKind::input, std::string(name), {}, "expected points, found none with finite coordinates"});
   const Scout scouted = scout(*sample);
-  Front front(view, scouted, found->records.normal.has_value(), found->records.colour.has_value());
+  ViewGrid front(view, scouted, found->records.normal.has_value(), found->records.colour.has_value());
 
   if (auto done = rows.each("extent", 0, .2, progress, [&](const Cloud& piece) { front.look(piece); }); !done)
     return std::unexpected(done.error());

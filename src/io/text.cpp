@@ -7,7 +7,8 @@
 namespace relievo::io {
 namespace {
 
-// A number that does not fit a double is either huge or tiny; from_chars does not say which.
+// Returns infinity or zero for a number beyond the range of double; from_chars does not say which of both it
+// is.
 bool is_tiny(std::string_view word) {
   const std::size_t exponent = word.find_first_of("eE");
   if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');

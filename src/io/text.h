@@ -1,4 +1,4 @@
-// Text as the readers see it: lines, words and numbers, with the line's number at hand for messages.
+// Splits text into lines, words and numbers, and counts lines for messages.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace relievo::io {
 
-// Hands out the lines of a text one by one, without their ends: LF, CRLF or CR, even mixed. Linear in the
-// text.
+// Iterates over the lines of a text, without their ends: LF, CRLF or CR, even mixed. The time is linear in
+// the text.
 class Lines {
  public:
   explicit Lines(std::string_view text, std::size_t offset = 0, std::size_t lines_before = 0)
@@ -20,27 +20,29 @@ class Lines {
         lf_(text.find('\n', offset)),
         cr_(text.find('\r', offset)) {}
 
-  // The next line, or nothing at the end. A text that ends with a line end has no empty line after it.
+  // Returns the next line, or nothing at the end. A text that ends with a line end has no empty line after
+  // it.
   std::optional<std::string_view> next();
 
-  // Of the line last returned, counted from 1; 0 before the first.
+  // Returns the number of the line last returned, counted from 1; 0 before the first.
   std::size_t number() const { return number_; }
 
-  // Byte after the line last returned and its end.
+  // Returns the offset of the byte after the line last returned and its end.
   std::size_t offset() const { return at_; }
 
  private:
   std::string_view text_;
   std::size_t at_, number_;
-  std::size_t lf_, cr_;  // the next LF and CR; kept, as looking for one that is not there would be quadratic
+  // The next LF and CR, kept because searching for a missing one in each line would take quadratic time.
+  std::size_t lf_, cr_;
 };
 
-// True for what separates words within a line.
+// Returns true for a character that separates words within a line.
 constexpr bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\v' || c == '\f';
 }
 
-// Hands out the words of a line, separated by blanks; an empty view at the end.
+// Iterates over the words of a line, which blanks separate; returns an empty view at the end.
 class Words {
  public:
   explicit Words(std::string_view line = {}) : at_(line.data()), end_(line.data() + line.size()) {}
@@ -57,25 +59,25 @@ class Words {
   const char* end_;
 };
 
-// The text without blanks at its ends.
+// Returns the text without blanks at its ends.
 std::string_view trim(std::string_view text);
 
-// Returns the number that the whole word spells: decimal, with exponent and either sign, or nan, inf and
-// their kin. Beyond the range of double it is infinite, or zero when too small. Nothing if the word is no
-// number.
+// Returns the number that the whole word spells: decimal, with exponent and either sign, or nan and inf in
+// their spellings. It is infinite beyond the range of double, and zero if too small. Nothing if the word is
+// no number.
 std::optional<double> parse_number(std::string_view word);
 
 // Returns the integer that the whole word spells, nothing if it is none or beyond 64 bits.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-// For messages: the text cut to a few words' length, with unprintable bytes as '?'; the same in quotes.
+// Return the text for messages, shortened and with '?' for unprintable bytes; in_quotes() puts it in quotes.
 std::string printable(std::string_view text);
 std::string in_quotes(std::string_view text);
 
 // Returns true if both are equal but for the case of ASCII letters.
 bool equals_ignoring_case(std::string_view a, std::string_view b);
 
-// 3 if the text begins with a UTF-8 byte order mark, else 0.
+// Returns 3 if the text begins with a UTF-8 byte order mark, else 0.
 std::size_t byte_order_mark_size(std::string_view text);
 
 }  // namespace relievo::io

@@ -1,4 +1,4 @@
-// TIFF files in memory, through libtiff.
+// TIFF files in memory, read and written by libtiff.
 #pragma once
 
 #include <tiffio.h>
@@ -9,7 +9,7 @@
 
 namespace relievo::io {
 
-// A TIFF opened over bytes; its first complaint is kept instead of printed.
+// A TIFF over bytes in memory. libtiff's first error message is kept instead of printed.
 class TiffBytes {
  public:
   explicit TiffBytes(std::string_view bytes);       // to read

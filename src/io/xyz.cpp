@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "io/formats.h"
+
 namespace relievo::io {
 namespace {
 
@@ -67,24 +69,28 @@ class XyzReader {
   const Source& source_;
   const XyzLayout& layout_;
   Lines lines_;
-  std::vector<std::size_t> slots_;  // where the value of each column goes; most_wanted: nowhere
+  std::vector<std::size_t> slots_;  // where the value of each column goes; most_wanted if it is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
   Cloud cloud_;
 };
 
-std::string format_name(const XyzLayout& layout) {
+std::string to_string(const XyzLayout& layout) {
   return (layout.promised_points ? "PTS text, " : "XYZ text, ") + std::to_string(layout.columns) +
          (layout.has_normals ? " columns with normals" : " columns");
 }
 
 }  // namespace
 
+bool is_text(const Source& source) {
+  return foreign_format(source).empty();
+}
+
 Result<RawCloud> read_text(const Source& source) {
   const auto layout = find_layout(source);
   if (!layout) return std::unexpected(layout.error());
   auto cloud = XyzReader(source, *layout).read();
   if (!cloud) return std::unexpected(std::move(cloud.error()));
-  return RawCloud{std::move(*cloud), format_name(*layout)};
+  return RawCloud{std::move(*cloud), to_string(*layout)};
 }
 
 }  // namespace relievo::io

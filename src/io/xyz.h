@@ -1,4 +1,4 @@
-// Text files with one point a line (XYZ, PTS, CSV): how their lines are built.
+// The layout of text files with one point per line (XYZ, PTS, CSV).
 #pragma once
 
 #include <array>
@@ -12,8 +12,8 @@
 
 namespace relievo::io {
 
-// Hands out the fields of a line: words if `separator` is ' ', else what is between separators, without
-// blanks. A separator at the end of the line ends the last field.
+// Iterates over the fields of a line: words if `separator` is ' ', else the text between separators, trimmed.
+// A separator at the end of the line ends the last field.
 class Fields {
  public:
   Fields(std::string_view line, char separator) : line_(line), words_(line), separator_(separator) {}
@@ -33,16 +33,16 @@ struct XyzLayout {
   static constexpr std::size_t most_wanted = 6;
   char separator = ' ';
   std::size_t columns = 0;                                  // of every line
-  std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z, and of nx ny nz
+  std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz
   bool has_normals = false;
-  std::optional<std::int64_t> promised_points;  // by a first line with their number
+  std::optional<std::int64_t> promised_points;  // if a first line states their number
   std::size_t promising_line = 0;
   std::size_t first_line = 0;  // of data, counted from 1
   std::size_t data_offset = 0;
 };
 
-// Returns how the lines are built, told from the names of the columns if the file has some, else from the
-// first line of data (separator, number of columns) and from lines all over the file (normals).
+// Detects the layout: from the names of the columns if the file has any, else from the first line of data
+// (separator, number of columns) and from lines all over the file (normals).
 Result<XyzLayout> find_layout(const Source& source);
 
 }  // namespace relievo::io

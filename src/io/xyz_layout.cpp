@@ -16,7 +16,7 @@ bool is_comment(std::string_view trimmed) {
   return trimmed.starts_with('#') || trimmed.starts_with("//");
 }
 
-// The words of a line of column names, which may be separated and quoted in any way.
+// Returns the words of a line of column names, which may be separated and quoted in any way.
 Names split_names(std::string_view line) {
   const std::string_view separators = " \t\v\f,;\"'/#";
   Names names;
@@ -34,7 +34,7 @@ std::size_t find_name(const Names& names, std::string_view wanted) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-// Number of the wanted columns, in their order, that have a name.
+// Returns how many of x y z nx ny nz, counted from the first, are among the names.
 std::size_t count_named(const Names& names) {
   const auto has_name = [&](std::string_view wanted) { return find_name(names, wanted) < names.size(); };
   return static_cast<std::size_t>(std::find_if_not(wanted_names.begin(), wanted_names.end(), has_name) -
@@ -48,7 +48,8 @@ std::size_t count_fields(std::string_view line, char separator) {
   return count;
 }
 
-// "1,5 2,5": commas that cannot all be separators. In "1, 2,5" only whole numbers raise the suspicion.
+// Returns true for commas that cannot all be separators, as in "1,5 2,5". In "1, 2,5" a comma counts as
+// decimal only if no number has a decimal point.
 bool has_decimal_commas(std::string_view line) {
   std::size_t commas = 0, spaced_commas = 0;
   Fields fields(line, ',');
@@ -62,7 +63,7 @@ bool has_decimal_commas(std::string_view line) {
   return spaced_commas > 0 && spaced_commas < commas && line.find('.') == std::string_view::npos;
 }
 
-// What stands before the first line of data.
+// Reads the lines before the first line of data.
 class Preamble {
  public:
   Preamble(const Source& source, XyzLayout& layout)
@@ -85,7 +86,8 @@ class Preamble {
 
   std::size_t line() const { return lines_.number(); }
 
-  // Names that stand for themselves must fit; a comment counts only if it happens to.
+  // A line of names must have as many as there are columns; a comment is taken for names only if it has as
+  // many.
   Result<void> name_columns() {
     if (names_.empty() && commented_names_.size() == layout_.columns && count_named(commented_names_) >= 3) {
       names_ = commented_names_;
@@ -134,17 +136,17 @@ Result<char> find_separator(const Source& source, std::string_view line, std::si
       number, "expected numbers with a decimal point, separated in one way, found " + in_quotes(line));
 }
 
-// The line around a byte, or what of it lies within reach: a search for its ends must not run through the
-// file.
+// Returns the line around a byte, or the part of it within 1,000 bytes: without that limit, a file of one
+// long line would be searched once per sample.
 std::string_view line_around(std::string_view data, std::size_t byte) {
-  const std::size_t reach = 1000, first = byte - std::min(byte, reach);
-  const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, reach);
+  const std::size_t limit = 1000, first = byte - std::min(byte, limit);
+  const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, limit);
   const std::size_t begin = left.find_last_of("\r\n") + 1;  // npos + 1 is 0
   const std::size_t end = std::min(right.find_first_of("\r\n"), right.size());
   return data.substr(first + begin, byte + end - first - begin);
 }
 
-// Rows from all over the file, as numbers; rows with another number of columns are left out.
+// Returns rows from all over the file as numbers, without rows that have another number of columns.
 std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout) {
   const std::size_t samples = 256;
   std::vector<std::vector<double>> rows;
@@ -157,8 +159,8 @@ std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLay
   return rows;
 }
 
-// True if nearly all rows have a unit vector in three columns. Two decimals leave the length uncertain by
-// 0.01.
+// Returns true if nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
+// that were written with two decimals, whose length is uncertain by 0.01.
 bool are_unit_vectors(const std::vector<std::vector<double>>& rows, std::size_t column) {
   const auto is_unit = [&](const std::vector<double>& row) {
     return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;

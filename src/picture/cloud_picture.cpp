@@ -3,8 +3,8 @@
 
 #include "picture/shading.h"
 #include "relievo/core/parallel.h"
-#include "relievo/normals.h"
 #include "relievo/picture/render.h"
+#include "relievo/scan/normals.h"
 #include "relievo/scan/spacing.h"
 
 namespace relievo {
@@ -12,15 +12,17 @@ namespace {
 
 constexpr float nothing = -std::numeric_limits<float>::infinity();
 
+// More from the viewer's side than for reliefs: a whole body turns much of itself away from the light.
+const Vec3f scan_lamp(-1, 1, 1.4F);
+
 // A point in the picture: pixels, depth in pixels, normal in view coordinates.
 struct Dot {
   Vec3f place, normal;
 };
 
 struct Canvas {
-  int width = 0, height = 0;
-  std::vector<float> depth;
-  std::vector<Vec3f> normals;  // sums
+  Image<float> depth;
+  Image<Vec3f> normals;  // sums
 };
 
 // Calls f(pixel, depth there) for the pixels of rows [first, last) that the dot's disc covers.
@@ -38,37 +40,37 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
 
 // Two passes, as surface splatting has it: the front first, then the mean normal of all that lies on it.
 void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
-  const int rows = 32;
+  const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {
-    const int first = static_cast<int>(b) * rows, last = std::min(canvas.height, first + rows);
+    const int first = static_cast<int>(b) * rows, last = std::min(height, first + rows);
     const auto is_near = [&](const Dot& dot) {
       return dot.normal.z() > 0 && dot.place.y() > static_cast<float>(first) - radius - 1 &&
              dot.place.y() < static_cast<float>(last) + radius + 1;
     };
     for (const Dot& dot : dots)
       if (is_near(dot))
-        each_pixel(dot, radius, canvas.width, first, last,
-                   [&](std::size_t at, float z) { canvas.depth[at] = std::max(canvas.depth[at], z); });
+        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z) {
+          canvas.depth.pixels[at] = std::max(canvas.depth.pixels[at], z);
+        });
     for (const Dot& dot : dots)
       if (is_near(dot))
-        each_pixel(dot, radius, canvas.width, first, last, [&](std::size_t at, float z) {
-          if (z > canvas.depth[at] - 2.5F * radius) canvas.normals[at] += dot.normal;
+        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z) {
+          if (z > canvas.depth.pixels[at] - 2.5F * radius) canvas.normals.pixels[at] += dot.normal;
         });
   };
-  parallel_for(static_cast<std::size_t>((canvas.height + rows - 1) / rows), band, 1);
+  parallel_for(static_cast<std::size_t>((height + rows - 1) / rows), band, 1);
 }
 
-void paint(const Canvas& canvas, Picture& picture) {
-  const Vec3f to_lamp = Vec3f(-1, 1, 1.4F).normalized();
-  const Shader shader(Material::plaster, to_lamp, Vec3f::UnitZ());
+void paint(const Canvas& canvas, Image8& picture) {
+  const Shader shader(Material::plaster, direction_of(scan_lamp), Vec3f::UnitZ());
   const DisplayTable& display = display_table();
-  parallel_for(canvas.depth.size(), [&](std::size_t i) {
-    std::uint8_t* const rgba = picture.rgba.data() + 4 * i;
-    if (canvas.depth[i] == nothing) {
+  parallel_for(canvas.depth.pixels.size(), [&](std::size_t i) {
+    std::uint8_t* const rgba = picture.pixels.data() + 4 * i;
+    if (canvas.depth.pixels[i] == nothing) {
       std::fill_n(rgba, 4, std::uint8_t{0});
       return;
     }
-    const Vec3f colour = shader.colour({canvas.normals[i].normalized(), {1, 1}, Vec3f::Zero(), 0});
+    const Vec3f colour = shader.colour({canvas.normals.pixels[i].normalized(), {1, 1}, Vec3f::Zero(), 0});
     for (int c = 0; c < 3; ++c) rgba[c] = display(colour[c]);
     rgba[3] = 255;
   });
@@ -98,24 +100,20 @@ void CloudRenderer::render(const View& view, int width, int height, Picture& pic
   picture = {};
   if (width < 1 || height < 1 || std::max(width, height) > 8192 || cloud_.points.empty()) return;
   const double scale = .47 * std::min(width, height) / radius_;
-  picture.width = width;
-  picture.height = height;
   picture.pixels_per_mm = scale;
-  const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  picture.rgba.resize(4 * pixels);
-  Canvas canvas{width, height, std::vector<float>(pixels, nothing),
-                std::vector<Vec3f>(pixels, Vec3f::Zero())};
+  picture.image.resize(width, height, 4);
+  Canvas canvas{filled_image(width, height, nothing), filled_image(width, height, Vec3f(Vec3f::Zero()))};
 
   std::vector<Dot> dots(cloud_.size());
-  const Eigen::Matrix3f turn = view.rotation.cast<float>();
+  const Eigen::Matrix3f turn = view.R_view_model.cast<float>();
   parallel_for(dots.size(), [&](std::size_t i) {
-    const Vec3 p = scale * (view.rotation * (cloud_.points[i] - centre_));
+    const Vec3 p = scale * (view.R_view_model * (cloud_.points[i] - centre_));
     Vec3f normal = turn * cloud_.normals[i];
     if (!has_signed_normals_ && normal.z() < 0) normal = -normal;
     dots[i] = {Vec3(width / 2.0 + p.x(), height / 2.0 - p.y(), p.z()).cast<float>(), normal};
   });
   splat(dots, std::clamp(static_cast<float>(1.3 * scale * spacing_), .8F, 12.F), canvas);
-  paint(canvas, picture);
+  paint(canvas, picture.image);
 }
 
 }  // namespace relievo

@@ -2,24 +2,23 @@
 
 #include "plate/height_field.h"
 #include "relievo/picture/height_map.h"
-#include "relievo/preview.h"
 
 namespace relievo {
 
 HeightMap make_height_map(const Solid& solid, int longer_side_px) {
   const HeightField field = draw_height_field(solid, longer_side_px);
   const double span_mm = field.box.size().z();
-  HeightMap map{{field.width, field.height, 1, {}}, field.mm_per_pixel, span_mm / 65535};
-  map.image.pixels.resize(field.z.size());
+  HeightMap map{{}, field.mm_per_pixel, span_mm / 65535};
+  map.image.resize(field.z.width, field.z.height);
   const double greys_per_mm = span_mm > 0 ? 65535 / span_mm : 0;
-  std::ranges::transform(field.z, map.image.pixels.begin(),
+  std::ranges::transform(field.z.pixels, map.image.pixels.begin(),
                          [&](float z) { return static_cast<std::uint16_t>(z * greys_per_mm + 0.5); });
   return map;
 }
 
 HeightsMm make_heights_mm(const Solid& solid, int longer_side_px) {
   HeightField field = draw_height_field(solid, longer_side_px);
-  return {{field.width, field.height, 1, std::move(field.z)}, field.mm_per_pixel, {}};
+  return {std::move(field.z), field.mm_per_pixel, {}};
 }
 
 }  // namespace relievo

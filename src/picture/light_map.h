@@ -14,17 +14,14 @@ struct Light {
 // that all views of a plate show the same light.
 class LightMap {
  public:
-  // `to_lamp` has length 1. The map's longer side has `longer_side_px` pixels; an empty front gives a map of
-  // ones.
-  LightMap(const Solid& solid, const Vec3& to_lamp, int longer_side_px);
-  LightMap(HeightField field, const Vec3& to_lamp);
+  // `to_lamp` has length 1. A field without pixels gives a map of ones.
+  LightMap(const HeightField& field, const Vec3f& to_lamp);
 
   // At a point of the front, between pixels interpolated.
   Light at(const Vec3f& point) const;
 
  private:
-  HeightField field_;
-  std::vector<Light> light_;
+  Image<Light> light_;
   Vec2f origin_ = Vec2f::Zero();  // pixel of the place (0, 0)
   float pixels_per_mm_ = 1;
 };

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
+#include "relievo/core/types.h"
+#include "relievo/picture/reach_picture.h"
 #include "relievo/plate/tool.h"
 
 namespace relievo {
@@ -23,9 +26,9 @@ float grey(float right, float down) {
   return darkest + (brightest - darkest) * std::clamp(.15F + .85F * facing, 0.F, 1.F);
 }
 
-class Painter {
+class ReachPainter {
  public:
-  explicit Painter(const ToolReach& reach) : reach_(reach) {}
+  explicit ReachPainter(const ToolReach& reach) : reach_(reach) {}
 
   Vec3f colour(int x, int y) const {
     const float z = height(x, y);
@@ -34,20 +37,16 @@ class Painter {
     const auto slope = [&](float a, float b) { return a == a && b == b ? (b - a) / step : 0; };
     const float light =
         grey(slope(height(x - 1, y), height(x + 1, y)), slope(height(x, y - 1), height(x, y + 1)));
-    const float left = reach_.residual_mm.pixels[index(x, y)];
+    const float left = reach_.residual_mm.at(x, y);
     if (static_cast<double>(left) <= reach_.tolerance_mm) return Vec3f::Constant(light);
     const float share = left / static_cast<float>(reach_.largest_residual_mm);
     return (.35F + .65F * light / brightest) * (mild + std::sqrt(share) * (strong - mild));
   }
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(reach_.heights_mm.width) +
-           static_cast<std::size_t>(x);
-  }
   float height(int x, int y) const {
     const Image<float>& heights = reach_.heights_mm;
-    return heights.pixels[index(std::clamp(x, 0, heights.width - 1), std::clamp(y, 0, heights.height - 1))];
+    return heights.at(std::clamp(x, 0, heights.width - 1), std::clamp(y, 0, heights.height - 1));
   }
 
   const ToolReach& reach_;
@@ -59,13 +58,12 @@ Image8 render_reach(const ToolReach& reach, int longer_side_px) {
   const int width = reach.heights_mm.width, height = reach.heights_mm.height;
   if (width < 1 || height < 1 || longer_side_px < 1) return {};
   const int side = std::max(1, (std::max(width, height) + longer_side_px - 1) / longer_side_px);
-  Image8 image{(width + side - 1) / side, (height + side - 1) / side, 3, {}};
-  image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 3);
-  const Painter painter(reach);
+  Image8 image = filled_image((width + side - 1) / side, (height + side - 1) / side, std::uint8_t{0}, 3);
+  const ReachPainter painter(reach);
   parallel_for(
       static_cast<std::size_t>(image.height),
       [&](std::size_t row) {
-        auto pixel = image.pixels.begin() + static_cast<std::ptrdiff_t>(row) * image.width * 3;
+        std::uint8_t* pixel = &image.at(0, static_cast<int>(row));
         for (int column = 0; column < image.width; ++column) {
           Averaged sum;
           const int top = static_cast<int>(row) * side, left = column * side;

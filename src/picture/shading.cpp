@@ -6,6 +6,33 @@
 namespace relievo {
 namespace {
 
+// Strengths of lamp and sky. Together they are 1, so that a place that faces both is as bright as its material
+// and nothing is clipped; with less sky the shadows' form is lost, with more the relief looks flat.
+constexpr float lamp_strength = .77F, sky_strength = .23F;
+
+// The brightest sky is above, and a little on the side away from the lamp: slopes that are turned away from it
+// keep their form.
+constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
+
+// A raking lamp is turned up, as a photographer would do it. At this cosine of the angle between lamp and
+// plate, that of a lamp as far to the left and above as in front, it is as bright as it is.
+constexpr float usual_lamp_z = .577F;
+constexpr float least_exposure = .9F, most_exposure = 1.5F;
+
+// Between sRGB's 2.2 and linear: most of a relief lies in the middle tones, which 2.2 makes flat and pale.
+constexpr float display_gamma = 1.45F;
+
+// Highlights above this lose their contrast little by little instead of being clipped.
+constexpr float knee = .85F;
+
+const Vec3f plaster_colour(.93F, .91F, .87F);
+
+// Light that passes through thin porcelain and thick: exp(-1.45) is about a quarter, as in lithophanes.
+const Vec3f thin_porcelain(1, .965F, .89F), thick_porcelain(.62F, .33F, .16F);
+constexpr float porcelain_absorption = 1.45F;
+
+const Vec3f early_wood(.46F, .29F, .18F), late_wood(.27F, .155F, .09F), varnish(1, .93F, .82F);
+
 float smooth_step(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.F, 1.F);
   return t * t * (3 - 2 * t);
@@ -21,7 +48,7 @@ float sharpen(float x, int doublings) {
   return x;
 }
 
-// What tells one metal from another.
+// The properties by which metals differ.
 struct Metal {
   Vec3f colour, tarnish;  // where it is open, and in hollows
   float diffuse, window;  // strengths
@@ -52,23 +79,34 @@ float smooth_noise(float x, float y) {
 
 }  // namespace
 
+Vec3f direction_of(const Vec3f& light) {
+  return light.stableNormalized();
+}
+
 Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
     : material_(material),
       to_lamp_(to_lamp),
-      to_sky_(Vec3f(-.35F * to_lamp.x(), -.2F * to_lamp.y(), .9F).normalized()),
-      halfway_((to_lamp + to_viewer).normalized()),
-      exposure_(std::clamp(std::sqrt(.577F / std::max(.05F, to_lamp.z())), .9F, 1.5F)),
+      to_sky_(Vec3f(-sky_away_x * to_lamp.x(), -sky_away_y * to_lamp.y(), sky_up).normalized()),
+      halfway_((to_lamp + to_viewer).stableNormalized()),
+      exposure_(
+          std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
       to_window_(Vec3f(to_lamp.x() - .25F, to_lamp.y() + .1F, .55F).normalized()) {}
 
+// The light that a place gets, by where it faces and by what hides lamp and sky from it.
+Light Shader::facing(const Lit& lit) const {
+  return {std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp,
+          (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky};
+}
+
 Vec3f Shader::colour(const Lit& lit) const {
-  const float lamp = std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp;
-  const float sky = (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky;
   switch (material_) {
-    case Material::plaster:
-      return Vec3f(.93F, .91F, .87F) * (.77F * exposure_ * lamp + .23F * sky);
+    case Material::plaster: {
+      const Light light = facing(lit);
+      return plaster_colour * (lamp_strength * exposure_ * light.lamp + sky_strength * light.sky);
+    }
     case Material::porcelain:
-      return mix(Vec3f(1, .965F, .89F), Vec3f(.62F, .33F, .16F), lit.height) * std::exp(-1.45F * lit.height) *
-             (.96F + .04F * lamp);
+      return mix(thin_porcelain, thick_porcelain, lit.height) * std::exp(-porcelain_absorption * lit.height) *
+             (.96F + .04F * facing(lit).lamp);
     case Material::walnut:
       return wood(lit);
     default:
@@ -78,13 +116,12 @@ Vec3f Shader::colour(const Lit& lit) const {
 
 Vec3f Shader::metal(const Lit& lit) const {
   const Metal& m = metal_of(material_);
-  const float lamp = std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp;
-  const float sky = (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky;
+  const Light light = facing(lit);
   const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), m.glint_doublings) * lit.light.lamp;
   const float window = smooth_step(.55F, 1.F, lit.normal.dot(to_window_)) * lit.light.sky;
   const Vec3f body = mix(m.tarnish, m.colour, lit.light.sky * lit.light.sky);
   const Vec3f shine = mix(m.colour, Vec3f::Ones(), .35F);
-  return body * (m.diffuse * exposure_ * lamp + .10F * sky + m.window * window * lamp) +
+  return body * (m.diffuse * exposure_ * light.lamp + .10F * light.sky + m.window * window * light.lamp) +
          shine * (m.glint * glint * glint);
 }
 
@@ -96,19 +133,16 @@ Vec3f Shader::wood(const Lit& lit) const {
   const float ring = x * .3F + bend, phase = ring - std::floor(ring);
   const float late = phase * phase * (1 - smooth_step(.88F, 1, phase));
   const float fibre = smooth_noise(x * 6.F, y * .35F), pore = smooth_noise(x * 11.F, y * .9F + 40);
-  const Vec3f grain = mix(Vec3f(.46F, .29F, .18F), Vec3f(.27F, .155F, .09F), .6F * late + .4F * fibre) *
-                      (pore > .86F ? .85F : 1.F);
-  const float lamp = std::max(0.F, lit.normal.dot(to_lamp_)) * lit.light.lamp;
-  const float sky = (.5F + .5F * lit.normal.dot(to_sky_)) * lit.light.sky;
+  const Vec3f grain = mix(early_wood, late_wood, .6F * late + .4F * fibre) * (pore > .86F ? .85F : 1.F);
+  const Light light = facing(lit);
   const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), 4) * lit.light.lamp;
-  return grain * (exposure_ * lamp + .28F * sky) + Vec3f(1, .93F, .82F) * (.05F * glint);
+  return grain * (exposure_ * light.lamp + .28F * light.sky) + varnish * (.05F * glint);
 }
 
 DisplayTable::DisplayTable() : levels_(static_cast<std::size_t>(brightest * steps) + 2) {
-  const float display_gamma = 1.45F, knee = .85F, rest = 1 - knee;
+  const float rest = 1 - knee;
   for (std::size_t i = 0; i < levels_.size(); ++i) {
     float linear = static_cast<float>(i) / steps;
-    // Highlights lose their contrast little by little.
     if (linear > knee) linear = knee + rest * (1 - std::exp((knee - linear) / rest));
     levels_[i] = static_cast<std::uint8_t>(std::pow(linear, 1 / display_gamma) * 255 + .5F);
   }

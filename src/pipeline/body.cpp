@@ -1,7 +1,11 @@
-#include "plate_of.h"
+#include "pipeline/body.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
+#include "relievo/core/text.h"
+#include "relievo/plate/draft_in_file.h"
 #include "relievo/relief/draft.h"
 
 namespace relievo {
@@ -13,64 +17,89 @@ constexpr double rim_bevel = .3;       // of the rim's height: 17 degrees from u
 // Of the steepest slope, what simpler fronts keep: between that of limit_draft() and 1, which is left for
 // rounding.
 constexpr double front_share = .9995;
-constexpr double most_held_mm = 1e-5;  // what hold_draft() moves points by, as a rule
+constexpr double most_held_mm = 1e-5;  // what enforce_draft_in_float() moves points by, as a rule
 constexpr double rounded_up = 1.002;   // bevels of curved rims are polygons, whose sides are steeper
 
+bool is_curved(const ReliefOptions& options) {
+  return options.base.kind != BaseKind::plane || options.wrap.kind != WrapKind::none;
+}
+
+// Returns how wide the bevel of a rim that high must be to lean by that angle off the vertical.
+double least_bevel(double height_mm, double draft_deg) {
+  return rounded_up * height_mm / slope_at_draft(draft_deg);
+}
+
 // The base that a form has: what is high is deep in a die.
-BaseOptions base_of(const ReliefOptions& options, Form form) {
-  BaseOptions base = *parse_base(options.base);
-  base.image = options.base_image;
-  base.is_mirrored = is_mirrored(form);
-  base.is_hollow ^= form == Form::die;
+BaseOptions formed_base(const ReliefOptions& options) {
+  BaseOptions base = options.base;
+  base.is_mirrored = is_mirrored(options.form);
+  base.is_hollow ^= options.form == Form::die;
   return base;
 }
 
 // Its bevel leans as much as walls must.
-RimOptions rim_of(const ReliefOptions& options, Form form, double relief_mm) {
+RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
   const double width = *options.rim_mm, highest = std::min({width, width / lean, relief_mm}),
                height = options.rim_height_mm.value_or(highest),
                bevel = std::min(width, options.rim_bevel_mm.value_or(lean * height));
-  return {width, form == Form::die ? -height : height, bevel};
+  return {width, options.form == Form::die ? -height : height, bevel};
+}
+
+// A bevel of its own is asked for by the user: it must lean as walls must.
+Result<void> check_bevel(const RimOptions& rim, const ReliefOptions& options) {
+  if (!options.draft_deg || !options.rim_mm) return {};
+  const double least = least_bevel(std::abs(rim.height_mm), *options.draft_deg);
+  if (rim.bevel_mm >= .9999 * least) return {};
+  return option_error(options.rim_bevel_mm ? "rim-bevel" : "rim",
+                      cat("expected at least ", least, " mm, so that the rim of ", std::abs(rim.height_mm),
+                          " mm leans as draft asks, found ", rim.bevel_mm, " mm"));
 }
 
 }  // namespace
 
-double least_bevel(double height_mm, double draft_deg) {
-  return rounded_up * height_mm / slope_at_draft(draft_deg);
+bool is_mirrored(Form form) {
+  return form == Form::mirror || form == Form::die;
 }
 
-PlateOptions plate_of(const ReliefOptions& options, Form form, double relief_mm) {
-  PlateOptions plate{options.margin_mm,
-                     options.thickness_mm,
-                     *parse_outline(options.outline),
-                     options.corner_mm,
-                     rim_of(options, form, relief_mm),
-                     base_of(options, form),
-                     *parse_wrap(options.wrap)};
+bool is_simplified_as_plate(const ReliefOptions& options) {
+  return options.tolerance_mm && is_curved(options) && options.outline != Outline::none;
+}
+
+SimplifyOptions simplest_front(const ReliefOptions& options) {
+  SimplifyOptions simplest{(is_curved(options) ? 1 - bending_share : 1) * *options.tolerance_mm};
+  if (!options.draft_deg) return simplest;
+  simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
+  simplest.tolerance_mm -= std::min(.1 * simplest.tolerance_mm, most_held_mm);
+  return simplest;
+}
+
+PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
+  PlateOptions plate{options.margin_mm, options.thickness_mm,           options.outline,
+                     options.corner_mm, formed_rim(options, relief_mm), formed_base(options),
+                     options.wrap};
   if (!options.tolerance_mm) return plate;
   plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
-  const bool is_curved = plate.base.kind != BaseKind::plane || plate.wrap.kind != WrapKind::none;
-  if (!is_curved || plate.outline == Outline::none) return plate;
+  if (!is_simplified_as_plate(options)) return plate;
   const SimplifyOptions simplest = simplest_front(options);
   plate.simplify_mm = simplest.tolerance_mm;
   plate.max_slope = simplest.max_slope;
   return plate;
 }
 
-bool is_mirrored(Form form) {
-  return form == Form::mirror || form == Form::die;
-}
-
-SimplifyOptions simplest_front(const ReliefOptions& options) {
-  const bool is_flat =
-      parse_base(options.base)->kind == BaseKind::plane && parse_wrap(options.wrap)->kind == WrapKind::none;
-  SimplifyOptions simplest{(is_flat ? 1 : 1 - bending_share) * *options.tolerance_mm};
-  if (!options.draft_deg) return simplest;
-  simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
-  simplest.tolerance_mm -= std::min(.1 * simplest.tolerance_mm, most_held_mm);
-  return simplest;
+Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options) {
+  const PlateOptions plate = plate_of(options, relief_mm);
+  RELIEVO_CHECK(check_bevel(plate.rim, options));
+  RELIEVO_TRY(Solid solid, make_plate(front, plate));
+  if (options.draft_deg) {
+    RELIEVO_TRY(const double moved_mm, enforce_draft_in_float(solid, slope_at_draft(*options.draft_deg)));
+    solid.error_mm += moved_mm;
+  }
+  if (plate.wrap.kind == WrapKind::none) return Body{std::move(solid)};
+  RELIEVO_TRY(const Wrap wrap, plate_wrap(solid, plate));
+  RELIEVO_TRY(Solid bent, wrap_plate(solid, plate));
+  return Body{std::move(bent), std::move(solid), wrap};
 }
 
 }  // namespace relievo

@@ -1,10 +1,11 @@
 #include "relievo/scene.h"
+#include "core/angle.h"
+#include "relievo/scan/scan_file.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -38,7 +39,7 @@ void each_point(const CloudFile& file, F&& f) {
   for (const Triangle& triangle : file.mesh.triangles)
     for (const Index corner : triangle) f(file.mesh.points[corner]);
   if (!file.mesh.empty()) return;
-  const std::vector<Index> strays = far_points(file.cloud);
+  const std::vector<Index> strays = outliers(file.cloud);
   auto next = strays.begin();
   for (Index i = 0; i < file.cloud.size(); ++i) {
     if (next != strays.end() && *next == i)
@@ -101,8 +102,7 @@ class Row {
 // Exactly the identity where nothing is to be turned.
 Mat3 turn_of(const Pose& pose) {
   const auto about = [&](int axis) {
-    const double radians = pose.rotate_deg[axis] * std::numbers::pi / 180;
-    return Eigen::AngleAxisd(radians, Vec3(Vec3::Unit(axis))).toRotationMatrix();
+    return Eigen::AngleAxisd(to_radians(pose.rotate_deg[axis]), Vec3(Vec3::Unit(axis))).toRotationMatrix();
   };
   Mat3 turn = pose.rotate_deg.isZero(0) ? Mat3(Mat3::Identity()) : Mat3(about(2) * about(1) * about(0));
   if (pose.is_mirrored) turn.col(0) = -turn.col(0);
@@ -119,7 +119,7 @@ Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& vi
   const bool is_placed =
       scene.models.size() == 1 ||
       std::ranges::any_of(scene.models, [](const SceneModel& m) { return m.pose.translate.has_value(); });
-  Row row(view.rotation);
+  Row row(view.R_view_model);
   std::vector<PlacedModel> placed;
   for (const SceneModel& model : scene.models)
     placed.push_back(is_placed ? placed_as_told(model) : row.next(model));

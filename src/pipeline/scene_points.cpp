@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "front_mesh.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
+#include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
-#include "settle_normals.h"
-#include "thin.h"
+#include "scan/front_mesh.h"
+#include "scan/orient_normals.h"
+#include "scan/subsample.h"
 
 namespace relievo {
 namespace {
@@ -28,7 +29,7 @@ struct Parts {
   std::vector<PlacedCloud> clouds;
   Mesh mesh;  // all in one
   std::size_t left_out = 0;
-  std::vector<std::string> remarks;
+  std::vector<SampleNote> notes;
 };
 
 template <typename T>
@@ -77,22 +78,22 @@ Mesh placed_mesh(const SceneModel& model, const PlacedModel& place) {
 
 PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, const View& view, Parts& parts) {
   PlacedCloud placed{model.name, model.file->cloud, {}, {}};
-  if (const std::vector<Index> strays = far_points(placed.cloud); !strays.empty()) {
-    placed.cloud = without(placed.cloud, strays);
+  if (const std::vector<Index> strays = outliers(placed.cloud); !strays.empty()) {
+    placed.cloud = erase_points(placed.cloud, strays);
     parts.left_out += strays.size();
-    parts.remarks.push_back(cat(model.name, ": left out ", strays.size(), " points far from all others"));
+    parts.notes.push_back({SampleNote::Kind::outliers, model.name, strays.size()});
   }
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);
   for (Vec3f& n : placed.cloud.normals) n = turn * n;
   placed.viewed = in_view(placed.cloud, view);
   placed.spacing = measure_spacing(placed.viewed);
-  const NormalsWere were = settle_normals(placed.viewed, placed.spacing, placed.cloud);
-  if (were == NormalsWere::outward) return placed;
-  parts.remarks.push_back(cat(model.name, were == NormalsWere::missing
-                                              ? ": has no normals: they were estimated"
-                                              : ": normals point inwards: they were turned"));
-  const Eigen::Matrix3f back = view.rotation.transpose().cast<float>();
+  const OriginalNormals were = orient_normals(placed.viewed, placed.spacing, placed.cloud);
+  if (were == OriginalNormals::outward) return placed;
+  parts.notes.push_back({were == OriginalNormals::missing ? SampleNote::Kind::estimated_normals
+                                                          : SampleNote::Kind::turned_normals,
+                         model.name});
+  const Eigen::Matrix3f back = view.R_view_model.transpose().cast<float>();
   placed.cloud.normals.resize(placed.cloud.size());
   parallel_for(placed.cloud.size(),
                [&](std::size_t i) { placed.cloud.normals[i] = back * placed.viewed.normals[i]; });
@@ -107,7 +108,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
                         Progress* progress) {
   Parts parts;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    if (auto go = begin_stage(progress, "models", 0); !go) return std::unexpected(go.error());
+    RELIEVO_CHECK(begin_stage(progress, "models", 0));
     const SceneModel& model = scene.models[i];
     if (!model.file->mesh.empty()) {
       append(parts.mesh, placed_mesh(model, places[i]));
@@ -134,7 +135,7 @@ double shown_area(const PlacedCloud& cloud) {
 
 // The same for triangles, whichever side is their front.
 double shown_area(const Mesh& mesh, const View& view) {
-  const Vec3 to_viewer = view.rotation.row(2);
+  const Vec3 to_viewer = view.R_view_model.row(2);
   double sum = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
@@ -157,7 +158,7 @@ double common_spacing(const Parts& parts, const View& view, double points) {
 // The front of a coarse cloud, in the scene's frame.
 Mesh front_in_scene(const PlacedCloud& placed, const View& view) {
   Mesh mesh = front_mesh(placed.viewed, placed.spacing);
-  const Mat3 back = view.rotation.transpose();
+  const Mat3 back = view.R_view_model.transpose();
   const Vec3 centre = bounds(placed.cloud).centre();
   for (Vec3& p : mesh.points) p = back * p + centre;
   for (auto& normals : mesh.corner_normals)
@@ -172,12 +173,11 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
     const double own = placed.spacing.rho;
     if (own > much_wider * spacing) {
       append(parts.mesh, front_in_scene(placed, view));
-      parts.remarks.push_back(cat(placed.name, ": coarser than the scene: points taken between its points"));
+      parts.notes.push_back({SampleNote::Kind::coarse, placed.name});
     } else if (own < much_closer * spacing) {
-      const Cloud thin = thinned(placed.cloud, placed.spacing, spacing);
+      const Cloud thin = subsample(placed.cloud, placed.spacing, spacing);
       if (thin.size() < placed.cloud.size())
-        parts.remarks.push_back(cat(placed.name, ": finer than the scene: ", thin.size(), " of ",
-                                    placed.cloud.size(), " points kept"));
+        parts.notes.push_back({SampleNote::Kind::fine, placed.name, thin.size(), placed.cloud.size()});
       append(all, thin);
     } else {
       append(all, placed.cloud);
@@ -187,43 +187,41 @@ Cloud even_clouds(Parts& parts, double spacing, const View& view) {
   return all;
 }
 
-// What is seen of one file, which lives as long as the points.
-Result<SeenPoints> seen_points(const std::shared_ptr<const CloudFile>& file, const View& view, double points,
+// The cloud without its outliers, which is not copied if there are none.
+ViewSample without_outliers(std::shared_ptr<const Cloud> cloud) {
+  const std::vector<Index> far = outliers(*cloud);
+  if (far.empty()) return {std::move(cloud), 0, {}};
+  return {std::make_shared<const Cloud>(erase_points(*cloud, far)),
+          far.size(),
+          {{SampleNote::Kind::outliers, {}, far.size()}}};
+}
+
+Result<ViewSample> sample_file(const std::shared_ptr<const CloudFile>& file, const View& view, double points,
                                Progress* progress) {
-  Result<SeenPoints> seen = relievo::seen_points(*file, view, points, progress);
-  if (seen && seen->cloud.get() == &file->cloud) seen->cloud = {file, &file->cloud};
-  return seen;
+  if (file->mesh.empty()) return without_outliers({file, &file->cloud});
+  RELIEVO_TRY(Cloud sampled, sample_mesh(file->mesh, view, {points}, progress));
+  const std::size_t taken = sampled.size();
+  ViewSample sample = without_outliers(std::make_shared<const Cloud>(std::move(sampled)));
+  sample.notes.push_back({SampleNote::Kind::mesh, {}, taken, file->mesh.triangles.size()});
+  return sample;
 }
 
 }  // namespace
 
-Result<SeenPoints> seen_points(const Scene& scene, const View& view, double points, Progress* progress) {
-  const Result<std::vector<PlacedModel>> places = place_models(scene, view);
-  if (!places) return std::unexpected(places.error());
+Result<ViewSample> sample_for_view(const Scene& scene, const View& view, double points, Progress* progress) {
+  RELIEVO_TRY(const std::vector<PlacedModel> places, place_models(scene, view));
   if (scene.models.size() == 1 && scene.models[0].pose == Pose{})
-    return seen_points(scene.models[0].file, view, points, progress);
-  if (auto ok = check_points(points); !ok) return std::unexpected(ok.error());
-  Result<Parts> parts = place_all(scene, *places, view, progress);
-  if (!parts) return std::unexpected(parts.error());
+    return sample_file(scene.models[0].file, view, points, progress);
+  RELIEVO_CHECK(check_points(points));
+  RELIEVO_TRY(Parts parts, place_all(scene, places, view, progress));
   MeshSampling sampling{points};
-  if (!parts->clouds.empty()) sampling.spacing = common_spacing(*parts, view, points);
-  Cloud all = even_clouds(*parts, sampling.spacing, view);
-  if (!parts->mesh.empty()) {
-    const Result<Cloud> sampled = sample_mesh(parts->mesh, view, sampling, progress);
-    if (!sampled) return std::unexpected(sampled.error());
-    append(all, *sampled);
+  if (!parts.clouds.empty()) sampling.spacing = common_spacing(parts, view, points);
+  Cloud all = even_clouds(parts, sampling.spacing, view);
+  if (!parts.mesh.empty()) {
+    RELIEVO_TRY(const Cloud sampled, sample_mesh(parts.mesh, view, sampling, progress));
+    append(all, sampled);
   }
-  return SeenPoints{std::make_shared<const Cloud>(std::move(all)), parts->left_out,
-                    std::move(parts->remarks)};
-}
-
-Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options, Progress* progress) {
-  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
-  const Result<View> view = parse_view(options.view, options.up);
-  if (!view) return std::unexpected(view.error());
-  const Result<SeenPoints> seen = seen_points(scene, *view, options.points, progress);
-  if (!seen) return std::unexpected(seen.error());
-  return make_relief(*seen, *view, options, progress);
+  return ViewSample{std::make_shared<const Cloud>(std::move(all)), parts.left_out, std::move(parts.notes)};
 }
 
 }  // namespace relievo

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/angle.h"
 #include "plate/base_image.h"
 #include "plate/shape_text.h"
 #include "relievo/core/text.h"
@@ -11,50 +12,42 @@
 namespace relievo {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double steepest = 5.671;  // 80 degrees
+constexpr double steepest = 5.671;  // tan 80 degrees: the relief on a steeper base would face sideways
 constexpr double least_mm = 1e-3, most_mm = 1e6;
 constexpr double default_angle_deg = 15;
 
-constexpr const char* option = "--base";
-
-// Checks the numbers that were given.
+// Checks the range of each number, and that no two contradict each other.
 Result<void> check_numbers(const BaseOptions& options) {
   for (const auto& [name, mm] : {std::pair{"height", options.height_mm},
                                  {"diameter", options.diameter_mm},
                                  {"length", options.length_mm}})
     if (mm && !(*mm >= least_mm && *mm <= most_mm))
-      return wrong_shape(option,
-                         cat("expected a ", name, " of ", least_mm, " to ", most_mm, " mm, found ", *mm));
+      return option_error("base",
+                          cat("expected a ", name, " of ", least_mm, " to ", most_mm, " mm, found ", *mm));
   if (options.angle_deg && !(*options.angle_deg > 0 && *options.angle_deg <= 80))
-    return wrong_shape(option, cat("expected an angle of 0 to 80 degrees, found ", *options.angle_deg));
+    return option_error("base", cat("expected an angle of 0 to 80 degrees, found ", *options.angle_deg));
   if (!std::isfinite(options.direction_deg))
-    return wrong_shape(option, cat("expected a direction in degrees, found ", options.direction_deg));
+    return option_error("base", cat("expected a direction in degrees, found ", options.direction_deg));
   if (options.height_mm && (options.angle_deg || options.diameter_mm))
-    return wrong_shape(option, cat("expected either a height or ",
-                                   options.angle_deg ? "an angle" : "a diameter", ", found both"));
+    return option_error("base", cat("expected either a height or ",
+                                    options.angle_deg ? "an angle" : "a diameter", ", found both"));
   return {};
 }
 
-Box box_of(std::span<const Vec2> outline) {
-  Box box;
-  for (const Vec2& p : outline) box.extend({p.x(), p.y(), 0});
-  return box;
-}
-
-// Unit vector across straight lines of that direction; exact for upright and level ones.
+// Returns the unit vector at right angles to straight lines of that direction; exact if they are upright or
+// level.
 Vec2 across(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();
   if (turn == 90) return Vec2::UnitY();
-  return {std::cos(turn * pi / 180), std::sin(turn * pi / 180)};
+  return {std::cos(to_radians(turn)), std::sin(to_radians(turn))};
 }
 
 }  // namespace
 
 Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outline) {
   if (auto good = check_numbers(options); !good) return std::unexpected(good.error());
-  const Box box = box_of(outline);
+  const Box box = Box::of(outline);
   Base base;
   if (options.kind == BaseKind::plane || box.is_empty()) return base;
   base.kind_ = options.kind;
@@ -62,25 +55,26 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   base.across_ = across(options.direction_deg);
   base.sign_ = options.is_hollow ? -1 : 1;
   base.mirror_ = options.is_mirrored ? -1 : 1;
-  double reach = 0;  // of the plate, from the middle
+  double half_extent = 0;  // of the plate, across the straight lines, or in any direction for a dome
   for (const Vec2& p : outline) {
     const Vec2 from_middle = base.from_middle(p);
-    reach = std::max(
-        reach, options.kind == BaseKind::dome ? from_middle.norm() : std::abs(base.across_.dot(from_middle)));
+    half_extent =
+        std::max(half_extent, options.kind == BaseKind::dome ? from_middle.norm()
+                                                             : std::abs(base.across_.dot(from_middle)));
   }
   Result<void> good;
   switch (options.kind) {
     case BaseKind::plane:
       break;
     case BaseKind::fold:
-      good = base.shape_fold(options, reach);
+      good = base.shape_fold(options, half_extent);
       break;
     case BaseKind::wave:
-      good = base.shape_wave(options, reach);
+      good = base.shape_wave(options, half_extent);
       break;
     case BaseKind::cylinder:
     case BaseKind::dome:
-      good = base.shape_round(options, reach);
+      good = base.shape_round(options, half_extent);
       break;
     case BaseKind::image:
       good = base.lay_image(options, box.size().head<2>());
@@ -90,50 +84,51 @@ Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outlin
   return base;
 }
 
-Result<void> Base::shape_fold(const BaseOptions& options, double reach) {
-  size_ = options.height_mm ? *options.height_mm / reach
-                            : std::tan(options.angle_deg.value_or(default_angle_deg) * pi / 180);
+Result<void> Base::shape_fold(const BaseOptions& options, double half_extent) {
+  size_ = options.height_mm ? *options.height_mm / half_extent
+                            : std::tan(to_radians(options.angle_deg.value_or(default_angle_deg)));
   if (size_ > 1.001 * steepest)
-    return wrong_shape(option, cat("expected a height of at most ", steepest * reach,
-                                   " mm on this plate, 80 degrees, found ", *options.height_mm));
+    return option_error("base", cat("expected a height of at most ", steepest * half_extent,
+                                    " mm on this plate, 80 degrees, found ", *options.height_mm));
   return {};
 }
 
-Result<void> Base::shape_wave(const BaseOptions& options, double reach) {
+Result<void> Base::shape_wave(const BaseOptions& options, double half_extent) {
   const double length = options.length_mm   ? *options.length_mm
-                        : options.height_mm ? std::max(reach, 4 * *options.height_mm)
-                                            : reach;
+                        : options.height_mm ? std::max(half_extent, 4 * *options.height_mm)
+                                            : half_extent;
   size_ = options.height_mm.value_or(length / 8) / 2;
-  wave_number_ = 2 * pi / length;
-  feature_mm_ = length / 4;
+  wave_number_ = 2 * std::numbers::pi / length;
+  min_feature_mm_ = length / 4;
   if (size_ * wave_number_ > steepest)
-    return wrong_shape(option, cat("expected a length of at least ", 2 * pi * size_ / steepest,
-                                   " mm at a height of ", 2 * size_, " mm, 80 degrees, found ", length));
+    return option_error("base", cat("expected a length of at least ", 2 * std::numbers::pi * size_ / steepest,
+                                    " mm at a height of ", 2 * size_, " mm, 80 degrees, found ", length));
   return {};
 }
 
-Result<void> Base::shape_round(const BaseOptions& options, double reach) {
+Result<void> Base::shape_round(const BaseOptions& options, double half_extent) {
   const bool is_dome = kind_ == BaseKind::dome;
-  const double height = options.height_mm.value_or(.15 * reach),
-               of_height = (reach * reach / height + height) / 2;
+  const double height = options.height_mm.value_or(.15 * half_extent),
+               of_height = (half_extent * half_extent / height + height) / 2;
   if (options.diameter_mm)
     size_ = *options.diameter_mm / 2;
   else
-    size_ = is_dome || options.height_mm ? of_height : 2 * reach;
-  const double smallest = reach * std::sqrt(1 + 1 / (steepest * steepest));
+    size_ = is_dome || options.height_mm ? of_height : 2 * half_extent;
+  const double smallest = half_extent * std::sqrt(1 + 1 / (steepest * steepest));
   if (options.diameter_mm && size_ < smallest)
-    return wrong_shape(option, cat("expected a diameter of at least ", 2 * smallest,
-                                   " mm on this plate, found ", *options.diameter_mm));
-  const double highest = smallest - std::sqrt(smallest * smallest - reach * reach);
+    return option_error("base", cat("expected a diameter of at least ", 2 * smallest,
+                                    " mm on this plate, found ", *options.diameter_mm));
+  const double highest = smallest - std::sqrt(smallest * smallest - half_extent * half_extent);
   if (options.height_mm && height > highest)
-    return wrong_shape(option,
-                       cat("expected a height of at most ", highest, " mm on this plate, found ", height));
+    return option_error("base",
+                        cat("expected a height of at most ", highest, " mm on this plate, found ", height));
   return {};
 }
 
 Result<void> Base::lay_image(const BaseOptions& options, const Vec2& size) {
   const auto wrong = [](const char* found) {
-    return wrong_shape(option, cat("expected a height image of at least 2 x 2 finite values, found ", found));
+    return option_error("base",
+                        cat("expected a height image of at least 2 x 2 finite values, found ", found));
   };
   if (!options.image) return wrong("none");
   const HeightGrid& grid = *options.image;
@@ -144,7 +139,7 @@ Result<void> Base::lay_image(const BaseOptions& options, const Vec2& size) {
     return wrong("others: fill its holes");
   image_ = std::make_shared<const Image>(options.image, size,
                                          options.height_mm.value_or(.1 * std::max(size.x(), size.y())));
-  feature_mm_ = image_->pixel_mm();
+  min_feature_mm_ = image_->pixel_mm();
   return {};
 }
 
@@ -155,7 +150,7 @@ Vec2 Base::from_middle(const Vec2& place) const {
 
 double Base::profile(const Vec2& p) const {
   const double t = across_.dot(p);
-  // Below 0 only beyond the plate.
+  // The square root's argument is negative only beyond the plate.
   const auto cap = [&](double square) { return std::sqrt(std::max(0.0, size_ * size_ - square)) - size_; };
   switch (kind_) {
     case BaseKind::plane:
@@ -174,33 +169,8 @@ double Base::profile(const Vec2& p) const {
   return 0;
 }
 
-Vec2 Base::profile_slope(const Vec2& p) const {
-  const double t = across_.dot(p);
-  const auto cap = [&](double square) { return -1 / std::sqrt(std::max(1e-12, size_ * size_ - square)); };
-  switch (kind_) {
-    case BaseKind::plane:
-      return Vec2::Zero();
-    case BaseKind::fold:
-      return (t > 0 ? -size_ : t < 0 ? size_ : 0) * across_;
-    case BaseKind::wave:
-      return -size_ * wave_number_ * std::sin(wave_number_ * t) * across_;
-    case BaseKind::cylinder:
-      return cap(t * t) * t * across_;
-    case BaseKind::dome:
-      return cap(p.squaredNorm()) * p;
-    case BaseKind::image:
-      return image_->slope(p);
-  }
-  return Vec2::Zero();
-}
-
 double Base::height(const Vec2& place) const {
   return sign_ * profile(from_middle(place));
-}
-
-Vec2 Base::slope(const Vec2& place) const {
-  const Vec2 slope = sign_ * profile_slope(from_middle(place));
-  return {mirror_ * slope.x(), slope.y()};
 }
 
 std::optional<double> Base::ridge_between(const Vec2& a, const Vec2& b) const {

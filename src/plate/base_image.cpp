@@ -9,16 +9,12 @@ namespace {
 
 using Weights = std::array<double, 4>;
 
-// Of the four values around a place that lies `t` of the way between the two in the middle.
-Weights values_at(double t) {
+// Returns the cubic B-spline's weights of the four values around a place that lies `t` of the way between the
+// two in the middle.
+Weights weights_at(double t) {
   const double s = 1 - t;
   return {s * s * s / 6, (4 - 6 * t * t + 3 * t * t * t) / 6, (4 - 6 * s * s + 3 * s * s * s) / 6,
           t * t * t / 6};
-}
-
-Weights slopes_at(double t) {
-  const double s = 1 - t;
-  return {-s * s / 2, (-4 * t + 3 * t * t) / 2, (4 * s - 3 * s * s) / 2, t * t / 2};
 }
 
 }  // namespace
@@ -29,17 +25,16 @@ Base::Image::Image(std::shared_ptr<const HeightGrid> grid, const Vec2& plate_mm,
   const auto [lowest, highest] = std::ranges::minmax(grid_->values);
   const double span = static_cast<double>(highest) - static_cast<double>(lowest);
   mm_per_value_ = span > 0 ? height_mm / span : 0;
-  middle_ = sum(Vec2::Zero(), values_at, values_at);
+  middle_ = value(Vec2::Zero());
 }
 
-template <typename X, typename Y>
-double Base::Image::sum(const Vec2& from_middle, const X& weights_x, const Y& weights_y) const {
+double Base::Image::value(const Vec2& from_middle) const {
   const double x = from_middle.x() / pixel_mm_ + (grid_->width - 1) / 2.0,
                y = (grid_->height - 1) / 2.0 - from_middle.y() / pixel_mm_;
   const int column = static_cast<int>(std::floor(std::clamp(x, -2.0, grid_->width + 2.0))),
             row = static_cast<int>(std::floor(std::clamp(y, -2.0, grid_->height + 2.0)));
-  const Weights across = weights_x(std::clamp(x - column, 0.0, 1.0)),
-                down = weights_y(std::clamp(y - row, 0.0, 1.0));
+  const Weights across = weights_at(std::clamp(x - column, 0.0, 1.0)),
+                down = weights_at(std::clamp(y - row, 0.0, 1.0));
   double total = 0;
   for (int j = 0; j < 4; ++j) {
     const int r = std::clamp(row + j - 1, 0, grid_->height - 1);
@@ -57,12 +52,7 @@ double Base::Image::sum(const Vec2& from_middle, const X& weights_x, const Y& we
 }
 
 double Base::Image::height(const Vec2& from_middle) const {
-  return mm_per_value_ * (sum(from_middle, values_at, values_at) - middle_);
-}
-
-Vec2 Base::Image::slope(const Vec2& from_middle) const {
-  const double steps = mm_per_value_ / pixel_mm_;
-  return {steps * sum(from_middle, slopes_at, values_at), -steps * sum(from_middle, values_at, slopes_at)};
+  return mm_per_value_ * (value(from_middle) - middle_);
 }
 
 }  // namespace relievo

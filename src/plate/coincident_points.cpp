@@ -1,4 +1,4 @@
-#include "twins.h"
+#include "plate/coincident_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 namespace relievo {
 namespace {
 
-// A used point as the files hold it.
+// A used point as a file stores it.
 struct Stored {
   std::array<float, 3> at;
   Index point;
@@ -15,7 +15,7 @@ struct Stored {
 
 }  // namespace
 
-std::vector<std::array<Index, 2>> find_twins(const Solid& solid) {
+std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid) {
   std::vector<bool> is_used(solid.points.size());
   for (const Triangle& t : solid.triangles)
     for (const Index i : t) is_used[i] = true;
@@ -27,20 +27,21 @@ std::vector<std::array<Index, 2>> find_twins(const Solid& solid) {
     stored.push_back({{p.x(), p.y(), p.z()}, static_cast<Index>(i)});
   }
   std::ranges::sort(stored);
-  std::vector<std::array<Index, 2>> twins;
+  std::vector<std::array<Index, 2>> pairs;
   for (std::size_t i = 1; i < stored.size(); ++i)
-    if (stored[i].at == stored[i - 1].at) twins.push_back({stored[i - 1].point, stored[i].point});
-  return twins;
+    if (stored[i].at == stored[i - 1].at) pairs.push_back({stored[i - 1].point, stored[i].point});
+  return pairs;
 }
 
-void separate_twins(Solid& solid, double middle_z) {
-  const int most_passes = 32;  // a pass may push a point onto a third one
+void separate_coincident(Solid& solid, double middle_z) {
+  const int most_passes =
+      32;  // a moved point may coincide with a third one: then the next pass separates these
   for (int pass = 0; pass < most_passes; ++pass) {
-    const auto twins = find_twins(solid);
-    if (twins.empty()) return;
+    const auto pairs = find_coincident_points(solid);
+    if (pairs.empty()) return;
     Index previous = no_index;
-    int steps = 0;  // one more for each of several at the same place
-    for (const auto& [first, second] : twins) {
+    int steps = 0;  // the n-th of several points at one place moves by n steps
+    for (const auto& [first, second] : pairs) {
       steps = first == previous ? steps + 1 : 1;
       auto z = static_cast<float>(solid.points[second].z());
       for (int i = 0; i < steps; ++i) z = std::nextafter(z, static_cast<float>(middle_z));

@@ -1,4 +1,4 @@
-#include "bend.h"
+#include "plate/deformation.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,19 +11,19 @@
 namespace relievo {
 namespace {
 
-constexpr double shortest_mm = 4e-3;
-constexpr int most_rounds = 60;
-constexpr std::size_t grain = 512;
+constexpr double shortest_mm = 4e-3;  // a few steps of single precision at 10 m, and finer than any tool
+constexpr int most_refinements = 60;  // each halves edges, so no edge of a plate needs more than about 30
+constexpr std::size_t edges_per_task = 512;
 
-// Where a triangle is to be cut.
-struct Cut {
-  std::array<double, 3> shares =
-      {};                     // of the way from the lower to the higher index of each edge; 0 for none
-  std::optional<Vec3> place;  // within, where no edge is cut
-  double left_mm = 0;         // largest distance seen where nothing is cut
+// Where a triangle is to be split.
+struct Split {
+  // Per edge, the share of the way from its lower to its higher index; 0 if the edge is not split.
+  std::array<double, 3> shares = {};
+  std::optional<Vec3> place;  // a point inside, if no edge is split
+  double left_mm = 0;         // largest deviation sampled, if nothing is split
 };
 
-// A point between two others.
+// A new point on the edge between two others.
 struct Between {
   std::array<Index, 2> ends;
   double share;
@@ -38,87 +38,89 @@ std::array<Index, 2> edge_of(const Triangle& t, std::size_t i) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-Colour mixed(const Colour& a, const Colour& b, double share) {
-  Colour out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = static_cast<std::uint8_t>(a[i] + share * (b[i] - a[i]) + .5);
-  return out;
-}
-
+// Works in rounds: the triangles that are new are sampled, all points that they need are added at once, and
+// then they are split. Both triangles of an edge sample the same places and so split it at the same point,
+// which keeps the mesh without T-junctions although each triangle is looked at by itself.
 class Refiner {
  public:
-  Refiner(Solid& flat, Loop& outline, const Bend& bend, double tolerance_mm)
-      : flat_(flat), outline_(outline), bend_(bend), tolerance_(tolerance_mm) {
-    bend_points();
+  Refiner(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm)
+      : flat_(flat), outline_(outline), deformation_(deformation), tolerance_(tolerance_mm) {
+    deform_points();
     origin_.resize(flat.triangles.size());
     for (Index t = 0; t < origin_.size(); ++t) origin_[t] = t;
     active_ = origin_;
   }
 
   double run() {
-    for (int round = 0; round < most_rounds && !active_.empty(); ++round) {
-      const std::vector<Cut> cuts = find_cuts();
-      add_points(cuts);
+    for (int round = 0; round < most_refinements && !active_.empty(); ++round) {
+      const std::vector<Split> splits = find_splits();
+      add_points(splits);
       extend_outline();
-      bend_points();
-      cut_triangles(cuts);
+      deform_points();
+      split_triangles(splits);
     }
     restore_order();
     return left_mm_;
   }
 
  private:
-  void bend_points() {
-    const std::size_t begin = bent_.size();
-    bent_.resize(flat_.points.size());
+  void deform_points() {
+    const std::size_t begin = deformed_.size();
+    deformed_.resize(flat_.points.size());
     parallel_for(
-        bent_.size() - begin, [&](std::size_t i) { bent_[begin + i] = bend_.at(flat_.points[begin + i]); },
-        grain);
+        deformed_.size() - begin,
+        [&](std::size_t i) { deformed_[begin + i] = deformation_.at(flat_.points[begin + i]); },
+        edges_per_task);
   }
 
-  std::vector<Cut> find_cuts() {
-    std::vector<Cut> cuts(active_.size());
+  std::vector<Split> find_splits() {
+    std::vector<Split> splits(active_.size());
     parallel_for(
-        cuts.size(), [&](std::size_t i) { cuts[i] = cut_of(flat_.triangles[active_[i]]); }, grain);
-    for (const Cut& cut : cuts) left_mm_ = std::max(left_mm_, cut.left_mm);
-    return cuts;
+        splits.size(), [&](std::size_t i) { splits[i] = split_of(flat_.triangles[active_[i]]); },
+        edges_per_task);
+    for (const Split& split : splits) left_mm_ = std::max(left_mm_, split.left_mm);
+    return splits;
   }
 
-  Cut cut_of(const Triangle& t) const {
-    Cut cut;
-    bool is_cut = false;
+  Split split_of(const Triangle& t) const {
+    Split split;
+    bool is_split = false;
     for (std::size_t i = 0; i < 3; ++i) {
-      cut.shares[i] = share_of(edge_of(t, i), cut.left_mm);
-      is_cut |= cut.shares[i] > 0;
+      split.shares[i] = share_of(edge_of(t, i), split.left_mm);
+      is_split |= split.shares[i] > 0;
     }
-    if (is_cut)
-      cut.left_mm = 0;
+    if (is_split)
+      split.left_mm = 0;
     else
-      cut.place = place_within(t, cut.left_mm);
-    return cut;
+      split.place = place_within(t, split.left_mm);
+    return split;
   }
 
-  // Where to cut an edge, the same for both its triangles; 0 if it is near enough. Its share of the tolerance
-  // leaves that of a triangle's inside, which is off by up to 4/3 of its edges' where the surface bends
-  // evenly.
+  // Returns where to split an edge, the same for both its triangles; 0 if it is near enough. An edge that
+  // crosses a crease is measured and split there: the deviation is largest at the crease, and splitting in
+  // the middle would approach it by halves only. Other edges are sampled twice per feature, so that a wave
+  // that is 0 in the middle of an edge is not overlooked.
   double share_of(const std::array<Index, 2>& ends, double& left_mm) const {
     const auto& [a, b] = ends;
     const Vec3 &p = flat_.points[a], &q = flat_.points[b];
     const double length = (q - p).norm();
     const auto off_at = [&](double share) {
-      return (bend_.at(p + share * (q - p)) - bent_[a] - share * (bent_[b] - bent_[a])).norm();
+      return (deformation_.at(p + share * (q - p)) - deformed_[a] - share * (deformed_[b] - deformed_[a]))
+          .norm();
     };
-    const auto corner = bend_.corner_between ? bend_.corner_between(p, q) : std::nullopt;
-    const double count = corner ? 1 : 1 + 2 * std::floor(std::min(length / bend_.feature_mm, 1e5));
+    const auto crease = deformation_.crease_between ? deformation_.crease_between(p, q) : std::nullopt;
+    const double count = crease ? 1 : 1 + 2 * std::floor(std::min(length / deformation_.min_feature_mm, 1e5));
     double off = 0;
-    for (double i = 1; i <= count && off <= .75 * tolerance_; ++i)
-      off = std::max(off, off_at(corner ? *corner : i / (count + 1)));
-    const bool is_cut = off > .75 * tolerance_ && length > shortest_mm;
-    if (!is_cut) left_mm = std::max(left_mm, off);
-    return !is_cut ? 0 : corner ? *corner : .5;
+    for (double i = 1; i <= count && off <= share_of_edges * tolerance_; ++i)
+      off = std::max(off, off_at(crease ? *crease : i / (count + 1)));
+    const bool is_split = off > share_of_edges * tolerance_ && length > shortest_mm;
+    if (!is_split) left_mm = std::max(left_mm, off);
+    return !is_split ? 0 : crease ? *crease : .5;
   }
 
-  // The first place inside that is off too much: along rows from the longest edge to the corner that faces
-  // it.
+  // Returns the first sample inside that deviates too much: samples lie in rows parallel to the longest edge,
+  // towards the opposite corner. A point inside is added only where all three edges are near enough, as they
+  // can be on the top of a hill.
   std::optional<Vec3> place_within(const Triangle& t, double& left_mm) const {
     const auto length = [&](std::size_t i) {
       return (flat_.points[t[(i + 1) % 3]] - flat_.points[t[i]]).norm();
@@ -130,14 +132,15 @@ class Refiner {
     const Index a = t[longest], b = t[(longest + 1) % 3], c = t[(longest + 2) % 3];
     const Vec3 &p = flat_.points[a], &q = flat_.points[b], &r = flat_.points[c];
     const double height = (q - p).cross(r - p).norm() / length(longest);
-    const double rows = 1 + std::floor(height / bend_.feature_mm);
+    const double rows = 1 + std::floor(height / deformation_.min_feature_mm);
     for (double row = 1; row <= rows; ++row) {
       const double to_c = row / (rows + 2);
-      const double columns = 1 + std::floor((1 - to_c) * length(longest) / bend_.feature_mm);
+      const double columns = 1 + std::floor((1 - to_c) * length(longest) / deformation_.min_feature_mm);
       for (double column = .5; column < columns; ++column) {
         const double to_b = (1 - to_c) * column / columns, to_a = 1 - to_b - to_c;
         const Vec3 place = to_a * p + to_b * q + to_c * r;
-        const double off = (bend_.at(place) - to_a * bent_[a] - to_b * bent_[b] - to_c * bent_[c]).norm();
+        const double off =
+            (deformation_.at(place) - to_a * deformed_[a] - to_b * deformed_[b] - to_c * deformed_[c]).norm();
         if (off > tolerance_) return Vec3(place);
         left_mm = std::max(left_mm, off);
       }
@@ -145,12 +148,12 @@ class Refiner {
     return std::nullopt;
   }
 
-  void add_points(const std::vector<Cut>& cuts) {
+  void add_points(const std::vector<Split>& splits) {
     between_.clear();
-    for (std::size_t i = 0; i < cuts.size(); ++i)
+    for (std::size_t i = 0; i < splits.size(); ++i)
       for (std::size_t e = 0; e < 3; ++e)
-        if (cuts[i].shares[e] > 0)
-          between_.push_back({edge_of(flat_.triangles[active_[i]], e), cuts[i].shares[e]});
+        if (splits[i].shares[e] > 0)
+          between_.push_back({edge_of(flat_.triangles[active_[i]], e), splits[i].shares[e]});
     std::ranges::sort(between_, is_before);
     const auto repeated =
         std::ranges::unique(between_, [](const Between& a, const Between& b) { return a.ends == b.ends; });
@@ -158,11 +161,11 @@ class Refiner {
     first_between_ = static_cast<Index>(flat_.points.size());
     for (const auto& [ends, share] : between_) add_point(ends[0], ends[1], share);
     first_within_ = static_cast<Index>(flat_.points.size());
-    for (std::size_t i = 0; i < cuts.size(); ++i) {
-      if (!cuts[i].place) continue;
+    for (std::size_t i = 0; i < splits.size(); ++i) {
+      if (!splits[i].place) continue;
       const Triangle t = flat_.triangles[active_[i]];
       add_point(t[0], t[1], .5);
-      flat_.points.back() = *cuts[i].place;
+      flat_.points.back() = *splits[i].place;
     }
   }
 
@@ -174,37 +177,38 @@ class Refiner {
     flat_.colours.push_back(colour);
   }
 
-  // The point between two; no_index if there is none.
+  // Returns the new point on the edge between two points; no_index if it was not split.
   Index between(const std::array<Index, 2>& ends) const {
     const auto found = std::ranges::lower_bound(between_, Between{ends, 0}, is_before);
     if (found == between_.end() || found->ends != ends) return no_index;
     return first_between_ + static_cast<Index>(found - between_.begin());
   }
 
-  void cut_triangles(const std::vector<Cut>& cuts) {
+  void split_triangles(const std::vector<Split>& splits) {
     Index within = first_within_;
     const std::vector<Index> active = std::exchange(active_, {});
-    for (std::size_t i = 0; i < cuts.size(); ++i) {
+    for (std::size_t i = 0; i < splits.size(); ++i) {
       const Triangle t = flat_.triangles[active[i]];
       std::array<Index, 3> middle = {no_index, no_index, no_index};
       for (std::size_t e = 0; e < 3; ++e)
-        if (cuts[i].shares[e] > 0) middle[e] = between(edge_of(t, e));
+        if (splits[i].shares[e] > 0) middle[e] = between(edge_of(t, e));
       parts_.clear();
-      if (cuts[i].place)
-        fan(t, within++);
+      if (splits[i].place)
+        split_at(t, within++);
       else
-        cut(t, middle);
+        split(t, middle);
       if (parts_.empty()) continue;
       replace(active[i]);
     }
   }
 
-  void fan(const Triangle& t, Index within) {
+  void split_at(const Triangle& t, Index within) {
     for (std::size_t e = 0; e < 3; ++e) parts_.push_back({t[e], t[(e + 1) % 3], within});
   }
 
-  // `middle` are the points on the edges.
-  void cut(const Triangle& t, const std::array<Index, 3>& middle) {
+  // Splits a triangle into two to four. `middle` are the new points on its edges, no_index for none. A
+  // quadrilateral is divided by its shorter diagonal, which keeps needles from becoming thinner.
+  void split(const Triangle& t, const std::array<Index, 3>& middle) {
     const auto count = std::ranges::count_if(middle, [](Index i) { return i != no_index; });
     if (count == 0) return;
     if (count == 3) {
@@ -212,7 +216,7 @@ class Refiner {
       parts_.push_back({middle[0], middle[1], middle[2]});
       return;
     }
-    // Begins with an edge that is cut; of two with the one before the other.
+    // Edge e is split, and if two are, the next one as well.
     std::size_t e = 0;
     while (middle[e] == no_index || (count == 2 && middle[(e + 1) % 3] == no_index)) ++e;
     const Index a = t[e], b = t[(e + 1) % 3], c = t[(e + 2) % 3], m = middle[e], n = middle[(e + 1) % 3];
@@ -229,7 +233,7 @@ class Refiner {
       parts_.insert(parts_.end(), {{a, m, c}, {m, n, c}});
   }
 
-  // Puts the parts in the place of triangle t.
+  // Replaces triangle t by its parts: the first takes its place, the others are appended.
   void replace(Index t) {
     flat_.triangles[t] = parts_[0];
     active_.push_back(t);
@@ -241,7 +245,7 @@ class Refiner {
   }
 
   void extend_outline() {
-    Loop longer;
+    IndexPolygon longer;
     for (std::size_t i = 0; i < outline_.size(); ++i) {
       const Index a = outline_[i], b = outline_[(i + 1) % outline_.size()];
       longer.push_back(a);
@@ -249,12 +253,12 @@ class Refiner {
       if (m == no_index) continue;
       longer.push_back(m);
       const double share = between_[m - first_between_].share;
-      flat_.points[m].head<2>() += bulge((flat_.points[b] - flat_.points[a]).head<2>(), share);
+      flat_.points[m].head<2>() += convexity_offset((flat_.points[b] - flat_.points[a]).head<2>(), share);
     }
     outline_ = std::move(longer);
   }
 
-  // Sorts the triangles by those that they come from.
+  // Sorts the triangles by the triangles that they are parts of, so that the front's come first again.
   void restore_order() {
     std::vector<Index> order(origin_.size());
     for (Index t = 0; t < order.size(); ++t) order[t] = t;
@@ -273,21 +277,21 @@ class Refiner {
   }
 
   Solid& flat_;
-  Loop& outline_;
-  const Bend& bend_;
+  IndexPolygon& outline_;
+  const Deformation& deformation_;
   double tolerance_, left_mm_ = 0;
-  std::vector<Vec3> bent_;        // the points, bent
-  std::vector<Index> origin_;     // of each triangle: the one that it was cut from
-  std::vector<Index> active_;     // triangles that are new
-  std::vector<Between> between_;  // points of this round, sorted by their ends
+  std::vector<Vec3> deformed_;    // per point
+  std::vector<Index> origin_;     // per triangle, the original one of which it is a part
+  std::vector<Index> active_;     // the triangles that are new
+  std::vector<Between> between_;  // this round's points on edges, sorted by their ends
   Index first_between_ = 0, first_within_ = 0;
   std::vector<Triangle> parts_;
 };
 
 }  // namespace
 
-double refine(Solid& flat, Loop& outline, const Bend& bend, double tolerance_mm) {
-  return Refiner(flat, outline, bend, tolerance_mm).run();
+double refine(Solid& flat, IndexPolygon& outline, const Deformation& deformation, double tolerance_mm) {
+  return Refiner(flat, outline, deformation, tolerance_mm).run();
 }
 
 }  // namespace relievo

@@ -1,16 +1,17 @@
+#include "relievo/plate/draft_in_file.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "geometry/slope_limit.h"
 #include "relievo/core/text.h"
-#include "relievo/relief/draft.h"
-#include "steep_triangles.h"
 
 namespace relievo {
 namespace {
 
-// The front of a solid as a file holds it.
+// The front of a solid with coordinates rounded as in a file.
 struct StoredFront {
   std::vector<Vec2> plane;
   std::vector<double> heights;
@@ -19,8 +20,7 @@ struct StoredFront {
 
   explicit StoredFront(const Solid& solid)
       : is_fixed(solid.points.size(), 1), triangles(std::span(solid.triangles).first(solid.front_triangles)) {
-    // In memory as floats first: g++ 12 leaves out the rounding of double(float(x)) where it does two at
-    // once.
+    // The floats are stored first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
     std::vector<Vec3f> stored;
     stored.reserve(solid.points.size());
     for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
@@ -30,10 +30,10 @@ struct StoredFront {
     }
   }
 
-  SteepField field() const { return {plane, triangles, is_fixed}; }
+  PlaneMesh field() const { return {plane, triangles, is_fixed}; }
 
-  // All of the front but its lowest and highest points, what the walls stand under, and what is as high as
-  // that: the ground, unless it is curved.
+  // Frees all front points except extrema, the outline (top of the walls) and points at the outline's height,
+  // i.e. flat ground.
   void free_inner_points(const Solid& solid) {
     double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     for (const Triangle& t : triangles)
@@ -57,16 +57,16 @@ double steepest_slope(const Solid& solid) {
   return steepest_of(front.field(), front.heights);
 }
 
-Result<double> hold_draft(Solid& solid, double max_slope) {
+Result<double> enforce_draft_in_float(Solid& solid, double max_slope) {
   StoredFront front(solid);
   front.free_inner_points(solid);
   const std::vector<double> before = front.heights;
-  if (!flatten(front.field(), max_slope, Rounding::single_precision, front.heights))
+  if (!limit_slopes(front.field(), max_slope, Rounding::single_precision, front.heights))
     return std::unexpected(Error{ErrorKind::geometry,
-                                 "--draft",
+                                 "draft",
                                  {},
                                  "expected triangles that keep the limit in single precision, found some "
-                                 "that do not: fewer points help, as --tolerance leaves"});
+                                 "that do not: fewer points help, as a tolerance leaves"});
   double largest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (front.heights[i] == before[i]) continue;

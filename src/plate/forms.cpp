@@ -1,19 +1,19 @@
 #include "relievo/plate/forms.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <string>
 #include <utility>
 
 #include "relievo/core/parallel.h"
+#include "relievo/plate/solid.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
 
-constexpr double darkest = .1;  // brightness at which the plate is thickest
+constexpr double darkest = .1;  // of the brightest; there and below the plate is thickest
 
-// Relative luminance of what the eye sees, of sRGB colours.
+// Returns the relative luminance of an sRGB colour (IEC 61966-2-1, Rec. 709 weights).
 double luminance(const Colour& colour) {
   const auto linear = [](std::uint8_t value) {
     const double v = value / 255.0;
@@ -22,46 +22,41 @@ double luminance(const Colour& colour) {
   return .2126 * linear(colour[0]) + .7152 * linear(colour[1]) + .0722 * linear(colour[2]);
 }
 
+// Returns the brightness of a white surface under a lamp from the upper left, with a quarter of ambient light
+// so that surfaces that face away still show their form.
 double shade(const Vec3f& normal) {
   const Vec3f lamp = Vec3f(-1, 1, 1.6F).normalized();
   const double facing = std::max(0.F, normal.dot(lamp));
-  return .25 + .75 * facing;  // what faces away still shows its form
+  return .25 + .75 * facing;
 }
 
 }  // namespace
 
 Result<Form> parse_form(std::string_view name) {
-  constexpr std::array<std::string_view, 4> names = {"relief", "mirror", "die", "lithophane"};
-  const auto found = std::ranges::find(names, name);
-  if (found != names.end()) return static_cast<Form>(found - names.begin());
-  return std::unexpected(
-      Error{ErrorKind::option,
-            "--form",
-            {},
-            "expected relief, mirror, die or lithophane, found '" + std::string(name) + "'"});
+  return parse_choice("form", name, form_choices);
 }
 
-Front mirrored(Front front) {
+HeightFieldMesh mirrored(HeightFieldMesh front) {
   for (Vec3& p : front.points) p.x() = -p.x();
   for (Triangle& t : front.triangles) std::swap(t[1], t[2]);
   std::ranges::reverse(front.hull);
   return front;
 }
 
-Front as_die(Front front) {
+HeightFieldMesh as_die(HeightFieldMesh front) {
   for (Vec3& p : front.points) p.z() = -p.z();
   front.ground_mm = -front.ground_mm;
   return mirrored(std::move(front));
 }
 
-Front lithophane(const Surface& surface, double mm_per_unit, double height_mm) {
+HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm) {
   std::vector<double> bright(surface.points.size());
   parallel_for(bright.size(), [&](std::size_t i) {
     bright[i] = shade(surface.normals[i]) * (surface.colours.empty() ? 1 : luminance(surface.colours[i]));
   });
   const double brightest = *std::ranges::max_element(bright);
-  Front front{std::vector<Vec3>(bright.size()), surface.triangulation.triangles, surface.triangulation.hull,
-              height_mm, surface.colours};
+  HeightFieldMesh front{std::vector<Vec3>(bright.size()), surface.triangulation.triangles,
+                        surface.triangulation.hull, height_mm, surface.colours};
   parallel_for(bright.size(), [&](std::size_t i) {
     const bool is_dark = surface.boundary.is_boundary[i] || !(brightest > 0);
     const double share = is_dark ? darkest : std::clamp(bright[i] / brightest, darkest, 1.0);

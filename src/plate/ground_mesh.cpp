@@ -1,57 +1,53 @@
-#include "ground_mesh.h"
+#include "plate/ground_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "geometry/plane.h"
+#include "plate/silhouette.h"
 #include "relievo/geometry/triangulation.h"
-#include "silhouette.h"
 
 namespace relievo {
 namespace {
 
-constexpr double most_points = 2e5;
+constexpr double most_points = 2e5;  // of the ground; a relief has about as many
 
-// Is the middle of each of three ways from here, `step` long, near enough?
-bool is_fine(const Bend& bend, const Vec3& from, double step, double tolerance_mm) {
+// Returns true if three edges from here, `step` long, deviate by no more than refine() allows edges. An edge
+// across a crease tells nothing of the spacing: refine() splits it at the crease.
+bool is_fine(const Deformation& deformation, const Vec3& from, double step, double tolerance_mm) {
   for (const Vec3& way : {Vec3(step, 0, 0), Vec3(0, step, 0), Vec3(.7 * step, .7 * step, 0)}) {
     const Vec3 to = from + way;
-    if (bend.corner_between && bend.corner_between(from, to)) continue;
-    const Vec3 middle = (bend.at(from) + bend.at(to)) / 2;
-    if ((bend.at(from + way / 2) - middle).norm() > .75 * tolerance_mm) return false;
+    if (deformation.crease_between && deformation.crease_between(from, to)) continue;
+    const Vec3 middle = (deformation.at(from) + deformation.at(to)) / 2;
+    if ((deformation.at(from + way / 2) - middle).norm() > share_of_edges * tolerance_mm) return false;
   }
   return true;
 }
 
-Box box_of(std::span<const Vec2> polygon) {
-  Box box;
-  for (const Vec2& p : polygon) box.extend({p.x(), p.y(), 0});
-  return box;
-}
-
-bool is_fine_within(const Bend& bend, std::span<const Vec2> polygon, double z, double step,
+bool is_fine_within(const Deformation& deformation, std::span<const Vec2> polygon, double z, double step,
                     double tolerance_mm) {
-  const Box box = box_of(polygon);
+  const Box box = Box::of(polygon);
   for (double y = box.min.y(); y < box.max.y(); y += step)
     for (double x = box.min.x(); x < box.max.x(); x += step)
       if (is_within({x + step, y + step}, polygon) && is_within({x, y}, polygon) &&
-          !is_fine(bend, {x, y, z}, step, tolerance_mm))
+          !is_fine(deformation, {x, y, z}, step, tolerance_mm))
         return false;
   return true;
 }
 
-// Points in staggered rows, so that triangles of them are equal-sided.
+// A lattice of points in staggered rows, whose triangles are equilateral.
 class Lattice {
  public:
   Lattice(std::span<const Vec2> polygon, double spacing) : spacing_(spacing), row_(spacing * std::sqrt(.75)) {
-    const Box box = box_of(polygon);
+    const Box box = Box::of(polygon);
     min_ = box.min.head<2>();
     columns_ = 2 + static_cast<int>(box.size().x() / spacing_);
     rows_ = 1 + static_cast<int>(box.size().y() / row_);
     is_free_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 1);
   }
 
-  // Takes away the points within a circle and near it.
+  // Removes the points within a circle, or less than a third of the spacing outside it.
   void clear(const Vec2& centre, double radius) {
     const double wide = radius + spacing_ / 3;
     const int first = row_of(centre.y() - wide), last = row_of(centre.y() + wide) + 1;
@@ -65,7 +61,7 @@ class Lattice {
     }
   }
 
-  // The points left that lie inside the polygon, not too near its sides.
+  // Returns the remaining points that lie inside the polygon, at least half the spacing from its sides.
   std::vector<Vec2> points_within(std::span<const Vec2> polygon) const {
     std::vector<Vec2> points;
     for (int row = 0; row < rows_; ++row)
@@ -98,7 +94,7 @@ struct Circle {
 
 Circle circle_around(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 p = b - a, q = c - a;
-  const double twice = 2 * (p.x() * q.y() - p.y() * q.x());
+  const double twice = 2 * cross(p, q);
   const Vec2 to_centre = Vec2(q.y() * p.squaredNorm() - p.y() * q.squaredNorm(),
                               p.x() * q.squaredNorm() - q.x() * p.squaredNorm()) /
                          twice;
@@ -112,42 +108,43 @@ std::vector<Triangle> relief_of(const Solid& front) {
   return relief;
 }
 
-// The points that triangles of the front use, and then those of the ground, in one triangulation. Its indices
-// are those of all points.
-std::vector<Triangle> triangulated(const Front& front, const std::vector<Vec2>& ground) {
+// Returns the Delaunay triangulation of the front's used points and the ground's points. Its indices count
+// the front's points first, used or not, and then the ground's.
+std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vector<Vec2>& ground) {
   std::vector<std::uint8_t> is_used(front.points.size(), 0);
   for (const Triangle& t : front.triangles)
     for (const Index i : t) is_used[i] = 1;
   std::vector<Vec2> points;
-  std::vector<Index> names;
+  std::vector<Index> indices;
   for (Index i = 0; i < is_used.size(); ++i) {
     if (!is_used[i]) continue;
     points.emplace_back(front.points[i].head<2>());
-    names.push_back(i);
+    indices.push_back(i);
   }
   for (std::size_t i = 0; i < ground.size(); ++i) {
     points.push_back(ground[i]);
-    names.push_back(static_cast<Index>(front.points.size() + i));
+    indices.push_back(static_cast<Index>(front.points.size() + i));
   }
   std::vector<Triangle> triangles = delaunay(points).triangles;
   for (Triangle& t : triangles)
-    for (Index& i : t) i = names[i];
+    for (Index& i : t) i = indices[i];
   return triangles;
 }
 
-// Triangles that cover all within the foot, the relief's first.
+// Triangles that cover all within the rim, the relief's first.
 struct Cover {
   std::vector<Triangle> triangles;
-  std::size_t relief = 0;
+  std::size_t relief = 0;  // the number of the relief's triangles
 };
 
-// An edge from a lower to a higher index, and the corner that faces it.
+// An edge from a lower to a higher index, and the opposite corner of one of its triangles.
 struct Facing {
   Index a, b, corner;
   auto operator<=>(const Facing&) const = default;
 };
 
-// Are they Delaunay's, but for points that lie on a circle?
+// Returns true if the triangles are a Delaunay triangulation, up to the choice that points on one circle
+// leave.
 bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
   std::vector<Facing> edges;
   for (const Triangle& t : triangles)
@@ -171,10 +168,11 @@ Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) 
   return cover;
 }
 
-// Of the triangulation, what is ground, with the relief as it was; or, where points on a circle leave a
-// choice that does not fit, all of the triangulation. Nothing if that is not like the relief.
-std::optional<Cover> covered(const Front& front, std::vector<Triangle> relief,
-                             const std::vector<Triangle>& triangles, std::size_t foot_sides) {
+// Returns the relief as it was together with the ground of the triangulation; or, if points on one circle
+// left a choice that does not fit, all of the triangulation. Returns nothing if the triangulation connects
+// points above the ground with new ones, or does not reproduce a relief that is not Delaunay.
+std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle> relief,
+                             const std::vector<Triangle>& triangles, std::size_t rim_sides) {
   const double ground_z = front.points[front.hull[0]].z();
   std::vector<Triangle> ground, other;
   for (const Triangle& t : triangles) {
@@ -186,7 +184,7 @@ std::optional<Cover> covered(const Front& front, std::vector<Triangle> relief,
   }
   const bool may_differ = is_delaunay(front.points, relief);
   Cover cover = joined(std::move(relief), ground);
-  if (rim_of(cover.triangles).size() == foot_sides) return cover;
+  if (boundary_edges(cover.triangles).size() == rim_sides) return cover;
   if (!may_differ) return std::nullopt;
   return joined(std::move(other), ground);
 }
@@ -196,16 +194,17 @@ std::optional<Cover> covered(const Front& front, std::vector<Triangle> relief,
 bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth) {
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 side = polygon[(i + 1) % polygon.size()] - polygon[i], to_place = place - polygon[i];
-    if (side.x() * to_place.y() - side.y() * to_place.x() < depth * side.norm()) return false;
+    if (cross(side, to_place) < depth * side.norm()) return false;
   }
   return true;
 }
 
-double ground_spacing(const Bend& bend, std::span<const Vec2> polygon, double z, double tolerance_mm) {
-  const Vec3 size = box_of(polygon).size();
+double ground_spacing(const Deformation& deformation, std::span<const Vec2> polygon, double z,
+                      double tolerance_mm) {
+  const Vec3 size = Box::of(polygon).size();
   const double finest = std::sqrt(size.x() * size.y() / most_points);
-  double spacing = std::min(size.head<2>().norm() / 4, bend.feature_mm);
-  while (spacing > finest && !is_fine_within(bend, polygon, z, spacing, tolerance_mm)) spacing *= .8;
+  double spacing = std::min(size.head<2>().norm() / 4, deformation.min_feature_mm);
+  while (spacing > finest && !is_fine_within(deformation, polygon, z, spacing, tolerance_mm)) spacing *= .8;
   return std::max(spacing, finest);
 }
 
@@ -217,30 +216,31 @@ std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing) {
     points.push_back(a);
     for (int k = 1; k < steps; ++k) {
       const double share = static_cast<double>(k) / steps;
-      points.emplace_back(a + share * side + bulge(side, share));
+      points.emplace_back(a + share * side + convexity_offset(side, share));
     }
   }
   return points;
 }
 
-void fill_below(Solid& solid, const Loop& loop, double spacing) {
+void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing) {
   std::vector<Vec2> points;
-  for (const Index i : loop) points.emplace_back(solid.points[i].head<2>());
+  for (const Index i : polygon) points.emplace_back(solid.points[i].head<2>());
   const std::vector<Vec2> inner = Lattice(points, spacing).points_within(points);
   const auto first = static_cast<Index>(solid.points.size());
-  const double z = solid.points[loop[0]].z();
+  const double z = solid.points[polygon[0]].z();
   for (const Vec2& p : inner) solid.points.emplace_back(p.x(), p.y(), z);
   points.insert(points.end(), inner.begin(), inner.end());
-  const auto n = static_cast<Index>(loop.size());
-  const auto name = [&](Index i) { return i < n ? loop[i] : first + i - n; };
+  const auto n = static_cast<Index>(polygon.size());
+  const auto to_solid = [&](Index i) { return i < n ? polygon[i] : first + i - n; };
   for (const auto& [a, b, c] : delaunay(points).triangles)
-    solid.triangles.push_back({name(a), name(c), name(b)});
+    solid.triangles.push_back({to_solid(a), to_solid(c), to_solid(b)});
 }
 
-Loop fill_ground(Solid& placed, const Front& front, std::span<const Vec2> foot, double spacing) {
+IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_polygon,
+                         double spacing) {
   const Vec2 shift = (placed.points[front.hull[0]] - front.points[front.hull[0]]).head<2>();
   std::vector<Vec2> ground;
-  for (const Vec2& p : foot) ground.push_back(p - shift);
+  for (const Vec2& p : rim_polygon) ground.push_back(p - shift);
   const std::vector<Triangle> relief = relief_of(placed);
   Lattice lattice(ground, spacing);
   for (const auto& [a, b, c] : relief) {
@@ -251,19 +251,20 @@ Loop fill_ground(Solid& placed, const Front& front, std::span<const Vec2> foot, 
   const std::vector<Vec2> inner = lattice.points_within(ground);
   ground.insert(ground.end(), inner.begin(), inner.end());
 
-  auto cover = covered(front, relief, triangulated(front, ground), foot.size());
+  auto cover = covered(front, relief, triangulated(front, ground), rim_polygon.size());
   if (!cover) return {};
   placed.triangles = std::move(cover->triangles);
   placed.regions.assign(placed.triangles.size(), Region::ground);
   std::fill_n(placed.regions.begin(), cover->relief, Region::relief);
-  Loop loop;
-  for (std::size_t i = 0; i < foot.size(); ++i) loop.push_back(static_cast<Index>(front.points.size() + i));
+  IndexPolygon polygon;
+  for (std::size_t i = 0; i < rim_polygon.size(); ++i)
+    polygon.push_back(static_cast<Index>(front.points.size() + i));
   const double ground_z = placed.points[front.hull[0]].z();
   for (std::size_t i = 0; i < ground.size(); ++i) {
-    const Vec2 place = i < foot.size() ? foot[i] : Vec2(ground[i] + shift);
+    const Vec2 place = i < rim_polygon.size() ? rim_polygon[i] : Vec2(ground[i] + shift);
     placed.points.emplace_back(place.x(), place.y(), ground_z);
   }
-  return loop;
+  return polygon;
 }
 
 }  // namespace relievo

@@ -17,52 +17,53 @@ Box front_box(const Solid& solid) {
 }
 
 // Heights count from the lowest point, which keeps their single-precision digits.
-Drawing front_scene(const Solid& solid, const HeightField& field) {
-  Drawing scene;
-  scene.triangles = std::span(solid.triangles).first(solid.front_triangles);
-  scene.width = field.width;
-  scene.height = field.height;
-  scene.points.resize(solid.points.size());
+RasterInput front_input(const Solid& solid, const HeightField& field) {
+  RasterInput input;
+  input.triangles = std::span(solid.triangles).first(solid.front_triangles);
+  input.width = field.z.width;
+  input.height = field.z.height;
+  input.points.resize(solid.points.size());
   parallel_for(solid.points.size(), [&](std::size_t i) {
     // Points that the front does not use may lie anywhere.
     const Vec3 p = solid.points[i].cwiseMax(field.box.min).cwiseMin(field.box.max);
     const Vec2 place = field.to_pixels(p);
-    scene.points[i] = {place.x(), place.y(), p.z() - field.box.min.z()};
+    input.points[i] = {place.x(), place.y(), p.z() - field.box.min.z()};
   });
-  return scene;
+  return input;
 }
 
 }  // namespace
 
-HeightField draw_height_field(const Solid& solid, int longer_side_px) {
+HeightField flat_height_field(const Box& box, int longer_side_px) {
   HeightField field;
-  field.box = front_box(solid);
-  const Vec3 size = field.box.size();
+  field.box = box;
+  const Vec3 size = box.size();
   const double longer_mm = std::max(size.x(), size.y());
-  if (longer_side_px < 1 || longer_side_px > Drawing::most_pixels || !(longer_mm > 0)) return field;
+  if (longer_side_px < 1 || longer_side_px > RasterInput::most_pixels || !(longer_mm > 0)) return field;
   field.mm_per_pixel = longer_mm / longer_side_px;
   const auto pixels = [&](double mm) {
     return std::max(1, static_cast<int>(std::lround(mm / field.mm_per_pixel)));
   };
-  field.width = pixels(size.x());
-  field.height = pixels(size.y());
-  field.z.resize(static_cast<std::size_t>(field.width) * static_cast<std::size_t>(field.height));
-  field.is_beside.resize(field.z.size());
+  field.z = filled_image(pixels(size.x()), pixels(size.y()), 0.F);
+  return field;
+}
 
-  const Drawing scene = front_scene(solid, field);
+HeightField draw_height_field(const Solid& solid, int longer_side_px) {
+  HeightField field = flat_height_field(front_box(solid), longer_side_px);
+  if (field.z.empty()) return field;
+  field.is_beside.resize(field.z.width, field.z.height);
+  const RasterInput input = front_input(solid, field);
   const int band_rows = 32;
-  const Raster raster(scene, band_rows);
-  const auto height = [](const Sample& sample) { return std::max(0.F, sample.z); };
-  parallel_for(
-      raster.bands(),
-      [&](std::size_t b) {
-        const Band band = raster.draw(b);
-        const auto first = static_cast<std::ptrdiff_t>(band.first_row) * field.width;
-        std::ranges::transform(band.samples, field.z.begin() + first, height);
-        std::ranges::transform(band.samples, field.is_beside.begin() + first,
-                               [](const Sample& sample) { return sample.triangle == no_index; });
-      },
-      1);
+  const Rasterizer rasterizer(input, band_rows);
+  const auto draw_band = [&](std::size_t b) {
+    const RowBand band = rasterizer.draw(b);
+    const auto first = static_cast<std::ptrdiff_t>(field.z.index(0, band.first_row));
+    std::ranges::transform(band.fragments, field.z.pixels.begin() + first,
+                           [](const Fragment& fragment) { return std::max(0.F, fragment.z); });
+    std::ranges::transform(band.fragments, field.is_beside.pixels.begin() + first,
+                           [](const Fragment& fragment) { return fragment.triangle == no_index; });
+  };
+  parallel_for(rasterizer.bands(), draw_band, 1);
   return field;
 }
 

@@ -1,39 +1,44 @@
 #include "relievo/plate/outline.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
+
+#include "geometry/plane.h"
 
 namespace relievo {
 namespace {
 
+using Points = std::span<const Vec2>;
+
 constexpr double finest_mm = .01;  // between a curve and its polygon
 
-// A line that encloses the points: places p with p.dot(normal) <= reach + size * growth.
+// One edge of a convex outline, of which `size` scales all: it is the line of points p with
+// p.dot(normal) == offset + size * growth, measured from the centre.
 struct Side {
   Vec2 normal;  // unit length, outwards
-  double reach = 0, growth = 1;
+  double offset = 0, growth = 1;
 };
 
+// The box around points, by its centre and half its size.
 struct Frame {
   Vec2 centre = Vec2::Zero(), half = Vec2::Zero();
 };
 
-Frame frame_of(std::span<const Vec2> points) {
+Frame frame_around(Points points) {
   Vec2 min = points[0], max = points[0];
   for (const Vec2& p : points) min = min.cwiseMin(p), max = max.cwiseMax(p);
   return {(min + max) / 2, (max - min) / 2};
 }
 
-// Steps per quarter turn for a polygon around a circle.
+// Returns the number of edges per quarter turn that keep a polygon around a circle of that radius within
+// finest_mm of it: its corners are at radius / cos(half an edge's angle) from the centre.
 int steps_for(double radius) {
   const double widest = 2 * std::acos(radius / (radius + finest_mm));
   return std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
 }
 
-// Unit vectors all around, counter-clockwise; the four along the axes are exact.
+// Returns unit vectors in equal steps, counter-clockwise; the four along the axes are exact.
 std::vector<Vec2> directions(int steps_per_quarter) {
   std::vector<Vec2> all;
   for (int i = 0; i < steps_per_quarter; ++i) {
@@ -45,9 +50,10 @@ std::vector<Vec2> directions(int steps_per_quarter) {
   return all;
 }
 
-// Bădoiu and Clarkson's walk to the centre of the smallest circle, in a plane stretched by 1 / scale.
-Vec2 round_centre(std::span<const Vec2> points, Vec2 centre, const Vec2& scale) {
-  const int steps = 4000;
+// Approximates the centre of the smallest enclosing circle, in a plane stretched by 1 / scale, by steps of
+// 1 / (i + 1) of the way to the farthest point (Bădoiu and Clarkson, Smaller core-sets for balls, 2003).
+Vec2 round_centre(Points points, Vec2 centre, const Vec2& scale) {
+  const int steps = 4000;  // leaves the radius at most 1 % too large
   for (int i = 1; i <= steps; ++i) {
     const Vec2 far = *std::ranges::max_element(
         points, {}, [&](const Vec2& p) { return (p - centre).cwiseQuotient(scale).squaredNorm(); });
@@ -82,69 +88,104 @@ std::vector<Side> sides_of_hexagon(bool is_pointed) {
   return sides;
 }
 
-// The least size at which every side leaves the margin to every point.
-double size_around(std::span<const Vec2> points, const Vec2& centre, const std::vector<Side>& sides,
-                   double margin_mm) {
+// Returns the smallest size at which every side is at least the margin from every point.
+double size_around(Points points, const Vec2& centre, const std::vector<Side>& sides, double margin_mm) {
   double size = 0;
   for (const Side& side : sides) {
     double farthest = (points[0] - centre).dot(side.normal);
     for (const Vec2& p : points) farthest = std::max(farthest, (p - centre).dot(side.normal));
-    size = std::max(size, (farthest + margin_mm - side.reach) / side.growth);
+    size = std::max(size, (farthest + margin_mm - side.offset) / side.growth);
   }
   return size;
 }
 
-std::vector<Vec2> polygon_of(const std::vector<Side>& sides, const Vec2& centre, double size) {
+std::vector<Vec2> to_polygon(const std::vector<Side>& sides, const Vec2& centre, double size) {
   std::vector<Vec2> polygon;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side &a = sides[i], &b = sides[(i + 1) % sides.size()];
-    const double p = a.reach + size * a.growth, q = b.reach + size * b.growth;
-    const double sine = a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x();
+    const double p = a.offset + size * a.growth, q = b.offset + size * b.growth;
+    const double sine = cross(a.normal, b.normal);
     polygon.push_back(centre +
                       Vec2(p * b.normal.y() - q * a.normal.y(), q * a.normal.x() - p * b.normal.x()) / sine);
   }
   return polygon;
 }
 
-std::vector<Vec2> around(std::span<const Vec2> points, const Vec2& centre, const std::vector<Side>& sides,
+std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Side>& sides,
                          double margin_mm) {
-  return polygon_of(sides, centre, size_around(points, centre, sides, margin_mm));
+  return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
-std::vector<Vec2> hexagon(std::span<const Vec2> points, const Vec2& centre, double margin_mm) {
+std::vector<Vec2> rectangle_around(Points points, const OutlineOptions& options) {
+  const Frame frame = frame_around(points);
+  return around(points, frame.centre, sides_of_rectangle(frame, options, 0), options.margin_mm);
+}
+
+std::vector<Vec2> round_rectangle_around(Points points, const OutlineOptions& options) {
+  const Frame frame = frame_around(points);
+  const Vec2 half = frame.half + Vec2::Constant(options.margin_mm);
+  const double corner = std::min(options.corner_mm, half.minCoeff());
+  return around(points, frame.centre, sides_of_rectangle(frame, options, corner), options.margin_mm);
+}
+
+// An ellipse with axes in the ratio of `shape`.
+std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, double margin_mm) {
+  const Frame frame = frame_around(points);
+  const Vec2 half = frame.half + Vec2::Constant(margin_mm);
+  // Twice the box's diagonal is longer than any circle or ellipse that fits the points.
+  return around(points, round_centre(points, frame.centre, shape), sides_of_ellipse(shape, 2 * half.norm()),
+                margin_mm);
+}
+
+std::vector<Vec2> circle_around(Points points, const OutlineOptions& options) {
+  return ellipse_of_shape(points, Vec2(1, 1), options.margin_mm);
+}
+
+std::vector<Vec2> ellipse_around(Points points, const OutlineOptions& options) {
+  return ellipse_of_shape(points, frame_around(points).half + Vec2::Constant(options.margin_mm),
+                          options.margin_mm);
+}
+
+std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
+  const double margin = options.margin_mm;
+  const Vec2 centre = round_centre(points, frame_around(points).centre, Vec2(1, 1));
   const std::vector<Side> flat = sides_of_hexagon(false), pointed = sides_of_hexagon(true);
   const bool is_pointed =
-      size_around(points, centre, pointed, margin_mm) < size_around(points, centre, flat, margin_mm);
-  return around(points, centre, is_pointed ? pointed : flat, margin_mm);
+      size_around(points, centre, pointed, margin) < size_around(points, centre, flat, margin);
+  return around(points, centre, is_pointed ? pointed : flat, margin);
+}
+
+// How each outline is made, and what the rest of the plate asks of it. `none` has no row.
+struct OutlineShape {
+  Outline outline;
+  std::vector<Vec2> (*around)(Points points, const OutlineOptions& options);
+  bool is_box = false;
+};
+
+constexpr std::array shapes = {
+    OutlineShape{Outline::rectangle, rectangle_around, true},
+    OutlineShape{Outline::round, round_rectangle_around}, OutlineShape{Outline::circle, circle_around},
+    OutlineShape{Outline::ellipse, ellipse_around}, OutlineShape{Outline::hexagon, hexagon_around}};
+
+const OutlineShape* shape_of(Outline outline) {
+  const auto found = std::ranges::find(shapes, outline, &OutlineShape::outline);
+  return found == shapes.end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 Result<Outline> parse_outline(std::string_view name) {
-  constexpr std::array<std::string_view, 6> names = {"rectangle", "round",   "circle",
-                                                     "ellipse",   "hexagon", "none"};
-  const auto found = std::ranges::find(names, name);
-  if (found != names.end()) return static_cast<Outline>(found - names.begin());
-  return std::unexpected(Error{
-      ErrorKind::option,
-      "--outline",
-      {},
-      "expected rectangle, round, circle, ellipse, hexagon or none, found '" + std::string(name) + "'"});
+  return parse_choice("outline", name, outline_choices);
+}
+
+bool is_box(Outline outline) {
+  const OutlineShape* const shape = shape_of(outline);
+  return shape && shape->is_box;
 }
 
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options) {
-  if (points.empty() || options.outline == Outline::none) return {};
-  const Frame frame = frame_of(points);
-  const double margin = options.margin_mm;
-  const Vec2 half = frame.half + Vec2::Constant(margin);
-  const double corner = options.outline == Outline::round ? std::min(options.corner_mm, half.minCoeff()) : 0;
-  if (options.outline == Outline::rectangle || options.outline == Outline::round)
-    return around(points, frame.centre, sides_of_rectangle(frame, options, corner), margin);
-  const Vec2 shape = options.outline == Outline::ellipse ? half : Vec2(1, 1);
-  const Vec2 centre = round_centre(points, frame.centre, shape);
-  if (options.outline == Outline::hexagon) return hexagon(points, centre, margin);
-  // Twice the box's diagonal holds any circle or ellipse that fits the points.
-  return around(points, centre, sides_of_ellipse(shape, 2 * half.norm()), margin);
+  const OutlineShape* const shape = shape_of(options.outline);
+  return shape && !points.empty() ? shape->around(points, options) : std::vector<Vec2>();
 }
 
 }  // namespace relievo

@@ -9,9 +9,9 @@
 namespace relievo {
 namespace {
 
-// Below a micrometre the files' single precision could no longer tell the ring or the walls from a line.
+// Below a micrometre, rounding to single precision would make rim or walls degenerate.
 constexpr double least_size_mm = 1e-3;
-constexpr double least_tolerance_mm = 1e-4;
+constexpr double least_tolerance_mm = 1e-4;  // finer ones would follow the rounding of files
 
 bool is_good(double mm) {
   return std::isfinite(mm) && mm >= least_size_mm;
@@ -49,7 +49,7 @@ Result<void> check_options(const PlateOptions& options) {
   return check_rim(options);
 }
 
-Result<void> check_front(const Front& front, bool has_ground) {
+Result<void> check_front(const HeightFieldMesh& front, bool has_ground) {
   const auto is_bad = [&](Index i) { return i >= front.points.size() || !front.points[i].allFinite(); };
   const auto has_bad_corner = [&](const Triangle& t) { return std::ranges::any_of(t, is_bad); };
   if (front.triangles.empty() || (has_ground && front.hull.size() < 3))
@@ -71,7 +71,7 @@ std::unexpected<Error> plate_error(ErrorKind kind, std::string input, std::strin
   return std::unexpected(Error{kind, std::move(input), {}, std::move(expected)});
 }
 
-Result<void> check_plate(const Front& front, const PlateOptions& options) {
+Result<void> check_plate(const HeightFieldMesh& front, const PlateOptions& options) {
   if (auto good = check_options(options); !good) return good;
   return check_front(front, options.outline != Outline::none);
 }

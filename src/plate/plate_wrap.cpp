@@ -3,20 +3,21 @@
 #include <tuple>
 #include <utility>
 
-#include "bend.h"
+#include "geometry/compact.h"
+#include "plate/coincident_points.h"
+#include "plate/deformation.h"
 #include "plate/plate_checks.h"
-#include "plate_top.h"
+#include "plate/plate_surface.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "twins.h"
 
 namespace relievo {
 namespace {
 
-// The share of the way to the axis that the body must leave free.
+// The part of the distance to the axis that the body must leave free, so that no point reaches the axis.
 constexpr double least_free = .01;
 
-// Places of the flat back, which reach as far as the plate does.
+// Returns the points of the flat back, which extend as far as the plate does.
 std::vector<Vec2> back_of(const Solid& plate) {
   std::vector<Vec2> places;
   for (std::size_t t = plate.front_triangles; t < plate.triangles.size(); ++t)
@@ -25,70 +26,62 @@ std::vector<Vec2> back_of(const Solid& plate) {
   return places;
 }
 
+// Checks that neither relief nor back reaches the axis.
 Result<void> check_room(const Solid& plate, const Wrap& wrap) {
   const double highest = used_box(plate.points, plate.triangles).max.z();
   const double towards_axis = wrap.is_inside() ? highest - plate.ground_mm : plate.ground_mm;
-  const double room = (1 - least_free) * wrap.reach_mm();
+  const double room = (1 - least_free) * wrap.min_radius_mm();
   if (towards_axis <= room) return {};
-  return plate_error(ErrorKind::option, "--wrap",
+  return plate_error(ErrorKind::option, "wrap",
                      cat("expected a diameter of at least ",
-                         wrap.diameter_mm() + 2 * (towards_axis / (1 - least_free) - wrap.reach_mm()),
+                         wrap.diameter_mm() + 2 * (towards_axis / (1 - least_free) - wrap.min_radius_mm()),
                          " mm, as ", towards_axis, " mm reach towards the axis, found ", wrap.diameter_mm()));
 }
 
+// Checks that the two sides that meet after a full turn are straight and equal.
 Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
   const bool is_straight = wrap.across().x() == 0 || wrap.across().y() == 0;
-  if (options.outline == Outline::rectangle && options.rim.width_mm == 0 && is_straight) return {};
-  return plate_error(ErrorKind::option, "--wrap",
+  if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
+  return plate_error(ErrorKind::option, "wrap",
                      "expected outline rectangle, no rim and an upright or level axis for a full turn");
 }
 
-// A point on a side of the plate that is to meet another.
+// A point on one of the two sides of the plate that are to be joined.
 struct SidePoint {
   double along, z;
   Index point;
 };
 
-// Points on the side in this direction, sorted.
+// Returns the points on the side that faces this direction, sorted along the side and by height.
 std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
   const Vec2 along(std::abs(direction.y()), std::abs(direction.x()));
   double farthest = 0, nearest = 0;
-  std::vector<double> reach;
-  for (const Vec3& p : plate.points) reach.push_back(direction.dot(p.head<2>()));
+  std::vector<double> distance;
+  for (const Vec3& p : plate.points) distance.push_back(direction.dot(p.head<2>()));
   for (const Triangle& t : plate.triangles)
-    for (const Index i : t) farthest = std::max(farthest, reach[i]), nearest = std::min(nearest, reach[i]);
-  const double near_side = std::max(1e-4, 1e-6 * (farthest - nearest));  // wider than sides are bulged
+    for (const Index i : t)
+      farthest = std::max(farthest, distance[i]), nearest = std::min(nearest, distance[i]);
+  const double near_side =
+      std::max(1e-4, 1e-6 * (farthest - nearest));  // more than convexity_offset() moves points
   std::vector<std::uint8_t> is_used(plate.points.size(), 0);
   for (const Triangle& t : plate.triangles)
     for (const Index i : t) is_used[i] = 1;
   std::vector<SidePoint> side;
-  for (Index i = 0; i < reach.size(); ++i)
-    if (is_used[i] && reach[i] > farthest - near_side)
+  for (Index i = 0; i < distance.size(); ++i)
+    if (is_used[i] && distance[i] > farthest - near_side)
       side.push_back({along.dot(plate.points[i].head<2>()), plate.points[i].z(), i});
   std::ranges::sort(side, {}, [](const SidePoint& p) { return std::tuple(p.along, p.z); });
   return side;
 }
 
-// Leaves out the points that no triangle uses.
+// Removes the points that no triangle uses.
 void drop_unused(Solid& solid) {
-  std::vector<Index> place(solid.points.size(), no_index);
-  for (const Triangle& t : solid.triangles)
-    for (const Index i : t) place[i] = 0;
-  Index kept = 0;
-  for (Index i = 0; i < place.size(); ++i) {
-    if (place[i] == no_index) continue;
-    place[i] = kept;
-    solid.points[kept] = solid.points[i];
-    if (!solid.colours.empty()) solid.colours[kept] = solid.colours[i];
-    ++kept;
-  }
-  solid.points.resize(kept);
-  if (!solid.colours.empty()) solid.colours.resize(kept);
-  for (Triangle& t : solid.triangles)
-    for (Index& i : t) i = place[i];
+  const UsedPoints used = compact(solid.points.size(), solid.triangles);
+  solid.points = used.pick(solid.points);
+  solid.colours = used.pick(solid.colours);
 }
 
-// Makes one of the plate's two sides, whose walls go.
+// Joins the plate's two sides and removes their walls.
 Result<void> close_ring(Solid& plate, const Vec2& across) {
   const std::vector<SidePoint> left = side_of(plate, -across), right = side_of(plate, across);
   std::vector<Index> other(plate.points.size());
@@ -99,7 +92,7 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
     other[right[i].point] = left[i].point;
   }
   if (!is_good)
-    return plate_error(ErrorKind::geometry, "--wrap", "expected sides that fit each other, found others");
+    return plate_error(ErrorKind::geometry, "wrap", "expected sides that fit each other, found others");
   std::vector<std::uint8_t> is_side(plate.points.size(), 0);
   for (const SidePoint& p : left) is_side[p.point] = 1;
   for (const SidePoint& p : right) is_side[p.point] = 1;
@@ -109,7 +102,8 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
     for (Index& i : t) i = other[i];
     triangles.push_back(t);
   }
-  plate.triangles = std::move(triangles);  // the front's have corners elsewhere: none of them went
+  plate.triangles =
+      std::move(triangles);  // front_triangles stays: no front triangle lies on a side as a whole
   drop_unused(plate);
   return {};
 }
@@ -122,26 +116,28 @@ Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options) {
 
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   if (options.wrap.kind == WrapKind::none)
-    return plate_error(ErrorKind::option, "--wrap", "expected cylinder, cone or sphere, found none");
+    return plate_error(ErrorKind::option, "wrap", "expected cylinder, cone or sphere, found none");
   const Result<Wrap> wrap = plate_wrap(plate, options);
   if (!wrap) return std::unexpected(wrap.error());
   if (auto good = check_room(plate, *wrap); !good) return std::unexpected(good.error());
-  Bend bend;
-  bend.at = [&](const Vec3& p) { return wrap->at(p.head<2>(), p.z() - plate.ground_mm); };
-  bend.feature_mm = wrap->reach_mm();
+  Deformation deformation;
+  deformation.at = [&](const Vec3& p) { return wrap->at(p.head<2>(), p.z() - plate.ground_mm); };
+  deformation.min_feature_mm = wrap->min_radius_mm();
   Solid body = plate;
-  Loop no_outline;
-  // A front that was made simpler is off by its own tolerance and is left so.
-  const double error_mm = refine(body, no_outline, bend, options.tolerance_mm + 1.5 * options.simplify_mm);
+  IndexPolygon no_outline;
+  // A simplified front deviates by its own tolerance, which refining must not mend: it would undo the
+  // simplification.
+  const double error_mm =
+      refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);
   body.error_mm = options.simplify_mm > 0 ? plate.error_mm + options.tolerance_mm : error_mm;
   if (wrap->is_closed()) {
     if (auto good = check_closed(options, *wrap); !good) return std::unexpected(good.error());
     if (auto good = close_ring(body, wrap->across()); !good) return std::unexpected(good.error());
   }
-  parallel_for(body.points.size(), [&](std::size_t i) { body.points[i] = bend.at(body.points[i]); });
+  parallel_for(body.points.size(), [&](std::size_t i) { body.points[i] = deformation.at(body.points[i]); });
   const Box box = used_box(body.points, body.triangles);
   for (Vec3& p : body.points) p -= box.min;
-  separate_twins(body, box.size().z() / 2);
+  separate_coincident(body, box.size().z() / 2);
   return body;
 }
 

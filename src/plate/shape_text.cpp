@@ -55,15 +55,11 @@ Result<void> read_shape(std::string_view text, std::string_view option, std::spa
   while (true) {
     const std::string_view entry = rest.substr(0, rest.find(','));
     if (!read_entry(entry, numbers, words))
-      return wrong_shape(
-          option, cat("expected ", names_of(numbers, words), " after '", kind, ":', found '", entry, "'"));
+      return option_error(std::string(option), cat("expected ", names_of(numbers, words), " after '", kind,
+                                                   ":', found '", entry, "'"));
     if (entry.size() == rest.size()) return {};
     rest.remove_prefix(entry.size() + 1);
   }
-}
-
-std::unexpected<Error> wrong_shape(std::string_view option, std::string expected) {
-  return std::unexpected(Error{ErrorKind::option, std::string(option), {}, std::move(expected)});
 }
 
 }  // namespace relievo

@@ -1,4 +1,5 @@
-// Texts that name a shape and its numbers: "wave:height=3,length=40,hollow".
+// Parses the text of a shape with its parameters: "wave:height=3,length=40,hollow".
+// Tested by base_test and wrap_test.
 #pragma once
 
 #include <optional>
@@ -9,26 +10,25 @@
 
 namespace relievo {
 
+// A parameter with a value, and where to put it.
 struct ShapeNumber {
   std::string_view name;
   std::optional<double>* value;
 };
 
+// A parameter without a value, and what to set if it is there.
 struct ShapeWord {
   std::string_view name;
   bool* value;
 };
 
-// The part before the colon, all of the text if it has none.
+// Returns the part before the colon, or all of the text if it has none.
 std::string_view shape_kind(std::string_view text);
 
-// Sets what the text tells after its kind; a number that it does not tell stays as it is. Errors: kind
-// option, naming `option`, for names that are neither numbers nor words of the shape, and for values that are
-// no finite numbers.
+// Parses the parameters after the colon into `numbers` and `words`; those that the text does not name keep
+// their values. Errors: kind option, naming `option`, for unknown parameters, and for values that are no
+// finite numbers.
 Result<void> read_shape(std::string_view text, std::string_view option, std::span<const ShapeNumber> numbers,
                         std::span<const ShapeWord> words);
-
-// The error of an option.
-std::unexpected<Error> wrong_shape(std::string_view option, std::string expected);
 
 }  // namespace relievo

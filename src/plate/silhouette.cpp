@@ -1,24 +1,26 @@
-#include "silhouette.h"
+#include "plate/silhouette.h"
 
 #include <algorithm>
 
 #include "core/disjoint_sets.h"
+#include "geometry/compact.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
 
-constexpr double smallest_piece = 1e-3;  // of the whole relief's area
+constexpr double smallest_piece = 1e-3;  // of the relief's area; smaller ones are specks of the scan
 
+// Returns, per point, whether the boundary passes it more than once.
 std::vector<std::uint8_t> pinched_points(std::span<const Triangle> triangles, std::size_t points) {
   std::vector<std::uint8_t> leaving(points, 0);
-  for (const auto& [a, b] : rim_of(triangles))
+  for (const auto& [a, b] : boundary_edges(triangles))
     if (leaving[a] < 2) ++leaving[a];
   for (std::uint8_t& n : leaving) n = n > 1;
   return leaving;
 }
 
-// A triangle around a point.
+// A triangle around a pinched point; sorted, those of a point stand together.
 struct Spoke {
   Index point, triangle;
   auto operator<=>(const Spoke&) const = default;
@@ -28,7 +30,7 @@ bool share_an_edge(const Triangle& s, const Triangle& t) {
   return std::ranges::count_if(s, [&](Index i) { return std::ranges::find(t, i) != t.end(); }) >= 2;
 }
 
-// Marks the triangles around one point that do not belong to the largest fan of neighbours.
+// Marks the triangles around one point that do not belong to its largest fan of edge-connected triangles.
 void mark_smaller_fans(std::span<const Spoke> around, std::span<const Triangle> triangles,
                        std::vector<std::uint8_t>& is_marked) {
   DisjointSets fans(around.size());
@@ -49,7 +51,8 @@ void remove(std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& i
   triangles.resize(kept);
 }
 
-// Leaves out triangles until every point of the rim has one edge of it coming and one going.
+// Removes triangles until the boundary passes every point at most once. Removing a fan may pinch other
+// points, hence the repetition; it ends since triangles only become fewer.
 void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
   while (true) {
     const std::vector<std::uint8_t> is_pinched = pinched_points(triangles, points);
@@ -68,12 +71,13 @@ void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
   }
 }
 
-double area_of(const Front& front, const Triangle& t) {
+double area_of(const HeightFieldMesh& front, const Triangle& t) {
   const Vec3 u = front.points[t[1]] - front.points[t[0]], v = front.points[t[2]] - front.points[t[0]];
   return (u.x() * v.y() - u.y() * v.x()) / 2;
 }
 
-void drop_specks(const Front& front, std::vector<Triangle>& triangles) {
+// Removes the connected pieces that are smaller than smallest_piece of the whole.
+void drop_specks(const HeightFieldMesh& front, std::vector<Triangle>& triangles) {
   DisjointSets pieces(front.points.size());
   for (const auto& [a, b, c] : triangles) pieces.join(a, b), pieces.join(b, c);
   std::vector<double> area(front.points.size(), 0);
@@ -88,36 +92,30 @@ void drop_specks(const Front& front, std::vector<Triangle>& triangles) {
 }
 
 // The front of these triangles, with the points they use.
-Front front_of(const Front& front, std::vector<Triangle> triangles) {
-  std::vector<Index> place(front.points.size(), no_index);
-  for (const Triangle& t : triangles)
-    for (const Index i : t) place[i] = 0;
-  Front alone{{}, std::move(triangles), {}, front.ground_mm};
-  for (std::size_t i = 0; i < place.size(); ++i) {
-    if (place[i] == no_index) continue;
-    place[i] = static_cast<Index>(alone.points.size());
-    alone.points.push_back(front.points[i]);
-    if (!front.colours.empty()) alone.colours.push_back(front.colours[i]);
-  }
-  for (Triangle& t : alone.triangles)
-    for (Index& i : t) i = place[i];
+HeightFieldMesh with_used_points(const HeightFieldMesh& front, std::vector<Triangle> triangles) {
+  HeightFieldMesh alone{{}, std::move(triangles), {}, front.ground_mm};
+  const UsedPoints used = compact(front.points.size(), alone.triangles);
+  alone.points = used.pick(front.points);
+  alone.colours = used.pick(front.colours);
   return alone;
 }
 
-enum class Kind : std::uint8_t { ground, relief, rim, unknown };
+// The side of the silhouette on which a point of the original front lies; points of a simplified front may be
+// new.
+enum class Kind : std::uint8_t { ground, relief, boundary, unknown };
 
-std::vector<Kind> kinds_of(const Front& front, std::span<const RimEdge> rim) {
+std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary) {
   std::vector<Kind> kinds(front.points.size(), Kind::ground);
   for (const Triangle& t : relief_triangles(front))
     for (const Index i : t) kinds[i] = Kind::relief;
-  for (const auto& [a, b] : rim) kinds[a] = kinds[b] = Kind::rim;
+  for (const auto& [a, b] : boundary) kinds[a] = kinds[b] = Kind::boundary;
   return kinds;
 }
 
-// Does a ray from the place cross the rim an odd number of times?
-bool is_within(const Front& front, std::span<const RimEdge> rim, const Vec2& place) {
+// Returns true if a ray from the place crosses the boundary an odd number of times.
+bool is_within(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary, const Vec2& place) {
   bool is_inside = false;
-  for (const RimEdge& edge : rim) {
+  for (const BoundaryEdge& edge : boundary) {
     const Vec3 &a = front.points[edge[0]], &b = front.points[edge[1]];
     if ((a.y() > place.y()) == (b.y() > place.y())) continue;
     const double x = a.x() + (place.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
@@ -128,19 +126,20 @@ bool is_within(const Front& front, std::span<const RimEdge> rim, const Vec2& pla
 
 }  // namespace
 
-std::vector<RimEdge> rim_of(std::span<const Triangle> triangles) {
-  std::vector<RimEdge> edges, rim;
+std::vector<BoundaryEdge> boundary_edges(std::span<const Triangle> triangles) {
+  std::vector<BoundaryEdge> edges, boundary;
   edges.reserve(3 * triangles.size());
   for (const auto& [a, b, c] : triangles)
-    for (const RimEdge edge : {RimEdge{a, b}, RimEdge{b, c}, RimEdge{c, a}}) edges.push_back(edge);
+    for (const BoundaryEdge edge : {BoundaryEdge{a, b}, BoundaryEdge{b, c}, BoundaryEdge{c, a}})
+      edges.push_back(edge);
   std::ranges::sort(edges);
-  std::ranges::copy_if(edges, std::back_inserter(rim), [&](const RimEdge& edge) {
-    return !std::ranges::binary_search(edges, RimEdge{edge[1], edge[0]});
+  std::ranges::copy_if(edges, std::back_inserter(boundary), [&](const BoundaryEdge& edge) {
+    return !std::ranges::binary_search(edges, BoundaryEdge{edge[1], edge[0]});
   });
-  return rim;
+  return boundary;
 }
 
-std::vector<Triangle> relief_triangles(const Front& front) {
+std::vector<Triangle> relief_triangles(const HeightFieldMesh& front) {
   if (front.is_relief.empty()) return front.triangles;
   std::vector<Triangle> triangles;
   for (std::size_t t = 0; t < front.triangles.size(); ++t)
@@ -148,31 +147,32 @@ std::vector<Triangle> relief_triangles(const Front& front) {
   return triangles;
 }
 
-std::vector<std::uint8_t> relief_within(const Front& front, const Front& simpler,
-                                        std::span<const Index> names) {
-  const std::vector<RimEdge> rim = rim_of(relief_triangles(front));
-  const std::vector<Kind> kinds = kinds_of(front, rim);
+std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const HeightFieldMesh& simpler,
+                                        std::span<const Index> original) {
+  const std::vector<BoundaryEdge> boundary = boundary_edges(relief_triangles(front));
+  const std::vector<Kind> kinds = kinds_of(front, boundary);
   std::vector<std::uint8_t> is_relief(simpler.triangles.size());
   parallel_for(is_relief.size(), [&](std::size_t t) {
     const Triangle& corners = simpler.triangles[t];
     bool has[4] = {};
     for (const Index i : corners)
-      has[static_cast<std::size_t>(names[i] == no_index ? Kind::unknown : kinds[names[i]])] = true;
+      has[static_cast<std::size_t>(original[i] == no_index ? Kind::unknown : kinds[original[i]])] = true;
+    // A triangle with a point on one side of the silhouette only lies on that side.
     if (has[0] != has[1]) {
       is_relief[t] = has[1];
       return;
     }
     const Vec3 sum = simpler.points[corners[0]] + simpler.points[corners[1]] + simpler.points[corners[2]];
-    is_relief[t] = is_within(front, rim, sum.head<2>() / 3);
+    is_relief[t] = is_within(front, boundary, sum.head<2>() / 3);
   });
   return is_relief;
 }
 
-Front relief_alone(const Front& front) {
+HeightFieldMesh relief_alone(const HeightFieldMesh& front) {
   std::vector<Triangle> triangles = relief_triangles(front);
   cut_pinches(triangles, front.points.size());
   drop_specks(front, triangles);
-  return front_of(front, std::move(triangles));
+  return with_used_points(front, std::move(triangles));
 }
 
 }  // namespace relievo

@@ -1,6 +1,8 @@
-// After Garland and Heckbert, "Fast Polygonal Approximation of Terrains and Height Fields", 1995, in rounds:
-// each adds the worst place of every triangle that is off too much.
-#include "relievo/simplify.h"
+// Greedy insertion after Garland and Heckbert, "Fast Polygonal Approximation of Terrains and Height Fields",
+// 1995, but in rounds: each adds the place with the largest error of every triangle that exceeds its tolerance,
+// and triangulates anew. Inserting one point at a time would need a triangulation that can be updated and a
+// queue of errors, and could not use threads.
+#include "relievo/plate/simplify.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,35 +12,36 @@
 #include <utility>
 
 #include "geometry/predicates.h"
+#include "plate/silhouette.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/geometry/triangulation.h"
-#include "silhouette.h"
 
 namespace relievo {
 namespace {
 
-constexpr int most_rounds = 200;
-constexpr std::size_t grain = 8192;
-// A triangle that is too steep comes this near to the original, whose triangles are not.
+constexpr int most_insertion_rounds = 200;
+constexpr std::size_t edges_per_block = 8192;
+// Triangles steeper than allowed get this tolerance: so near to the original they become as steep as its
+// triangles, which are within the limit. Less would be below what files can store.
 constexpr double steep_tolerance_mm = 1e-6;
 
-// A place that would bring its triangle nearer to the original.
+// A place where a triangle of the approximation exceeds its tolerance.
 struct Candidate {
   Index triangle;
   double error;
-  Index point;  // of the original; no_index for a place between its points
+  Index point;  // of the original; no_index for a place on one of its edges
   Vec3 place;
   Colour colour = {};
 };
 
-// An edge of the original and the corners of its triangles that face it; no_index on the hull.
+// An edge of the original, and the opposite corners of its one or two triangles (no_index for a missing one).
 struct Edge {
   Index a, b;
   std::array<Index, 2> facing = {no_index, no_index};
 };
 
-std::vector<Edge> edges_of(const Front& front) {
+std::vector<Edge> edges_of(const HeightFieldMesh& front) {
   std::vector<Edge> halves;
   halves.reserve(3 * front.triangles.size());
   for (const Triangle& t : front.triangles)
@@ -48,8 +51,8 @@ std::vector<Edge> edges_of(const Front& front) {
   std::ranges::sort(halves, {}, [](const Edge& e) { return std::tuple(e.a, e.b, e.facing[0]); });
   std::vector<Edge> edges;
   for (const Edge& half : halves) {
-    const bool is_known = !edges.empty() && edges.back().a == half.a && edges.back().b == half.b;
-    if (is_known)
+    const bool is_second = !edges.empty() && edges.back().a == half.a && edges.back().b == half.b;
+    if (is_second)
       edges.back().facing[1] = half.facing[0];
     else
       edges.push_back(half);
@@ -57,7 +60,7 @@ std::vector<Edge> edges_of(const Front& front) {
   return edges;
 }
 
-// The triangulation of the points chosen so far, with the means to find places in it.
+// The Delaunay triangulation of the points chosen so far, with point location and walks along segments.
 class Approximation {
  public:
   explicit Approximation(const std::vector<Vec3>& points) : points_(points) {
@@ -68,7 +71,8 @@ class Approximation {
 
   const Triangulation& mesh() const { return mesh_; }
 
-  // Walks from `start` to a triangle that holds the place; no_index if the place is outside.
+  // Walks from triangle `start` to one that contains the place; returns no_index if the place is outside.
+  // Successive points of a scan are close, so that walks are short.
   Index find(const Vec2& place, Index start) const {
     Index t = start, from = no_index;
     for (std::size_t steps = 0; steps <= mesh_.triangles.size(); ++steps) {
@@ -80,7 +84,7 @@ class Approximation {
     return no_index;
   }
 
-  // The triangle on the other side of the edge that the place lies on; no_index if it is inside t or on the
+  // Returns the other triangle of the edge on which the place lies; no_index if it is inside t or on the
   // hull.
   Index across(const Vec2& place, Index t) const {
     const Triangle& corners = mesh_.triangles[t];
@@ -90,7 +94,7 @@ class Approximation {
     return no_index;
   }
 
-  // Slopes of all triangles, squared.
+  // Returns the squared slopes of all triangles.
   std::vector<double> slopes_sq() const {
     std::vector<double> slopes(mesh_.triangles.size());
     parallel_for(slopes.size(), [&](std::size_t t) {
@@ -110,8 +114,8 @@ class Approximation {
            (p.z() * (d.x() * q.y() - d.y() * q.x()) + q.z() * (p.x() * d.y() - p.y() * d.x())) / area;
   }
 
-  // Calls f(triangles left and entered, share of the way, height of this surface) where the way from a to b,
-  // which begins in triangle t, crosses an edge.
+  // Calls f(triangles left and entered, share of the way, height of this surface) wherever the segment from a
+  // to b, which begins in triangle t, crosses an edge.
   template <typename F>
   void walk(const Vec2& a, const Vec2& b, Index t, F&& f) const {
     Index from = no_index;
@@ -133,7 +137,7 @@ class Approximation {
   }
 
  private:
-  // The neighbour across an edge that has the place on its other side; t itself if none has.
+  // Returns the neighbour across an edge that separates t from the place; t itself if it contains the place.
   Index towards(const Vec2& place, Index t, Index from) const {
     const Triangle& corners = mesh_.triangles[t];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -144,7 +148,7 @@ class Approximation {
     return t;
   }
 
-  // The edge by which the way from a to b leaves the triangle; nothing if b lies in it.
+  // Returns the edge by which the segment from a to b leaves the triangle; nothing if b lies in it.
   std::optional<std::size_t> exit_of(const Vec2& a, const Vec2& b, Index t, Index from) const {
     const Triangle& corners = mesh_.triangles[t];
     for (std::size_t i = 0; i < 3; ++i) {
@@ -161,21 +165,15 @@ class Approximation {
   Triangulation mesh_;
 };
 
-Colour mixed(const Colour& a, const Colour& b, double share) {
-  Colour out;
-  for (std::size_t i = 0; i < 3; ++i) out[i] = static_cast<std::uint8_t>(a[i] + share * (b[i] - a[i]) + .5);
-  return out;
-}
-
 class Simplifier {
  public:
-  Simplifier(const Front& front, const SimplifyOptions& options)
+  Simplifier(const HeightFieldMesh& front, const SimplifyOptions& options)
       : front_(front), options_(options), edges_(edges_of(front)), is_chosen_(front.points.size(), 0) {
     choose_corners();
   }
 
-  Result<SimplerFront> run(Progress* progress) {
-    for (int round = 0; round < most_rounds; ++round) {
+  Result<SimplifiedMesh> run(Progress* progress) {
+    for (int round = 0; round < most_insertion_rounds; ++round) {
       if (auto go = begin_stage(progress, "simplify", .95); !go) return std::unexpected(go.error());
       const Approximation now(chosen_);
       if (now.mesh().triangles.empty()) break;
@@ -192,7 +190,7 @@ class Simplifier {
   void choose(const Candidate& candidate) {
     if (candidate.point != no_index && std::exchange(is_chosen_[candidate.point], 1)) return;
     chosen_.push_back(candidate.place);
-    names_.push_back(candidate.point);
+    original_.push_back(candidate.point);
     if (!front_.colours.empty()) colours_.push_back(candidate.colour);
   }
 
@@ -200,8 +198,8 @@ class Simplifier {
     return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
   }
 
-  // The hull's points but those on straight, level edges between others; the relief's rim, if it is to be
-  // kept; and what tells the height.
+  // Starts with the corners of the hull, the relief's boundary if it is to be kept, and the extreme heights:
+  // errors are largest at extremes, and the plate's thickness and height must not change.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -211,7 +209,7 @@ class Simplifier {
       choose(at_point(0, 0, hull[i]));
     }
     if (!front_.is_relief.empty())
-      for (const auto& [a, b] : rim_of(relief_triangles(front_))) choose(at_point(0, 0, a));
+      for (const auto& [a, b] : boundary_edges(relief_triangles(front_))) choose(at_point(0, 0, a));
     const auto [lowest, highest] =
         std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });
     const double ground = front_.points[hull[0]].z();
@@ -219,36 +217,38 @@ class Simplifier {
       if (extreme->z() != ground) choose(at_point(0, 0, static_cast<Index>(extreme - front_.points.begin())));
   }
 
-  // The worst place of each triangle that is off by more than the tolerance; nothing if a point lies in no
-  // triangle. Keeps the largest error.
+  // Returns the place with the largest error of each triangle that exceeds its tolerance; nothing if a point
+  // lies in no triangle. Sets error_ to the largest error of all.
   std::optional<std::vector<Candidate>> find_worst(const Approximation& now) {
-    where_.resize(front_.points.size());
+    containing_.resize(front_.points.size());
     slopes_sq_ = now.slopes_sq();
-    const std::size_t blocks = (front_.points.size() + grain - 1) / grain,
-                      edge_blocks = (edges_.size() + grain - 1) / grain;
+    const std::size_t blocks = (front_.points.size() + edges_per_block - 1) / edges_per_block,
+                      edge_blocks = (edges_.size() + edges_per_block - 1) / edges_per_block;
     std::vector<std::vector<Candidate>> found(blocks + edge_blocks);
     std::vector<double> errors(blocks + edge_blocks, 0);
     std::vector<std::uint8_t> is_lost(blocks, 0);
-    parallel_ranges(front_.points.size(), grain, [&](std::size_t begin, std::size_t end) {
-      const std::size_t block = begin / grain;
-      is_lost[block] = !look_at_points(now, begin, end, found[block], errors[block]);
+    parallel_ranges(front_.points.size(), edges_per_block, [&](std::size_t begin, std::size_t end) {
+      const std::size_t block = begin / edges_per_block;
+      is_lost[block] = !measure_points(now, begin, end, found[block], errors[block]);
     });
     if (std::ranges::any_of(is_lost, [](std::uint8_t lost) { return lost != 0; })) return std::nullopt;
-    parallel_ranges(edges_.size(), grain, [&](std::size_t begin, std::size_t end) {
-      const std::size_t block = blocks + begin / grain;
-      look_at_edges(now, begin, end, found[block], errors[block]);
+    parallel_ranges(edges_.size(), edges_per_block, [&](std::size_t begin, std::size_t end) {
+      const std::size_t block = blocks + begin / edges_per_block;
+      measure_edges(now, begin, end, found[block], errors[block]);
     });
     error_ = *std::ranges::max_element(errors);
     return worst_of(found, now.mesh().triangles.size());
   }
 
+  // Returns the smallest tolerance that any triangle has.
   double least_allowed() const {
     const bool is_limited = options_.max_slope < std::numeric_limits<double>::infinity();
     return is_limited ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
   }
 
-  // Of two triangles that share a place, the first for which this error is too much; no_index if none.
-  Index one_off(const std::array<Index, 2>& sides, double error) const {
+  // Returns the first of two triangles that share a place whose tolerance this error exceeds; no_index if
+  // none does.
+  Index triangle_beyond(const std::array<Index, 2>& sides, double error) const {
     for (const Index t : sides) {
       if (t == no_index) continue;
       const bool is_steep = slopes_sq_[t] > options_.max_slope * options_.max_slope;
@@ -269,42 +269,46 @@ class Simplifier {
     return out;
   }
 
-  bool look_at_points(const Approximation& now, std::size_t begin, std::size_t end,
+  bool measure_points(const Approximation& now, std::size_t begin, std::size_t end,
                       std::vector<Candidate>& found, double& worst) {
     Index t = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3& p = front_.points[i];
       t = now.find(p.head<2>(), t);
       if (t == no_index) return false;
-      where_[i] = t;
+      containing_[i] = t;
       const double error = std::abs(now.height(t, p.head<2>()) - p.z());
       worst = std::max(worst, error);
-      const Index off = one_off({t, error > least_allowed() ? now.across(p.head<2>(), t) : no_index}, error);
+      const Index off =
+          triangle_beyond({t, error > least_allowed() ? now.across(p.head<2>(), t) : no_index}, error);
       if (off != no_index) found.push_back(at_point(off, error, static_cast<Index>(i)));
     }
     return true;
   }
 
-  // Between two points in different triangles both surfaces may bend: at the edges that are crossed.
-  void look_at_edges(const Approximation& now, std::size_t begin, std::size_t end,
+  // The difference of two piecewise flat surfaces is extreme at the corners of their overlay: at the
+  // original's points, at the approximation's, which are among them, and where edges of the two cross. Edges
+  // within one triangle cross none.
+  void measure_edges(const Approximation& now, std::size_t begin, std::size_t end,
                      std::vector<Candidate>& found, double& worst) const {
     for (std::size_t e = begin; e < end; ++e) {
       const Edge& edge = edges_[e];
-      if (where_[edge.a] == where_[edge.b]) continue;
+      if (containing_[edge.a] == containing_[edge.b]) continue;
       const Vec3 &a = front_.points[edge.a], &b = front_.points[edge.b];
-      now.walk(a.head<2>(), b.head<2>(), where_[edge.a],
+      now.walk(a.head<2>(), b.head<2>(), containing_[edge.a],
                [&](std::array<Index, 2> sides, double share, double height) {
-                 if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // at an end, which is a point of its own
+                 if (!(share > 1e-6 && share < 1 - 1e-6)) return;  // an end, which was measured as a point
                  const double error = std::abs(height - (a + share * (b - a)).z());
                  worst = std::max(worst, error);
-                 if (const Index t = one_off(sides, error); t != no_index)
+                 if (const Index t = triangle_beyond(sides, error); t != no_index)
                    found.push_back(remedy(edge, share, t, error));
                });
     }
   }
 
-  // With both ends and what faces it the edge comes into the triangulation by itself, unless its corners lie
-  // on a circle: then the crossing becomes a point.
+  // Returns what to add for an error on an edge of the original: the nearer end, the other end, or an
+  // opposite corner, whichever is missing first. With all four the edge is an edge of the Delaunay
+  // triangulation, too, unless they lie on one circle: then the crossing itself becomes a point.
   Candidate remedy(const Edge& edge, double share, Index t, double error) const {
     const bool is_near_a = share < .5;
     for (const Index i :
@@ -315,40 +319,38 @@ class Simplifier {
             front_.colours.empty() ? Colour{} : mixed(front_.colours[edge.a], front_.colours[edge.b], share)};
   }
 
-  SimplerFront finished(const Approximation& now) {
-    SimplerFront out{{chosen_, now.mesh().triangles, now.mesh().hull, front_.ground_mm, colours_}, error_};
-    if (!front_.is_relief.empty()) out.front.is_relief = relief_within(front_, out.front, names_);
+  SimplifiedMesh finished(const Approximation& now) {
+    SimplifiedMesh out{{chosen_, now.mesh().triangles, now.mesh().hull, front_.ground_mm, colours_}, error_};
+    if (!front_.is_relief.empty()) out.front.is_relief = relief_within(front_, out.front, original_);
     return out;
   }
 
-  const Front& front_;
+  const HeightFieldMesh& front_;
   SimplifyOptions options_;
   double error_ = 0;
   std::vector<double> slopes_sq_;  // per triangle of the approximation
   std::vector<Edge> edges_;
   std::vector<std::uint8_t> is_chosen_;  // per point of the original
-  std::vector<RimEdge> rim_;             // to be kept
   std::vector<Vec3> chosen_;
-  std::vector<Index> names_;  // of those that are chosen: their numbers in the original
+  std::vector<Index> original_;  // per chosen point, its index in the original; no_index for one on an edge
   std::vector<Colour> colours_;
-  std::vector<Index> where_;  // triangle of each point
+  std::vector<Index> containing_;  // per point of the original, the triangle that contains it
 };
 
 }  // namespace
 
-Result<SimplerFront> simplify(const Front& front, const SimplifyOptions& options, Progress* progress) {
+Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
+                                Progress* progress) {
   if (!(options.tolerance_mm > 0))
-    return std::unexpected(Error{ErrorKind::option,
-                                 "--tolerance",
-                                 {},
-                                 cat("expected a positive length, found ", options.tolerance_mm)});
+    return std::unexpected(Error{
+        ErrorKind::option, "tolerance", {}, cat("expected a positive length, found ", options.tolerance_mm)});
   if (front.triangles.empty() || front.hull.size() < 3)
     return std::unexpected(
         Error{ErrorKind::geometry, "front", {}, "expected triangles and a hull around them, found none"});
   return Simplifier(front, options).run(progress);
 }
 
-Result<SimplerFront> simplify(const Front& front, double tolerance_mm, Progress* progress) {
+Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, double tolerance_mm, Progress* progress) {
   return simplify(front, SimplifyOptions{tolerance_mm}, progress);
 }
 

@@ -5,9 +5,10 @@
 #include <span>
 #include <utility>
 
+#include "core/groups.h"
+#include "plate/coincident_points.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "twins.h"
 
 namespace relievo {
 namespace {
@@ -31,36 +32,25 @@ std::string wrong_corners(const Solid& solid) {
 
 // Directed edges, those of a vertex together at its lower end: the other end, and the direction in the lowest
 // bit.
-struct EdgeTable {
-  std::vector<std::size_t> begin;  // per point, and one more
-  std::vector<std::uint64_t> edges;
-};
+using EdgeTable = Groups<std::uint64_t, std::size_t>;
 
 EdgeTable edge_table(const Solid& solid) {
-  EdgeTable table{std::vector<std::size_t>(solid.points.size() + 1), {}};
-  const auto each_edge = [&](auto&& f) {
-    for (const auto& [a, b, c] : solid.triangles) f(a, b), f(b, c), f(c, a);
-  };
-  table.edges.resize(3 * solid.triangles.size());
-  each_edge([&](Index a, Index b) { ++table.begin[std::min(a, b)]; });
-  std::size_t sum = 0;
-  for (std::size_t& at : table.begin) at = std::exchange(sum, sum + at);
-  std::vector<std::size_t> next(table.begin);
-  each_edge([&](Index a, Index b) {
-    const std::uint64_t other = std::max(a, b);
-    table.edges[next[std::min(a, b)]++] = 2 * other + (a < b ? 0 : 1);
+  return grouped<std::uint64_t, std::size_t>(solid.points.size(), [&](auto&& add) {
+    const auto add_edge = [&](Index a, Index b) {
+      add(std::min(a, b), 2 * std::uint64_t{std::max(a, b)} + (a < b ? 0 : 1));
+    };
+    for (const auto& [a, b, c] : solid.triangles) add_edge(a, b), add_edge(b, c), add_edge(c, a);
   });
-  return table;
 }
 
 std::string wrong_edges(const Solid& solid) {
   EdgeTable table = edge_table(solid);
   for (std::size_t p = 0; p < solid.points.size(); ++p) {
-    const std::span edges(table.edges.begin() + static_cast<std::ptrdiff_t>(table.begin[p]),
+    const std::span edges(table.items.begin() + static_cast<std::ptrdiff_t>(table.begin[p]),
                           table.begin[p + 1] - table.begin[p]);
     std::ranges::sort(edges);
-    // In order, good edges are pairs: the same other end, forward, then backward. A third use breaks the
-    // pairs.
+    // Sorted, the edges of a closed surface are pairs: the same other end, upwards, then downwards. An edge
+    // that is used a third time breaks the pairs.
     for (std::size_t i = 0; i < edges.size(); i += 2) {
       const bool is_pair = i + 1 < edges.size() && edges[i] % 2 == 0 && edges[i + 1] == edges[i] + 1;
       if (!is_pair)
@@ -71,10 +61,10 @@ std::string wrong_edges(const Solid& solid) {
   return {};
 }
 
-std::string wrong_twins(const Solid& solid) {
-  const auto twins = find_twins(solid);
-  if (twins.empty()) return {};
-  return cat("points ", twins[0][0], " and ", twins[0][1], " are the same in single precision");
+std::string wrong_coincidence(const Solid& solid) {
+  const auto pairs = find_coincident_points(solid);
+  if (pairs.empty()) return {};
+  return cat("points ", pairs[0][0], " and ", pairs[0][1], " are the same in single precision");
 }
 
 std::string wrong_volume(const Solid& solid) {
@@ -85,14 +75,15 @@ std::string wrong_volume(const Solid& solid) {
 }  // namespace
 
 std::string check_solid(const Solid& solid) {
-  for (const auto check : {wrong_corners, wrong_edges, wrong_twins, wrong_volume})
+  for (const auto check : {wrong_corners, wrong_edges, wrong_coincidence, wrong_volume})
     if (std::string wrong = check(solid); !wrong.empty()) return wrong;
   return {};
 }
 
 double volume_mm3(const Solid& solid) {
   if (solid.triangles.empty()) return 0;
-  // Cones to a point of the solid: far from the origin, cones to the origin would cancel digits.
+  // Sums signed tetrahedra with an apex on the solid: with the origin as apex, a solid far from it would lose
+  // digits by cancellation.
   const Vec3 apex = solid.points[solid.triangles[0][0]];
   return parallel_reduce(
       solid.triangles.size(), 0.0,

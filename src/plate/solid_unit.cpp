@@ -1,7 +1,7 @@
 #include <utility>
 
+#include "plate/coincident_points.h"
 #include "relievo/plate/solid.h"
-#include "twins.h"
 
 namespace relievo {
 
@@ -13,7 +13,7 @@ Solid in_unit(Solid solid, LengthUnit unit) {
     p *= scale;
     box.extend(p);
   }
-  if (!box.is_empty()) separate_twins(solid, box.centre().z());
+  if (!box.is_empty()) separate_coincident(solid, box.centre().z());
   return solid;
 }
 

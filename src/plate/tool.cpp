@@ -1,10 +1,11 @@
 #include "relievo/plate/tool.h"
+#include "core/angle.h"
+#include "relievo/core/image.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -21,7 +22,7 @@ constexpr float nowhere = -std::numeric_limits<float>::infinity();
 std::unexpected<Error> fail(std::string_view text) {
   return std::unexpected(
       Error{ErrorKind::option,
-            "--tool",
+            "tool",
             {},
             cat("expected ball:DIAMETER or flat:DIAMETER with 0.01 to 1000 mm, v:ANGLE with 1 to "
                 "170 degrees, or v:ANGLE:TIP with a diameter in mm, found '",
@@ -45,7 +46,7 @@ std::optional<double> angle_in(std::string_view text) {
 }
 
 double half_angle(const Tool& tool) {
-  return tool.angle_deg / 2 * std::numbers::pi / 180;
+  return to_radians(tool.angle_deg / 2);
 }
 
 // Distance from the axis up to which the tool matters for surfaces of that height.
@@ -120,14 +121,13 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
                              : static_cast<float>(tool_profile(tool, distance));
   });
   // Tool positions reach beyond the picture on all sides.
-  const Grid stands = dilate({heights.width, heights.height, heights.pixels}, profile, reach);
-  Grid hanging = stands;
+  Image<float> hanging = dilate(heights, profile, reach);
   // Where the tool stands on nothing, it leaves nothing.
-  for (float& z : hanging.values) z = z > nowhere ? -z : nowhere;
-  const Grid left = dilate(hanging, profile, -reach);
+  for (float& z : hanging.pixels) z = z > nowhere ? -z : nowhere;
+  const Image<float> left = dilate(hanging, profile, -reach);
   Image<float> closed = heights;
   for (std::size_t i = 0; i < closed.pixels.size(); ++i)
-    if (closed.pixels[i] == closed.pixels[i]) closed.pixels[i] = std::max(closed.pixels[i], -left.values[i]);
+    if (closed.pixels[i] == closed.pixels[i]) closed.pixels[i] = std::max(closed.pixels[i], -left.pixels[i]);
   return closed;
 }
 

@@ -2,11 +2,13 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/plane.h"
 #include "plate/height_field.h"
+#include "plate/silhouette.h"
+#include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"
 #include "relievo/plate/tool.h"
-#include "silhouette.h"
 
 namespace relievo {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 constexpr int least_samples = 2048, most_samples = 4096;  // of the longer side
 constexpr double samples_per_radius = 12;
-constexpr double least_tolerance_mm = .01;
+constexpr double least_reach_tolerance_mm = .01;
 constexpr Colour ground_colour = {200, 200, 200};
 
 int samples_for(const Tool& tool, double longer_mm) {
@@ -22,10 +24,6 @@ int samples_for(const Tool& tool, double longer_mm) {
   if (!(radius > 0)) return least_samples;
   const double wanted = longer_mm / radius * samples_per_radius;
   return static_cast<int>(std::clamp<double>(std::ceil(wanted), least_samples, most_samples));
-}
-
-double longer_side(const Box& box) {
-  return std::max(box.size().x(), box.size().y());
 }
 
 // Sums over samples, block by block.
@@ -59,30 +57,34 @@ Image<float> difference(const Image<float>& a, const Image<float>& b) {
   return out;
 }
 
+// Gives the samples beside the front that height.
+void fill_beside(HeightField& field, float height) {
+  for (std::size_t i = 0; i < field.z.pixels.size(); ++i)
+    if (field.is_beside.pixels[i] != 0) field.z.pixels[i] = height;
+}
+
 // What the tool leaves above a front, sampled over its box and as far beyond as the tool reaches.
 class Leavings {
  public:
-  Leavings(const Front& front, const Tool& tool) {
+  Leavings(const HeightFieldMesh& front, const Tool& tool) {
     Solid solid{front.points, relief_triangles(front), 0};
     solid.front_triangles = solid.triangles.size();
     Box box;
     for (const Triangle& t : solid.triangles)
       for (const Index i : t) box.extend(front.points[i]);
-    field_ = draw_height_field(solid, samples_for(tool, longer_side(box)));
+    field_ = draw_height_field(solid, samples_for(tool, box.longer_side()));
     const auto around = front.is_relief.empty() ? static_cast<float>(front.ground_mm - box.min.z()) : nothing;
-    for (std::size_t i = 0; i < field_.z.size(); ++i)
-      if (field_.is_beside[i] != 0) field_.z[i] = around;
-    const Image<float> heights{field_.width, field_.height, 1, field_.z};
-    left_ = difference(close_by_tool(heights, field_.mm_per_pixel, tool), heights);
+    fill_beside(field_, around);
+    left_ = difference(close_by_tool(field_.z, field_.mm_per_pixel, tool), field_.z);
   }
 
-  int width() const { return field_.width; }
-  int height() const { return field_.height; }
+  int width() const { return field_.z.width; }
+  int height() const { return field_.z.height; }
   double mm_per_sample() const { return field_.mm_per_pixel; }
 
   float at(int x, int y) const {
-    if (x < 0 || y < 0 || x >= field_.width || y >= field_.height) return 0;
-    const float left = left_.pixels[index(x, y)];
+    if (!left_.contains(x, y)) return 0;
+    const float left = left_.at(x, y);
     return left == left ? left : 0;
   }
 
@@ -101,21 +103,16 @@ class Leavings {
   Vec2 to_samples(const Vec3& point) const { return field_.to_pixels(point); }
 
   // Whether a sample shows the front.
-  bool is_front(int x, int y) const { return field_.is_beside[index(x, y)] == 0; }
+  bool is_front(int x, int y) const { return field_.is_beside.at(x, y) == 0; }
 
   // The front at a sample.
   Vec3 place(int x, int y) const {
     const Vec2 middle = field_.box.centre().head<2>(),
-               place = middle +
-                       field_.mm_per_pixel * Vec2(x + .5 - field_.width / 2.0, field_.height / 2.0 - y - .5);
-    return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(field_.z[index(x, y)])};
+               place = middle + field_.mm_per_pixel * Vec2(x + .5 - width() / 2.0, height() / 2.0 - y - .5);
+    return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(field_.z.at(x, y))};
   }
 
  private:
-  std::size_t index(int x, int y) const {
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(field_.width) + static_cast<std::size_t>(x);
-  }
-
   HeightField field_;
   Image<float> left_;
 };
@@ -123,7 +120,7 @@ class Leavings {
 // Lifts points above a front by no more than they are away from its hull, which stays where it is.
 class AtHull {
  public:
-  explicit AtHull(const Front& front) : front_(front) {}
+  explicit AtHull(const HeightFieldMesh& front) : front_(front) {}
 
   double lift(const Vec3& point, double wanted) const {
     if (!(wanted > 0)) return 0;
@@ -132,13 +129,13 @@ class AtHull {
       const Vec2 a = front_.points[front_.hull[i]].head<2>(),
                  b = front_.points[front_.hull[(i + 1) % front_.hull.size()]].head<2>();
       const Vec2 along = (b - a).normalized(), to = point.head<2>() - a;
-      nearest = std::min(nearest, along.x() * to.y() - along.y() * to.x());
+      nearest = std::min(nearest, cross(along, to));
     }
     return std::max(0.0, nearest);
   }
 
  private:
-  const Front& front_;
+  const HeightFieldMesh& front_;
 };
 
 // The samples that a point of the front lies in or next to.
@@ -156,7 +153,7 @@ std::vector<std::uint8_t> near_points(const Leavings& leavings, const std::vecto
 }
 
 // Points of what the tool leaves, and around there, where the front has none: few where it is level.
-std::vector<Vec3> points_left(const Leavings& leavings, const Front& front) {
+std::vector<Vec3> points_left(const Leavings& leavings, const HeightFieldMesh& front) {
   const std::vector<std::uint8_t> is_near = near_points(leavings, front.points);
   const AtHull at_hull(front);
   constexpr int stride = 3;  // a quarter of the radius of a tool that samples_for() can follow
@@ -186,12 +183,11 @@ ToolReach measure_reach(const Solid& solid, const Tool& tool) {
     for (const Index i : t) box.extend(solid.points[i]);
   ToolReach reach;
   if (box.is_empty()) return reach;
-  HeightField field = draw_height_field(solid, samples_for(tool, longer_side(box)));
-  for (std::size_t i = 0; i < field.z.size(); ++i)
-    if (field.is_beside[i] != 0) field.z[i] = nothing;
+  HeightField field = draw_height_field(solid, samples_for(tool, box.longer_side()));
+  fill_beside(field, nothing);
   reach.mm_per_sample = field.mm_per_pixel;
-  reach.tolerance_mm = std::max(least_tolerance_mm, field.mm_per_pixel / 8);
-  reach.heights_mm = {field.width, field.height, 1, std::move(field.z)};
+  reach.tolerance_mm = std::max(least_reach_tolerance_mm, field.mm_per_pixel / 8);
+  reach.heights_mm = std::move(field.z);
   reach.residual_mm =
       difference(close_by_tool(reach.heights_mm, reach.mm_per_sample, tool), reach.heights_mm);
   const Count count = count_reached(reach.residual_mm, reach.tolerance_mm);
@@ -201,12 +197,12 @@ ToolReach measure_reach(const Solid& solid, const Tool& tool) {
   return reach;
 }
 
-Result<Front> reachable_front(const Front& front, const Tool& tool) {
+Result<HeightFieldMesh> reachable_front(const HeightFieldMesh& front, const Tool& tool) {
   if (front.triangles.empty() || front.hull.size() < 3)
     return std::unexpected(
         Error{ErrorKind::geometry, "front", {}, "expected triangles and a hull around them, found none"});
   const Leavings leavings(front, tool);
-  Front out = front;
+  HeightFieldMesh out = front;
   const AtHull at_hull(front);
   parallel_for(out.points.size(), [&](std::size_t i) {
     out.points[i].z() += at_hull.lift(front.points[i], leavings.at(front.points[i]));

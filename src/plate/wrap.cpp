@@ -1,23 +1,21 @@
 #include "relievo/plate/wrap.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "core/angle.h"
 #include "plate/shape_text.h"
 #include "relievo/core/text.h"
 
 namespace relievo {
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double most_of_sphere_deg = 340;
-constexpr double closing_deg = .01;  // so near to a full turn it is one
-constexpr const char* option = "--wrap";
+constexpr double most_of_sphere_deg = 340;  // beyond that the plate's rim would meet itself behind the sphere
+constexpr double closing_deg = .01;         // a turn this near to a full one is a full one
 
-// The size of the plate along a direction, and the farthest of it from its middle.
+// The size of the plate across and along the axis, and the largest distance from its middle.
 struct Extent {
   double across = 0, along = 0, radius = 0;
 };
@@ -35,36 +33,32 @@ Extent extent_of(std::span<const Vec2> outline, const Vec2& middle, const Vec2& 
 
 Result<void> check_numbers(const WrapOptions& options) {
   if (options.diameter_mm && !(*options.diameter_mm >= .01 && *options.diameter_mm <= 1e6))
-    return wrong_shape(option, cat("expected a diameter of 0.01 to 1e+06 mm, found ", *options.diameter_mm));
+    return option_error("wrap", cat("expected a diameter of 0.01 to 1e+06 mm, found ", *options.diameter_mm));
   if (options.turn_deg && !(*options.turn_deg >= .01 && *options.turn_deg <= 360))
-    return wrong_shape(option, cat("expected a turn of 0.01 to 360 degrees, found ", *options.turn_deg));
+    return option_error("wrap", cat("expected a turn of 0.01 to 360 degrees, found ", *options.turn_deg));
   if (options.diameter_mm && options.turn_deg)
-    return wrong_shape(option, "expected either a diameter or a turn, found both");
+    return option_error("wrap", "expected either a diameter or a turn, found both");
   if (options.kind == WrapKind::cone && !(std::abs(options.angle_deg) <= 80))
-    return wrong_shape(option, cat("expected an angle of -80 to 80 degrees, found ", options.angle_deg));
+    return option_error("wrap", cat("expected an angle of -80 to 80 degrees, found ", options.angle_deg));
   if (!std::isfinite(options.direction_deg))
-    return wrong_shape(option, cat("expected a direction in degrees, found ", options.direction_deg));
+    return option_error("wrap", cat("expected a direction in degrees, found ", options.direction_deg));
   return {};
 }
 
-// Unit vector at right angles to the axis, to its right; exact for upright and level ones.
+// Returns the unit vector at right angles to the axis, to its right; exact if the axis is upright or level.
 Vec2 across_of(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();
   if (turn == -90) return -Vec2::UnitY();
-  return {std::cos(turn * pi / 180), std::sin(turn * pi / 180)};
+  return {std::cos(to_radians(turn)), std::sin(to_radians(turn))};
 }
 
 }  // namespace
 
 Result<WrapOptions> parse_wrap(std::string_view text) {
-  constexpr std::array<std::string_view, 4> names = {"none", "cylinder", "cone", "sphere"};
-  const auto found = std::ranges::find(names, shape_kind(text));
-  if (found == names.end())
-    return wrong_shape(option,
-                       cat("expected none, cylinder, cone or sphere, found '", shape_kind(text), "'"));
+  RELIEVO_TRY(const WrapKind kind, parse_choice("wrap", shape_kind(text), wrap_choices));
   WrapOptions wrap;
-  wrap.kind = static_cast<WrapKind>(found - names.begin());
+  wrap.kind = kind;
   std::optional<double> direction, angle;
   std::vector<ShapeNumber> numbers;
   std::vector<ShapeWord> words;
@@ -75,7 +69,7 @@ Result<WrapOptions> parse_wrap(std::string_view text) {
   if (wrap.kind == WrapKind::cone) numbers.push_back({"angle", &angle});
   if (wrap.kind == WrapKind::cone || wrap.kind == WrapKind::cylinder)
     numbers.push_back({"direction", &direction});
-  if (auto good = read_shape(text, option, numbers, words); !good) return std::unexpected(good.error());
+  RELIEVO_CHECK(read_shape(text, "wrap", numbers, words));
   wrap.direction_deg = direction.value_or(wrap.direction_deg);
   wrap.angle_deg = angle.value_or(wrap.angle_deg);
   return wrap;
@@ -83,8 +77,7 @@ Result<WrapOptions> parse_wrap(std::string_view text) {
 
 Result<Wrap> Wrap::around(const WrapOptions& options, std::span<const Vec2> outline) {
   if (auto good = check_numbers(options); !good) return std::unexpected(good.error());
-  Box box;
-  for (const Vec2& p : outline) box.extend({p.x(), p.y(), 0});
+  const Box box = Box::of(outline);
   Wrap wrap;
   wrap.kind_ = options.kind;
   wrap.is_inside_ = options.is_inside;
@@ -94,22 +87,23 @@ Result<Wrap> Wrap::around(const WrapOptions& options, std::span<const Vec2> outl
   const Extent extent = extent_of(outline, wrap.middle_, wrap.across_);
   const double wide = is_sphere ? 2 * extent.radius : extent.across;
   const double turn = options.turn_deg.value_or(is_sphere ? 120 : 180);
-  wrap.radius_ = options.diameter_mm ? *options.diameter_mm / 2 : wide * 180 / (pi * turn);
-  wrap.turn_deg_ = wide / wrap.radius_ * 180 / pi;
+  wrap.radius_ = options.diameter_mm ? *options.diameter_mm / 2 : wide * 180 / (std::numbers::pi * turn);
+  wrap.turn_deg_ = to_degrees(wide / wrap.radius_);
   if (std::abs(wrap.turn_deg_ - 360) < closing_deg) wrap.turn_deg_ = 360;
   const double most = is_sphere ? most_of_sphere_deg : 360;
   if (wrap.turn_deg_ > most)
-    return wrong_shape(option, cat("expected a diameter of at least ", wide * 360 / (pi * most),
-                                   " mm for this plate, found ", 2 * wrap.radius_));
-  wrap.radians_per_mm_ = wrap.turn_deg_ * pi / 180 / wide;
-  wrap.least_radius_ = wrap.radius_;
+    return option_error("wrap",
+                        cat("expected a diameter of at least ", wide * 360 / (std::numbers::pi * most),
+                            " mm for this plate, found ", 2 * wrap.radius_));
+  wrap.radians_per_mm_ = to_radians(wrap.turn_deg_) / wide;
+  wrap.min_radius_ = wrap.radius_;
   if (options.kind == WrapKind::cone) {
-    wrap.sine_ = std::sin(options.angle_deg * pi / 180);
-    wrap.cosine_ = std::cos(options.angle_deg * pi / 180);
-    wrap.least_radius_ = (wrap.radius_ - extent.along / 2 * std::abs(wrap.sine_)) / wrap.cosine_;
-    if (!(wrap.least_radius_ > 0))
-      return wrong_shape(option, cat("expected a diameter of at least ", extent.along * std::abs(wrap.sine_),
-                                     " mm for this plate on this cone, found ", 2 * wrap.radius_));
+    wrap.sine_ = std::sin(to_radians(options.angle_deg));
+    wrap.cosine_ = std::cos(to_radians(options.angle_deg));
+    wrap.min_radius_ = (wrap.radius_ - extent.along / 2 * std::abs(wrap.sine_)) / wrap.cosine_;
+    if (!(wrap.min_radius_ > 0))
+      return option_error("wrap", cat("expected a diameter of at least ", extent.along * std::abs(wrap.sine_),
+                                      " mm for this plate on this cone, found ", 2 * wrap.radius_));
   }
   return wrap;
 }
@@ -134,11 +128,11 @@ double Wrap::sag(const Vec2& place) const {
   if (kind_ == WrapKind::none) return 0;
   if (kind_ == WrapKind::sphere) return -p.squaredNorm() / (2 * radius_);
   const double way = across_.dot(p);
-  return -way * way / (2 * least_radius_);
+  return -way * way / (2 * min_radius_);
 }
 
 double Wrap::mm_per_degree() const {
-  return pi / 180 / (kind_ == WrapKind::sphere ? 1 / radius_ : radians_per_mm_);
+  return to_radians(1) / (kind_ == WrapKind::sphere ? 1 / radius_ : radians_per_mm_);
 }
 
 }  // namespace relievo

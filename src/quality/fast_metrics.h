@@ -1,5 +1,5 @@
-// What reliefs keep of a model, to find out how tightly they may be held: Judge's coarsest detail and its
-// order, estimated in a millisecond or two on a picture of half the width, or as Judge finds them.
+// Fast estimates (1 to 2 ms, half resolution) of two of the measures of ReliefMetrics, coarse detail and depth
+// order, and their exact versions. The membrane is tuned with them.
 #pragma once
 
 #include <span>
@@ -9,7 +9,8 @@
 
 namespace relievo {
 
-// Calls f(pixel, the first of the four it is made of) for a picture of half the width, row by row.
+// Calls f(pixel, first) for every pixel of a picture of half the width, row by row; `first` is the upper left
+// of the four pixels that it is made of.
 template <typename F>
 void each_half(const PictureGrid& grid, F&& f) {
   const int width = grid.width() / 2;
@@ -18,44 +19,44 @@ void each_half(const PictureGrid& grid, F&& f) {
       f(static_cast<std::size_t>(y * width + x), static_cast<std::size_t>(2 * (y * grid.width() + x)));
 }
 
-// Judge's detail at its coarsest scale, and its order.
-struct Kept {
+// Detail at the coarsest scale of ReliefMetrics, and depth order.
+struct Scores {
   double detail = 0, order = 0;
 };
 
-// Const calls may run concurrently. Without pixels to look at all measures are 0.
-class QuickJudge {
+// Const calls may run concurrently. All scores are 0 if there are no pixels to measure.
+class FastMetrics {
  public:
-  explicit QuickJudge(const Surface& surface);
+  explicit FastMetrics(const Surface& surface);
 
-  // Number of pixels that are looked at: where Judge looks at all four.
+  // Returns the number of pixels that are measured: those of which ReliefMetrics measures all four.
   std::size_t pixels() const { return where_.pixels.size(); }
 
   // Draws heights, one per point, in pixels.
   Plane draw(std::span<const double> heights) const;
 
-  // The same, four times as fast, of heights without detail: height(i) is that of point i.
+  // Does the same in a quarter of the time for heights without fine detail: height(i) is that of point i.
   template <typename F>
   Plane draw_smooth(F&& height) const;
 
-  // Estimates what drawn heights keep: of curvature smoothed by 2 pixels, and of fewer pairs.
-  Kept kept(const Plane& z) const;
+  // Estimates the scores of drawn heights, from curvature smoothed by 2 pixels and from fewer pairs.
+  Scores estimate(const Plane& z) const;
 
-  // What Judge finds for heights, one per point, in ten times the time.
-  Kept kept_by_whole(std::span<const double> heights) const;
+  // Returns the scores that ReliefMetrics gives heights, one per point. Takes ten times as long.
+  Scores exact_scores(std::span<const double> heights) const;
 
  private:
   Plane halved(const Plane& fine) const;
 
-  ModelPicture picture_;  // as fine as Judge's
+  ModelPicture picture_;  // at the full resolution of ReliefMetrics
   Measured where_;
-  MeasuredGaussian smoothing_, whole_smoothing_;
-  Plane depth_, curvature_, whole_curvature_;  // of the model
+  MeasuredGaussian smoothing_, exact_smoothing_;
+  Plane depth_, curvature_, exact_curvature_;  // of the model
 };
 
-// Two of the four, across. Heights are in pixels twice as wide.
+// Samples two of the four pixels, on a diagonal. Heights are in pixels twice as wide.
 template <typename F>
-Plane QuickJudge::draw_smooth(F&& height) const {
+Plane FastMetrics::draw_smooth(F&& height) const {
   Plane half(where_.is_measured.size());
   const PictureGrid& grid = picture_.grid;
   const auto across = static_cast<std::size_t>(grid.width()) + 1;

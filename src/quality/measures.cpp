@@ -1,23 +1,26 @@
 #include "relievo/quality/measures.h"
+#include "core/angle.h"
+#include "core/quantile.h"
+#include "relievo/core/image.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "jumps.h"
 #include "quality/model_picture.h"
 #include "quality/plane_measures.h"
 #include "relievo/core/parallel.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
 
 constexpr int lights = 16;
 
-// Azimuths of 45 degrees, first at 30, then at 55 degrees above the plane.
+// Returns one of 16 directions: eight azimuths, first at 30, then at 55 degrees above the plane.
 Vec3f light_direction(int i) {
   const double azimuth = i % 8 * std::numbers::pi / 4;
-  const double elevation = (i < 8 ? 30 : 55) * std::numbers::pi / 180;
+  const double elevation = to_radians(i < 8 ? 30 : 55);
   return Vec3(std::cos(azimuth) * std::cos(elevation), std::sin(azimuth) * std::cos(elevation),
               std::sin(elevation))
       .cast<float>();
@@ -47,15 +50,15 @@ Image8 to_grey(const Plane& light, int width) {
 
 }  // namespace
 
-struct Judge::Truth : ModelPicture {
-  // The model's shading under a light, with what SSIM needs of it.
+struct ReliefMetrics::Reference : ModelPicture {
+  // The shading under a light, with its local mean and variance, which SSIM needs.
   struct Shading {
     Plane mean, variance, light;
   };
   struct Edge {
     Index a, b;
   };
-  // Edges of inside triangles where the relief may stand as a step.
+  // Edges of inside triangles where the relief may have a step.
   struct Steps {
     std::vector<Edge> jumps;  // within the model
     std::vector<Index> rim;   // points next to the boundary, maybe several times
@@ -67,7 +70,7 @@ struct Judge::Truth : ModelPicture {
   Steps steps;
   GaussianFilter window{1.5, safe_distance_px};
 
-  explicit Truth(const Surface& surface) : ModelPicture(surface, longer_side_px, margin_px) {
+  explicit Reference(const Surface& surface) : ModelPicture(surface, longer_side_px, margin_px) {
     if (grid.pixels() == 0) return;
     shadings.resize(lights);
     parallel_for(
@@ -100,7 +103,7 @@ struct Judge::Truth : ModelPicture {
     return s;
   }
 
-  // Structural similarity, Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and window.
+  // Returns the structural similarity of Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and window.
   double similarity(const Shading& a, const Shading& b) const {
     constexpr double c1 = .01 * .01, c2 = .03 * .03;
     Plane ab = product(a.light, b.light);
@@ -132,7 +135,7 @@ struct Judge::Truth : ModelPicture {
           static_cast<double>(n.x[i] * normals.x[i] + n.y[i] * normals.y[i] + n.z[i] * normals.z[i]);
       sum += std::acos(std::clamp(cosine, -1.0, 1.0));
     }
-    return sum / static_cast<double>(measured.pixels.size()) * 180 / std::numbers::pi;
+    return to_degrees(sum / static_cast<double>(measured.pixels.size()));
   }
 
   std::array<Plane, 3> smoothed_curvature(const NormalPicture& n) const {
@@ -143,10 +146,10 @@ struct Judge::Truth : ModelPicture {
     return smoothed;
   }
 
-  // What the relief does where the measures do not look.
+  // Fills in the measures of the pixels that the others leave out.
   void guard(const Plane& z, const NormalPicture& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
-    const float steep = static_cast<float>(std::cos(80 * std::numbers::pi / 180));
+    const float steep = static_cast<float>(std::cos(to_radians(80)));
     std::vector<float> inside;
     double background = 0, sum = 0, sum_sq = 0, steep_pixels = 0;
     for (std::size_t i = 0; i < z.size(); ++i) {
@@ -160,12 +163,7 @@ struct Judge::Truth : ModelPicture {
     }
     const double mean = background > 0 ? sum / background : 0;
     if (background > 0) m.halo = std::sqrt(std::max(0.0, sum_sq / background - mean * mean)) / height_px;
-    const auto percentile = [&](double share) {
-      const auto at =
-          inside.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(inside.size() - 1));
-      std::nth_element(inside.begin(), at, inside.end());
-      return static_cast<double>(*at);
-    };
+    const auto percentile = [&](double share) { return static_cast<double>(quantile(inside, share)); };
     m.steep_share = steep_pixels / static_cast<double>(inside.size());
     m.height_used = (percentile(.99) - percentile(.01)) / height_px;
     for (const auto& [a, b] : steps.jumps)
@@ -174,39 +172,39 @@ struct Judge::Truth : ModelPicture {
   }
 };
 
-Judge::Judge(const Surface& surface) : truth_(std::make_unique<Truth>(surface)) {}
-Judge::Judge(Judge&&) noexcept = default;
-Judge::~Judge() = default;
+ReliefMetrics::ReliefMetrics(const Surface& surface) : reference_(std::make_unique<Reference>(surface)) {}
+ReliefMetrics::ReliefMetrics(ReliefMetrics&&) noexcept = default;
+ReliefMetrics::~ReliefMetrics() = default;
 
-std::size_t Judge::pixels() const {
-  return truth_->measured.pixels.size();
+std::size_t ReliefMetrics::pixels() const {
+  return reference_->measured.pixels.size();
 }
 
-Measures Judge::measure(std::span<const double> heights) const {
+Measures ReliefMetrics::measure(std::span<const double> heights) const {
   Measures m;
   if (pixels() == 0) return m;
   const auto [low, high] = std::ranges::minmax(heights);
   m.height = std::max(high, 0.0) - std::min(low, 0.0);
   if (!(m.height > 0)) return m;
-  const Plane z = truth_->heights_in_pixels(heights);
-  const NormalPicture n = normals_of(z, truth_->width());
-  m.shading = truth_->shading(n);
-  m.angle_deg = truth_->angle_deg(n);
-  const std::array<Plane, 3> curvature = truth_->smoothed_curvature(n);
+  const Plane z = reference_->heights_in_pixels(heights);
+  const NormalPicture n = normals_of(z, reference_->width());
+  m.shading = reference_->shading(n);
+  m.angle_deg = reference_->angle_deg(n);
+  const std::array<Plane, 3> curvature = reference_->smoothed_curvature(n);
   for (std::size_t s = 0; s < curvature.size(); ++s)
-    m.detail[s] = correlation(curvature[s], truth_->curvature[s], truth_->measured);
-  m.order = order_kept(z, truth_->depth, truth_->measured, order_pairs);
-  truth_->guard(z, n, heights, m);
+    m.detail[s] = correlation(curvature[s], reference_->curvature[s], reference_->measured);
+  m.order = order_kept(z, reference_->depth, reference_->measured, order_pairs);
+  reference_->guard(z, n, heights, m);
   return m;
 }
 
-Image8 Judge::shade(std::span<const double> heights, const Vec3f& light) const {
-  const NormalPicture n = normals_of(truth_->heights_in_pixels(heights), truth_->width());
-  return to_grey(lambert(n, light.normalized()), truth_->width());
+Image8 ReliefMetrics::shade(std::span<const double> heights, const Vec3f& light) const {
+  const NormalPicture n = normals_of(reference_->heights_in_pixels(heights), reference_->width());
+  return to_grey(lambert(n, light.normalized()), reference_->width());
 }
 
-Image8 Judge::shade_model(const Vec3f& light) const {
-  return to_grey(lambert(truth_->normals, light.normalized()), truth_->width());
+Image8 ReliefMetrics::shade_model(const Vec3f& light) const {
+  return to_grey(lambert(reference_->normals, light.normalized()), reference_->width());
 }
 
 }  // namespace relievo

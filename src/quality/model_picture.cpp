@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "jumps.h"
 #include "relievo/core/parallel.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 

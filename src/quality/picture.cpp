@@ -10,10 +10,9 @@ namespace relievo {
 
 PictureGrid::PictureGrid(std::span<const Vec3> points, const Triangulation& triangulation, int longer_side_px,
                          int margin_px) {
-  Box box;
-  for (const Vec3& p : points) box.extend(p);
+  const Box box = Box::of(points);
   const Vec3 size = box.size();
-  units_per_pixel_ = std::max(size.x(), size.y()) / longer_side_px;
+  units_per_pixel_ = box.longer_side() / longer_side_px;
   if (!(units_per_pixel_ > 0)) return;
   const auto pixels = [&](double length) {
     return std::max(1, static_cast<int>(std::ceil(length / units_per_pixel_ - 1e-9))) + 2 * margin_px;
@@ -22,19 +21,19 @@ PictureGrid::PictureGrid(std::span<const Vec3> points, const Triangulation& tria
   height_ = pixels(size.y());
   places_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
 
-  Drawing scene{std::vector<Vec3>(points.size()), triangulation.triangles, width_, height_};
+  RasterInput scene{std::vector<Vec3>(points.size()), triangulation.triangles, width_, height_};
   centre_ = box.centre();
   parallel_for(points.size(), [&](std::size_t i) {
     const Vec2 place = to_pixels(points[i]);
     scene.points[i] = {place.x(), place.y(), 0};
   });
-  const Raster raster(scene, 16);
+  const Rasterizer raster(scene, 16);
   parallel_for(
       raster.bands(),
       [&](std::size_t b) {
-        const Band band = raster.draw(b);
-        for (std::size_t s = 0; s < band.samples.size(); ++s) {
-          const Index t = band.samples[s].triangle;
+        const RowBand band = raster.draw(b);
+        for (std::size_t s = 0; s < band.fragments.size(); ++s) {
+          const Index t = band.fragments[s].triangle;
           const int column = static_cast<int>(s) % width_,
                     row = band.first_row + static_cast<int>(s) / width_;
           if (t != no_index)

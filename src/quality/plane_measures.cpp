@@ -3,21 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/random.h"
+
 namespace relievo {
-namespace {
-
-// SplitMix64, for pairs of pixels that are the same everywhere.
-struct Random {
-  std::uint64_t state = 1;
-  std::size_t below(std::size_t n) {
-    std::uint64_t z = state += 0x9E3779B97F4A7C15U;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBU;
-    return static_cast<std::size_t>((z ^ z >> 31) % n);
-  }
-};
-
-}  // namespace
+namespace {}  // namespace
 
 Measured::Measured(int w, std::vector<std::uint8_t> measured) : width(w), is_measured(std::move(measured)) {
   for (Index i = 0; i < is_measured.size(); ++i)
@@ -31,8 +20,8 @@ Plane divergence(const Plane& x, const Plane& y, const Measured& where) {
   return sum;
 }
 
-MeasuredGaussian::MeasuredGaussian(double sigma, int reach, const Measured& where)
-    : filter_(sigma, reach), weight_(where.is_measured.begin(), where.is_measured.end()) {
+MeasuredGaussian::MeasuredGaussian(double sigma, int radius, const Measured& where)
+    : filter_(sigma, radius), weight_(where.is_measured.begin(), where.is_measured.end()) {
   if (!weight_.empty()) filter_.apply(weight_, where.width);
 }
 
@@ -58,10 +47,10 @@ double order_kept(const Plane& z, const Plane& depth, const Measured& where, std
   if (at.empty()) return 0;
   const auto [low, high] = std::ranges::minmax_element(at, {}, [&](Index i) { return depth[i]; });
   const float least = .01F * (depth[*high] - depth[*low]);
-  Random random;
+  SplitMix64 random(1);  // the same pairs of pixels everywhere
   std::size_t counted = 0, kept = 0;
   for (std::size_t pair = 0; pair < pairs; ++pair) {
-    const Index a = at[random.below(at.size())], b = at[random.below(at.size())];
+    const Index a = at[random.bits() % at.size()], b = at[random.bits() % at.size()];
     if (!(std::abs(depth[a] - depth[b]) > least)) continue;
     ++counted;
     kept += (depth[a] > depth[b]) == (z[a] > z[b]) && z[a] != z[b];

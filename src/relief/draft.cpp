@@ -3,30 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 
+#include "core/angle.h"
+#include "geometry/slope_limit.h"
+#include "relief/height_search.h"
+#include "relief/height_span.h"
 #include "relief/nearest_draft.h"
 #include "relievo/core/text.h"
-#include "relievo/detail.h"
-#include "steep_triangles.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
 
-// Shares of the limit: what is kept, which leaves a thousandth for all else that a front goes through; and
-// what the least squares are held to, which end with few triangles more than 0.4 % above that.
+// Shares of the limit. The relief keeps the first, which leaves a thousandth for the rounding of all later
+// steps; the least squares aim at the second, because they end with a few triangles up to 0.4 % above it.
 constexpr double kept_share = .999, solved_share = .9945;
 
 std::unexpected<Error> fail(std::string expected) {
-  return std::unexpected(Error{ErrorKind::geometry, "--draft", {}, std::move(expected)});
+  return std::unexpected(Error{ErrorKind::geometry, "draft", {}, std::move(expected)});
 }
 
 double draft_deg_of(double slope) {
-  return 90 - std::atan(slope) * 180 / std::numbers::pi;
+  return 90 - to_degrees(std::atan(slope));
 }
 
-// Keeps reliefs of one model under one limit.
+// Limits the slopes of reliefs of one model.
 class Limiter {
  public:
   Limiter(const ReliefModel& model, const DraftOptions& options)
@@ -36,13 +39,13 @@ class Limiter {
       if (surface.boundary.is_inside[t]) triangles_.push_back(surface.triangulation.triangles[t]);
   }
 
-  // Whether the limit is kept, with the thousandth to spare.
-  bool holds(std::span<const double> heights) const {
+  // Returns whether the heights keep the limit, with the thousandth to spare.
+  bool keeps(std::span<const double> heights) const {
     return steepest_of(field(), with_base(heights)) <= kept_share * options_.max_slope;
   }
 
   Result<void> limit(Relief& relief, Progress* progress) {
-    if (!holds(std::vector<double>(plane_.size(), 0.0)))
+    if (!keeps(std::vector<double>(plane_.size(), 0.0)))
       return fail(cat("expected a base that leans by at least ", draft_deg_of(options_.max_slope),
                       " degrees off the vertical everywhere, found a steeper one"));
     const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
@@ -51,7 +54,7 @@ class Limiter {
     if (is_cancelled()) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
     for (int tries = 0; tries < most_tries; ++tries) {
       std::vector<double> whole = with_base(relief.heights);
-      const bool is_flat = flatten(field(), kept_share * options_.max_slope, Rounding::none, whole);
+      const bool is_flat = limit_slopes(field(), kept_share * options_.max_slope, Rounding::none, whole);
       for (std::size_t i = 0; i < whole.size(); ++i)
         relief.heights[i] = is_flat ? whole[i] - base(i) : .95 * relief.heights[i];
       relief.height = height_span(relief.heights);
@@ -61,7 +64,7 @@ class Limiter {
   }
 
  private:
-  SteepField field() const { return {plane_, triangles_, model_->surface().boundary.is_boundary}; }
+  PlaneMesh field() const { return {plane_, triangles_, model_->surface().boundary.is_boundary}; }
 
   double base(std::size_t i) const { return options_.base.empty() ? 0 : options_.base[i]; }
 
@@ -71,7 +74,8 @@ class Limiter {
     return whole;
   }
 
-  // Once. Not by the model's system: splitting needs the one in which all slopes count alike.
+  // Builds the splitting at its first call. It cannot use the model's system, because it needs one in which all
+  // slopes count alike.
   Result<void> build_nearest() {
     if (nearest_) return {};
     const Surface& surface = model_->surface();
@@ -82,8 +86,8 @@ class Limiter {
     return {};
   }
 
-  // Where the least squares end far from the limit, as with walls a hundred times too steep, less height is
-  // left for flatten().
+  // Where the least squares end far from the limit, as with walls a hundred times too steep, heights are lowered
+  // before limit_slopes() tries again.
   static constexpr int most_tries = 40;
 
   const ReliefModel* model_;
@@ -94,8 +98,8 @@ class Limiter {
   std::optional<NearestDraft> nearest_;
 };
 
-// Searches the relief of a height among those that grow with x: for methods with a shape x is ln u, for the
-// rivals the logarithm of a scale.
+// Searches the relief of a height among those that grow with x: ln u for methods with a shape, for baselines the
+// logarithm of a scale.
 class DraftSearch {
  public:
   DraftSearch(const ReliefModel& model, const DraftOrder& order, Limiter& limiter, Progress* progress)
@@ -112,14 +116,11 @@ class DraftSearch {
   }
 
  private:
-  // Beyond e^4.5 the weights of (6) are nearly 1, of all layers unless detail is large; beyond 64 times the
-  // scale the rivals' reliefs are walls only.
+  // Beyond u = e^4.5 the weights of (6) are nearly 1, in all layers unless detail is large; beyond 64 times the
+  // scale the reliefs of baselines consist of walls.
   static constexpr double largest_log_u = 4.5, largest_log_scale = 4.2;
-  // A relief that much too high is scaled down, which keeps the limit.
-  static constexpr double window = .003;
-  static constexpr int most_reliefs = 24;
-
-  double excess() const { return std::log(std::max(relief_.height, 1e-300) / order_.height) - window; }
+  // A relief up to twice this much too high is scaled down, which keeps the limit.
+  static constexpr double tolerance = .003;
 
   Result<void> make(double x) {
     if (has_shape(order_.method)) {
@@ -133,32 +134,21 @@ class DraftSearch {
     return limiter_.limit(relief_, progress_);
   }
 
-  // From below by secants, then within the bracket by false position and, every third time, halves.
   Result<Relief> search(double low, double last) {
-    if (auto made = make(low); !made) return std::unexpected(made.error());
-    double low_excess = excess(), high = last, high_excess = 0, slope = 1;
-    bool has_high = false;
-    for (int tries = 0; std::abs(excess()) > window && tries < most_reliefs; ++tries) {
-      double x = low + std::clamp(-1.1 * low_excess / slope, .01, 1.5);
-      if (has_high) x = low + (high - low) * (tries % 3 == 2 ? .5 : low_excess / (low_excess - high_excess));
-      if (!has_high && x > last - .3) x = last;  // there is little to be had beyond: is it enough?
-      if (auto made = make(x); !made) return std::unexpected(made.error());
-      if (excess() < -window && x == last) return at_most();
-      if (excess() > 0) {
-        high = x, high_excess = excess(), has_high = true;
-      } else {
-        slope = std::clamp((excess() - low_excess) / (x - low), .05, 2.0);
-        low = x, low_excess = excess();
-      }
-    }
-    return scaled();
+    Result<void> made;
+    const bool is_found = HeightSearch(order_.height, tolerance).climb(low, last, [&](double x) {
+      made = make(x);
+      return made ? relief_.height : order_.height;
+    });
+    if (!made) return std::unexpected(made.error());
+    return is_found ? scaled() : at_most();
   }
 
-  // The highest relief that there is, if it is high enough.
+  // Returns the highest relief that there is, if it is high enough.
   Result<Relief> at_most() {
     if (auto made = make(std::numeric_limits<double>::infinity()); !made)
       return std::unexpected(made.error());
-    return excess() < -window ? too_high() : scaled();
+    return scaled();
   }
 
   Result<Relief> scaled() {
@@ -186,13 +176,13 @@ class DraftSearch {
 }  // namespace
 
 double slope_at_draft(double draft_deg) {
-  return std::tan((90 - draft_deg) * std::numbers::pi / 180);
+  return std::tan(to_radians(90 - draft_deg));
 }
 
 Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftOptions& options,
                            Progress* progress) {
   Limiter limiter(model, options);
-  if (limiter.holds(relief.heights)) return relief;
+  if (limiter.keeps(relief.heights)) return relief;
   if (auto done = limiter.limit(relief, progress); !done) return std::unexpected(done.error());
   return relief;
 }
@@ -203,7 +193,7 @@ Result<Relief> make_with_draft(const ReliefModel& model, const DraftOrder& order
   Result<Relief> free =
       make_by_method(order.method, model, order.height, order.shape, order.unit_mm, progress);
   if (!free && (free.error().kind != ErrorKind::geometry || !has_shape(order.method))) return free;
-  if (free && limiter.holds(free->heights)) return free;
+  if (free && limiter.keeps(free->heights)) return free;
   return DraftSearch(model, order, limiter, progress).run(free ? &*free : nullptr);
 }
 

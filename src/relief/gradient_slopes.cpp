@@ -5,12 +5,13 @@
 
 #include "geometry/extent.h"
 #include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
 #include "scan/surface_blur.h"
 
 namespace relievo {
 namespace {
 
-// The field's bands, weighted and added up again.
+// Splits the field into its bands, weights them and adds them up again.
 void weigh_bands(std::vector<Vec2f>& field, const Surface& surface, const GradientOptions& options) {
   std::vector<Vec2f> sum(field.size(), Vec2f::Zero());
   double sigma = options.finest_band * longer_side_of(surface.points);

@@ -1,29 +1,19 @@
 #include "relief/height_equations.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "core/groups.h"
+#include "relief/edge_weight.h"
 
 namespace relievo {
 namespace {
 
-// Cotangents of nearly flat angles are cut here: beyond it an edge is as stiff as single precision can use.
-constexpr float largest_weight = 1e3F;
-// Cocircular points give weights of 0; a trace of stiffness keeps the matrix positive definite whatever the
-// points.
-constexpr float least_weight = 1e-4F;
-
 struct HalfEdge {
   Index from, to;
-  float weight;  // half the cotangent, times what it counts for
+  float weight;
 };
 
-double cotangent(const Vec2& apex, const Vec2& a, const Vec2& b) {
-  const Vec2 u = a - apex, v = b - apex;
-  return u.dot(v) / std::max(u.x() * v.y() - u.y() * v.x(), 1e-300);
-}
-
-// Both directions of each triangle's edges, ordered by end points; an edge of two triangles stands twice in a
-// row.
+// Equation (9): the terms, one per triangle and edge, in both directions. An edge of two triangles has two.
 std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulation& mesh,
                                  const Boundary& boundary) {
   std::vector<HalfEdge> edges;
@@ -33,8 +23,7 @@ std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulati
     for (int corner = 0; corner < 3; ++corner) {
       const Index apex = mesh.triangles[t][corner];
       const Index a = mesh.triangles[t][(corner + 1) % 3], b = mesh.triangles[t][(corner + 2) % 3];
-      const auto half =
-          static_cast<float>(.5 * std::clamp(cotangent(points[apex], points[a], points[b]), -1e6, 1e6));
+      const auto half = static_cast<float>(half_edge_weight(points[apex], points[a], points[b]));
       edges.push_back({a, b, half});
       edges.push_back({b, a, half});
     }
@@ -42,19 +31,18 @@ std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulati
   return edges;
 }
 
-// The edges leaving each point in ascending order, the two halves of an edge added up.
+// The edges of point i are edges[begin[i]] up to edges[begin[i + 1]], in ascending order of the other points.
 struct Adjacency {
   std::vector<Index> begin;
   std::vector<HalfEdge> edges;
 };
 
+// Equation (9): adds up the two terms of each edge and bounds its weight. Edges at depth jumps then count for
+// the mean of `weights`, one per point, of their ends: see jump_weights().
 Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points, std::span<const float> weights) {
-  std::vector<std::size_t> begin(points + 1, 0);
-  for (const HalfEdge& e : all) ++begin[e.from + 1];
-  for (std::size_t i = 0; i < points; ++i) begin[i + 1] += begin[i];
-  std::vector<HalfEdge> sorted(begin.back());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (const HalfEdge& e : all) sorted[next[e.from]++] = e;
+  auto [begin, sorted] = grouped<HalfEdge, std::size_t>(points, [&](auto&& add) {
+    for (const HalfEdge& e : all) add(e.from, e);
+  });
 
   Adjacency result;
   result.begin.reserve(points + 1);
@@ -73,12 +61,13 @@ Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points, std::span
   }
   result.begin.push_back(static_cast<Index>(result.edges.size()));
   for (HalfEdge& e : result.edges) {
-    e.weight = std::clamp(e.weight, least_weight, largest_weight);
+    e.weight = edge_weight(e.weight);
     if (!weights.empty()) e.weight *= (weights[e.from] + weights[e.to]) / 2;
   }
   return result;
 }
 
+// Equation (9): the matrix of its normal equations, a weighted Laplacian; boundary points, at 0, drop out.
 Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
                                       std::span<const Index> free_points) {
   const std::size_t n = free_points.size();
@@ -102,8 +91,9 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
   return A;
 }
 
-void add_pulls(std::span<const Vec2> points, const Adjacency& adjacency, std::span<const Index> unknown,
-               HeightEquations& equations) {
+// Equation (9): the right-hand side of a point is the sum over its edges of weight / 2 (s_p + s_q) . (p - q).
+void add_coefficients(std::span<const Vec2> points, const Adjacency& adjacency,
+                      std::span<const Index> unknown, HeightEquations& equations) {
   equations.begin.reserve(points.size() + 1);
   equations.edges.reserve(adjacency.edges.size());
   for (Index i = 0; i < points.size(); ++i) {
@@ -113,8 +103,8 @@ void add_pulls(std::span<const Vec2> points, const Adjacency& adjacency, std::sp
       const Index other = adjacency.edges[e].to;
       if (!has_itself && other > i) equations.edges.push_back({i}), has_itself = true;
       const double half = is_free ? .5 * static_cast<double>(adjacency.edges[e].weight) : 0;
-      const Vec2 pull = half * (points[i] - points[other]);
-      equations.edges.push_back({other, pull.cast<float>()});
+      const Vec2 coefficient = half * (points[i] - points[other]);
+      equations.edges.push_back({other, coefficient.cast<float>()});
     }
     if (!has_itself) equations.edges.push_back({i});
     equations.begin.push_back(static_cast<Index>(equations.edges.size()));
@@ -134,7 +124,7 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
   }
   const Adjacency adjacency = gather(half_edges(points, triangulation, boundary), points.size(), weights);
   equations.A = laplacian(adjacency, unknown, equations.free_points);
-  add_pulls(points, adjacency, unknown, equations);
+  add_coefficients(points, adjacency, unknown, equations);
   return equations;
 }
 

@@ -1,4 +1,4 @@
-// Lowest and highest of many heights.
+// The lowest and the highest of many heights.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ struct HeightSpan {
   Real size() const { return highest - lowest; }
 };
 
-// In the calling thread: eight spans side by side, which the compiler turns into vectors.
+// Returns the span of a run, in the calling thread. Eight spans side by side let the compiler use vectors.
 template <typename Real>
 HeightSpan<Real> span_of_run(std::span<const Real> heights) {
   constexpr std::size_t lanes = 8;
@@ -50,6 +50,11 @@ HeightSpan<Real> span_of(std::span<const Real> heights) {
         all.extend(part);
         return all;
       });
+}
+
+// Returns the highest minus the lowest of the heights and 0, the base.
+inline double height_span(std::span<const double> heights) {
+  return span_of(heights).size();
 }
 
 }  // namespace relievo

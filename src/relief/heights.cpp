@@ -10,14 +10,14 @@ Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Tri
   std::vector<Vec2> positions;
   positions.reserve(equations.free_points.size());
   for (const Index i : equations.free_points) positions.push_back(points[i]);
-  Result<Cholesky> factor = Cholesky::factor(equations.A, positions);
+  Result<solver::Cholesky> factor = solver::Cholesky::factor(equations.A, positions);
   if (!factor) return std::unexpected(factor.error());
   factor->renumber(equations.free_points);
-  return HeightSystem(std::move(*factor), PointLinks(equations.begin, equations.edges));
+  return HeightSystem(std::move(*factor), SlicedEllMatrix(equations.begin, equations.edges));
 }
 
-HeightSystem::HeightSystem(Cholesky factor, PointLinks edges)
-    : factor_(std::move(factor)), edges_(std::make_unique<PointLinks>(std::move(edges))) {}
+HeightSystem::HeightSystem(solver::Cholesky factor, SlicedEllMatrix edges)
+    : factor_(std::move(factor)), edges_(std::make_unique<SlicedEllMatrix>(std::move(edges))) {}
 HeightSystem::HeightSystem(HeightSystem&&) noexcept = default;
 HeightSystem& HeightSystem::operator=(HeightSystem&&) noexcept = default;
 HeightSystem::~HeightSystem() = default;
@@ -30,7 +30,7 @@ std::size_t HeightSystem::memory() const {
   return factor_.memory() + edges_->memory();
 }
 
-// The right-hand side of boundary points, which have no links, is 0 and stays: their heights.
+// The right-hand side of boundary points is 0, because their coefficients are 0, and stays: it is their height.
 void HeightSystem::solve(std::span<const Vec2> slopes, std::span<double> heights) const {
   edges_->divergence(slopes, heights);
   factor_.solve(heights, heights);

@@ -10,20 +10,22 @@
 namespace relievo {
 namespace {
 
-// Of the longer side: the Gaussians between the layers.
-constexpr double finest = .0045, middling = .058, coarsest = .12;
+// Standard deviations of the Gaussians between the layers, as shares of the longer side. docs/method.md
+// has the formula, docs/decisions/layers.md the reason.
+constexpr double fine_sigma = .0045, middle_sigma = .058, coarse_sigma = .12;
 // The slope, 85 degrees, at which half of a normal's x and y is left.
-constexpr double steepest_kept = 12;
+constexpr double half_kept_slope = 12;
 
-// How far layers are held back, of the exponent 25 detail.
-constexpr double middle_share = .4, coarse_share = .82, broad_share = 2.2;
+// The attenuation of a layer is exp(-25 detail share): at the default detail of 0.04 the exponent is the share
+// itself. docs/method.md, "Slopes".
+constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_share = 2.2;
 
-// -(n_x, n_y), which fades out where the surface turns away from the viewer: such slopes spend height and
-// show little.
-Vec2f falling_off(const Vec3f& normal) {
+// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because such slopes use up
+// height and add little shading.
+Vec2f faded(const Vec3f& normal) {
   const double slope =
       static_cast<double>(normal.head<2>().norm()) / std::max(static_cast<double>(normal.z()), 1e-3);
-  return static_cast<float>(-1 / (1 + std::pow(slope / steepest_kept, 8))) * normal.head<2>();
+  return static_cast<float>(-1 / (1 + std::pow(slope / half_kept_slope, 8))) * normal.head<2>();
 }
 
 }  // namespace
@@ -33,13 +35,13 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   const double longer_side = longer_side_of(points);
   if (!(longer_side > 0)) return layers;
   std::vector<Vec2f> kept(points.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = falling_off(normals[i]);
-  const auto smoothed = [&](std::vector<Vec2f> values, double width) {
-    SurfaceBlur(points, width * longer_side).apply(values);
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = faded(normals[i]);
+  const auto blurred = [&](std::vector<Vec2f> values, double sigma) {
+    SurfaceBlur(points, sigma * longer_side).apply(values);
     return values;
   };
-  const std::vector<Vec2f> smooth = smoothed(kept, finest), smoother = smoothed(smooth, middling),
-                           smoothest = smoothed(smoother, coarsest);
+  const std::vector<Vec2f> smooth = blurred(kept, fine_sigma), smoother = blurred(smooth, middle_sigma),
+                           smoothest = blurred(smoother, coarse_sigma);
   parallel_for(layers.size(), [&](std::size_t i) {
     layers[i] = {Vec2f(kept[i] - smooth[i]), Vec2f(smooth[i] - smoother[i]),
                  Vec2f(smoother[i] - smoothest[i]), smoothest[i]};
@@ -47,11 +49,14 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   return layers;
 }
 
-LayerWeights LayerWeights::of(double u, double detail, double held) {
+// Equation (6), layer by layer.
+LayerWeights LayerWeights::of(double u, double detail, double height_share) {
   const auto kept = [&](double share) {
-    return static_cast<float>(u > 0 ? (held - 2) * std::expm1(-u * std::exp(-25 * detail * share)) : 0);
+    return static_cast<float>(
+        u > 0 ? (height_share - 2) * std::expm1(-u * std::exp(-attenuation * detail * share)) : 0);
   };
-  return {kept(0), kept(middle_share), kept(coarse_share), kept(broad_share), static_cast<float>(held)};
+  return {kept(0), kept(middle_share), kept(coarse_share), kept(broad_share),
+          static_cast<float>(height_share)};
 }
 
 }  // namespace relievo

@@ -1,16 +1,26 @@
-#include "relievo/method.h"
-
-#include "relievo/core/text.h"
+#include "relievo/relief/method.h"
 
 #include <algorithm>
 
-#include "relievo/relief/baselines.h"
-
+#include "relievo/core/choice.h"
+#include "relievo/core/text.h"
+#include "relievo/relief/relief.h"
 namespace relievo {
+namespace {
 
-std::optional<Method> parse_method(std::string_view name) {
+const MethodInfo& info_of(Method method) {
+  return *std::ranges::find(methods, method, &MethodInfo::method);
+}
+
+}  // namespace
+
+Result<Method> parse_method(std::string_view name, std::string_view option) {
+  if (name == "ours") name = name_of(Method::layered);
   const auto found = std::ranges::find(methods, name, &MethodInfo::name);
-  return found == methods.end() ? std::nullopt : std::optional(found->method);
+  if (found != methods.end()) return found->method;
+  std::vector<std::string_view> names;
+  for (const MethodInfo& info : methods) names.push_back(info.name);
+  return not_one_of(option, names, name);
 }
 
 std::string method_names() {
@@ -20,33 +30,24 @@ std::string method_names() {
 }
 
 std::string_view name_of(Method method) {
-  return std::ranges::find(methods, method, &MethodInfo::method)->name;
+  return info_of(method).name;
+}
+
+bool has_shape(Method method) {
+  return !info_of(method).make;
 }
 
 Shape default_shape(Method method) {
-  return method == Method::ours ? layered_shape() : Shape{{1, .01}, .02};
+  return method == Method::layered ? layered_shape() : Shape{{1, .01}, .02};
 }
 
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress) {
-  const bool needs_all_points = method == Method::gradient || method == Method::detail;
-  if (needs_all_points && !model.system())
+  const MethodInfo& info = info_of(method);
+  if (info.needs_all_points && !model.system())
     return std::unexpected(
-        Error{ErrorKind::option, "--mode", {}, cat("expected exact for the method ", name_of(method))});
-  switch (method) {
-    case Method::linear:
-      return linear_relief(model.surface(), height);
-    case Method::equalise:
-      return equalised_relief(model.surface(), height);
-    case Method::gradient:
-      return gradient_relief(model, height);
-    case Method::detail:
-      return base_and_detail_relief(model, height);
-    case Method::ours:
-    case Method::paper:
-      break;
-  }
-  return model.make_at_height(height, shape, unit_mm, progress);
+        Error{ErrorKind::option, "mode", {}, cat("expected exact for the method ", name_of(method))});
+  return info.make ? info.make(model, height) : model.make_at_height(height, shape, unit_mm, progress);
 }
 
 }  // namespace relievo

@@ -1,18 +1,20 @@
 #include "relief/nearest_draft.h"
 
 #include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
 
-// How much the cut slopes count against the given ones, and how far each round goes beyond its mean: where
-// scans took the fewest rounds, 30 to 60.
+// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds, 30 to
+// 60.
 constexpr float penalty = 10, relaxation = 1.7F;
-// Given slopes count as so many limits at most: walls at depth jumps, which may be any steepness, would pull
-// all else along with them.
+// Given slopes are shortened to so many limits, because walls at depth jumps, which may be arbitrarily steep,
+// would pull everything else along with them.
 constexpr float steepest_given = 2;
 
-// Good enough for flatten() to do the rest unseen: so much over the limit, for one triangle of so many.
+// The splitting stops when at most 1 in 5,000 triangles exceeds the limit by more than 0.4 %; limit_slopes() fixes
+// these locally.
 constexpr float good_excess = 1.004F;
 constexpr std::size_t good_share = 5000;
 
@@ -26,8 +28,8 @@ NearestDraft::NearestDraft(const Surface& surface, const HeightSystem& system, s
       workspace_(system.make_workspace()),
       given_(triangles_.size()),
       counted_(triangles_.size()),
-      cut_(triangles_.size()),
-      debt_(triangles_.size(), Vec2f::Zero()),
+      projected_(triangles_.size()),
+      dual_(triangles_.size(), Vec2f::Zero()),
       field_(triangles_.size()),
       first_(surface.points.size()),
       heights_(surface.points.size()),
@@ -41,13 +43,13 @@ void NearestDraft::begin(std::span<const double> heights) {
   for (std::size_t i = 0; i < heights.size(); ++i) first_[i] = heights_[i] = static_cast<float>(heights[i]);
   parallel_for(given_.size(), [&](std::size_t t) {
     given_[t] = triangles_.slope(t, std::span<const float>(first_));
-    counted_[t] = cut(given_[t], t, steepest_given * max_slope_);
-    if (!is_started_) cut_[t] = given_[t];
+    counted_[t] = projected(given_[t], t, steepest_given * max_slope_);
+    if (!is_started_) projected_[t] = given_[t];
   });
   is_started_ = true;
 }
 
-Vec2f NearestDraft::cut(const Vec2f& slope, std::size_t triangle, float steepest) const {
+Vec2f NearestDraft::projected(const Vec2f& slope, std::size_t triangle, float steepest) const {
   const Vec2f base = base_.empty() ? Vec2f(Vec2f::Zero()) : base_[triangle];
   const Vec2f whole = slope + base;
   const float length = whole.norm();
@@ -55,12 +57,12 @@ Vec2f NearestDraft::cut(const Vec2f& slope, std::size_t triangle, float steepest
 }
 
 void NearestDraft::step() {
-  parallel_for(cut_.size(), [&](std::size_t t) {
+  parallel_for(projected_.size(), [&](std::size_t t) {
     const Vec2f now = triangles_.slope(t, std::span<const float>(heights_));
-    const Vec2f wish = relaxation * now + (1 - relaxation) * cut_[t] + debt_[t];
-    cut_[t] = cut(wish, t, max_slope_);
-    debt_[t] = wish - cut_[t];
-    field_[t] = (counted_[t] + penalty * (cut_[t] - debt_[t])) / (1 + penalty) - given_[t];
+    const Vec2f wish = relaxation * now + (1 - relaxation) * projected_[t] + dual_[t];
+    projected_[t] = projected(wish, t, max_slope_);
+    dual_[t] = wish - projected_[t];
+    field_[t] = (counted_[t] + penalty * (projected_[t] - dual_[t])) / (1 + penalty) - given_[t];
   });
   triangles_.divergence(field_, change_);
   system_.solve_in_place(change_, workspace_);

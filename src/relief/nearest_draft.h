@@ -12,18 +12,18 @@ namespace relievo {
 
 // Solves, over triangles, the least squares of (slope - slope given) under |slope + slope of the base| <=
 // limit by splitting (alternating direction method of multipliers; Boyd, Parikh, Chu, Peleato and Eckstein,
-// 2011): slopes are cut triangle by triangle, heights fit them by a system that is factored once, and
-// what a cut took is carried over until both agree. Starts from where the last call ended. Not for concurrent
-// use.
+// 2011): slopes are projected onto the limit triangle by triangle, heights are fitted to them by a system that
+// is factored once, and a dual variable carries over what each projection took until both agree. A call starts
+// from where the last one ended. Not for concurrent use.
 class NearestDraft {
  public:
-  // The system is that of the surface, without weights; both must outlive this. `base`: heights per point, or
-  // empty.
+  // `system` is that of the surface, without jump weights; both must outlive this. `base` has a height per
+  // point, or is empty.
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);
 
-  // Makes the heights those of the nearest relief. A few triangles stay steeper, by a per cent at most as a
-  // rule. `is_cancelled()` is asked now and then; then the heights are of no use.
+  // Changes the heights to those of the nearest relief. A few triangles stay steeper, as a rule by a per cent at
+  // most. Ends early when is_cancelled() returns true; the heights are then meaningless.
   template <typename F>
   void apply(std::span<double> heights, F&& is_cancelled) {
     begin(heights);
@@ -42,16 +42,16 @@ class NearestDraft {
   bool is_good() const;
   void end(std::span<double> heights) const;
 
-  Vec2f cut(const Vec2f& slope, std::size_t triangle, float steepest) const;
+  Vec2f projected(const Vec2f& slope, std::size_t triangle, float steepest) const;
 
   const HeightSystem& system_;
   TriangleSlopes triangles_;
   float max_slope_;
   HeightSystem::Workspace workspace_;
-  // Per triangle. Slopes: of the base, or empty; given; given, but no steeper than counts; cut; and what was
-  // cut off so far.
-  std::vector<Vec2f> base_, given_, counted_, cut_, debt_, field_;
-  std::vector<float> first_, heights_, change_;  // per point: given, now, and what lies between the two
+  // Slopes per triangle: of the base, or empty; given; given and shortened; projected; the dual variable; and
+  // the change that heights are fitted to.
+  std::vector<Vec2f> base_, given_, counted_, projected_, dual_, field_;
+  std::vector<float> first_, heights_, change_;  // per point: given, current, and their difference
   bool is_started_ = false;
 };
 

@@ -1,69 +1,101 @@
-#include "relievo/relief.h"
+#include "relievo/relief/relief.h"
 
 #include <cmath>
-#include <limits>
+#include <variant>
 
-#include "core/root_finding.h"
-#include "grip.h"
-#include "jumps.h"
-#include "membrane.h"
-#include "relievo/core/parallel.h"
+#include "relief/height_search.h"
+#include "relief/height_span.h"
+#include "relief/membrane/height_correction.h"
+#include "relief/membrane/membrane_tuning.h"
+#include "relief/style.h"
 #include "relievo/core/text.h"
-#include "relievo/detail.h"
-#include "slope_input.h"
+#include "relievo/relief/heights.h"
+#include "relievo/relief/subspace.h"
+#include "relievo/scan/surface.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 
-Result<Mode> parse_mode(std::string_view name) {
-  if (name == "exact") return Mode::exact;
-  if (name == "subspace") return Mode::subspace;
-  if (name == "auto") return Mode::automatic;
-  return std::unexpected(
-      Error{ErrorKind::option, "--mode", {}, cat("expected exact, subspace or auto, found \"", name, "\"")});
-}
-
-Mode settle(Mode mode, const Surface& surface) {
+Mode resolve_mode(Mode mode, const Surface& surface) {
   if (mode != Mode::automatic) return mode;
   return surface.points.size() > most_exact_points ? Mode::subspace : Mode::exact;
 }
 
-ReliefModel::ReliefModel(Surface surface, Solver solver, std::shared_ptr<const Membrane> membrane,
-                         const Grip& grip)
-    : surface_(std::move(surface)),
-      solver_(std::move(solver)),
-      membrane_(std::move(membrane)),
-      grip_(std::make_shared<const Grip>(grip)) {}
+struct ReliefModel::State {
+  Surface surface;
+  std::vector<PointLayers> layers;
+  HeightCorrection correction;
+  MembraneTuning tuning;
+  std::variant<HeightSystem, SubspaceModel> solver;
 
-Hold ReliefModel::hold_at(double u) const {
-  return grip_->at(u);
+  // Returns the heights that (9) finds for the slopes of that shape.
+  std::vector<double> solve(const Shape& shape, const SlopeInput& input) const;
+};
+
+ReliefModel::ReliefModel(std::unique_ptr<const State> state) : state_(std::move(state)) {}
+ReliefModel::ReliefModel(ReliefModel&&) noexcept = default;
+ReliefModel& ReliefModel::operator=(ReliefModel&&) noexcept = default;
+ReliefModel::~ReliefModel() = default;
+
+const Surface& ReliefModel::surface() const {
+  return state_->surface;
+}
+std::span<const PointLayers> ReliefModel::layers() const {
+  return state_->layers;
+}
+const HeightSystem* ReliefModel::system() const {
+  return std::get_if<HeightSystem>(&state_->solver);
+}
+const SubspaceModel* ReliefModel::subspace() const {
+  return std::get_if<SubspaceModel>(&state_->solver);
+}
+const HeightCorrection& ReliefModel::correction() const {
+  return state_->correction;
+}
+MembraneParams ReliefModel::membrane_at(double u) const {
+  return state_->tuning.at(u);
 }
 
+namespace {
+
+// Goes on from the system of all points, which it takes, to that of the control points.
+Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const PointLayers> layers,
+                                       HeightSystem system, Progress* progress) {
+  if (auto go = begin_stage(progress, "reference heights", .83); !go) return std::unexpected(go.error());
+  const SubspaceOptions options;
+  const auto reference = [&] {
+    const HeightSystem all = std::move(system);  // freed at once: it is most of the memory
+    return reference_heights(surface, all, options.max_slope);
+  }();
+  return SubspaceModel::prepare(surface, options, {reference, layers}, progress);
+}
+
+}  // namespace
+
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
+  if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
+  std::vector<PointLayers> layers = normal_layers(surface.points, surface.normals);
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
   const std::vector<float> weights = jump_weights(surface);
   Result<HeightSystem> system =
       HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights);
   if (!system) return std::unexpected(system.error());
-  if (auto go = begin_stage(progress, "hold", .8); !go) return std::unexpected(go.error());
-  auto membrane = std::make_shared<const Membrane>(surface, weights);
-  const Result<Grip> grip = Grip::find(surface, *membrane, *system, progress);
-  if (!grip) return std::unexpected(grip.error());
-  if (settle(mode, surface) == Mode::exact)
-    return ReliefModel(std::move(surface), std::move(*system), std::move(membrane), *grip);
-  if (auto go = begin_stage(progress, "reference heights", .83); !go) return std::unexpected(go.error());
-  const SubspaceOptions options;
-  const auto reference = [&] {
-    const HeightSystem all = std::move(*system);  // most of the memory, needed no more
-    return reference_heights(surface, all, options.max_slope);
-  }();
-  Result<SubspaceModel> subspace = SubspaceModel::prepare(surface, options, reference, progress);
+  if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
+  HeightCorrection correction(surface, weights);
+  const Result<MembraneTuning> tuning = tune_membrane({surface, layers, correction, *system}, progress);
+  if (!tuning) return std::unexpected(tuning.error());
+  if (resolve_mode(mode, surface) == Mode::exact)
+    return ReliefModel(std::unique_ptr<const State>(new State{
+        std::move(surface), std::move(layers), std::move(correction), *tuning, std::move(*system)}));
+  Result<SubspaceModel> subspace = prepare_subspace(surface, layers, std::move(*system), progress);
   if (!subspace) return std::unexpected(subspace.error());
-  return ReliefModel(std::move(surface), std::move(*subspace), std::move(membrane), *grip);
+  return ReliefModel(std::unique_ptr<const State>(
+      new State{std::move(surface), {}, std::move(correction), *tuning, std::move(*subspace)}));
 }
 
 std::size_t ReliefModel::memory() const {
-  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, solver_);
-  return solver + surface_.memory() + membrane_->memory();
+  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->solver);
+  return solver + surface().memory() + layers().size_bytes() + correction().memory();
 }
 
 namespace {
@@ -79,73 +111,87 @@ std::vector<double> subspace_heights(const SubspaceModel& model, const Shape& sh
 
 }  // namespace
 
-std::vector<double> ReliefModel::heights(const Shape& shape, std::span<const float> boundary_weight) const {
-  if (const SubspaceModel* model = subspace()) return subspace_heights(*model, shape, boundary_weight);
-  std::vector<Vec2> slopes(surface_.points.size());
-  const SlopeInput input = slope_input(surface_, boundary_weight);
-  if (shape.style == Style::layered)
-    layered_slopes(input, shape, slopes);
-  else
-    compressed_slopes(input, shape.compression, shape.max_slope, slopes);
+std::vector<double> ReliefModel::State::solve(const Shape& shape, const SlopeInput& input) const {
+  if (const auto* model = std::get_if<SubspaceModel>(&solver))
+    return subspace_heights(*model, shape, input.boundary_weight);
+  std::vector<Vec2> slopes(surface.points.size());
+  find_slopes(input, shape, slopes);
   std::vector<double> heights(slopes.size());
-  system()->solve(slopes, heights);
+  std::get<HeightSystem>(solver).solve(slopes, heights);
   return heights;
 }
 
-// Layered heights are yet to be held within relief.height.
-Relief ReliefModel::raise(Shape shape, std::span<const float> boundary_weight) const {
-  const bool is_layered = shape.style == Style::layered;
-  if (is_layered && !shape.hold) shape.hold = hold_at(shape.compression.u);
-  Relief relief{heights(shape, boundary_weight), 0, shape};
-  if (!is_layered) add_detail(relief.heights, {surface_.curvature.k, boundary_weight, shape.gamma});
-  relief.height = height_span(relief.heights);
-  if (is_layered) relief.height *= shape.hold->share;
-  return relief;
+Shape ReliefModel::with_membrane(Shape shape) const {
+  if (shape.style == Style::layered && !shape.membrane) shape.membrane = membrane_at(shape.compression.u);
+  return shape;
 }
 
-void ReliefModel::hold(Relief& relief, std::span<const float> boundary_weight) const {
-  if (relief.shape.style != Style::layered) return;
-  Membrane::Workspace workspace = membrane_->make_workspace();
-  const Membrane::Limits limits = Membrane::Limits::of(relief.height, *relief.shape.hold);
-  membrane_->hold<double>({relief.heights, boundary_weight, limits}, workspace);
-  relief.height = height_span(relief.heights);
-}
+// Makes reliefs of one boundary width in two steps, because a search for a height needs only the first.
+class ReliefModel::Maker {
+ public:
+  Maker(const ReliefModel& model, const Shape& shape)
+      : model_(model),
+        boundary_weight_(boundary_weights(model.surface().boundary.distance,
+                                          boundary_rho(model.surface(), shape.boundary_width))),
+        input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {}
 
-std::vector<float> ReliefModel::boundary_weight(const Shape& shape) const {
-  return boundary_weights(surface_.boundary.distance, boundary_rho(surface_, shape.boundary_width));
-}
+  // Returns the relief of that shape but for what its style does last; the height is already the final one.
+  Relief raise(const Shape& asked) {
+    Relief relief{{}, 0, model_.with_membrane(asked)};
+    relief.heights = model_.state_->solve(relief.shape, input_);
+    RaisedHeights<double> heights{relief.heights, input_, spans_};
+    with_style(relief.shape, [&](const auto& style) { style.raise(heights); });
+    relief.height = heights.height;
+    return relief;
+  }
+
+  void finish(Relief& relief) {
+    const RaisedHeights<double> heights{relief.heights, input_, spans_, relief.height};
+    HeightCorrection::Workspace workspace;
+    const auto make_workspace = [&]() -> HeightCorrection::Workspace& {
+      return workspace = model_.correction().make_workspace();
+    };
+    with_style(relief.shape,
+               [&](const auto& style) { style.finish(heights, model_.correction(), make_workspace); });
+    relief.height = height_span(relief.heights);
+  }
+
+ private:
+  const ReliefModel& model_;
+  std::vector<float> boundary_weight_;
+  SlopeInput input_;
+  std::vector<HeightSpan<double>> spans_;
+};
 
 Relief ReliefModel::make(const Shape& shape) const {
-  const std::vector<float> weight = boundary_weight(shape);
-  Relief relief = raise(shape, weight);
-  hold(relief, weight);
+  Maker maker(*this, shape);
+  Relief relief = maker.raise(shape);
+  maker.finish(relief);
   return relief;
 }
 
 Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double unit_mm,
                                            Progress* progress) const {
-  const std::vector<float> weight = boundary_weight(shape);
-  shape.compression.u = std::numeric_limits<double>::infinity();
-  Relief relief = raise(shape, weight);
-  const auto excess = [&] { return std::log(std::max(relief.height, 1e-300) / height); };
-  constexpr double tolerance = 1e-5;
+  Maker maker(*this, shape);
+  Relief relief;
   bool is_cancelled = false;
-  const auto excess_at = [&](double log_u) {
+  const auto height_at = [&](double log_u) {
     shape.compression.u = std::exp(log_u);
-    relief = raise(shape, weight);
+    relief = maker.raise(shape);
     is_cancelled = progress && progress->is_cancelled();
-    return is_cancelled ? 0 : excess();
+    return is_cancelled ? height : relief.height;
   };
-  if (excess() > tolerance) find_root(excess_at, tolerance);
+  constexpr double tolerance = 1e-5;
+  const bool is_met = HeightSearch(height, tolerance).bracket(height_at);
   if (is_cancelled) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
-  if (!(std::abs(excess()) <= tolerance))
+  if (!is_met)
     return std::unexpected(
         Error{ErrorKind::geometry,
               {},
               {},
               cat("expected a height that can be reached, at most ", relief.height * unit_mm,
                   " mm for this view and width, found ", height * unit_mm, " mm")});
-  hold(relief, weight);
+  maker.finish(relief);
   // What the search leaves, a part in 10^5 at most, is scaled away.
   for (double& z : relief.heights) z *= height / relief.height;
   relief.height = height;

@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-constexpr std::size_t lanes = PointLinks::lanes;
-constexpr std::size_t window = PointLinks::window;
+constexpr std::size_t lanes = SlicedEllMatrix::lanes;
+constexpr std::size_t window = SlicedEllMatrix::window;
 constexpr std::size_t grain = default_grain / lanes;
 
 // x and y of eight points, one after the other.
@@ -34,7 +34,7 @@ RELIEVO_INLINE Pairs eight_pairs(const Vec2f* from, const Index* at) {
   return {four_pairs(from, at), four_pairs(from, at + 4)};
 }
 
-RELIEVO_INLINE Pairs pairs(const PointLinks::Pulls& values) {
+RELIEVO_INLINE Pairs pairs(const SlicedEllMatrix::Coefficients& values) {
   const auto* const v = reinterpret_cast<const Float8*>(values.data());
   return {v[0], v[1]};
 }
@@ -47,48 +47,45 @@ RELIEVO_INLINE Float8 seconds(const Pairs& p) {
 }
 
 struct Slice {
-  PointLinks::Others points;
-  std::span<const PointLinks::Others> others;
-  const PointLinks::Pulls* pulls;
+  SlicedEllMatrix::Others points;
+  std::span<const SlicedEllMatrix::Others> others;
+  const SlicedEllMatrix::Coefficients* coefficients;
 };
 
 RELIEVO_INLINE void divergence_of(const Slice& slice, const Vec2f* slopes, float* sums) {
   const Pairs own = eight_pairs(slopes, slice.points.data());
   Pairs sum{};
   for (std::size_t l = 0; l < slice.others.size(); ++l) {
-    const Pairs other = eight_pairs(slopes, slice.others[l].data()), pull = pairs(slice.pulls[l]);
-    sum.low += (own.low + other.low) * pull.low;
-    sum.high += (own.high + other.high) * pull.high;
+    const Pairs other = eight_pairs(slopes, slice.others[l].data()),
+                coefficient = pairs(slice.coefficients[l]);
+    sum.low += (own.low + other.low) * coefficient.low;
+    sum.high += (own.high + other.high) * coefficient.high;
   }
   const Float8 result = firsts(sum) + seconds(sum);
   for (std::size_t lane = 0; lane < lanes; ++lane) sums[slice.points[lane]] = result[lane];
 }
 
-RELIEVO_INLINE void normals_of(const Slice& slice, const float* z, const Vec3f& light,
-                               const PointLinks::Shaded& out) {
+RELIEVO_INLINE void normals_of(const Slice& slice, const float* z, Vec3f* normals) {
   Pairs sum{};
   for (std::size_t l = 0; l < slice.others.size(); ++l) {
-    const PointLinks::Others& at = slice.others[l];
+    const SlicedEllMatrix::Others& at = slice.others[l];
     const Float8 h{z[at[0]], z[at[1]], z[at[2]], z[at[3]], z[at[4]], z[at[5]], z[at[6]], z[at[7]]};
-    const Pairs pull = pairs(slice.pulls[l]);
-    sum.low += __builtin_shufflevector(h, h, 0, 0, 1, 1, 2, 2, 3, 3) * pull.low;
-    sum.high += __builtin_shufflevector(h, h, 4, 4, 5, 5, 6, 6, 7, 7) * pull.high;
+    const Pairs coefficient = pairs(slice.coefficients[l]);
+    sum.low += __builtin_shufflevector(h, h, 0, 0, 1, 1, 2, 2, 3, 3) * coefficient.low;
+    sum.high += __builtin_shufflevector(h, h, 4, 4, 5, 5, 6, 6, 7, 7) * coefficient.high;
   }
   const Float8 x = firsts(sum), y = seconds(sum), length_sq = x * x + y * y + 1;
   Float8 length;
   for (std::size_t lane = 0; lane < lanes; ++lane) length[lane] = std::sqrt(length_sq[lane]);
   const Float8 nz = 1 / length, nx = x * nz, ny = y * nz;
-  const Float8 cosine = nx * light.x() + ny * light.y() + nz * light.z();
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    out.normals[slice.points[lane]] = {nx[lane], ny[lane], nz[lane]};
-    out.shading[slice.points[lane]] = std::max(0.F, cosine[lane]);
-  }
+  for (std::size_t lane = 0; lane < lanes; ++lane)
+    normals[slice.points[lane]] = {nx[lane], ny[lane], nz[lane]};
 }
 
 // A run of slices.
 struct Slices {
-  const PointLinks::Pattern& pattern;
-  const PointLinks::Pulls* pulls;
+  const SlicedEllMatrix::Pattern& pattern;
+  const SlicedEllMatrix::Coefficients* coefficients;
   std::size_t first, end;
 
   RELIEVO_INLINE Slice operator[](std::size_t s) const {
@@ -96,7 +93,7 @@ struct Slices {
     for (std::size_t lane = 0; lane < lanes; ++lane) slice.points[lane] = pattern.point(s * lanes + lane);
     const Index begin = pattern.begin[s];
     slice.others = {pattern.others.data() + begin, pattern.begin[s + 1] - begin};
-    slice.pulls = pulls + begin;
+    slice.coefficients = coefficients + begin;
     return slice;
   }
 };
@@ -108,34 +105,32 @@ RELIEVO_AVX2 void divergence_avx2(const Slices& slices, const Vec2f* slopes, flo
   divergence_inline(slices, slopes, sums);
 }
 
-RELIEVO_INLINE void normals_inline(const Slices& slices, const float* heights, const Vec3f& light,
-                                   const PointLinks::Shaded& out) {
-  for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, light, out);
+RELIEVO_INLINE void normals_inline(const Slices& slices, const float* heights, Vec3f* normals) {
+  for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, normals);
 }
-RELIEVO_AVX2 void normals_avx2(const Slices& slices, const float* heights, const Vec3f& light,
-                               const PointLinks::Shaded& out) {
-  normals_inline(slices, heights, light, out);
+RELIEVO_AVX2 void normals_avx2(const Slices& slices, const float* heights, Vec3f* normals) {
+  normals_inline(slices, heights, normals);
 }
 
-// Links of points by number, as they are given.
-struct LinkLists {
+// The entries of each row, as they are given.
+struct Rows {
   std::span<const Index> begin;
-  std::span<const PointLink> links;
+  std::span<const MatrixEntry> entries;
 
   std::size_t size() const { return begin.size() - 1; }
-  std::span<const PointLink> operator[](Index i) const {
-    return links.subspan(begin[i], begin[i + 1] - begin[i]);
+  std::span<const MatrixEntry> operator[](Index i) const {
+    return entries.subspan(begin[i], begin[i + 1] - begin[i]);
   }
 };
 
-PointLinks::Pattern pattern_of(const LinkLists& lists) {
-  PointLinks::Pattern pattern;
-  pattern.size = lists.size();
+SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
+  SlicedEllMatrix::Pattern pattern;
+  pattern.size = rows.size();
   pattern.points.resize((pattern.size + lanes - 1) / lanes * lanes);
   for (std::size_t first = 0; first < pattern.size; first += window) {
     std::vector<std::uint8_t> order(std::min(window, pattern.size - first));
     std::iota(order.begin(), order.end(), std::uint8_t{0});
-    const auto count = [&](std::uint8_t i) { return lists[static_cast<Index>(first + i)].size(); };
+    const auto count = [&](std::uint8_t i) { return rows[static_cast<Index>(first + i)].size(); };
     std::stable_sort(order.begin(), order.end(),
                      [&](std::uint8_t a, std::uint8_t b) { return count(a) > count(b); });
     std::copy(order.begin(), order.end(), pattern.points.begin() + static_cast<std::ptrdiff_t>(first));
@@ -145,12 +140,12 @@ PointLinks::Pattern pattern_of(const LinkLists& lists) {
               pattern.points[pattern.size - 1]);
   for (std::size_t first = 0; first < pattern.points.size(); first += lanes) {
     pattern.begin.push_back(static_cast<Index>(pattern.others.size()));
-    const std::size_t most = lists[pattern.point(first)].size();
+    const std::size_t most = rows[pattern.point(first)].size();
     for (std::size_t l = 0; l < most; ++l) {
-      PointLinks::Others& others = pattern.others.emplace_back();
+      SlicedEllMatrix::Others& others = pattern.others.emplace_back();
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         const Index i = pattern.point(first + lane);
-        others[lane] = l < lists[i].size() ? lists[i][l].other : i;
+        others[lane] = l < rows[i].size() ? rows[i][l].other : i;
       }
     }
   }
@@ -159,63 +154,67 @@ PointLinks::Pattern pattern_of(const LinkLists& lists) {
   return pattern;
 }
 
-// Enters the pulls of one lane's links. Returns whether there is a slot for each.
-bool enter(std::span<const PointLink> links, std::span<const PointLinks::Others> others, std::size_t lane,
-           PointLinks::Pulls* pulls) {
+// Writes the coefficients of the row in one lane. Returns whether there is a slot for each.
+bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix::Others> others,
+           std::size_t lane, SlicedEllMatrix::Coefficients* coefficients) {
   std::size_t l = 0;
-  for (const PointLink& link : links) {
-    while (l < others.size() && others[l][lane] != link.other) ++l;
+  for (const MatrixEntry& entry : entries) {
+    while (l < others.size() && others[l][lane] != entry.other) ++l;
     if (l == others.size()) return false;
-    pulls[l][2 * lane] = link.pull.x();
-    pulls[l][2 * lane + 1] = link.pull.y();
+    coefficients[l][2 * lane] = entry.coefficient.x();
+    coefficients[l][2 * lane + 1] = entry.coefficient.y();
     ++l;
   }
   return true;
 }
 
-// Pulls by slot of the pattern; none if it lacks a link.
-std::vector<PointLinks::Pulls> pulls_in(const PointLinks::Pattern& pattern, const LinkLists& lists) {
-  std::vector<PointLinks::Pulls> pulls(pattern.others.size());
+// Returns the coefficients by slot of the pattern; none if it lacks an entry.
+std::vector<SlicedEllMatrix::Coefficients> coefficients_in(const SlicedEllMatrix::Pattern& pattern,
+                                                           const Rows& rows) {
+  std::vector<SlicedEllMatrix::Coefficients> coefficients(pattern.others.size());
   for (std::size_t place = 0; place < pattern.points.size(); ++place) {
     const std::size_t slice = place / lanes;
     const Index begin = pattern.begin[slice];
     const auto others = std::span(pattern.others).subspan(begin, pattern.begin[slice + 1] - begin);
-    if (!enter(lists[pattern.point(place)], others, place % lanes, pulls.data() + begin)) return {};
+    if (!enter(rows[pattern.point(place)], others, place % lanes, coefficients.data() + begin)) return {};
   }
-  return pulls;
+  return coefficients;
 }
 
 }  // namespace
 
-PointLinks::PointLinks(std::span<const Index> begin, std::span<const PointLink> links)
-    : pattern_(std::make_shared<const Pattern>(pattern_of({begin, links}))),
-      pulls_(pulls_in(*pattern_, {begin, links})) {}
+SlicedEllMatrix::SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries)
+    : pattern_(std::make_shared<const Pattern>(pattern_of({begin, entries}))),
+      coefficients_(coefficients_in(*pattern_, {begin, entries})) {}
 
-PointLinks::PointLinks(std::span<const Index> begin, std::span<const PointLink> links, const PointLinks& like)
-    : pattern_(like.pattern_), pulls_(pulls_in(*pattern_, {begin, links})), owns_pattern_(false) {
-  if (pulls_.empty() && !links.empty()) *this = PointLinks(begin, links);
+SlicedEllMatrix::SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries,
+                                 const SlicedEllMatrix& like)
+    : pattern_(like.pattern_),
+      coefficients_(coefficients_in(*pattern_, {begin, entries})),
+      owns_pattern_(false) {
+  if (coefficients_.empty() && !entries.empty()) *this = SlicedEllMatrix(begin, entries);
 }
 
-std::size_t PointLinks::memory() const {
+std::size_t SlicedEllMatrix::memory() const {
   const std::size_t pattern = pattern_->points.size() + pattern_->begin.size() * sizeof(Index) +
                               pattern_->others.size() * sizeof(Others);
-  return pulls_.size() * sizeof(Pulls) + (owns_pattern_ ? pattern : 0);
+  return coefficients_.size() * sizeof(Coefficients) + (owns_pattern_ ? pattern : 0);
 }
 
 template <typename F>
-void PointLinks::for_runs(F&& f) const {
+void SlicedEllMatrix::for_runs(F&& f) const {
   parallel_ranges(pattern_->begin.size() - 1, grain, [&](std::size_t first, std::size_t end) {
-    f(Slices{*pattern_, pulls_.data(), first, end});
+    f(Slices{*pattern_, coefficients_.data(), first, end});
   });
 }
 
-void PointLinks::divergence(std::span<const Vec2f> slopes, std::span<float> sums) const {
+void SlicedEllMatrix::divergence(std::span<const Vec2f> slopes, std::span<float> sums) const {
   for_runs([&](const Slices& slices) {
     (uses_avx2() ? divergence_avx2 : divergence_inline)(slices, slopes.data(), sums.data());
   });
 }
 
-void PointLinks::divergence(std::span<const Vec2> slopes, std::span<double> sums) const {
+void SlicedEllMatrix::divergence(std::span<const Vec2> slopes, std::span<double> sums) const {
   for_runs([&](const Slices& slices) {
     for (std::size_t s = slices.first; s < slices.end; ++s) {
       const Slice slice = slices[s];
@@ -223,9 +222,9 @@ void PointLinks::divergence(std::span<const Vec2> slopes, std::span<double> sums
         const Index i = slice.points[lane];
         Vec2 sum = Vec2::Zero();
         for (std::size_t l = 0; l < slice.others.size(); ++l) {
-          const Vec2 pull(static_cast<double>(slice.pulls[l][2 * lane]),
-                          static_cast<double>(slice.pulls[l][2 * lane + 1]));
-          sum += (slopes[i] + slopes[slice.others[l][lane]]).cwiseProduct(pull);
+          const Vec2 coefficient(static_cast<double>(slice.coefficients[l][2 * lane]),
+                                 static_cast<double>(slice.coefficients[l][2 * lane + 1]));
+          sum += (slopes[i] + slopes[slice.others[l][lane]]).cwiseProduct(coefficient);
         }
         sums[i] = sum.sum();
       }
@@ -233,9 +232,9 @@ void PointLinks::divergence(std::span<const Vec2> slopes, std::span<double> sums
   });
 }
 
-void PointLinks::normals(std::span<const float> heights, const Vec3f& light, const Shaded& out) const {
+void SlicedEllMatrix::normals(std::span<const float> heights, std::span<Vec3f> normals) const {
   for_runs([&](const Slices& slices) {
-    (uses_avx2() ? normals_avx2 : normals_inline)(slices, heights.data(), light, out);
+    (uses_avx2() ? normals_avx2 : normals_inline)(slices, heights.data(), normals.data());
   });
 }
 

@@ -1,4 +1,4 @@
-// Links from each point to its neighbours, and the two sums over them that a frame needs.
+// A sparse matrix of 2-vectors over points and their neighbours, and its two products that a frame needs.
 #pragma once
 
 #include <array>
@@ -10,46 +10,43 @@
 
 namespace relievo {
 
-struct PointLink {
+// An entry of the row of one point; `other` is the column.
+struct MatrixEntry {
   Index other = 0;
-  Vec2f pull = Vec2f::Zero();
+  Vec2f coefficient = Vec2f::Zero();
 };
 
-// Kept in slices of eight points, as vectors read them: the first link of all eight, then the second. Points
-// of equal counts share a slice, within windows of 256 points, so that little is filled up (SELL-C-sigma;
-// Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums run in the order of the links given.
-class PointLinks {
+// Stored in slices of eight rows, as vector instructions read them: the first entry of all eight, then the second.
+// Rows of similar length share a slice, within windows of 256 points, so that there is little padding
+// (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums run in the order of the entries given.
+class SlicedEllMatrix {
  public:
-  // Copies the links of point i, which are links[begin[i]] up to links[begin[i + 1]].
-  PointLinks(std::span<const Index> begin, std::span<const PointLink> links);
+  // Copies the entries of point i, which are entries[begin[i]] up to entries[begin[i + 1]].
+  SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries);
 
-  // The same, but shares the pattern of `like` if that has all these links, in this order: its others pull
-  // nothing.
-  PointLinks(std::span<const Index> begin, std::span<const PointLink> links, const PointLinks& like);
+  // The same, but reuses the sparsity pattern of `like` if it contains all these entries in order; unused slots get
+  // coefficient 0.
+  SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries,
+                  const SlicedEllMatrix& like);
 
-  // Number of points.
+  // Returns the number of points.
   std::size_t size() const { return pattern_->size; }
 
   // Bytes held, the pattern included unless it is that of `like`.
   std::size_t memory() const;
 
-  // sums[i] = sum of (slopes[i] + slopes[other]) . pull: the right-hand side of equation (9).
+  // Writes sums[i] = sum of (slopes[i] + slopes[other]) . coefficient: the right-hand side of equation (9).
   void divergence(std::span<const Vec2f> slopes, std::span<float> sums) const;
   void divergence(std::span<const Vec2> slopes, std::span<double> sums) const;
 
-  // Normals along (x, y, 1), where (x, y) = sum of heights[other] pull, and their cosines to `light`, a unit
-  // vector, 0 where turned away.
-  struct Shaded {
-    std::span<Vec3f> normals;
-    std::span<float> shading;
-  };
-  void normals(std::span<const float> heights, const Vec3f& light, const Shaded& out) const;
+  // Writes a unit normal per point, along (x, y, 1), where (x, y) = sum of heights[other] coefficient.
+  void normals(std::span<const float> heights, std::span<Vec3f> normals) const;
 
   static constexpr std::size_t lanes = 8;
   static constexpr std::size_t window = 256;  // points
 
   using Others = std::array<Index, lanes>;
-  using Pulls = std::array<float, 2 * lanes>;  // x and y of one lane after the other
+  using Coefficients = std::array<float, 2 * lanes>;  // x and y of one lane after the other
 
   struct Pattern {
     std::size_t size = 0;
@@ -67,7 +64,7 @@ class PointLinks {
   void for_runs(F&& f) const;
 
   std::shared_ptr<const Pattern> pattern_;
-  std::vector<Pulls> pulls_;  // by slot
+  std::vector<Coefficients> coefficients_;  // by slot
   bool owns_pattern_ = true;
 };
 

@@ -9,10 +9,6 @@
 namespace relievo {
 namespace {
 
-std::unexpected<Error> fail(std::string expected) {
-  return std::unexpected(Error{ErrorKind::option, "--tone", {}, std::move(expected)});
-}
-
 bool is_share(double x) {
   return x >= 0 && x <= 1;
 }
@@ -51,13 +47,14 @@ ToneCurve::ToneCurve(std::vector<Vec2> points)
 
 Result<ToneCurve> ToneCurve::through(std::vector<Vec2> points) {
   if (points.empty() || points.size() > most_points)
-    return fail(cat("expected 1 to ", most_points, " points, found ", points.size()));
+    return option_error("tone", cat("expected 1 to ", most_points, " points, found ", points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_share(points[i].x()) || !is_share(points[i].y()))
-      return fail(cat("expected numbers from 0 to 1, found ", points[i].x(), ",", points[i].y()));
+      return option_error("tone",
+                          cat("expected numbers from 0 to 1, found ", points[i].x(), ",", points[i].y()));
     if (i > 0 && !(points[i].x() > points[i - 1].x()))
-      return fail(
-          cat("expected points from left to right, found ", points[i].x(), " after ", points[i - 1].x()));
+      return option_error("tone", cat("expected points from left to right, found ", points[i].x(), " after ",
+                                      points[i - 1].x()));
   }
   return ToneCurve(std::move(points));
 }
@@ -84,7 +81,8 @@ Result<ToneCurve> parse_tone_curve(std::string_view text) {
     const std::size_t comma = std::min(pair.find(','), pair.size());
     const auto x = parse_number(pair.substr(0, comma));
     const auto y = parse_number(pair.substr(std::min(comma + 1, pair.size())));
-    if (!x || !y) return fail(cat("expected pairs X,Y with semicolons between, found '", pair, "'"));
+    if (!x || !y)
+      return option_error("tone", cat("expected pairs X,Y with semicolons between, found '", pair, "'"));
     points.emplace_back(*x, *y);
   }
   return ToneCurve::through(std::move(points));

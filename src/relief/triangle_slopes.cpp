@@ -4,37 +4,23 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/plane.h"
+#include "relief/edge_weight.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
 
-// Half a cotangent that counts in full: the system of heights cuts what two of them add up to at 1e3, and a
-// triangle must not weigh more here than there.
-constexpr double largest_stiffness = 500;
+// The system of heights bounds the sum of two half weights, and a triangle must not weigh more here than there.
+constexpr double largest_half_weight = largest_edge_weight / 2;
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-// Gradients of the three hat functions.
-std::array<Vec2, 3> hat_gradients(const std::array<Vec2, 3>& p) {
-  const double twice_area = std::max(cross(p[1] - p[0], p[2] - p[0]), 1e-300);
-  std::array<Vec2, 3> out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec2 opposite = p[(i + 2) % 3] - p[(i + 1) % 3];
-    out[i] = Vec2(-opposite.y(), opposite.x()) / twice_area;
-  }
-  return out;
-}
-
-// The area that counts: less for needles.
-double weight_of(const std::array<Vec2, 3>& p, const std::array<Vec2, 3>& gradients) {
+// Returns the weight of a triangle: its area, reduced for needles as (9) reduces their edges.
+double weight_of(const std::array<Vec2, 3>& p) {
   const double area = cross(p[1] - p[0], p[2] - p[0]) / 2;
   double stiffest = 0;
   for (std::size_t i = 0; i < 3; ++i)
-    stiffest = std::max(stiffest, -area * gradients[i].dot(gradients[(i + 1) % 3]));
-  return area * std::min(1.0, largest_stiffness / std::max(stiffest, 1e-300));
+    stiffest = std::max(stiffest, half_edge_weight(p[i], p[(i + 1) % 3], p[(i + 2) % 3]));
+  return area * std::min(1.0, largest_half_weight / std::max(stiffest, 1e-300));
 }
 
 }  // namespace
@@ -56,10 +42,10 @@ TriangleSlopes::TriangleSlopes(std::span<const Vec2> points, const Triangulation
   for (std::size_t t = 0; t < triangles_.size(); ++t) {
     const Triangle& corners = triangles_[t].corners;
     const std::array<Vec2, 3> p{points[corners[0]], points[corners[1]], points[corners[2]]};
-    const std::array<Vec2, 3> gradients = hat_gradients(p);
+    const std::array<Vec2, 3> gradients = hat_gradients(p, std::max(cross(p[1] - p[0], p[2] - p[0]), 1e-300));
     triangles_[t].first = gradients[0].cast<float>();
     triangles_[t].second = gradients[1].cast<float>();
-    const double weight = weight_of(p, gradients);
+    const double weight = weight_of(p);
     for (std::size_t i = 0; i < 3; ++i)
       if (is_free(corners[i]))
         shares_[next[corners[i]]++] = {static_cast<Index>(t), (weight * gradients[i]).cast<float>()};

@@ -1,15 +1,15 @@
-// Slopes of the triangles between points whose heights change, and their divergence.
+// The slopes of the triangles between points, and the divergence of fields on them.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "relievo/boundary.h"
 #include "relievo/geometry/triangulation.h"
+#include "relievo/scan/boundary.h"
 
 namespace relievo {
 
-// The triangles inside a relief that have a corner which is free to move. Slopes are (dz/dx, dz/dy).
+// The triangles inside a relief that have a corner which is not on the boundary. Slopes are (dz/dx, dz/dy).
 class TriangleSlopes {
  public:
   TriangleSlopes(std::span<const Vec2> points, const Triangulation& triangulation, const Boundary& boundary);
@@ -17,7 +17,7 @@ class TriangleSlopes {
   // Number of triangles.
   std::size_t size() const { return triangles_.size(); }
 
-  // Slope of triangle t under heights, one per point.
+  // Returns the slope of triangle t under heights, one per point.
   template <typename Real>
   Eigen::Vector2<Real> slope(std::size_t t, std::span<const Real> heights) const {
     const auto& [corners, first, second] = triangles_[t];
@@ -26,8 +26,9 @@ class TriangleSlopes {
            (heights[corners[1]] - last) * second.template cast<Real>();
   }
 
-  // sums[i] = sum over the triangles around point i of area times field . gradient of i's hat function; 0 at
-  // boundary points. Of a field of slopes that is the right-hand side of equation (9) without weights.
+  // Writes sums[i] = sum over the triangles around point i of area times field . gradient of i's hat function;
+  // 0 at boundary points. For a field of slopes that is the right-hand side of equation (9) without jump
+  // weights.
   void divergence(std::span<const Vec2f> field, std::span<float> sums) const;
 
  private:

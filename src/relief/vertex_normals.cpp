@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/plane.h"
+
 namespace relievo {
 namespace {
 
 struct Term {
   Index point, other;
-  Vec2 pull;
+  Vec2 coefficient;
 };
 
-// What the triangle's cross product at `a`, (b - a) x (c - a), gains with each corner's height.
+// Adds the derivatives of the triangle's cross product at `a`, (b - a) x (c - a), by the height of each corner.
 void add_terms(std::span<const Vec2> points, Index a, Index b, Index c, std::vector<Term>& terms) {
   const Vec2 ab = points[b] - points[a], ac = points[c] - points[a], bc = points[c] - points[b];
   terms.push_back({a, a, {bc.y(), -bc.x()}});
@@ -20,15 +22,15 @@ void add_terms(std::span<const Vec2> points, Index a, Index b, Index c, std::vec
 }
 
 double twice_area(std::span<const Vec2> points, const Triangle& t) {
-  const Vec2 u = points[t[1]] - points[t[0]], v = points[t[2]] - points[t[0]];
-  return u.x() * v.y() - u.y() * v.x();
+  return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
 }  // namespace
 
-PointLinks vertex_normal_links(std::span<const Vec2> points, const Triangulation& triangulation,
-                               const Boundary& boundary, const PointLinks* like) {
-  std::vector<double> z(points.size(), 0.0);  // of the sum of cross products: it does not change
+SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangulation& triangulation,
+                                     const Boundary& boundary, const SlicedEllMatrix* like) {
+  std::vector<double> z(points.size(),
+                        0.0);  // z of the sum of cross products, which does not depend on heights
   std::vector<Index> count(points.size() + 1, 0);
   std::vector<Term> terms;
   terms.reserve(triangulation.triangles.size() * 9);
@@ -49,24 +51,24 @@ PointLinks vertex_normal_links(std::span<const Vec2> points, const Triangulation
   for (const Term& term : terms) sorted[next[term.point]++] = term;
 
   std::vector<Index> begin;
-  std::vector<PointLink> links;
+  std::vector<MatrixEntry> entries;
   begin.reserve(points.size() + 1);
-  links.reserve(terms.size() * 7 / 18 + 16);
+  entries.reserve(terms.size() * 7 / 18 + 16);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    begin.push_back(static_cast<Index>(links.size()));
+    begin.push_back(static_cast<Index>(entries.size()));
     const auto first = sorted.begin() + count[i], last = sorted.begin() + count[i + 1];
     std::stable_sort(first, last, [](const Term& p, const Term& q) { return p.other < q.other; });
     for (auto term = first; term != last;) {
-      Vec2 pull = Vec2::Zero();
+      Vec2 coefficient = Vec2::Zero();
       const Index other = term->other;
-      for (; term != last && term->other == other; ++term) pull += term->pull;
+      for (; term != last && term->other == other; ++term) coefficient += term->coefficient;
       // The point's own height cancels where triangles close around it.
-      const bool cancels = pull.norm() <= 1e-12 * std::sqrt(z[i]);
-      if (!cancels && z[i] > 0) links.push_back({other, (pull / z[i]).cast<float>()});
+      const bool cancels = coefficient.norm() <= 1e-12 * std::sqrt(z[i]);
+      if (!cancels && z[i] > 0) entries.push_back({other, (coefficient / z[i]).cast<float>()});
     }
   }
-  begin.push_back(static_cast<Index>(links.size()));
-  return like ? PointLinks(begin, links, *like) : PointLinks(begin, links);
+  begin.push_back(static_cast<Index>(entries.size()));
+  return like ? SlicedEllMatrix(begin, entries, *like) : SlicedEllMatrix(begin, entries);
 }
 
 }  // namespace relievo

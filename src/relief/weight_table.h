@@ -1,5 +1,4 @@
-// Equation (6) by table: a frame looks a weight up where the formula would cost an exponential and a
-// logarithm.
+// Equation (6) by table: frames look weights up, because the formula costs an exponential and a logarithm.
 #pragma once
 
 #include <bit>
@@ -7,13 +6,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "relievo/weights.h"
+#include "relievo/relief/weights.h"
 
 namespace relievo {
 
-// Linear between places spaced evenly within each octave of |k|, found from the bits of the number: 128
-// places each from 2^-24 to 1, which is within 3e-5 of the formula for beta up to 2 and 1e-3 for beta up
-// to 10.
+// Interpolates linearly between entries spaced evenly within each octave of |k|, 128 per octave from 2^-24 to 1;
+// the bits of the number are the index. Within 3e-5 of the formula for beta up to 2, 1e-3 for beta up to 10.
 class WeightTable {
  public:
   void fill(double delta, const Compression& compression) {
@@ -28,7 +26,7 @@ class WeightTable {
     }
   }
 
-  // w_k of |k| <= 1.
+  // Returns w_k of |k| <= 1.
   float operator()(float k) const {
     const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::abs(k));
     const std::uint32_t place = bits >> fraction_bits;

@@ -1,10 +1,12 @@
-#include "relievo/weights.h"
+#include "relievo/relief/weights.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "relief/style.h"
 #include "relievo/core/parallel.h"
+#include "relievo/relief/tone_curve.h"
 
 namespace relievo {
 
@@ -49,21 +51,13 @@ double boundary_weight(double distance, double rho) {
   return -std::expm1(-ratio * ratio);
 }
 
-// Equation (5), divided by its z.
-Vec2 compressed_slope(const Vec3& normal, double w, double max_slope) {
-  const double z = w * normal.z() + (1 - w);
-  const Vec2 xy = -w * normal.head<2>();
-  const double length = xy.norm();
-  if (length <= max_slope * z) return length > 0 ? Vec2(xy / z) : Vec2(Vec2::Zero());
-  return xy * (max_slope / length);
-}
-
-void compressed_slopes(const SlopeInput& input, const Compression& compression, double max_slope,
-                       std::span<Vec2> slopes) {
-  parallel_for(slopes.size(), [&](std::size_t i) {
-    const double w_k = curvature_weight(static_cast<double>(input.k[i]), input.delta, compression);
-    const double w = w_k * static_cast<double>(input.boundary_weight[i]);
-    slopes[i] = compressed_slope(input.normals[i].cast<double>(), w, max_slope);
+void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes) {
+  with_style(shape, [&](const auto& style) {
+    const Compression compression = style.weighted();
+    const auto w_k = [&](float k) {
+      return curvature_weight(static_cast<double>(k), input.delta, compression);
+    };
+    write_slopes<double>(input, style, w_k, slopes);
   });
 }
 
@@ -85,18 +79,8 @@ Shape layered_shape() {
 }
 
 LayerWeights layer_weights(const Shape& shape) {
-  return LayerWeights::of(shape.compression.u, shape.gamma, shape.hold.value_or(Hold{}).share);
-}
-
-void layered_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes) {
-  const LayerWeights weights = layer_weights(shape);
-  const Compression saturation = saturation_alone(shape.compression);
-  const double scale = saturation_scale(shape.compression);
-  parallel_for(slopes.size(), [&](std::size_t i) {
-    const double share = scale * curvature_weight(static_cast<double>(input.k[i]), input.delta, saturation);
-    slopes[i] = layered_slope(input.layers[i], weights, share * static_cast<double>(input.boundary_weight[i]),
-                              shape.max_slope);
-  });
+  return LayerWeights::of(shape.compression.u, shape.gamma,
+                          shape.membrane.value_or(MembraneParams{}).height_share);
 }
 
 std::vector<float> boundary_weights(std::span<const float> distance, double rho) {

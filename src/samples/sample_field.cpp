@@ -8,39 +8,31 @@
 #include <span>
 #include <vector>
 
+#include "core/random.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo::field {
 namespace {
 
-// splitmix64 (Steele, Lea, Flood 2014): a stream per block, so that blocks can run in any order.
-class Random {
+// One stream of random numbers per block, so that blocks can run in any order.
+class Random : public SplitMix64 {
  public:
-  Random(std::uint64_t seed, std::uint64_t stream) : state_(seed + 0x9E3779B97F4A7C15U * (stream + 1)) {
-    state_ = next();
-  }
+  Random(std::uint64_t seed, std::uint64_t stream) : SplitMix64(first_state(seed, stream)) {}
 
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
-    return z ^ (z >> 31);
-  }
-
-  // Uniform in [0, 1).
-  double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
-
-  // Standard normal (Box and Muller).
+  // Returns a number of the standard normal distribution (Box and Muller 1958).
   double gaussian() {
     const double u = 1 - uniform(), v = uniform();
     return std::sqrt(-2 * std::log(u)) * std::cos(2 * std::numbers::pi * v);
   }
 
  private:
-  std::uint64_t state_;
+  // Hashes the two numbers, so that the streams of similar ones have nothing in common.
+  static std::uint64_t first_state(std::uint64_t seed, std::uint64_t stream) {
+    return SplitMix64(seed + step * (stream + 1)).bits();
+  }
 };
 
-// Cubes of one size that together hold the surface, and the field at their centres.
+// Cubes of one size that together contain the surface, and the field at their centres.
 struct Cells {
   std::vector<Vec3> centres;
   std::vector<double> values;
@@ -73,7 +65,7 @@ std::vector<Vec3> split(const std::vector<Vec3>& centres, double side) {
 }
 
 Cells cover(const Solid& solid) {
-  const int levels = 8;  // 256 cells along the box: finer than any two sheets that must not be taken for one
+  const int levels = 8;  // 256 cells along the box: finer than the distance of any two sheets of a sample
   Cells cells{{solid.box.centre()}, {0}, solid.box.size().maxCoeff()};
   for (int level = 0; level < levels; ++level) {
     cells = near_surface(solid, split(cells.centres, cells.side), cells.side / 2);
@@ -97,10 +89,10 @@ struct Bracket {
 };
 
 struct Root {
-  double t, f;  // where, and what is left of the field there
+  double t, f;  // the position on the line and the field there
 };
 
-// Regula falsi with the Illinois rule.
+// Finds a root between two positions by false position with the Illinois rule.
 Root find_root(const Solid& solid, const Line& line, Bracket b) {
   const double tolerance = 1e-5 * (b.t1 - b.t0);
   const int most = 40;
@@ -127,12 +119,12 @@ Vec3 unit_gradient(const Solid& solid, const Vec3& p, double here) {
   return gradient.normalized();
 }
 
-// The part of the cloud that one stream of random numbers fills.
+// The part of the cloud that one stream of random numbers generates.
 struct Block {
   std::span<Vec3> points;
   std::span<Vec3f> normals;
   std::size_t filled = 0;
-  std::uint64_t lines = 0;  // shot to fill it
+  std::uint64_t lines = 0;  // number of lines shot to generate it
 
   bool is_full() const { return filled == points.size(); }
   void add(const Vec3& p, const Vec3& n) {
@@ -142,17 +134,18 @@ struct Block {
   }
 };
 
-// Lines parallel to the three axes, of equal density, pierce the surface |nx| + |ny| + |nz| times as often as
-// its area alone would have it; keeping a hit with the inverse of that makes the density exactly uniform.
+// Random lines parallel to the three axes hit a piece of the surface with a probability proportional to its
+// area times |nx| + |ny| + |nz|. Keeping each hit with the inverse of that factor as its probability makes
+// the density of points exactly uniform over the area.
 void keep_hit(const Solid& solid, const Vec3& p, double value, Random& random, Block& block) {
   const Vec3 n = unit_gradient(solid, p, value);
   if (random.uniform() * n.lpNorm<1>() <= 1) block.add(p, n);
 }
 
-// A line through a cell, from its middle, at random among the three axes and over the cell's cross-section.
+// A random line through a random cell, parallel to one of the axes, uniform over the cell's cross-section.
 struct Shot {
   Line line;
-  double at_least = 0;  // what the field's magnitude must be in the line's middle
+  double at_least = 0;  // lower bound of the field's magnitude at the line's middle
 };
 
 Shot aim(const Cells& cells, Random& random) {
@@ -180,7 +173,7 @@ void shoot(const Solid& solid, const Cells& cells, Random& random, Block& block)
   }
 }
 
-// Fills the cloud and returns the sampling distance.
+// Generates the points and normals of the cloud. Returns the sampling distance.
 double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& cloud) {
   const auto shots = [&](std::size_t begin, std::size_t end) {
     Block block{std::span(cloud.points).subspan(begin, end - begin),
@@ -190,16 +183,16 @@ double fill(const Solid& solid, const Cells& cells, std::uint64_t seed, Cloud& c
     return block.lines;
   };
   const std::uint64_t lines = parallel_reduce(cloud.size(), std::uint64_t{0}, shots, std::plus<>());
-  // The lines share three times the cross-section of all cells, and leave one point for each share of the
-  // area.
+  // The lines are spread over three times the cross-section of all cells; the number of lines per point that
+  // was kept tells the area.
   const double share =
       3 * cells.side * cells.side * static_cast<double>(cells.centres.size()) / static_cast<double>(lines);
   return std::sqrt(share);
 }
 
-// Moves a point along its normal, and tilts the normal as fitting a plane to such points would.
+// Moves a point along its normal and tilts the normal as much as fitting a plane to such points would.
 void disturb(double noise, double spacing, Random& random, Vec3& p, Vec3f& normal) {
-  const double tilt = 0.2 * noise;  // radians per axis: a plane through some 30 neighbours
+  const double tilt = 0.2 * noise;  // radians per axis, the error of a plane through about 30 neighbours
   const Vec3 n = normal.cast<double>();
   const Vec3 helper = std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
   const Vec3 u = n.cross(helper).normalized(), v = n.cross(u);

@@ -1,4 +1,4 @@
-// Solids as scalar fields, and clouds scattered over their surfaces. Private to the samples.
+// Solids as scalar fields, and clouds scattered over their surfaces.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace relievo::field {
 
-// A solid: `value` is negative inside, positive outside, zero on the surface, and its magnitude is never
-// above the distance to the surface. `box` holds the whole surface.
+// A solid as a distance bound: `value` is negative inside, positive outside and zero on the surface, and its
+// magnitude never exceeds the distance to the surface. `box` contains the whole surface.
 struct Solid {
   double (*value)(const Vec3&) = nullptr;
   Box box;
@@ -22,12 +22,13 @@ struct Scatter {
   std::uint64_t seed = 0;
 };
 
-// Returns exactly `points` points, uniform by area over the surface, then moved along their outward normals
-// by Gaussian noise; the normals waver with the noise as estimated ones do. Same arguments, same bits. The
-// solid must have a surface.
+// Returns exactly `how.points` points, distributed uniformly over the surface's area and then moved along
+// their outward normals by Gaussian noise. The normals are disturbed as much as normals estimated from such
+// points. The same arguments give the same bits. The solid must have a surface.
 Cloud scatter(const Solid& solid, const Scatter& how);
 
-// Unit vector of steepest ascent of the field, by forward differences; exact to the curvature times 1e-6.
+// Returns the unit vector of steepest ascent of the field at p, by forward differences; its error is about
+// 1e-6 times the curvature.
 Vec3 outward_normal(const Solid& solid, const Vec3& p);
 
 }  // namespace relievo::field

@@ -5,7 +5,7 @@
 namespace relievo::field {
 namespace {
 
-// All of the face is symmetric: points come with x >= 0.
+// The face is symmetric: its functions are called with x >= 0.
 
 double skull(const Vec3& p) {
   double d = ellipsoid(p - Vec3(0, 0.06, 0), Vec3(0.47, 0.60, 0.44));
@@ -58,7 +58,7 @@ double eye(const Vec3& p) {
 struct Ball {
   Vec3 centre;
   double radius;
-  // Whether what the ball holds can matter where the field is `d`.
+  // Returns whether the contents of the ball can change the field where it is `d`.
   bool matters(const Vec3& p, double d, double fillet) const {
     return (p - centre).norm() - radius < std::abs(d) + fillet;
   }
@@ -76,8 +76,8 @@ double face(const Vec3& p) {
   return d;
 }
 
-// Leaves round the face, from its outline at `radius` of the face's ellipse, `from` its crown (0) down to the
-// chin (1).
+// A wreath of leaves around the face: they start at `radius` times the face's ellipse, from its crown (0)
+// down to the chin (1).
 struct Wreath {
   int leaves = 0;
   bool is_staggered = false;

@@ -5,14 +5,15 @@
 namespace relievo::field {
 namespace {
 
-constexpr double drooping = 0.22;         // of the rim below the mid-rib, in half widths
-constexpr double highest_carving = 0.05;  // over the blade
-constexpr double gentle = 0.68;           // the slope of the carving, taken out of the field
+constexpr double drooping = 0.22;         // height of the rim below the mid-rib, in half widths
+constexpr double highest_carving = 0.05;  // above the blade
+constexpr double gentle =
+    0.68;  // scales the field by the slope of the carving, so that it stays a distance bound
 
-// Where a point lies over the blade.
+// The position of a point over the blade.
 struct Place {
   double along;   // 0 at the root, 1 at the tip
-  double vein;    // the same along the slanted side veins that lead to the lobes
+  double vein;    // the same along the slanted side veins, which lead to the lobes
   double lobe;    // 0 in a notch, 1 in the middle of a lobe
   double beat;    // 0 to 1 through each lobe
   double across;  // from the mid-rib, in half widths
@@ -25,7 +26,8 @@ Place locate(const Leaf& leaf, double x, double v) {
   return {s, t, 4 * beat * (1 - beat), beat, v / leaf.half_width};
 }
 
-// Distance to the outline: an oval cut by notches. Divided by its steepness, which is large in the notches.
+// Returns the distance to the outline, an oval with notches. It is divided by its slope, which is large in
+// the notches.
 double outline(const Leaf& leaf, const Place& at) {
   const double bent = at.vein * (1.25 - 0.25 * at.vein);
   const double oval = std::sqrt(std::max(1e-4, 4 * bent * (1 - bent)));
@@ -37,7 +39,7 @@ double outline(const Leaf& leaf, const Place& at) {
   return leaf.half_width * (at.across - width) / std::sqrt(1 + square(slope));
 }
 
-// Height of the carving over the bent blade.
+// Returns the height of the carving above the bent blade.
 double carving(const Leaf& leaf, const Place& at) {
   const double v = at.across * leaf.half_width;
   const double last_lobe = ramp(leaf.lobes - 0.7, leaf.lobes - 1.2, leaf.lobes * at.vein);

@@ -1,4 +1,5 @@
-// The forms of the samples and the strokes they are modelled with. Private to the samples.
+// The solids of the samples, and the distance functions they are modelled with. Tested by
+// tests/samples/sample_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -11,13 +12,13 @@ namespace relievo::field {
 
 inline constexpr double pi = std::numbers::pi;
 
-// The samples, upright (+Y), front towards +Z, some two units wide.
+// The samples: upright (+Y), the front towards +Z, about two units wide.
 Solid shell();
 Solid still_life();
 Solid green_man();
 
-// Field of an ammonite of rim radius 1, coiled in the XY plane, its aperture on the +X side; up to 1.6 times
-// too steep.
+// Returns the field of an ammonite of rim radius 1, coiled in the xy plane, with its aperture on the +x side.
+// It is up to 1.6 times as steep as a distance.
 double ammonite(const Vec3& p);
 
 inline double square(double x) {
@@ -30,18 +31,18 @@ inline double clamp01(double x) {
   return std::clamp(x, 0.0, 1.0);
 }
 
-// 0 below `from`, 1 above `to`, a cubic between; `from` above `to` turns it round.
+// Returns 0 below `from`, 1 above `to`, and a smooth cubic in between; the opposite if `from` is above `to`.
 inline double ramp(double from, double to, double x) {
   const double t = clamp01((x - from) / (to - from));
   return t * t * (3 - 2 * t);
 }
 
-// About exp(-(x / width)^2), zero from two widths on.
+// Returns about exp(-(x / width)^2), and 0 from two widths on.
 inline double bump(double x, double width) {
   return square(square(std::max(0.0, 1 - square(x / width) / 4)));
 }
 
-// Minimum and maximum with a fillet of about `radius`.
+// Return a minimum and a maximum with a fillet of about `radius`.
 inline double blend_min(double a, double b, double radius) {
   const double t = std::max(radius - std::abs(a - b), 0.0);
   return std::min(a, b) - t * t / (4 * radius);
@@ -50,7 +51,7 @@ inline double blend_max(double a, double b, double radius) {
   return -blend_min(-a, -b, radius);
 }
 
-// Distance to an ellipsoid about the origin, to first order near its surface.
+// Returns the distance to an ellipsoid about the origin, to first order near its surface.
 inline double ellipsoid(const Vec3& p, const Vec3& radii) {
   const Vec3 q = p.cwiseQuotient(radii);
   const double k = q.norm();
@@ -59,20 +60,20 @@ inline double ellipsoid(const Vec3& p, const Vec3& radii) {
   return std::max(deepest, k * (k - 1) / q.cwiseQuotient(radii).norm());
 }
 
-// Distance to a capsule whose radius goes from `ra` at `a` to `rb` at `b`.
+// Returns the distance to a capsule whose radius goes from `ra` at `a` to `rb` at `b`.
 inline double capsule(const Vec3& p, const Vec3& a, const Vec3& b, double ra, double rb) {
   const Vec3 ab = b - a;
   const double t = clamp01((p - a).dot(ab) / ab.squaredNorm());
   return (p - a - t * ab).norm() - (ra + t * (rb - ra));
 }
 
-// Distance to a box about the origin with its edges rounded.
+// Returns the distance to a box about the origin with rounded edges.
 inline double rounded_box(const Vec3& p, const Vec3& half, double radius) {
   const Vec3 q = p.cwiseAbs() - half + Vec3::Constant(radius);
   return q.cwiseMax(0).norm() + std::min(q.maxCoeff(), 0.0) - radius;
 }
 
-// Turns a point about one axis by `radians`, counter-clockwise seen from the axis' positive end.
+// Returns a point turned about one axis by `radians`, counter-clockwise as seen from the axis's positive end.
 inline Vec3 turned(const Vec3& p, int axis, double radians) {
   const double c = std::cos(radians), s = std::sin(radians);
   const int u = (axis + 1) % 3, v = (axis + 2) % 3;

@@ -10,17 +10,18 @@ constexpr double ribs_per_turn = 30;
 
 struct Whorl {
   double angle;  // along the coil; 0 at the aperture, negative inside
-  double scale;  // rim radius there
+  double scale;  // the rim radius there
   double side;   // around the section: 0 at the rim, 0.5 on the flank, 1 at the seam with the inner whorl
 };
 
-// Ribs bend forward on the flank, back, and forward again to the rim; the aperture's edge follows them.
+// Returns the bend of the ribs: forward on the flank, back, and forward again to the rim. The aperture's edge
+// follows it.
 double rib_phase(const Whorl& w) {
   const double sickle = 1.5 * std::sin(2 * pi * w.side) - 5.0 * square(square(1 - w.side));
   return ribs_per_turn * w.angle + sickle;
 }
 
-// cos and sin of a phase, from which those of its multiples follow without calling them again.
+// The cosine and sine of a phase, from which those of its multiples are computed by multiplication.
 struct Wave {
   double c, s;
   Wave doubled() const { return {c * c - s * s, 2 * c * s}; }
@@ -32,7 +33,8 @@ struct Ornament {
   double slope;  // of the height, per radian of phase
 };
 
-// Ribs on the inner flank that fork on the outer one, a knob at each fork, a roped keel, striae between.
+// Returns the relief of the shell: ribs that fork between the inner and the outer flank, a knob at each fork,
+// a roped keel, and striae in between.
 Ornament ornament(const Whorl& w, double phase) {
   const Wave rib{std::cos(phase), std::sin(phase)};
   const Wave two = rib.doubled(), four = two.doubled(), nine = four.doubled().plus(rib);

@@ -6,7 +6,7 @@
 namespace relievo::field {
 namespace {
 
-// Distance in the half-plane of a turned form: radius and height.
+// The distance in the half-plane of a surface of revolution, given the radius and the height.
 struct Turned {
   double r, y;
   double ellipse(double centre, double radius, double half_height) const {
@@ -21,7 +21,7 @@ struct Turned {
   }
 };
 
-// Two strands that cross round the belly, with a pearl in each eye.
+// Two strands that cross each other around the belly, with a pearl in each opening.
 double guilloche(double about, double y) {
   const double wave = 0.036 * std::sin(12 * about);
   const double strands = std::max(bump(y - wave, 0.016), bump(y + wave, 0.016));
@@ -116,7 +116,7 @@ double pine_cone(const Vec3& p) {
   return (body - depth * carved.value) / std::sqrt(1.6 + square(depth / scale_size * carved.slope));
 }
 
-// A dodecahedron, a line engraved along its edges.
+// A dodecahedron with a line engraved along its edges.
 double gem(const Vec3& p) {
   const double g = (1 + std::sqrt(5.0)) / 2, n = 1 / std::sqrt(1 + g * g);
   const Vec3 q = p.cwiseAbs();
@@ -149,7 +149,7 @@ std::array<Leaf, 3> bouquet() {
           placed(shape(0.40, 0.11, 0.35, -0.5), {{0.40, -0.50, 0.20}, {0.15, 1, 0.1}, {0, 0, 1}})};
 }
 
-double value(const Vec3& p) {
+double still_life_value(const Vec3& p) {
   static const std::array<Leaf, 3> leaves = bouquet();
   double d = plinth(p - Vec3(0, -0.72, 0));
   const auto add = [&](const Vec3& centre, double reach, auto&& solid) {
@@ -172,7 +172,7 @@ double value(const Vec3& p) {
 }  // namespace
 
 Solid still_life() {
-  return {value, {Vec3(-1.08, -1.00, -0.55), Vec3(1.08, 0.74, 0.55)}};
+  return {still_life_value, {Vec3(-1.08, -1.00, -0.55), Vec3(1.08, 0.74, 0.55)}};
 }
 
 }  // namespace relievo::field

@@ -1,4 +1,4 @@
-#include "relievo/boundary.h"
+#include "relievo/scan/boundary.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,14 +6,16 @@
 
 #include "core/disjoint_sets.h"
 #include "geometry/neighbours.h"
+#include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
 
+// Returns infinity for a triangle without area.
 double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
   const Vec2 u = b - a, v = c - a;
-  const double twice_area = std::abs(u.x() * v.y() - u.y() * v.x());
+  const double twice_area = std::abs(cross(u, v));
   const double product = u.norm() * v.norm() * (c - b).norm();
   return twice_area > 0 ? product / (2 * twice_area) : std::numeric_limits<double>::infinity();
 }
@@ -45,7 +47,8 @@ class BoundaryFinder {
   }
 
  private:
-  // Turns sets of neighbouring outside triangles that are narrow and do not reach the hull to inside.
+  // Marks as inside each connected set of outside triangles that does not touch the hull and into which no
+  // circle of radius `smallest_hole` fits.
   void close_narrow_holes(std::vector<std::uint8_t>& is_inside, double smallest_hole) const {
     DisjointSets sets(is_inside.size());
     for (Index t = 0; t < is_inside.size(); ++t)

@@ -2,25 +2,18 @@
 
 #include <algorithm>
 
+#include "core/quantile.h"
+
 namespace relievo {
 
 Box bounds(const Cloud& cloud) {
-  Box box;
-  for (const Vec3& p : cloud.points) box.extend(p);
-  return box;
+  return Box::of(cloud.points);
 }
 
 namespace {
 
-// The value below which that share of all lies. `values` is not empty.
-double quantile(std::vector<double> values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
-Vec3 median(const Cloud& cloud) {
+// Returns the median of each coordinate.
+Vec3 median_of(const Cloud& cloud) {
   Vec3 middle;
   std::vector<double> values(cloud.size());
   for (int axis = 0; axis < 3; ++axis) {
@@ -33,24 +26,26 @@ Vec3 median(const Cloud& cloud) {
 
 }  // namespace
 
-std::vector<Index> far_points(const Cloud& cloud) {
+std::vector<Index> outliers(const Cloud& cloud) {
   if (cloud.size() == 0) return {};
-  const Vec3 middle = median(cloud);
+  const Vec3 middle = median_of(cloud);
   std::vector<double> distances(cloud.size());
   std::transform(cloud.points.begin(), cloud.points.end(), distances.begin(),
                  [&](const Vec3& p) { return (p - middle).norm(); });
-  const double reach = 20 * quantile(distances, .9);
+  // Generous enough for long and thin models, whose ends are far from the median: of points spread evenly
+  // over a line, none is further away than 1.2 times this quantile.
+  const double radius = 20 * quantile(std::vector(distances), .9);
   std::vector<Index> far;
   for (Index i = 0; i < cloud.size(); ++i)
-    if (distances[i] > reach) far.push_back(i);
-  return reach > 0 ? far : std::vector<Index>{};
+    if (distances[i] > radius) far.push_back(i);
+  return radius > 0 ? far : std::vector<Index>{};
 }
 
-Cloud without(const Cloud& cloud, std::span<const Index> left_out) {
+Cloud erase_points(const Cloud& cloud, std::span<const Index> erased) {
   Cloud kept;
-  auto next = left_out.begin();
+  auto next = erased.begin();
   for (Index i = 0; i < cloud.size(); ++i) {
-    if (next != left_out.end() && *next == i) {
+    if (next != erased.end() && *next == i) {
       ++next;
       continue;
     }

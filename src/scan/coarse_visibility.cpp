@@ -1,4 +1,4 @@
-#include "front_most.h"
+#include "scan/coarse_visibility.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,8 @@ namespace {
 class Grid {
  public:
   Grid(const Cloud& cloud, int cells) : cloud_(cloud), box_(bounds(cloud)) {
-    // No finer than about two points apart, or one sees the back through the front.
+    // Cells at least two spacings wide, or the back shows through gaps in the front. The factor 2 in the
+    // spacing accounts for the points at the back.
     const Vec3 size = box_.size();
     const double spacing = std::sqrt(2 * size.x() * size.y() / static_cast<double>(cloud.size()));
     cell_ = std::max({box_.diagonal() / cells, 2 * spacing, 1e-300});
@@ -23,7 +24,7 @@ class Grid {
   }
 
   double facing_share() const {
-    constexpr float edge_on = .1F;  // points seen nearly edge on say nothing
+    constexpr float edge_on = .1F;  // the sign of normals within 6 degrees of edge on is not reliable
     std::size_t facing = 0, away = 0;
     for (const Index i : front_) {
       if (i == no_index) continue;
@@ -51,6 +52,8 @@ class Grid {
     return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
   }
 
+  // Returns the difference between the normals of two cells, 0 across depth jumps. At most 0.5: a sharp edge
+  // shall not count for more than a rounded one.
   double difference(Index a, Index b) const {
     if (a == no_index || b == no_index) return 0;
     const bool is_jump = std::abs(cloud_.points[a].z() - cloud_.points[b].z()) > 4 * cell_;
@@ -68,7 +71,7 @@ class Grid {
 
 }  // namespace
 
-FrontMost front_most(const Cloud& viewed, int cells) {
+CoarseVisibility coarse_visibility(const Cloud& viewed, int cells) {
   if (viewed.size() == 0 || !viewed.has_normals()) return {};
   const Grid grid(viewed, cells);
   return {grid.facing_share(), grid.normal_variation()};

@@ -5,55 +5,49 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/quantile.h"
 #include "geometry/neighbours.h"
-#include "mls.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
 
-// Neighbours beyond this many h weigh nothing. The fit of normals does not mind where the weight ends; the
-// second derivatives of (3) do.
-constexpr double fit_support = 1.7, mls_support = 3;
+// The radius, in h, within which neighbours count. There fit_weight() is closest to exp(-d^2 / h^2).
+constexpr double support = 1.7;
 
-// Equations (2) and (3), at the place where p projects onto g = 0: two Newton steps along the gradient.
-double mls_curvature(std::span<MlsSample> neighbours, double h) {
-  MlsValue here = mls_function(neighbours, h);
-  for (int step = 0; step < 2 && here.is_valid; ++step) {
-    const Vec3 move = -here.g / std::max(here.gradient.squaredNorm(), .1) * here.gradient;
-    for (MlsSample& s : neighbours) s.d += move;
-    here = mls_function(neighbours, h);
-  }
-  return here.is_valid ? mean_curvature_of_level_set(here.gradient, here.hessian) : 0;
-}
+struct Neighbour {
+  Vec3 d;  // from the neighbour to the point
+  Vec3 n;  // its unit normal
+};
 
-// Close to exp(-d^2 / h^2) for a reach of 1.7 h, without the exponential, and 0 beyond the reach.
-double fit_weight(const MlsSample& s, double reach) {
-  const double rest = std::max(0.0, 1 - s.d.squaredNorm() / (reach * reach));
+// The weight of a neighbour, from 1 at the point to 0 at the radius: close to exp(-d^2 / h^2) for a radius of
+// 1.7 h, without the exponential.
+double fit_weight(const Neighbour& s, double radius) {
+  const double rest = std::max(0.0, 1 - s.d.squaredNorm() / (radius * radius));
   return rest * rest;
 }
 
-// Half the divergence of the normal field n(x) = n0 + J x, fitted to the neighbours by weighted least squares
-// in the tangent plane: exact where the normals vary linearly, as on spheres and cylinders, however the
-// points are scattered.
-double fitted_curvature(std::span<const MlsSample> neighbours, double reach) {
+// Returns half the divergence of the normal field n(x) = n0 + J x, fitted to the neighbours by weighted least
+// squares in the tangent plane. This is exact where the normals vary linearly, as on spheres and cylinders,
+// however the points are scattered.
+double fitted_curvature(std::span<const Neighbour> neighbours, double radius) {
   if (neighbours.size() < 6) return 0;
   Vec3 mean = Vec3::Zero();
-  for (const MlsSample& s : neighbours) mean += fit_weight(s, reach) * s.n;
+  for (const Neighbour& s : neighbours) mean += fit_weight(s, radius) * s.n;
   const Vec3 axis = mean.normalized();
   const Vec3 t1 = axis.unitOrthogonal(), t2 = axis.cross(t1);
   Mat3 moments = Mat3::Zero();
   Eigen::Matrix<double, 3, 2> products = Eigen::Matrix<double, 3, 2>::Zero();
-  for (const MlsSample& s : neighbours) {
-    const Vec3 place(1, -s.d.dot(t1) / reach, -s.d.dot(t2) / reach);
-    const Vec3 weighted = fit_weight(s, reach) * place;
+  for (const Neighbour& s : neighbours) {
+    const Vec3 place(1, -s.d.dot(t1) / radius, -s.d.dot(t2) / radius);
+    const Vec3 weighted = fit_weight(s, radius) * place;
     moments += weighted * place.transpose();
     products += weighted * Eigen::RowVector2d(s.n.dot(t1), s.n.dot(t2));
   }
   const double spread = moments(0, 0) * moments(1, 1) * moments(2, 2);
-  if (!(moments.determinant() > 1e-6 * spread)) return 0;  // neighbours on a line: no field to fit
+  if (!(moments.determinant() > 1e-6 * spread)) return 0;  // the neighbours are on a line
   const Eigen::Matrix<double, 3, 2> field = moments.inverse() * products;
-  return (field(1, 0) + field(2, 1)) / (2 * reach);
+  return (field(1, 0) + field(2, 1)) / (2 * radius);
 }
 
 class CurvatureEstimator {
@@ -61,16 +55,17 @@ class CurvatureEstimator {
   CurvatureEstimator(const Cloud& cloud, const Spacing& spacing, const CurvatureOptions& options)
       : cloud_(cloud), spacing_(spacing), options_(options), tree_(cloud.points) {}
 
-  double at(Index i, std::vector<KdTree<Vec3>::Match>& matches, std::vector<MlsSample>& samples) const {
-    const bool is_fit = options_.method == CurvatureMethod::normal_fit;
+  double at(Index i, std::vector<KdTree<Vec3>::Match>& matches, std::vector<Neighbour>& neighbours) const {
+    // At least rho: near coincident points the local spacing is almost 0, and the fit would see noise only.
     const double h = options_.scale * std::max(static_cast<double>(spacing_.local[i]), spacing_.rho);
-    tree_.within(cloud_.points[i], (is_fit ? fit_support : mls_support) * h, matches);
-    samples.clear();
+    tree_.within(cloud_.points[i], support * h, matches);
+    neighbours.clear();
     for (const auto& [j, distance_sq] : matches) {
       if (cloud_.normals[j].dot(cloud_.normals[i]) <= 0) continue;
-      samples.push_back({cloud_.points[i] - cloud_.points[j], cloud_.normals[j].cast<double>()});
+      neighbours.push_back({cloud_.points[i] - cloud_.points[j], cloud_.normals[j].cast<double>()});
     }
-    const double k = is_fit ? fitted_curvature(samples, fit_support * h) : mls_curvature(samples, h);
+    const double k = fitted_curvature(neighbours, support * h);
+    // Points at a distance of rho cannot resolve a smaller radius of curvature.
     return std::clamp(k, -1 / spacing_.rho, 1 / spacing_.rho);
   }
 
@@ -90,8 +85,8 @@ std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, s
   const CurvatureEstimator estimator(cloud, spacing, options);
   parallel_ranges(queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<KdTree<Vec3>::Match> matches;
-    std::vector<MlsSample> samples;
-    for (std::size_t q = begin; q < end; ++q) curvature[q] = estimator.at(queries[q], matches, samples);
+    std::vector<Neighbour> neighbours;
+    for (std::size_t q = begin; q < end; ++q) curvature[q] = estimator.at(queries[q], matches, neighbours);
   });
   return curvature;
 }
@@ -99,7 +94,7 @@ std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, s
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
-  constexpr int passes = 3;  // over direct neighbours: each widens the average by about rho
+  constexpr int passes = 3;  // over direct neighbours; each widens the average by about rho, to 2 rho or more
   std::vector<double> average(values.begin(), values.end());
   for (int pass = 0; pass < passes; ++pass) {
     std::vector<double> weight(values.size()), sum(values.size());
@@ -124,10 +119,7 @@ NormalisedCurvature normalise(std::span<const double> mean_curvature) {
   std::vector<double> sizes(mean_curvature.size());
   std::transform(mean_curvature.begin(), mean_curvature.end(), sizes.begin(),
                  [](double k) { return std::abs(k); });
-  const auto percentile =
-      sizes.begin() + static_cast<std::ptrdiff_t>(.99 * static_cast<double>(sizes.size() - 1));
-  std::nth_element(sizes.begin(), percentile, sizes.end());
-  result.unit = *percentile;
+  result.unit = quantile(sizes, .99);
   if (!(result.unit > 0)) return result;
   const auto n = static_cast<double>(mean_curvature.size());
   double sum = 0, sum_sq = 0;

@@ -9,10 +9,10 @@
 namespace relievo {
 namespace {
 
-constexpr double least_normal_z = 0.05;  // a slope of 20: discs steeper than this are drawn as if this steep
-constexpr long band_rows = 64;           // rows that one task draws
+constexpr double least_normal_z = 0.05;  // a slope of 20; steeper discs are drawn as if they were this steep
+constexpr long band_rows = 64;           // rows of pixels that one task draws
 
-// Half the height of the disc's projection: its extent along y.
+// Half the extent of the disc's projection along y and along x.
 double half_height(const Disc& disc) {
   const double ny = static_cast<double>(disc.normal.y());
   return disc.radius * std::sqrt(std::max(0.0, 1 - ny * ny));
@@ -58,14 +58,14 @@ float DepthBuffer::depth(double x, double y) const {
                    : -std::numeric_limits<float>::infinity();
 }
 
-// Bands of rows are drawn concurrently: each visits, in the discs' order, those that touch it.
+// Bands of rows are drawn concurrently. Each draws the discs that touch it, in their order.
 void DepthBuffer::splat(const std::vector<Disc>& discs) {
   const auto bands = static_cast<std::size_t>((rows_ + band_rows - 1) / band_rows);
   const auto band_of = [&](double y) { return std::clamp(row(y), 0L, rows_ - 1) / band_rows; };
   std::vector<std::vector<Index>> members(bands);
   for (Index i = 0; i < discs.size(); ++i) {
-    const double y = discs[i].centre.y(), reach = half_height(discs[i]);
-    for (long b = band_of(y - reach); b <= band_of(y + reach); ++b)
+    const double y = discs[i].centre.y(), half = half_height(discs[i]);
+    for (long b = band_of(y - half); b <= band_of(y + half); ++b)
       members[static_cast<std::size_t>(b)].push_back(i);
   }
   parallel_for(
@@ -79,11 +79,11 @@ void DepthBuffer::splat(const std::vector<Disc>& discs) {
 }
 
 void DepthBuffer::splat_into_rows(const Disc& disc, long first_row, long last_row) {
-  const double reach_x = half_width(disc), reach_y = half_height(disc), radius_sq = disc.radius * disc.radius;
-  const long r0 = std::max(first_row, row(disc.centre.y() - reach_y));
-  const long r1 = std::min(last_row, row(disc.centre.y() + reach_y));
-  const long c0 = std::max(0L, column(disc.centre.x() - reach_x));
-  const long c1 = std::min(columns_ - 1, column(disc.centre.x() + reach_x));
+  const double half_x = half_width(disc), half_y = half_height(disc), radius_sq = disc.radius * disc.radius;
+  const long r0 = std::max(first_row, row(disc.centre.y() - half_y));
+  const long r1 = std::min(last_row, row(disc.centre.y() + half_y));
+  const long c0 = std::max(0L, column(disc.centre.x() - half_x));
+  const long c1 = std::min(columns_ - 1, column(disc.centre.x() + half_x));
   const double slope_x = depth_along_plane(disc.normal, 1, 0), slope_y = depth_along_plane(disc.normal, 0, 1);
   for (long r = r0; r <= r1; ++r) {
     const double dy = origin_.y() + pixel_ * (static_cast<double>(r) + .5) - disc.centre.y();

@@ -1,4 +1,4 @@
-// A depth buffer that points are splatted into as oriented discs.
+// A depth buffer into which points are drawn as oriented discs. Tested by tests/scan/visible_test.cpp.
 #pragma once
 
 #include <vector>
@@ -10,24 +10,24 @@ namespace relievo {
 // A flat disc in view coordinates.
 struct Disc {
   Vec3 centre;
-  Vec3f normal;  // unit length; the disc is seen by its projection
+  Vec3f normal;  // unit length
   double radius = 0;
 };
 
 class DepthBuffer {
  public:
-  // Covers the box's x and y with square pixels of about the given side; larger ones where that would be more
-  // than `most_pixels`.
+  // Covers the box's x and y with square pixels of the given side, or larger ones if there would be more than
+  // `most_pixels`. All depths are -infinity.
   DepthBuffer(const Box& box, double pixel);
 
-  // Raises the depth at each pixel whose centre a disc covers to the disc's, if that is nearer. Depths before
-  // are -inf.
+  // Draws discs: raises the depth of each pixel whose centre a disc covers to the disc's depth there.
   void splat(const std::vector<Disc>& discs);
 
-  // Depth at the pixel that holds (x, y), -inf where no disc lies or outside the box.
+  // Returns the depth of the pixel that contains (x, y); -infinity where there is no disc, or outside the
+  // box.
   float depth(double x, double y) const;
 
-  // Centre of that pixel.
+  // Returns the centre of the pixel that contains (x, y).
   Vec2 pixel_centre(double x, double y) const;
 
  private:
@@ -42,8 +42,8 @@ class DepthBuffer {
   std::vector<float> depth_;
 };
 
-// Change of depth from a disc's centre to the point of its plane at (dx, dy) from it. Slopes are limited so
-// that discs seen edge on stay finite.
+// Returns the change of depth from a disc's centre to the point of its plane at (dx, dy) from it. Slopes are
+// limited to 20, so that the result is finite even for discs seen edge on.
 double depth_along_plane(const Vec3f& normal, double dx, double dy);
 
 }  // namespace relievo

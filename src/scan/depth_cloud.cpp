@@ -1,36 +1,38 @@
+// From a depth image to points. Tested by tests/scan/depth_image_test.cpp.
 #include <algorithm>
 #include <cmath>
 
-#include "depth_grid.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/depth_image.h"
+#include "relievo/scan/depth_image.h"
+#include "scan/depth_grid.h"
 
 namespace relievo {
 namespace {
 
-// Places without a depth that known ones enclose. What is open to the border is not part of the picture.
+// Returns the places without a depth that are enclosed by known ones, by flooding the others from the image's
+// border.
 std::vector<std::uint8_t> enclosed_holes(const BoundedGrid& b) {
   std::vector<std::uint8_t> is_hole(b.is_known.size());
   for (std::size_t i = 0; i < is_hole.size(); ++i) is_hole[i] = !b.is_known[i];
   std::vector<std::pair<int, int>> open;
-  const auto reach = [&](int c, int r) {
+  const auto flood = [&](int c, int r) {
     if (c < 0 || r < 0 || c >= b.width || r >= b.height || !is_hole[b.at(c, r)]) return;
     is_hole[b.at(c, r)] = 0;
     open.emplace_back(c, r);
   };
-  for (int c = 0; c < b.width; ++c) reach(c, 0), reach(c, b.height - 1);
-  for (int r = 0; r < b.height; ++r) reach(0, r), reach(b.width - 1, r);
+  for (int c = 0; c < b.width; ++c) flood(c, 0), flood(c, b.height - 1);
+  for (int r = 0; r < b.height; ++r) flood(0, r), flood(b.width - 1, r);
   while (!open.empty()) {
     const auto [c, r] = open.back();
     open.pop_back();
-    reach(c - 1, r), reach(c + 1, r), reach(c, r - 1), reach(c, r + 1);
+    flood(c - 1, r), flood(c + 1, r), flood(c, r - 1), flood(c, r + 1);
   }
   return is_hole;
 }
 
-// Gives each hole the height of the nearest known place along its row or column that lies farthest back: a
-// hole beside an outline belongs to what is behind.
+// Gives each place of a hole a height: of the nearest known places in the four directions along its row and
+// column, that of the one farthest back, as a hole beside an outline belongs to the surface behind it.
 void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::vector<float>& z) {
   const std::vector<float> known = z;
   parallel_for(
@@ -53,7 +55,7 @@ void fill(const BoundedGrid& b, const std::vector<std::uint8_t>& is_hole, std::v
       16);
 }
 
-// Mean of the differences to the joined neighbours on both sides; 0 without any.
+// Returns the mean of the differences to the joined neighbours on both sides; 0 without any.
 float slope_between(float before, float here, float after, bool joins_before, bool joins_after) {
   const float sum = (joins_before ? here - before : 0) + (joins_after ? after - here : 0);
   return joins_before && joins_after ? sum / 2 : sum;
@@ -93,7 +95,8 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
   out.reduction = grid.reduction;
   out.missing = grid.missing;
   out.noise = grid.noise;
-  const bool is_removed = options.background == "remove" || (options.background == "auto" && !options.camera);
+  const bool is_removed = options.background == Background::remove ||
+                          (options.background == Background::automatic && !options.camera);
   if (is_removed) out.background = remove_background(grid);
   join(grid);
   out.cut = cut_ramps(grid);

@@ -1,4 +1,4 @@
-#include "depth_grid.h"
+#include "scan/depth_grid.h"
 
 #include <algorithm>
 #include <array>
@@ -6,46 +6,55 @@
 #include <map>
 #include <optional>
 
+#include "core/quantile.h"
+
 namespace relievo {
 namespace {
 
-constexpr double farthest_inverse = .05;  // of the largest inverse depth: what is less is as far as this
-constexpr float steepest = 4;             // slope up to which neighbours are one surface: 76 degrees
-constexpr std::size_t noise_bins = 8;     // noise grows with depth: it is measured in shares of the picture
+// In units of the largest inverse depth. Smaller values are raised to this, as estimators return nearly 0 for
+// the sky, whose depth would be unlimited: no depth is more than 20 times the smallest.
+constexpr double farthest_inverse = .05;
+// The slope, 76 degrees, up to which neighbours belong to one surface. Steeper ones are more often jumps.
+constexpr float steepest = 4;
+// Noise grows with depth, so it is measured separately in this many equal parts of the pixels, sorted by
+// depth.
+constexpr std::size_t noise_bins = 8;
 
-// ------------------------------------------------------------------------------------------ values to
-// heights
-
-// Turns values into heights, which grow towards the viewer, in pixels of the image.
+// Converts values into heights, which grow towards the viewer, in pixels of the image.
 class HeightScale {
  public:
-  HeightScale(const DepthImage& image, const DepthOptions& options) : kind_(options.values[0]) {
+  HeightScale(const DepthImage& image, const DepthOptions& options) : kind_(options.values) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (const float v : image.values)
       if (is_known(v)) low = std::min(low, double{v}), high = std::max(high, double{v});
     const int longer = std::max(image.width, image.height);
-    is_log_ = options.camera.has_value() || kind_ == 'i';
-    floor_ = kind_ == 'i' ? std::max(farthest_inverse * high, 1e-30) : 1e-30;
-    // An estimator's camera is not known; most see about 50 degrees.
+    is_log_ = options.camera.has_value() || kind_ == DepthValues::inverse;
+    floor_ = kind_ == DepthValues::inverse ? std::max(farthest_inverse * high, 1e-30) : 1e-30;
+    // The camera of an estimator's image is not known. Most have a field of view of about 50 degrees, for
+    // which the focal length is 1.1 times the image's longer side.
     const double focal = options.camera ? std::sqrt(options.camera->fx * options.camera->fy) : 1.1 * longer;
     scale_ = is_log_ ? focal : high > low ? options.range * longer / (high - low) : 1;
-    if (kind_ == 'd') scale_ = -scale_;
+    if (kind_ == DepthValues::depth) scale_ = -scale_;
   }
 
-  bool is_known(float v) const { return std::isfinite(v) && (kind_ == 'd' ? v > 0 : v >= 0 || kind_ == 'h'); }
+  bool is_known(float v) const {
+    if (kind_ == DepthValues::depth) return std::isfinite(v) && v > 0;
+    return std::isfinite(v) && (v >= 0 || kind_ == DepthValues::height);
+  }
   double height(double v) const { return scale_ * (is_log_ ? std::log(std::max(v, floor_)) : v); }
 
  private:
-  char kind_;
+  DepthValues kind_;
   bool is_log_ = false;
   double scale_ = 1, floor_ = 0;
 };
 
-// What a value may be off because values come in steps: half a step of the file. Depth cameras write
-// millimetres, but far away they tell only every tenth: there it is the distance between the values that
-// occur, and more than half of it, as what is near the middle between two of them becomes either.
+// In units of the distance between values that occur. Depth cameras write millimetres but resolve, far away,
+// only about every tenth: two values that occur are then far apart, and noise decides which of the two a
+// depth becomes, so the uncertainty is more than half of that distance.
 constexpr double sensor_steps = 1.5;
 
+// The uncertainty of values that is due to their steps: at least half a step of the file.
 class ValueSteps {
  public:
   explicit ValueSteps(const DepthImage& image) : least_(image.step / 2) {
@@ -57,10 +66,12 @@ class ValueSteps {
       if (count >= 3) values_.push_back(value);
   }
 
-  // Are the values of a depth camera, whose steps are coarser than the file's?
-  bool are_sensors() const { return values_.size() > 16 && reach(values_[values_.size() / 2]) > 2 * least_; }
+  // Returns whether the values come from a depth camera: whether their steps are coarser than the file's.
+  bool are_sensors() const {
+    return values_.size() > 16 && uncertainty(values_[values_.size() / 2]) > 2 * least_;
+  }
 
-  double reach(float v) const {
+  double uncertainty(float v) const {
     constexpr std::ptrdiff_t around = 4;
     const auto at = std::ranges::lower_bound(values_, v) - values_.begin();
     std::array<float, 2 * around> gaps = {};
@@ -70,8 +81,7 @@ class ValueSteps {
          ++i)
       gaps[n++] = values_[static_cast<std::size_t>(i)] - values_[static_cast<std::size_t>(i - 1)];
     if (n < 3) return least_;
-    std::nth_element(gaps.begin(), gaps.begin() + n / 2, gaps.begin() + n);
-    const double gap = double{gaps[n / 2]}, most = .02 * std::abs(double{v});
+    const double gap = double{median(std::span(gaps).first(n))}, most = .02 * std::abs(double{v});
     return gap > 2 * least_ ? std::max(least_, std::min(most, sensor_steps * gap)) : least_;
   }
 
@@ -80,11 +90,8 @@ class ValueSteps {
   std::vector<float> values_;  // that occur, ascending
 };
 
-// ------------------------------------------------------------------------------------------------------
-// noise
-
-// The heights' standard deviation from twisted 2 x 2 blocks, in which every smooth surface cancels, by share
-// of depth.
+// The standard deviation of the heights' noise, by depth. It is measured by the twist of 2 x 2 blocks, a - b
+// - c + d, in which planes cancel and curved surfaces nearly so.
 struct Noise {
   std::array<float, noise_bins> limit;  // highest height of each bin
   std::array<float, noise_bins> sigma;
@@ -119,14 +126,12 @@ Noise measure_noise(const DepthGrid& grid) {
     noise.limit[bin] = (last - 1)->height;
     std::vector<float> sizes;
     for (auto it = first; it != last; ++it) sizes.push_back(it->twist);
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    noise.sigma[bin] = 1.4826F * *middle / 2;  // of four independent values
+    noise.sigma[bin] = 1.4826F * median(sizes) / 2;  // median to deviation, of four values
   }
   return noise;
 }
 
-// Lets every place be as high as the median around it: single values of a depth camera may be far off.
+// Extends the bounds of every place to the median around it: single values of a depth camera may be far off.
 void allow_specks(DepthGrid& grid) {
   BoundedGrid& b = grid.bounds;
   for (int r = 1; r + 1 < b.height; ++r)
@@ -138,31 +143,29 @@ void allow_specks(DepthGrid& grid) {
         for (int x = c - 1; x <= c + 1; ++x)
           if (b.is_known[b.at(x, y)]) around[n++] = grid.height[b.at(x, y)];
       if (!b.is_known[i] || n < 6) continue;
-      std::nth_element(around.begin(), around.begin() + n / 2, around.begin() + n);
-      b.low[i] = std::min(b.low[i], around[n / 2]);
-      b.high[i] = std::max(b.high[i], around[n / 2]);
+      const float middle = median(std::span(around).first(n));
+      b.low[i] = std::min(b.low[i], middle);
+      b.high[i] = std::max(b.high[i], middle);
     }
 }
 
-// Widens the bounds to twice the noise.
+// Widens the bounds to two standard deviations of the noise.
 void allow_noise(DepthGrid& grid) {
   const Noise noise = measure_noise(grid);
   std::vector<float> open;
   for (std::size_t i = 0; i < grid.height.size(); ++i) {
     if (!grid.bounds.is_known[i]) continue;
-    const float reach = 2 * noise.at(grid.height[i]);
-    grid.bounds.low[i] = std::min(grid.bounds.low[i], grid.height[i] - reach);
-    grid.bounds.high[i] = std::max(grid.bounds.high[i], grid.height[i] + reach);
+    const float width = 2 * noise.at(grid.height[i]);
+    grid.bounds.low[i] = std::min(grid.bounds.low[i], grid.height[i] - width);
+    grid.bounds.high[i] = std::max(grid.bounds.high[i], grid.height[i] + width);
     open.push_back((grid.bounds.high[i] - grid.bounds.low[i]) / 2);
   }
   if (open.empty()) return;
-  const auto middle = open.begin() + static_cast<std::ptrdiff_t>(open.size() / 2);
-  std::nth_element(open.begin(), middle, open.end());
-  grid.noise = double{*middle};
+  grid.noise = double{median(open)};
 }
 
-// Square blocks of pixels become one place: the mean of those that are near the median, so that a block on an
-// outline is one side of it and not the mean of both.
+// The mean of a square block of pixels, which becomes one place. Only pixels near the median count, so that a
+// block on an outline represents one side of it and not the mean of both.
 struct Block {
   float height = 0, low = 0, high = 0;
 };
@@ -209,7 +212,7 @@ DepthGrid make_grid(const DepthImage& image, const DepthOptions& options) {
           const float v = image.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                                        static_cast<std::size_t>(x)];
           if (!scale.is_known(v)) continue;
-          const double off = steps.reach(v), one = scale.height(double{v} - off),
+          const double off = steps.uncertainty(v), one = scale.height(double{v} - off),
                        other = scale.height(double{v} + off);
           const auto in_grid = [&](double h) { return static_cast<float>(h / k); };
           pixels.push_back({in_grid(scale.height(double{v})), in_grid(std::min(one, other)),
@@ -229,7 +232,8 @@ DepthGrid make_grid(const DepthImage& image, const DepthOptions& options) {
 
 void join(DepthGrid& grid) {
   BoundedGrid& b = grid.bounds;
-  // Depth cameras leave more open than the neighbours on a surface differ.
+  // A jump is a difference that the neighbours' bounds do not explain. The bounds of depth cameras are
+  // several times as wide as the differences on a surface, so a smaller part of them suffices.
   const float jump = grid.is_sensor ? .45F : 1.8F;
   const auto is_near = [&](std::size_t i, std::size_t j) {
     if (!b.is_known[i] || !b.is_known[j]) return false;
@@ -248,14 +252,15 @@ std::size_t cut_ramps(DepthGrid& grid) {
   BoundedGrid& b = grid.bounds;
   const auto width = static_cast<std::ptrdiff_t>(b.width);
   std::size_t cut = 0;
-  const int passes = 6;  // each takes a pixel off both ends of a ramp
+  const int passes = 6;  // each removes a pixel from both ends of a ramp, so ramps may be 12 pixels wide
   for (int pass = 0; pass < passes; ++pass) {
     std::vector<std::size_t> ramps;
     for (int r = 0; r < b.height; ++r)
       for (int c = 0; c < b.width; ++c) {
         const std::size_t i = b.at(c, r);
         if (!b.is_known[i]) continue;
-        // Between what lies before and behind it along a line: steep on both sides, and down the same way.
+        // On a ramp the heights before and after the place differ steeply from its own, in the same
+        // direction, and it is not joined to both.
         const auto is_ramp_along = [&](std::ptrdiff_t step, bool has_both, bool joins_before,
                                        bool joins_after) {
           if (!has_both || (joins_before && joins_after)) return false;
@@ -286,7 +291,8 @@ std::size_t remove_background(DepthGrid& grid) {
     if (b.is_known[i]) heights.push_back(grid.height[i]);
   if (heights.size() < 16) return 0;
   std::ranges::sort(heights);
-  // Otsu: the threshold that leaves the least variance within both sides.
+  // Otsu's method: the threshold that leaves the least variance within both groups, hence the most between
+  // them.
   double sum = 0, total = 0, total_sq = 0;
   for (const float h : heights) total += double{h}, total_sq += double{h} * double{h};
   const auto n = static_cast<double>(heights.size());
@@ -299,6 +305,7 @@ std::size_t remove_background(DepthGrid& grid) {
     if (between > best && heights[i] > heights[i - 1]) best = between, split = i;
   }
   const double variance = total_sq / n - total / n * (total / n);
+  // Less than 70 % of the variance between the groups means that there is no clear gap.
   if (split == 0 || best < .7 * variance) return 0;
   const float threshold = (heights[split] + heights[split - 1]) / 2;
   std::size_t border = 0, far_border = 0;
@@ -309,6 +316,7 @@ std::size_t remove_background(DepthGrid& grid) {
   };
   for (int c = 0; c < b.width; ++c) look(c, 0), look(c, b.height - 1);
   for (int r = 0; r < b.height; ++r) look(0, r), look(b.width - 1, r);
+  // A background covers at least 60 % of the border; otherwise the front extends beyond the image.
   if (10 * far_border < 6 * border) return 0;
   for (std::size_t i = 0; i < grid.height.size(); ++i)
     if (grid.height[i] < threshold) b.is_known[i] = 0;

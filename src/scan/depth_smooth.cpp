@@ -9,12 +9,13 @@
 namespace relievo {
 namespace {
 
-constexpr int smallest_side = 8;       // grids smaller than this are not halved again
-constexpr int steps = 150;             // of descent on each grid
-constexpr float step_size = 1 / 64.F;  // below 2 / the largest eigenvalue of the bending energy
+constexpr int smallest_side = 8;  // no grid is narrower than this
+constexpr int steps = 150;        // of descent on each grid, which has the long waves from the coarser one
+constexpr float step_size =
+    1 / 64.F;  // below 2 / the largest eigenvalue of the bending energy, 64: converges
 constexpr std::size_t rows_per_task = 16;
 
-// Half as wide and high: each place stands for up to four.
+// Returns a grid half as wide and high, in which each place represents up to four.
 BoundedGrid halved(const BoundedGrid& fine) {
   BoundedGrid half{(fine.width + 1) / 2, (fine.height + 1) / 2, {}, {}, {}, {}, {}};
   const std::size_t n = half.at(0, half.height);
@@ -36,7 +37,8 @@ BoundedGrid halved(const BoundedGrid& fine) {
       if (known == 0) continue;
       half.low[i] /= known, half.high[i] /= known;
       half.is_known[i] = 1;
-      // Joined where both ways across are: a jump must not be smoothed over on any grid.
+      // Two coarse places are joined only if both pairs of fine neighbours across are, so that no grid
+      // smooths over a jump.
       half.joins_right[i] = joins(fine.joins_right, 2 * c + 1, 2 * r) &&
                             (2 * r + 1 >= fine.height || joins(fine.joins_right, 2 * c + 1, 2 * r + 1));
       half.joins_down[i] = joins(fine.joins_down, 2 * c, 2 * r + 1) &&
@@ -45,7 +47,8 @@ BoundedGrid halved(const BoundedGrid& fine) {
   return half;
 }
 
-// Coarse heights at the places of the fine grid, linear between places that belong together, within bounds.
+// Returns coarse heights interpolated at the places of the fine grid, linearly between joined places, clamped
+// to the bounds.
 std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, const std::vector<float>& z) {
   std::vector<float> out(fine.low.size(), 0);
   parallel_for(
@@ -56,7 +59,7 @@ std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, con
           const std::size_t i = fine.at(c, r);
           if (!fine.is_known[i]) continue;
           const std::size_t own = half.at(c / 2, r / 2);
-          // A quarter of the way to the next coarse place, on the side where this place lies.
+          // A fine place lies a quarter of the way from its coarse place to the next one on its side.
           float value = z[own];
           const int dx = c % 2 ? 1 : -1, dy = r % 2 ? 1 : -1;
           const std::size_t left = dx > 0 ? own : own - 1,
@@ -72,7 +75,7 @@ std::vector<float> refined(const BoundedGrid& fine, const BoundedGrid& half, con
   return out;
 }
 
-// Projected descent with momentum (Nesterov) on the bending energy.
+// Minimises the bending energy within the bounds by projected gradient descent with Nesterov's momentum.
 class Descent {
  public:
   explicit Descent(const BoundedGrid& grid)
@@ -114,7 +117,8 @@ class Descent {
         rows_per_task);
   }
 
-  // Second differences; 0 where a neighbour is missing or beyond a jump, so that a surface may end anyhow.
+  // Computes the second differences. They are 0 where a neighbour is missing or beyond a jump, so that the
+  // edge of a surface is free.
   void find_bends(const std::vector<float>& z) {
     const auto& right = grid_.joins_right;
     const auto& down = grid_.joins_down;
@@ -126,7 +130,7 @@ class Descent {
     });
   }
 
-  // Half the derivative of the energy: of twist, which counts twice, and of the two bends.
+  // Returns half the derivative of the energy along^2 + down^2 + 2 twist^2 by the height of one place.
   float slope_at(int c, int r, std::size_t k) const {
     float sum = -2 * (along_[k] + down_[k]) + 2 * twist_[k];
     if (c > 0) sum += along_[k - 1] - 2 * twist_[k - 1];

@@ -1,15 +1,15 @@
-#include "front_mesh.h"
+#include "scan/front_mesh.h"
 
 #include <algorithm>
 
-#include "jumps.h"
-#include "relievo/visible.h"
+#include "relievo/scan/visible.h"
 #include "scan/depth_buffer.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
 
-// As far as jumps need it.
+// Returns the members of a Surface that is_jump() reads.
 Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
   Surface surface;
   surface.rho = spacing.rho;
@@ -24,19 +24,20 @@ Surface surface_of(const Cloud& viewed, const Spacing& spacing) {
   return surface;
 }
 
-// Whether a triangle is wider than the gaps between points of one surface.
+// Returns whether a triangle is wider than the gaps between points of one surface.
 bool is_wide(const Surface& surface, const Triangle& t) {
-  constexpr double widest_gap = 2.5;  // in rho
+  constexpr double widest_gap = 2.5;  // in rho; in random scans hardly any Delaunay edge is longer
   double longest = 0;
   for (std::size_t i = 0; i < 3; ++i)
     longest = std::max(longest, (surface.points[t[i]] - surface.points[t[(i + 1) % 3]]).head<2>().norm());
   return longest > widest_gap * surface.rho;
 }
 
-// Whether the surface may well go on from corner to corner of a triangle.
+// Returns whether one surface may continue between all corners of a triangle: whether no two normals differ
+// by more than 60 degrees, as they hardly do over 2.5 rho except across an edge of the model.
 bool look_alike(const Surface& surface, const Triangle& t) {
   const auto& n = surface.normals;
-  constexpr float least_cosine = .5F;
+  constexpr float least_cosine = .5F;  // of 60 degrees
   return std::min({n[t[0]].dot(n[t[1]]), n[t[1]].dot(n[t[2]]), n[t[2]].dot(n[t[0]])}) > least_cosine;
 }
 
@@ -69,7 +70,7 @@ class Mesher {
     mesh_.corner_normals.push_back(normals);
   }
 
-  // Each corner gets what lies nearer to it than the lines between the middles of the sides and the centre.
+  // Divides a triangle among its corners by lines from its centre to the middles of its sides.
   void share_out(const Triangle& t) {
     const auto at = [&](std::size_t i) -> Vec2 { return surface_.points[t[i % 3]].head<2>(); };
     const Vec2 centre = (at(0) + at(1) + at(2)) / 3;
@@ -82,7 +83,7 @@ class Mesher {
     }
   }
 
-  // On the tangent plane of a corner.
+  // Adds a point of a corner's tangent plane. Returns its number.
   Index add_point(Index corner, const Vec2& place) {
     const Vec3& from = surface_.points[corner];
     const Vec2 step = place - from.head<2>();

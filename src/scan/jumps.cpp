@@ -1,4 +1,4 @@
-#include "jumps.h"
+#include "scan/jumps.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,15 +10,18 @@
 namespace relievo {
 namespace {
 
-// How far the tangent plane rises towards a neighbour; close to the silhouette it rises without limit.
+// Returns how far the tangent plane rises along a step. n_z is limited to 0.1, because near the silhouette
+// the plane is too steep to tell a jump from a slope.
 double rise(const Vec3f& normal, const Vec2& step) {
   const Vec3 n = normal.cast<double>();
   return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1);
 }
 
+// The factor of edges at a jump in (9). docs/decisions/jumps.md has what other values do.
 constexpr double least_weight = .2;
-// Of the longer side. Jumps that are lower misfit little, and may be noise.
-constexpr double weighted_reach = .008, least_weighted_height = .02;
+// Shares of the longer side: the distance at which edges count fully, and the least height of a jump. Lower jumps
+// leave little misfit, and may be noise.
+constexpr double full_weight_distance = .008, least_jump_height = .02;
 
 double depth_range(const Surface& surface, const Triangle& t) {
   const auto [low, high] =
@@ -60,15 +63,15 @@ std::vector<std::uint8_t> jump_triangles(const Surface& surface) {
 }
 
 std::vector<float> jump_weights(const Surface& surface) {
-  const double side = longer_side_of(surface.points), reach = weighted_reach * side;
-  const std::vector<Vec2> jumps = points_at_high_jumps(surface, least_weighted_height * side);
+  const double side = longer_side_of(surface.points), full_distance = full_weight_distance * side;
+  const std::vector<Vec2> jumps = points_at_high_jumps(surface, least_jump_height * side);
   const KdTree<Vec2> tree(jumps);
   std::vector<float> weights(surface.points.size(), 1);
   parallel_for(weights.size(), [&](std::size_t i) {
     Index nearest;
     double distance_sq;
     if (!tree.nearest(surface.points[i].head<2>(), 1, &nearest, &distance_sq)) return;
-    const double share = std::min(std::sqrt(distance_sq) / reach, 1.0);
+    const double share = std::min(std::sqrt(distance_sq) / full_distance, 1.0);
     weights[i] = static_cast<float>(std::pow(least_weight, 1 - share));
   });
   return weights;

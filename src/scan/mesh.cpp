@@ -1,4 +1,4 @@
-#include "relievo/mesh.h"
+#include "relievo/scan/mesh.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,11 +11,12 @@
 namespace relievo {
 namespace {
 
-constexpr int first_side_px = 512;  // of the picture that tells how much of the view the mesh fills
-constexpr int band_rows = 32;
-constexpr float least_normal_z = .02F;  // interpolated normals may look away where the triangle does not
+constexpr int first_side_px = 512;  // of the image by which the number of visible pixels is estimated
+constexpr int rows_per_band = 32;
+// Interpolated normals may face away although the triangle does not; they are turned to just visible.
+constexpr float least_corner_normal_z = .02F;
 
-// The mesh as seen: x to the right, y up, z towards the viewer; every triangle turned to the viewer.
+// The mesh in view coordinates. All triangles are oriented so that they face the viewer.
 struct SeenMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
@@ -23,8 +24,8 @@ struct SeenMesh {
   Box box;
 };
 
-// Whether the file's normals say more than its triangles do. Some programs write each triangle's own normal,
-// which would show the triangles rather than the shape.
+// Returns whether the mesh's normals differ from those of its triangles, for more than 1 % of the corners.
+// Some programs write each triangle's own normal, which would show the triangles instead of the smooth shape.
 bool tells_normals(const Mesh& mesh) {
   const float same = .9999F;  // cosine of 0.8 degrees
   const auto count_told = [&](std::size_t begin, std::size_t end) {
@@ -46,10 +47,10 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
   SeenMesh seen;
   seen.points.resize(mesh.points.size());
   parallel_for(seen.points.size(),
-               [&](std::size_t i) { seen.points[i] = view.rotation * (mesh.points[i] - centre); });
+               [&](std::size_t i) { seen.points[i] = view.R_view_model * (mesh.points[i] - centre); });
   seen.triangles = mesh.triangles;
   seen.normals = normals_to_show(mesh);
-  const Eigen::Matrix3f turn = view.rotation.cast<float>();
+  const Eigen::Matrix3f turn = view.R_view_model.cast<float>();
   parallel_for(seen.triangles.size(), [&](std::size_t t) {
     Triangle& corners = seen.triangles[t];
     auto& normals = seen.normals[t];
@@ -61,7 +62,7 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
     if (!looks_away) return;
     std::swap(corners[1], corners[2]);
     std::swap(normals[1], normals[2]);
-    // Normals of the file may be right where the order of the corners is not.
+    // The file's normals may be right even if the order of the corners is wrong.
     if ((normals[0] + normals[1] + normals[2]).dot(flat) > 0)
       for (Vec3f& n : normals) n = -n;
   });
@@ -70,8 +71,8 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
   return seen;
 }
 
-Drawing scene_of(const SeenMesh& seen, double pixel) {
-  Drawing scene;
+RasterInput scene_of(const SeenMesh& seen, double pixel) {
+  RasterInput scene;
   scene.triangles = seen.triangles;
   const Vec3 size = seen.box.size() / pixel;
   scene.width = std::max(1, static_cast<int>(std::ceil(size.x())));
@@ -84,15 +85,15 @@ Drawing scene_of(const SeenMesh& seen, double pixel) {
   return scene;
 }
 
-std::size_t covered_pixels(const Drawing& scene) {
-  const Raster raster(scene, band_rows);
+std::size_t covered_pixels(const RasterInput& scene) {
+  const Rasterizer raster(scene, rows_per_band);
   std::vector<std::size_t> covered(raster.bands());
   parallel_for(
       raster.bands(),
       [&](std::size_t b) {
-        const Band band = raster.draw(b);
+        const RowBand band = raster.draw(b);
         covered[b] = static_cast<std::size_t>(
-            std::ranges::count_if(band.samples, [](const Sample& s) { return s.triangle != no_index; }));
+            std::ranges::count_if(band.fragments, [](const Fragment& s) { return s.triangle != no_index; }));
       },
       1);
   std::size_t sum = 0;
@@ -100,29 +101,29 @@ std::size_t covered_pixels(const Drawing& scene) {
   return sum;
 }
 
-// Side of the pixels asked for: as given, or so that about as many as wanted show the mesh; nothing if none
-// does.
+// Returns the side of the pixels: the spacing asked for, or such that about the wanted number of pixels show
+// the mesh. Nothing if no pixel shows it.
 std::optional<double> pixel_for(const SeenMesh& seen, const MeshSampling& options) {
-  const Vec3 size = seen.box.size();
-  const double longer = std::max(size.x(), size.y());
-  const double finest = longer / (Drawing::most_pixels / 8.0);
+  const double longer = seen.box.longer_side();
+  const double finest = longer / (RasterInput::most_pixels / 8.0);
   if (options.spacing > 0 && longer > 0) return std::max(finest, options.spacing);
   double pixel = longer / first_side_px;
   if (!(pixel > 0)) return std::nullopt;
   const int tries = 4;  // a wire that the first pixels miss shows in finer ones
   for (int i = 0; i < tries; ++i) {
     const auto covered = static_cast<double>(covered_pixels(scene_of(seen, pixel)));
-    const bool is_sure = covered > 1000;
+    const bool is_sure = covered > 1000;  // the area is then known to a few per cent
     if (is_sure) return std::max(finest, pixel * std::sqrt(covered / options.points));
     pixel = std::max(finest, pixel / 4);
   }
   return std::nullopt;
 }
 
-// Draws the mesh `fine` times finer than the points asked for, so that the outline is known between them.
+// Samples the mesh at the centres of pixels. It draws the mesh with pixels of 1 / `fine` of that side, so
+// that it knows the outline between the centres.
 class Sampler {
  public:
-  static constexpr int fine = 5;  // odd: the centre of a pixel is that of a fine one
+  static constexpr int fine = 5;  // odd, so that the centre of a pixel is that of a fine one
 
   Sampler(const Mesh& mesh, const SeenMesh& seen, double pixel)
       : mesh_(mesh),
@@ -132,7 +133,7 @@ class Sampler {
         columns_((scene_.width + fine - 1) / fine),
         rows_((scene_.height + fine - 1) / fine) {}
 
-  // In the view's frame.
+  // Returns the points in view coordinates.
   Cloud sample() {
     draw();
     std::vector<Cloud> parts(static_cast<std::size_t>(rows_));
@@ -150,22 +151,24 @@ class Sampler {
  private:
   static constexpr int middle = fine / 2;
 
-  // Keeps what is seen along the middle lines of the pixels' rows and columns.
+  // Draws the mesh and keeps the visible triangles along the middle lines of the pixels' rows and columns;
+  // the outline is searched for along these only.
   void draw() {
     const auto size = [](int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); };
     along_rows_.assign(size(rows_, columns_ * fine), no_index);
     along_columns_.assign(size(rows_ * fine, columns_), no_index);
-    const Raster raster(scene_, band_rows);
+    const Rasterizer raster(scene_, rows_per_band);
     const auto keep = [&](std::size_t b) {
-      const Band band = raster.draw(b);
+      const RowBand band = raster.draw(b);
       for (int r = 0; r < band.rows; ++r) {
         const int row = band.first_row + r;
-        const Sample* const samples = band.samples.data() + size(r, scene_.width);
+        const Fragment* const fragments = band.fragments.data() + size(r, scene_.width);
         for (int c = middle; c < scene_.width; c += fine)
-          along_columns_[size(row, columns_) + static_cast<std::size_t>(c / fine)] = samples[c].triangle;
+          along_columns_[size(row, columns_) + static_cast<std::size_t>(c / fine)] = fragments[c].triangle;
         if (row % fine != middle) continue;
         for (int c = 0; c < scene_.width; ++c)
-          along_rows_[size(row / fine, columns_ * fine) + static_cast<std::size_t>(c)] = samples[c].triangle;
+          along_rows_[size(row / fine, columns_ * fine) + static_cast<std::size_t>(c)] =
+              fragments[c].triangle;
       }
     };
     parallel_for(raster.bands(), keep, 1);
@@ -197,8 +200,9 @@ class Sampler {
     }
   }
 
-  // Between two neighbouring pixels, one of which shows the mesh, adds the last place that does, unless the
-  // pixel's own point is as near. `seen_at` tells what is seen so many fine pixels from the first.
+  // Adds a point on the outline between two neighbouring pixels if exactly one of them shows the mesh: at the
+  // last fine pixel that shows it, unless that is next to the pixel's own point. seen_at(i) returns the
+  // triangle that is visible i fine pixels from the first one.
   template <typename SeenAt, typename Add>
   static void add_outline(const SeenAt& seen_at, const Add& add_at) {
     const bool is_first = seen_at(0) != no_index, is_second = seen_at(fine) != no_index;
@@ -209,7 +213,7 @@ class Sampler {
     if (steps >= 2) add_at(seen_at(begin + steps * towards), begin + steps * towards);
   }
 
-  // The point of a triangle at the centre of a fine pixel; none for no triangle.
+  // Adds the point of a triangle at the centre of a fine pixel; none for no_index.
   void add(Index t, int fine_column, int fine_row, Cloud& to) const {
     if (t == no_index) return;
     const Vec2 place(fine_column + .5, fine_row + .5);
@@ -224,7 +228,7 @@ class Sampler {
         for (int k = 0; k < 3; ++k)
           colour[k] += weights[i] * static_cast<float>(mesh_.colours[corners[i]][k]);
     }
-    normal.z() = std::max(normal.z(), least_normal_z);
+    normal.z() = std::max(normal.z(), least_corner_normal_z);
     const Vec2 from_corner = fine_pixel_ * place;
     to.points.emplace_back(seen_.box.min.x() + from_corner.x(), seen_.box.max.y() - from_corner.y(), z);
     to.normals.push_back(normal.normalized());
@@ -236,13 +240,14 @@ class Sampler {
   const Mesh& mesh_;
   const SeenMesh& seen_;
   double fine_pixel_;
-  Drawing scene_;
+  RasterInput scene_;
   int columns_, rows_;  // of the pixels
   std::vector<Index> along_rows_, along_columns_;
 };
 
+// Transforms a cloud from the view's frame to the model's.
 void turn_back(Cloud& cloud, const View& view, const Vec3& centre) {
-  const Mat3 back = view.rotation.transpose();
+  const Mat3 back = view.R_view_model.transpose();
   const Eigen::Matrix3f turn = back.cast<float>();
   parallel_for(cloud.size(), [&](std::size_t i) {
     cloud.points[i] = back * cloud.points[i] + centre;
@@ -259,15 +264,14 @@ std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh) {
 Result<void> check_points(double points) {
   if (points >= 100 && points <= 1e7) return {};
   return std::unexpected(
-      Error{ErrorKind::option, "--points", {}, cat("expected a number from 100 to 1e+07, found ", points)});
+      Error{ErrorKind::option, "points", {}, cat("expected a number from 100 to 1e+07, found ", points)});
 }
 
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options,
                           Progress* progress) {
   if (auto ok = check_points(options.points); !ok) return std::unexpected(ok.error());
   if (auto go = begin_stage(progress, "mesh", 0); !go) return std::unexpected(go.error());
-  Box box;
-  for (const Vec3& p : mesh.points) box.extend(p);
+  const Box box = Box::of(mesh.points);
   const Vec3 centre = box.centre();
   if (!mesh.empty() && !(box.diagonal() > 1e-100 && box.diagonal() < 1e100))
     return std::unexpected(Error{

@@ -1,19 +1,20 @@
-#include "relievo/normals.h"
+#include "relievo/scan/normals.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 
-#include "front_most.h"
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
-#include "relievo/view.h"
+#include "relievo/scan/view.h"
+#include "scan/coarse_visibility.h"
 
 namespace relievo {
 namespace {
 
-constexpr std::size_t most_neighbours = 64;
+constexpr std::size_t most_neighbours = 64;  // for arrays on the stack
 
+// Returns the direction of least variance of the members, or (0, 0, 1) if they coincide.
 Vec3f plane_normal(std::span<const Vec3> points, std::span<const Index> members) {
   Vec3 mean = Vec3::Zero();
   for (const Index i : members) mean += points[i];
@@ -52,8 +53,10 @@ void turn_to_viewer(Cloud& viewed) {
 
 void turn_to_viewer(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
   turn_to_viewer(viewed);
-  constexpr float seen_well = .5F;
-  std::vector<Index> settled;  // in the order in which they were; also the queue
+  constexpr float seen_well = .5F;  // n_z of 60 degrees; at steeper points the estimated sign is not reliable
+  // Points whose sign is final, in the order in which they became so; also the queue of a breadth-first
+  // search.
+  std::vector<Index> settled;
   std::vector<std::uint8_t> is_settled(viewed.size(), 0);
   const auto settle = [&](Index i) {
     is_settled[i] = 1;
@@ -65,6 +68,7 @@ void turn_to_viewer(Cloud& viewed, const Spacing& spacing, std::span<const Index
     for (const Index i : spacing.nearest[settled[next]]) {
       if (i == no_index || is_settled[i]) continue;
       Vec3f& n = viewed.normals[i];
+      // All neighbours with a final sign vote, so that one wrong sign does not spread.
       float agreement = n.dot(viewed.normals[settled[next]]);
       for (const Index j : spacing.nearest[i])
         if (j != no_index && is_settled[j]) agreement += n.dot(viewed.normals[j]);
@@ -77,7 +81,7 @@ bool normals_point_inward(const Cloud& cloud) {
   if (!cloud.has_normals()) return false;
   double facing = 0;
   const std::array<const char*, 6> sides{"front", "back", "left", "right", "top", "bottom"};
-  for (const char* side : sides) facing += front_most(in_view(cloud, *parse_view(side))).facing_share;
+  for (const char* side : sides) facing += coarse_visibility(in_view(cloud, *parse_view(side))).facing_share;
   return facing < sides.size() / 3.0;
 }
 

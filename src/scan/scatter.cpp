@@ -1,13 +1,15 @@
+// Even sampling of a whole mesh. Declared in mesh.h, tested by tests/scan/mesh_test.cpp.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "relievo/core/parallel.h"
-#include "relievo/mesh.h"
+#include "relievo/scan/mesh.h"
 
 namespace relievo {
 namespace {
 
+// Returns the area of each triangle.
 std::vector<double> areas(const Mesh& mesh) {
   std::vector<double> areas(mesh.triangles.size());
   parallel_for(areas.size(), [&](std::size_t t) {
@@ -18,8 +20,9 @@ std::vector<double> areas(const Mesh& mesh) {
   return areas;
 }
 
-// Weights of the corners for point number i: a plastic-number sequence, which fills a square evenly, folded
-// into the triangle.
+// Returns barycentric coordinates for point number i: the R2 sequence of Roberts (2018), which fills a square
+// evenly, folded into the triangle. Its constants are 1 / p and 1 / p^2 for the plastic number p, the root of
+// p^3 = p + 1.
 Vec3f spread_weights(std::size_t i) {
   constexpr double first = 0.7548776662466927, second = 0.5698402909980532;
   double whole = 0;

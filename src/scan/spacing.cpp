@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/quantile.h"
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
 
@@ -25,16 +26,16 @@ Spacing measure_spacing(const Cloud& cloud) {
         if (count < 2) return;
         const double area = std::numbers::pi * distances_sq[count - 1] / static_cast<double>(count - 1);
         spacing.local[i] = static_cast<float>(std::sqrt(area));
-        // Exact twins may come before the point itself: leave out one entry, the point if it is there.
+        // Coincident points may come before the point itself. Leave out one entry: the point, or the last if
+        // it is not there.
         const auto self = std::find(found.begin(), found.end() - 1, static_cast<Index>(i));
         std::copy(self + 1, found.end(), std::copy(found.begin(), self, spacing.nearest[i].begin()));
       },
       1024);
   if (cloud.size() < 2) return spacing;
-  std::vector<float> sorted = spacing.local;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  spacing.rho = static_cast<double>(*middle);
+  // The median, not the mean, which a few far outliers or dense spots would change.
+  std::vector<float> distances = spacing.local;
+  spacing.rho = static_cast<double>(median(distances));
   return spacing;
 }
 

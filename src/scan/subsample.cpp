@@ -1,4 +1,4 @@
-#include "thin.h"
+#include "scan/subsample.h"
 
 #include <algorithm>
 #include <array>
@@ -10,19 +10,21 @@
 namespace relievo {
 namespace {
 
-// The distance below which no two points may stay if, of points thrown at random and taken in turn, so many
-// are to be left that they are `times` as far apart. Random sequential adsorption: of n points per area N are
-// kept, N = J (1 - 1 / sqrt(1 + 2 n / J)), where no more than J = .696 / distance^2 ever fit in.
+// Returns the minimum distance for greedy Poisson-disc subsampling of random points, in units of their
+// spacing, that makes the mean spacing grow by the factor `times`. This is random sequential adsorption: of n
+// points per area the greedy choice keeps N = J (1 - 1 / sqrt(1 + 2 n / J)), where J = 0.696 / distance^2 is
+// the saturation density.
 double least_distance(double times) {
   const double s = (std::sqrt(1 + 8 * times * times) - 1) / 2;
   return std::sqrt(.348 * std::max(0.0, s * s - 1));
 }
 
-// The other side of a thin wall has points of its own.
+// Returns whether two points are on the same side of a thin wall; its sides are subsampled separately.
 bool look_alike(const Cloud& cloud, Index a, Index b) {
   return cloud.normals[a].dot(cloud.normals[b]) > 0;
 }
 
+// Returns points in the order of the cloud, each unless a point before it is nearer than `distance`.
 std::vector<Index> far_apart(const Cloud& cloud, double distance) {
   const KdTree<Vec3> tree(cloud.points);
   std::vector<std::uint8_t> is_covered(cloud.size(), 0);
@@ -37,7 +39,8 @@ std::vector<Index> far_apart(const Cloud& cloud, double distance) {
   return kept;
 }
 
-// Of each point of the cloud the place in `kept` of the one that stands for it.
+// Returns for each point of the cloud the position in `kept` of the point that represents it, no_index if
+// none of the nearest ones is on the same side.
 std::vector<Index> nearest_kept(const Cloud& cloud, const std::vector<Index>& kept) {
   constexpr std::size_t candidates = 6;
   std::vector<Vec3> points(kept.size());
@@ -73,7 +76,7 @@ struct Group {
 
 }  // namespace
 
-Cloud thinned(const Cloud& cloud, const Spacing& spacing, double wanted) {
+Cloud subsample(const Cloud& cloud, const Spacing& spacing, double wanted) {
   const double own = spacing.rho;
   const std::vector<Index> kept = far_apart(cloud, own * least_distance(wanted / own));
   const std::vector<Index> nearest = nearest_kept(cloud, kept);

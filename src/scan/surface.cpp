@@ -9,14 +9,10 @@
 #include "geometry/space_curve.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "settle_normals.h"
+#include "scan/orient_normals.h"
 
 namespace relievo {
 namespace {
-
-std::unexpected<Error> geometry_error(std::string expected) {
-  return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
-}
 
 template <typename T>
 std::vector<T> pick(const std::vector<T>& from, std::span<const Index> order) {
@@ -36,11 +32,11 @@ Result<void> check_numbers(const Cloud& cloud) {
   return {};
 }
 
-// Fails for clouds that are a point or a line, up to rounding.
-Result<void> check_extent(const Cloud& cloud) {
+// Refuses clouds that are a point or a line, up to rounding.
+Result<void> check_extent(const Cloud& cloud, const Box& box) {
   if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
-  const Vec3 centre = bounds(cloud).centre();
-  const double scale = bounds(cloud).diagonal();
+  const Vec3 centre = box.centre();
+  const double scale = box.diagonal();
   if (!(scale > 0)) return geometry_error("expected points that span a surface, found all of them equal");
   Mat3 covariance = Mat3::Zero();
   for (const Vec3& p : cloud.points) covariance += (p - centre) * (p - centre).transpose() / (scale * scale);
@@ -60,21 +56,23 @@ std::vector<Index> merged(const std::vector<Index>& a, const std::vector<Index>&
   return both;
 }
 
-// The points in an order in which neighbours in the view plane are neighbours in memory.
+// Returns the points in an order in which neighbours in the view plane are close in memory.
 std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>& points) {
   return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
 }
 
-// The whole cloud in view coordinates, in the order of the curve, with normals.
-struct Viewed {
+// The whole cloud in view coordinates, with normals, in the order of a space-filling curve.
+struct ViewCloud {
   Cloud cloud;
   Spacing spacing;
 };
 
 // Stages 1 and 2.
-Result<Viewed> look_at(const Cloud& cloud, Surface& surface, Progress* progress) {
+Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progress) {
   if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
-  Viewed viewed{in_view(cloud, surface.view), {}};
+  ViewCloud viewed{in_view(cloud, surface.view), {}};
+  // A fixed order makes the result independent of the file's, and neighbours close in memory make all
+  // searches faster.
   const std::vector<Index> order = space_curve_order(viewed.cloud.points);
   viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order),
                   pick(viewed.cloud.colours, order)};
@@ -86,14 +84,15 @@ Result<Viewed> look_at(const Cloud& cloud, Surface& surface, Progress* progress)
     return geometry_error("expected points at a distance from each other, found most of them equal");
 
   if (auto go = begin_stage(progress, "normals", .2); !go) return std::unexpected(go.error());
-  const NormalsWere were = settle_normals(viewed.cloud, viewed.spacing, cloud);
-  surface.has_estimated_normals = were == NormalsWere::missing;
-  surface.has_flipped_normals = were == NormalsWere::inward;
+  const OriginalNormals were = orient_normals(viewed.cloud, viewed.spacing, cloud);
+  surface.has_estimated_normals = were == OriginalNormals::missing;
+  surface.has_flipped_normals = were == OriginalNormals::inward;
   return viewed;
 }
 
-// Stages 3 and 4: the surface's points and normals. Returns their mean curvature, 0 at fillers.
-Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& options, Surface& surface,
+// Stages 3 and 4: sets the surface's points, normals and colours. Returns their mean curvature, 0 at hole
+// fill points.
+Result<std::vector<double>> find_points(ViewCloud& viewed, const SurfaceOptions& options, Surface& surface,
                                         Progress* progress) {
   if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
   auto& [cloud, spacing] = viewed;
@@ -102,13 +101,14 @@ Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& op
     return geometry_error(
         cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
   surface.visible_points = visible.size();
-  const std::vector<Index> fillers = filler_points(cloud, spacing, visible, options.visible);
-  for (const Index i : fillers) cloud.normals[i] = Vec3f::UnitZ();
+  const std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible, options.visible);
+  // Flat, as nothing is known of the front there.
+  for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
 
   if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
   std::vector<double> k(cloud.size(), 0.0);
   scatter(mean_curvature(cloud, spacing, visible, options.curvature), visible, k);
-  const std::vector<Index> shown = along_the_plane(cloud, merged(visible, fillers));
+  const std::vector<Index> shown = along_the_plane(cloud, merged(visible, hole_fill));
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
   surface.colours = pick(cloud.colours, shown);
@@ -118,9 +118,9 @@ Result<std::vector<double>> find_points(Viewed& viewed, const SurfaceOptions& op
 }  // namespace
 
 std::size_t Surface::memory() const {
-  return bytes(points) + bytes(normals) + bytes(curvature.k) + bytes(layers) +
-         bytes(triangulation.triangles) + bytes(triangulation.hull) + bytes(boundary.is_inside) +
-         bytes(boundary.is_boundary) + bytes(boundary.distance);
+  return bytes(points) + bytes(normals) + bytes(curvature.k) + bytes(triangulation.triangles) +
+         bytes(triangulation.hull) + bytes(boundary.is_inside) + bytes(boundary.is_boundary) +
+         bytes(boundary.distance);
 }
 
 std::vector<Vec2> in_plane(std::span<const Vec3> points) {
@@ -132,14 +132,15 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
 Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
                              Progress* progress) {
   if (auto ok = check_numbers(cloud); !ok) return std::unexpected(ok.error());
-  if (auto ok = check_extent(cloud); !ok) return std::unexpected(ok.error());
+  const Box box = bounds(cloud);
+  if (auto ok = check_extent(cloud, box); !ok) return std::unexpected(ok.error());
   Surface surface;
   surface.view = view;
-  surface.centre = bounds(cloud).centre();
-  surface.diagonal = bounds(cloud).diagonal();
+  surface.centre = box.centre();
+  surface.diagonal = box.diagonal();
   surface.input_points = cloud.size();
 
-  Result<Viewed> viewed = look_at(cloud, surface, progress);
+  Result<ViewCloud> viewed = look_at(cloud, surface, progress);
   if (!viewed) return std::unexpected(viewed.error());
   const Result<std::vector<double>> k = find_points(*viewed, options, surface, progress);
   if (!k) return std::unexpected(k.error());
@@ -154,8 +155,7 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
 
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
   surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
-  if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
-  surface.layers = normal_layers(surface.points, surface.normals);
+  // Only the boundary needs the neighbours; they take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
 }

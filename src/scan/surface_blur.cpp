@@ -9,8 +9,8 @@ namespace relievo {
 namespace {
 
 constexpr double most_cells = 1 << 24;
-// Of the Gaussian, in cells: spreading and reading back linearly have a variance of 1/6 each, the average of
-// neighbours with weights 1, 2, 1 has 1/2.
+// The standard deviation of the blur, in cells. Its three steps add up their variances: distributing to cells
+// and interpolating back, both linear, have 1/6 each, averaging neighbours with weights 1, 2, 1 has 1/2.
 const double sigma_in_cells = std::sqrt(5.0 / 6);
 
 // Calls f(cell, weight) for the eight cells around a place.
@@ -29,8 +29,7 @@ void each_corner(Index cell, const Vec3f& share, const std::array<std::size_t, 3
 }  // namespace
 
 SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(points.size()) {
-  Box box;
-  for (const Vec3& p : points) box.extend(p);
+  const Box box = Box::of(points);
   double side = sigma / sigma_in_cells;
   const auto count = [&](int axis) { return static_cast<std::size_t>(box.size()[axis] / side) + 4; };
   while (static_cast<double>(count(0)) * static_cast<double>(count(1)) * static_cast<double>(count(2)) >

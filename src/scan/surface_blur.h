@@ -1,5 +1,5 @@
-// Averages along a surface: over what is near in space, so that what lies behind, beyond a depth jump, does
-// not take part.
+// Gaussian blur along a surface: over points that are near in space, so that points beyond a depth jump do
+// not take part although they are near in the view plane.
 #pragma once
 
 #include <span>
@@ -9,12 +9,12 @@
 
 namespace relievo {
 
-// A Gaussian in space of one width, prepared for fixed points: they are spread over a grid of cells about as
-// wide as the Gaussian, the cells are averaged with their neighbours and the points read back. Time does not
-// depend on the width.
+// A blur with a Gaussian of one width, prepared for given points. Their values are distributed to a grid of
+// cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values are
+// interpolated back. The time does not depend on the width.
 class SurfaceBlur {
  public:
-  // `sigma` > 0 is the standard deviation; it is widened where the grid would have more than 2^24 cells.
+  // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.
   SurfaceBlur(std::span<const Vec3> points, double sigma);
 
   // Replaces each value, one per point, by the average around the point.
@@ -22,7 +22,7 @@ class SurfaceBlur {
 
  private:
   struct Place {
-    Index cell = 0;  // with the smallest coordinates of the eight around the point
+    Index cell = 0;  // the one of the eight around the point with the smallest coordinates
     Vec3f share = Vec3f::Zero();
   };
   void average_cells(std::vector<Vec3f>& cells) const;

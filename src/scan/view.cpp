@@ -1,14 +1,14 @@
-#include "relievo/view.h"
+#include "relievo/scan/view.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "front_most.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/normals.h"
+#include "relievo/scan/normals.h"
+#include "scan/coarse_visibility.h"
 
 namespace relievo {
 namespace {
@@ -28,14 +28,9 @@ const std::array<NamedView, 6>& named_views() {
   return views;
 }
 
-Error option_error(std::string_view option, std::string expected) {
-  return {ErrorKind::option, std::string(option), {}, std::move(expected)};
-}
-
 Result<Vec3> parse_direction(std::string_view option, std::string_view text) {
   const std::optional<Vec3> v = parse_triple(text);
-  if (!v)
-    return std::unexpected(option_error(option, cat("expected three numbers X,Y,Z, found '", text, "'")));
+  if (!v) return option_error(std::string(option), cat("expected three numbers X,Y,Z, found '", text, "'"));
   return *v;
 }
 
@@ -44,16 +39,17 @@ Result<Vec3> parse_direction(std::string_view option, std::string_view text) {
 Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up) {
   const double length = towards_viewer.norm();
   if (!(length > 0) || !std::isfinite(length))
-    return std::unexpected(option_error("--view", "expected a direction that is not zero and finite"));
+    return option_error("view", "expected a direction that is not zero and finite");
   if (!(up.norm() > 0) || !std::isfinite(up.norm()))
-    return std::unexpected(option_error("--up", "expected a direction that is not zero and finite"));
+    return option_error("up", "expected a direction that is not zero and finite");
   const Vec3 z = towards_viewer / length;
   Vec3 x = up.normalized().cross(z);
+  // If `up` is parallel to z, its cross product vanishes; one of the axes z and y is not parallel to it.
   for (const Vec3& other : {Vec3(Vec3::UnitZ()), Vec3(Vec3::UnitY())})
     if (x.norm() < 1e-6) x = other.cross(z);
   x.normalize();
   View view;
-  view.rotation << x.transpose(), z.cross(x).transpose(), z.transpose();
+  view.R_view_model << x.transpose(), z.cross(x).transpose(), z.transpose();
   return view;
 }
 
@@ -66,40 +62,33 @@ Result<View> parse_view(std::string_view text, std::string_view up) {
   } else {
     const std::optional<Vec3> direction = parse_triple(text);
     if (!direction)
-      return std::unexpected(option_error(
-          "--view", cat("expected front, back, left, right, top, bottom or X,Y,Z, found '", text, "'")));
+      return option_error("view",
+                          cat("expected front, back, left, right, top, bottom or X,Y,Z, found '", text, "'"));
     wanted.towards_viewer = *direction;
   }
   if (!up.empty()) {
-    const Result<Vec3> parsed = parse_direction("--up", up);
+    const Result<Vec3> parsed = parse_direction("up", up);
     if (!parsed) return std::unexpected(parsed.error());
     wanted.up = *parsed;
   }
   return view_towards(wanted.towards_viewer, wanted.up);
 }
 
-// Equation (1).
+// Equation (1): R = R_y R_x.
 View view_from_euler(double theta_x, double theta_y) {
   const Eigen::AngleAxisd rx(theta_x, Vec3::UnitX()), ry(theta_y, Vec3::UnitY());
   return {(ry * rx).toRotationMatrix()};
 }
 
-Result<View> view_from_quaternion(double w, double x, double y, double z) {
-  Eigen::Quaterniond q(w, x, y, z);
-  if (!(q.norm() > 0) || !std::isfinite(q.norm()))
-    return std::unexpected(option_error("--view", "expected a quaternion that is not zero and finite"));
-  return View{q.normalized().toRotationMatrix()};
-}
-
 Cloud in_view(const Cloud& cloud, const View& view) {
   const Vec3 centre = bounds(cloud).centre();
-  const Eigen::Matrix3f rotation = view.rotation.cast<float>();
+  const Eigen::Matrix3f rotation = view.R_view_model.cast<float>();
   Cloud out;
   out.points.resize(cloud.size());
   out.normals.resize(cloud.normals.size());
   out.colours = cloud.colours;
   parallel_for(cloud.size(),
-               [&](std::size_t i) { out.points[i] = view.rotation * (cloud.points[i] - centre); });
+               [&](std::size_t i) { out.points[i] = view.R_view_model * (cloud.points[i] - centre); });
   parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
   return out;
 }
@@ -112,7 +101,7 @@ std::array<ViewGuess, 6> rank_views(const Cloud& cloud) {
     const NamedView& named = named_views()[i];
     Cloud viewed = in_view(with_normals, *view_towards(named.towards_viewer, named.up));
     if (!cloud.has_normals()) turn_to_viewer(viewed);  // estimated normals have no sign yet
-    guesses[i] = {named.name, front_most(viewed).normal_variation};
+    guesses[i] = {named.name, coarse_visibility(viewed).normal_variation};
   }
   std::stable_sort(guesses.begin(), guesses.end(),
                    [](const ViewGuess& a, const ViewGuess& b) { return a.score > b.score; });

@@ -1,4 +1,4 @@
-#include "relievo/visible.h"
+#include "relievo/scan/visible.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,32 +11,42 @@
 namespace relievo {
 namespace {
 
-constexpr double pixel_side = 0.5;  // of the depth buffer, in rho
-constexpr double widest_disc = 8;   // in rho: a lone point far from all others hides little
-constexpr double connection_length =
-    3;  // neighbours further apart than this, in local spacings, are not connected
+constexpr double pixel_side = 0.5;  // of the depth buffer, in rho: finer than the discs, which overlap
+// Limits of the local spacing, in rho. Near coincident points it is almost 0, which would let one look
+// through the surface; a lone point far from all others must not hide an area as large as its spacing.
+constexpr double least_spacing = .25, largest_spacing = 4;
+// Neighbours further apart than this, in local spacings, are not connected. A disc of this radius holds 9 pi
+// = 28 points.
+constexpr double connection_length = 3;
+// At most this fraction of the visible points counts as a fragment, or a cloud of few points would be nothing
+// else.
+constexpr std::size_t fragment_share = 8;
+constexpr double least_facing = .1;  // limits the tolerance along the view where a surface is seen edge on
+// Hole fill points come from well sampled surfaces only, and are this far apart, in rho.
+constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {
  public:
   Visibility(const Cloud& cloud, const Spacing& spacing, const VisibleOptions& options)
-      : cloud_(cloud), spacing_(spacing), options_(options), is_stray_(cloud.size(), 0) {}
+      : cloud_(cloud), spacing_(spacing), options_(options), is_fragment_(cloud.size(), 0) {}
 
   std::vector<Index> find() {
     std::vector<Index> visible = in_front();
-    if (mark_strays(visible)) {
-      // What the strays hid comes to light; what it may leave as new fragments goes for good.
+    if (mark_fragments(visible)) {
+      // Without the fragments other points become visible. New fragments among these are removed without
+      // another round.
       visible = in_front();
-      mark_strays(visible);
+      mark_fragments(visible);
     }
-    std::erase_if(visible, [&](Index i) { return is_stray_[i]; });
-    return without_twins(std::move(visible));
+    std::erase_if(visible, [&](Index i) { return is_fragment_[i]; });
+    return without_coincident(std::move(visible));
   }
 
  private:
-  bool faces_viewer(Index i) const { return cloud_.normals[i].z() > 0 && !is_stray_[i]; }
+  bool faces_viewer(Index i) const { return cloud_.normals[i].z() > 0 && !is_fragment_[i]; }
   double local_spacing(Index i) const {
-    return std::clamp(static_cast<double>(spacing_.local[i]), .25 * spacing_.rho,
-                      .5 * widest_disc * spacing_.rho);
+    return std::clamp(static_cast<double>(spacing_.local[i]), least_spacing * spacing_.rho,
+                      largest_spacing * spacing_.rho);
   }
 
   std::vector<Index> in_front() const {
@@ -60,47 +70,51 @@ class Visibility {
     return facing;
   }
 
-  // Compares depths at the pixel's centre, where the buffer's was taken: on a slope the two places differ.
+  // Compares depths at the centre of the point's pixel, where the buffer's depth was computed: on a slope the
+  // depth there differs from the point's own.
   bool is_in_front(Index i, const DepthBuffer& buffer) const {
     const Vec3& p = cloud_.points[i];
     const Vec2 step = buffer.pixel_centre(p.x(), p.y()) - p.head<2>();
     const double depth = p.z() + depth_along_plane(cloud_.normals[i], step.x(), step.y());
-    const double nz = std::max(static_cast<double>(cloud_.normals[i].z()), .1);
+    const double nz = std::max(static_cast<double>(cloud_.normals[i].z()), least_facing);
     const double tolerance = options_.depth_tolerance * local_spacing(i) / nz;
     return depth + tolerance >= static_cast<double>(buffer.depth(p.x(), p.y()));
   }
 
-  // Marks the visible points of small connected sets; returns whether there were any.
-  bool mark_strays(const std::vector<Index>& visible) {
+  // Marks the visible points of small connected sets. Returns whether there were any.
+  bool mark_fragments(const std::vector<Index>& visible) {
     std::vector<std::uint8_t> is_visible(cloud_.size(), 0);
     for (const Index i : visible) is_visible[i] = 1;
     DisjointSets sets(cloud_.size());
     for (const Index i : visible) {
-      const double reach = connection_length * local_spacing(i);
+      const double radius = connection_length * local_spacing(i);
       for (const Index j : spacing_.nearest[i])
-        if (j != no_index && is_visible[j] && (cloud_.points[i] - cloud_.points[j]).norm() < reach)
+        if (j != no_index && is_visible[j] && (cloud_.points[i] - cloud_.points[j]).norm() < radius)
           sets.join(i, j);
     }
-    const std::size_t least = std::min(options_.smallest_fragment, visible.size() / 8);
+    const std::size_t least = std::min(options_.smallest_fragment, visible.size() / fragment_share);
     bool found = false;
     for (const Index i : visible)
-      if (sets.size_of(i) < least) is_stray_[i] = found = true;
+      if (sets.size_of(i) < least) is_fragment_[i] = found = true;
     return found;
   }
 
-  // Of points that all but coincide in the view plane the one nearest to the viewer stays: the triangulation
-  // in the plane takes one of them, and coordinates of single precision in a file must not fall together.
-  std::vector<Index> without_twins(std::vector<Index> visible) const {
+  // Of points that nearly coincide in the view plane only the one nearest to the viewer is kept: the
+  // triangulation in the plane uses only one of coincident points, and coordinates rounded to single
+  // precision in a file must stay distinct.
+  std::vector<Index> without_coincident(std::vector<Index> visible) const {
     const auto at = [&](Index i) -> const Vec3& { return cloud_.points[i]; };
-    // Swept along a slanting unit direction: the points of a column of a range image share their x, not this.
+    // A sweep along x would compare all points of a column of a range image, which have the same x. Along
+    // this unit direction, 35.8 degrees from the x axis, no rows, columns or diagonals of a grid coincide.
     const auto along = [&](Index i) { return .811 * at(i).x() + .585 * at(i).y(); };
     std::sort(visible.begin(), visible.end(),
               [&](Index a, Index b) { return std::pair(along(a), a) < std::pair(along(b), b); });
-    const double reach = options_.twin_distance * spacing_.rho;
+    const double radius = options_.coincidence_distance * spacing_.rho;
     std::vector<std::uint8_t> is_hidden(visible.size(), 0);
     for (std::size_t a = 0; a < visible.size(); ++a)
-      for (std::size_t b = a + 1; b < visible.size() && along(visible[b]) - along(visible[a]) <= reach; ++b) {
-        if ((at(visible[a]) - at(visible[b])).head<2>().norm() > reach) continue;
+      for (std::size_t b = a + 1; b < visible.size() && along(visible[b]) - along(visible[a]) <= radius;
+           ++b) {
+        if ((at(visible[a]) - at(visible[b])).head<2>().norm() > radius) continue;
         is_hidden[at(visible[a]).z() < at(visible[b]).z() ? a : b] = 1;
       }
     std::size_t kept = 0;
@@ -114,11 +128,11 @@ class Visibility {
   const Cloud& cloud_;
   const Spacing& spacing_;
   const VisibleOptions& options_;
-  std::vector<std::uint8_t> is_stray_;
+  std::vector<std::uint8_t> is_fragment_;
 };
 
-// Leaves out points until none is nearer than `distance` to another in the view plane.
-std::vector<Index> thinned(const Cloud& cloud, std::vector<Index> points, double distance) {
+// Returns a subset of points of which no two are nearer to each other than `distance` in the view plane.
+std::vector<Index> with_least_distance(const Cloud& cloud, std::vector<Index> points, double distance) {
   const auto at = [&](Index i) -> Vec2 { return cloud.points[i].head<2>(); };
   std::sort(points.begin(), points.end(),
             [&](Index a, Index b) { return std::pair(at(a).x(), a) < std::pair(at(b).x(), b); });
@@ -141,26 +155,27 @@ std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
   return Visibility(viewed, spacing, options).find();
 }
 
-std::vector<Index> filler_points(const Cloud& viewed, const Spacing& spacing, std::span<const Index> visible,
-                                 const VisibleOptions& options) {
+std::vector<Index> hole_fill_points(const Cloud& viewed, const Spacing& spacing,
+                                    std::span<const Index> visible, const VisibleOptions& options) {
   if (!viewed.has_normals()) return {};
   std::vector<Vec2> seen(visible.size());
   std::transform(visible.begin(), visible.end(), seen.begin(),
                  [&](Index i) { return viewed.points[i].head<2>(); });
   const KdTree<Vec2> tree(seen);
-  const double reach = options.filler_distance * spacing.rho;
+  const double radius = options.hole_fill_distance * spacing.rho;
   std::vector<std::uint8_t> is_far(viewed.size(), 0);
   parallel_for(viewed.size(), [&](std::size_t i) {
     Index nearest;
     double distance_sq;
     if (viewed.normals[i].z() > 0 || !tree.nearest(viewed.points[i].head<2>(), 1, &nearest, &distance_sq))
       return;
-    is_far[i] = distance_sq > reach * reach && static_cast<double>(spacing.local[i]) < 1.5 * spacing.rho;
+    is_far[i] = distance_sq > radius * radius &&
+                static_cast<double>(spacing.local[i]) < sparsest_hole_fill * spacing.rho;
   });
-  std::vector<Index> fillers;
+  std::vector<Index> hole_fill;
   for (Index i = 0; i < viewed.size(); ++i)
-    if (is_far[i]) fillers.push_back(i);
-  return thinned(viewed, std::move(fillers), .7 * spacing.rho);
+    if (is_far[i]) hole_fill.push_back(i);
+  return with_least_distance(viewed, std::move(hole_fill), hole_fill_spacing * spacing.rho);
 }
 
 }  // namespace relievo

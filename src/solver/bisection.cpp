@@ -1,39 +1,41 @@
-#include "separator.h"
+#include "solver/bisection.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
+#include "core/quantile.h"
 #include "relievo/core/parallel.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
-// Share of the vertices on either side that must stay there; the rest is the band the separator may use.
+// Share of the vertices that must stay on either side; the remaining 30 % in the middle are the band in which
+// the separator is sought. A wider band allows a shorter separator, but sides of less equal size.
 constexpr double core_share = .35;
 
-// Where the vertices lie along one direction, and the band's ends there.
+// The positions of the vertices along one direction, and the limits of the band.
 struct Sweep {
   Eigen::Vector2f direction = {1, 0};
   std::vector<float> value;
   float low = 0, high = 0;
-  Index width = 0;  // vertices of the band that touch what lies below, of a sample: a guess of the cut's size
+  // Sampled number of band vertices that have neighbours below it: an estimate of the separator's size.
+  Index width = 0;
 };
 
 bool is_in_band(const Sweep& sweep, Index v) {
   return sweep.value[v] >= sweep.low && sweep.value[v] <= sweep.high;
 }
 
-// Quantiles of a sample are near enough: the flow finds the line.
+// Sets the limits of the band. Quantiles of a sample of 1,024 are accurate enough: the flow finds the line.
 void find_band(Sweep& sweep) {
   const std::size_t most = 1024, n = sweep.value.size(), step = (n + most - 1) / most;
   std::vector<float> sample;
   for (std::size_t i = 0; i < n; i += step) sample.push_back(sweep.value[i]);
   const auto quantile = [&](double share) {
-    const auto at = sample.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(sample.size()));
-    std::nth_element(sample.begin(), at, sample.end());
-    return *at;
+    return value_of_rank(std::span(sample),
+                         static_cast<std::size_t>(share * static_cast<double>(sample.size())));
   };
   sweep.low = quantile(core_share);
   sweep.high = quantile(1 - core_share);
@@ -61,11 +63,11 @@ std::vector<float> along(std::span<const Eigen::Vector2f> positions, Eigen::Vect
   return value;
 }
 
-Band make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep,
-               const std::vector<Index>& vertices) {
+SeparatorBand make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep,
+                        const std::vector<Index>& vertices) {
   std::vector<Index> slot(graph.size(), no_index);
   for (Index i = 0; i < vertices.size(); ++i) slot[vertices[i]] = i;
-  Band band;
+  SeparatorBand band;
   band.direction = sweep.direction;
   for (const Index v : vertices) band.positions.push_back(positions[v]);
   band.graph.begin.reserve(vertices.size() + 1);
@@ -84,14 +86,15 @@ Band make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, c
   return band;
 }
 
-void count_sides(Separation& cut) {
+void count_sides(Bisection& cut) {
   cut.first = cut.second = cut.separator = 0;
   for (const Side s : cut.side)
     ++(s == Side::first ? cut.first : s == Side::second ? cut.second : cut.separator);
 }
 
-// Edges across the whole band are not in its graph: their ends join the separator.
-void close_gaps(const Graph& graph, Separation& cut) {
+// Edges that cross the whole band are not part of its graph and may still join the sides: their ends on the
+// first side are moved to the separator.
+void close_gaps(const Graph& graph, Bisection& cut) {
   for (Index v = 0; v < graph.size(); ++v) {
     if (cut.side[v] != Side::first) continue;
     const auto nearby = graph.neighbours(v);
@@ -101,9 +104,11 @@ void close_gaps(const Graph& graph, Separation& cut) {
   count_sides(cut);
 }
 
-// An estimate of the factor entries that a separation causes: those of the separator itself, whose front has
-// about four times its width, and those that the larger side will need more than an even half would.
-double cost(const Separation& cut) {
+// Estimates the factor entries that a bisection causes. The separator of s vertices is eliminated as a dense
+// triangle, s^2 / 2, plus s times the rows below it, on average 2.2 sqrt(n). The other term is what unequal
+// sides need more than equal ones: 2 n (1 - H), with H the entropy of the split in bits. See
+// docs/cholesky.md.
+double cost(const Bisection& cut) {
   if (cut.first == 0 || cut.second == 0) return std::numeric_limits<double>::infinity();
   const double n = static_cast<double>(cut.side.size()), s = cut.separator;
   const double a = cut.first / n, b = cut.second / n;
@@ -111,8 +116,8 @@ double cost(const Separation& cut) {
   return s * (s / 2 + 2.2 * std::sqrt(n)) + 2 * n * unevenness;
 }
 
-Separation with_band(const Sweep& sweep, const std::vector<Index>& vertices, const std::vector<Side>& sides) {
-  Separation cut;
+Bisection with_band(const Sweep& sweep, const std::vector<Index>& vertices, const std::vector<Side>& sides) {
+  Bisection cut;
   cut.side.resize(sweep.value.size());
   for (Index v = 0; v < cut.side.size(); ++v)
     cut.side[v] = sweep.value[v] < sweep.low ? Side::first : Side::second;
@@ -121,28 +126,27 @@ Separation with_band(const Sweep& sweep, const std::vector<Index>& vertices, con
   return cut;
 }
 
-Separation cut_along(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep) {
+Bisection cut_along(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep) {
   std::vector<Index> vertices;
   for (Index v = 0; v < graph.size(); ++v)
     if (is_in_band(sweep, v)) vertices.push_back(v);
-  const BandCuts cuts = smallest_cuts(make_band(graph, positions, sweep, vertices));
-  Separation a = with_band(sweep, vertices, cuts.near_first),
-             b = with_band(sweep, vertices, cuts.near_second);
+  const MinimumSeparators cuts = minimum_separators(make_band(graph, positions, sweep, vertices));
+  Bisection a = with_band(sweep, vertices, cuts.near_first), b = with_band(sweep, vertices, cuts.near_second);
   return cost(a) <= cost(b) ? std::move(a) : std::move(b);
 }
 
-Separation best_of(const Graph& graph, std::span<const Eigen::Vector2f> positions,
-                   std::span<const Sweep> sweeps) {
-  std::vector<Separation> cuts(sweeps.size());
+Bisection best_of(const Graph& graph, std::span<const Eigen::Vector2f> positions,
+                  std::span<const Sweep> sweeps) {
+  std::vector<Bisection> cuts(sweeps.size());
   parallel_for(
       sweeps.size(), [&](std::size_t i) { cuts[i] = cut_along(graph, positions, sweeps[i]); }, 1);
   const auto best = std::min_element(
-      cuts.begin(), cuts.end(), [](const Separation& a, const Separation& b) { return cost(a) < cost(b); });
+      cuts.begin(), cuts.end(), [](const Bisection& a, const Bisection& b) { return cost(a) < cost(b); });
   close_gaps(graph, *best);
   return std::move(*best);
 }
 
-// Sends a wave through each component in turn; the values go on rising from one to the next.
+// Returns the vertices in breadth-first order from `start`, one connected component after the other.
 std::vector<Index> wave(const Graph& graph, Index start) {
   std::vector<Index> order;
   std::vector<std::uint8_t> is_seen(graph.size(), 0);
@@ -162,7 +166,8 @@ std::vector<Index> wave(const Graph& graph, Index start) {
   return order;
 }
 
-Separation cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
+// Uses breadth-first rank from a vertex at the graph's rim in place of a coordinate.
+Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   const std::vector<Index> order = wave(graph, wave(graph, 0).back());
   std::vector<float> value(graph.size());
   for (std::size_t i = 0; i < order.size(); ++i) value[order[i]] = static_cast<float>(i);
@@ -172,22 +177,24 @@ Separation cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> 
 
 }  // namespace
 
-Separation separate(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
+Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
   const std::array<Eigen::Vector2f, 4> directions{{{1, 0}, {0, 1}, {.7F, .7F}, {.7F, -.7F}}};
   std::vector<Sweep> sweeps(directions.size());
   parallel_for(
       sweeps.size(),
       [&](std::size_t i) { sweeps[i] = make_sweep(graph, along(positions, directions[i]), directions[i]); },
       1);
+  // The flow is the expensive part: it runs only in the two directions with the shortest band edges.
   std::stable_sort(sweeps.begin(), sweeps.end(),
                    [](const Sweep& a, const Sweep& b) { return a.width < b.width; });
-  Separation cut = best_of(graph, positions, {sweeps.data(), 2});
-  // A triangulation has a separator of about the root of its size.
+  Bisection cut = best_of(graph, positions, {sweeps.data(), 2});
+  // A planar graph has a separator of about sqrt(n) vertices (Lipton and Tarjan 1979). One of four times that
+  // size tells that the positions do not fit the graph.
   if (cut.separator > 4 * std::sqrt(static_cast<double>(graph.size())) || cut.first == 0 || cut.second == 0) {
-    Separation other = cut_by_distance(graph, positions);
+    Bisection other = cut_by_distance(graph, positions);
     if (cost(other) < cost(cut)) return other;
   }
   return cut;
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

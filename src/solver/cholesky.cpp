@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "cholesky_factor.h"
 #include "core/memory.h"
-#include "dissection.h"
 #include "geometry/plane_order.h"
+#include "solver/cholesky_factor.h"
+#include "solver/dissection.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 Error not_positive_definite(std::string why) {
@@ -24,7 +24,7 @@ bool is_finite(const Eigen::SparseMatrix<double>& A) {
   return true;
 }
 
-// Calls f(column, row, value) for the entries below the diagonal.
+// Calls f(column, row, value) for each entry below the diagonal.
 template <typename F>
 void for_each_below(const Eigen::SparseMatrix<double>& A, F&& f) {
   for (int j = 0; j < A.outerSize(); ++j)
@@ -32,7 +32,8 @@ void for_each_below(const Eigen::SparseMatrix<double>& A, F&& f) {
       if (entry.row() > j) f(static_cast<Index>(j), static_cast<Index>(entry.row()), entry.value());
 }
 
-// Unknown `order[v]` becomes vertex v.
+// Returns the graph of A in which unknown `order[v]` is vertex v. Entries on the diagonal that are stored
+// several times are added up.
 WeightedGraph graph_of(const Eigen::SparseMatrix<double>& A, std::span<const Index> order) {
   WeightedGraph result;
   const auto n = static_cast<Index>(A.cols());
@@ -82,12 +83,13 @@ Result<Cholesky> Cholesky::factor(const Eigen::SparseMatrix<double>& A, std::spa
                                  "positions",
                                  {},
                                  "expected one per unknown, found " + std::to_string(positions.size())});
+  // Vertices are numbered along a space-filling curve, so that all later steps walk through memory in order.
   std::vector<Eigen::Vector2f> places = in_unit_square(positions);
   places.resize(static_cast<std::size_t>(A.cols()), Eigen::Vector2f::Zero());
   const std::vector<Index> vertices = plane_order(places);
   const WeightedGraph graph = graph_of(A, vertices);
   std::unique_ptr<Factor> factor =
-      lay_out(analyse(graph.graph, dissection_order(graph.graph, in_order(places, vertices))));
+      build_task_tree(analyse(graph.graph, dissection_order(graph.graph, in_order(places, vertices))));
   const Index failed_column = graph.graph.size() > 0 ? factorise(graph, *factor) : no_index;
   for (Index& vertex : factor->order) vertex = vertices[vertex];
   const Index failed = failed_column == no_index ? no_index : factor->order[failed_column];
@@ -114,4 +116,4 @@ std::size_t Cholesky::memory() const {
          bytes(f.matrix.begin) + bytes(f.matrix.to) + bytes(f.matrix.value) + bytes(f.matrix.rest);
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -1,17 +1,18 @@
-// Substitution and refinement.
+// Solving with the factor: forward and backward substitution in single precision, iterative refinement in
+// double precision. Tested by tests/solver/cholesky_test.cpp.
 #include <algorithm>
 #include <cmath>
 
-#include "cholesky_factor.h"
 #include "relievo/core/parallel.h"
+#include "solver/cholesky_factor.h"
 
-namespace relievo {
+namespace relievo::solver {
 
 struct Cholesky::Workspace::Storage {
-  std::vector<float> segments;
+  std::vector<float> work_vectors;
   BlockFlags done;
-  std::vector<double> solution, residual;  // by place in the order
-  std::vector<double> largest;             // of the residual, per task
+  std::vector<double> solution, residual;  // in elimination order
+  std::vector<double> largest;             // element of the residual, per task
 };
 
 Cholesky::Workspace::Workspace(std::unique_ptr<Storage> storage) : storage_(std::move(storage)) {}
@@ -20,8 +21,8 @@ Cholesky::Workspace& Cholesky::Workspace::operator=(Workspace&&) noexcept = defa
 Cholesky::Workspace::~Workspace() = default;
 
 std::size_t Cholesky::Workspace::memory() const {
-  const auto& [segments, done, solution, residual, largest] = *storage_;
-  return segments.size() * sizeof(float) +
+  const auto& [work_vectors, done, solution, residual, largest] = *storage_;
+  return work_vectors.size() * sizeof(float) +
          (solution.size() + residual.size() + largest.size()) * sizeof(double);
 }
 
@@ -29,23 +30,25 @@ namespace {
 
 using Factor = Cholesky::Factor;
 
-// Both directions, one task at a time.
+// Forward and backward substitution of one task at a time.
 struct Substitution {
   const Factor& factor;
-  std::vector<float>& segments;
+  std::vector<float>& work_vectors;
 
-  float* segment(const Task& task) const { return segments.data() + task.segment; }
-  float* scratch(const Task& task) const { return segment(task) + (task.own() + task.boundary + 7) / 8 * 8; }
+  float* work_vector(const Task& task) const { return work_vectors.data() + task.work_begin; }
+  float* scratch(const Task& task) const {
+    return work_vector(task) + (task.own() + task.boundary + 7) / 8 * 8;
+  }
 
   std::span<const NodeSize> nodes(const Task& task) const {
     return {factor.nodes.data() + task.first_node, factor.nodes.data() + task.end_node};
   }
 
   void fetch_from_children(const Task& task) const {
-    float* to = segment(task);
+    float* to = work_vector(task);
     for (Index c = task.first_child; c < task.end_child; ++c) {
       const Task& child = factor.tasks[factor.children[c]];
-      const float* from = segment(child) + child.own();
+      const float* from = work_vector(child) + child.own();
       const Index* place = factor.to_parent.data() + child.first_boundary;
       for (Index i = 0; i < child.boundary; ++i) to[place[i]] += from[i];
     }
@@ -53,42 +56,44 @@ struct Substitution {
 
   void fetch_from_parent(const Task& task) const {
     if (task.parent == no_index) return;
-    const float* from = segment(factor.tasks[task.parent]);
+    const float* from = work_vector(factor.tasks[task.parent]);
     const Index* place = factor.to_parent.data() + task.first_boundary;
-    float* to = segment(task) + task.own();
+    float* to = work_vector(task) + task.own();
     for (Index i = 0; i < task.boundary; ++i) to[i] = from[place[i]];
   }
 
   void forward(const Task& task) const {
-    std::fill_n(segment(task) + task.own(), task.boundary, 0.0F);
+    std::fill_n(work_vector(task) + task.own(), task.boundary, 0.0F);
     fetch_from_children(task);
     const float* values = factor.values.get() + task.values;
     if (task.is_subtree)
-      substitute_forward({nodes(task), values, factor.rows.data() + task.rows, segment(task)});
+      substitute_forward({nodes(task), values, factor.rows.data() + task.rows, work_vector(task)});
     else
-      substitute_forward(nodes(task)[0], values, segment(task), scratch(task));
+      substitute_forward(nodes(task)[0], values, work_vector(task), scratch(task));
   }
 
   void backward(const Task& task) const {
     fetch_from_parent(task);
     if (task.is_subtree) {
       substitute_backward({nodes(task), factor.values.get() + task.end_values,
-                           factor.rows.data() + task.end_rows, segment(task)});
+                           factor.rows.data() + task.end_rows, work_vector(task)});
     } else {
-      substitute_backward(nodes(task)[0], factor.values.get() + task.values, segment(task), scratch(task));
+      substitute_backward(nodes(task)[0], factor.values.get() + task.values, work_vector(task),
+                          scratch(task));
     }
   }
 };
 
-// load(place) is an element of the right-hand side, store(place, value) takes one of the solution. One
-// parallel call: the tasks upwards, then downwards.
+// Solves for one right-hand side: load(column) returns its elements, store(column, value) receives those of
+// the solution. All tasks go forward from the leaves, then backward from the roots, in a single parallel
+// call; flags make a task wait for its children or its parent only, so that there is no barrier in between.
 template <typename Load, typename Store>
 void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& store) {
   const std::size_t n = s.factor.tasks.size();
   const auto up = [&](std::size_t t) {
     const Task& task = s.factor.tasks[t];
     for (Index c = task.first_child; c < task.end_child; ++c) done.wait(s.factor.children[c]);
-    float* own = s.segment(task);
+    float* own = s.work_vector(task);
     for (Index i = 0; i < task.own(); ++i) own[i] = load(task.first_column + i);
     s.forward(task);
   };
@@ -96,7 +101,7 @@ void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& st
     const Task& task = s.factor.tasks[t];
     done.wait(task.parent == no_index ? t : 2 * n - 1 - task.parent);
     s.backward(task);
-    const float* own = s.segment(task);
+    const float* own = s.work_vector(task);
     for (Index i = 0; i < task.own(); ++i) store(task.first_column + i, own[i]);
   };
   done.reset();
@@ -109,7 +114,7 @@ void substitute(const Substitution& s, BlockFlags& done, Load&& load, Store&& st
       1);
 }
 
-// r = b - A x over the rows of a task; r holds b.
+// Subtracts the rows of a task of the product A x from r.
 void subtract_product(const TaskMatrix& A, const Task& task, std::span<const double> x, std::span<double> r) {
   for (Index j = task.first_column; j < task.end_column; ++j) {
     double sum = A.diagonal[j] * x[j];
@@ -123,7 +128,8 @@ void subtract_product(const TaskMatrix& A, const Task& task, std::span<const dou
   }
 }
 
-// Keeps the substitution in the range of single precision, whatever the unit of the right-hand side.
+// Returns the power of two at the magnitude of the residual. Dividing by it is exact and keeps the
+// substitution within the range of single precision, whatever the unit of the right-hand side.
 double unit_of(double largest) {
   return largest > 0 && std::isfinite(largest) ? std::ldexp(1.0, std::ilogb(largest)) : 1;
 }
@@ -132,7 +138,7 @@ double unit_of(double largest) {
 
 Cholesky::Workspace Cholesky::make_workspace() const {
   auto storage = std::make_unique<Workspace::Storage>();
-  storage->segments.assign(factor_->segment_count, 0.0F);
+  storage->work_vectors.assign(factor_->work_count, 0.0F);
   storage->done = BlockFlags(2 * factor_->tasks.size());
   return Workspace(std::move(storage));
 }
@@ -141,20 +147,20 @@ void Cholesky::solve(std::span<const float> b, std::span<float> x, Workspace& wo
   const std::vector<Index>& order = factor_->order;
   Workspace::Storage& w = *workspace.storage_;
   substitute(
-      Substitution{*factor_, w.segments}, w.done, [&](Index i) { return b[order[i]]; },
+      Substitution{*factor_, w.work_vectors}, w.done, [&](Index i) { return b[order[i]]; },
       [&](Index i, float value) { x[order[i]] = value; });
 }
 
 namespace {
 
-// The refinement of one solution, in the order of elimination.
+// Iterative refinement of one solution; vectors are in elimination order.
 struct Refinement {
   const Factor& factor;
-  std::vector<float>& segments;
+  std::vector<float>& work_vectors;
   BlockFlags& done;
   std::vector<double>&solution, &residual, &largest;
 
-  // The residual of an x of 0 is b. Returns its largest element.
+  // Sets x to 0 and the residual to b. Returns the largest element of the residual.
   double start(std::span<const double> b) const {
     return for_each_task([&](const Task& task) {
       for (Index i = task.first_column; i < task.end_column; ++i) {
@@ -164,7 +170,7 @@ struct Refinement {
     });
   }
 
-  // Returns the largest element of the residual.
+  // Computes b - A x and returns its largest element.
   double find_residual(std::span<const double> b) const {
     return for_each_task([&](const Task& task) {
       for (Index i = task.first_column; i < task.end_column; ++i) residual[i] = b[factor.order[i]];
@@ -172,10 +178,12 @@ struct Refinement {
     });
   }
 
+  // Solves for the residual in single precision and adds the result to x.
   void correct(double largest_residual) const {
     const double unit = unit_of(largest_residual);
     substitute(
-        Substitution{factor, segments}, done, [&](Index i) { return static_cast<float>(residual[i] / unit); },
+        Substitution{factor, work_vectors}, done,
+        [&](Index i) { return static_cast<float>(residual[i] / unit); },
         [&](Index i, float value) { solution[i] += unit * static_cast<double>(value); });
   }
 
@@ -208,7 +216,7 @@ Refinement refinement_in(Cholesky::Workspace::Storage& w, const Factor& factor) 
   w.solution.resize(factor.order.size());
   w.residual.resize(factor.order.size());
   w.largest.resize(factor.tasks.size());
-  return {factor, w.segments, w.done, w.solution, w.residual, w.largest};
+  return {factor, w.work_vectors, w.done, w.solution, w.residual, w.largest};
 }
 
 }  // namespace
@@ -224,10 +232,10 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& 
   const Refinement refinement = refinement_in(*workspace.storage_, *factor_);
   double last = refinement.start(b), rate = 1;
   const double enough = 1e-13 * last;
-  const int most_steps = 6;
+  const int most_steps = 6;  // each gains about seven digits: two suffice unless A is badly conditioned
   for (int step = 0; step < most_steps && last > enough; ++step) {
     refinement.correct(last);
-    // Each step gains as much as the one before: the last residual need not be looked at.
+    // Steps converge at a constant rate, so the last residual can be predicted instead of computed.
     if (rate * last < enough) break;
     const double now = refinement.find_residual(b);
     if (!(now < last / 4)) break;
@@ -242,4 +250,4 @@ void Cholesky::solve(std::span<const double> b, std::span<double> x) const {
   solve(b, x, workspace);
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

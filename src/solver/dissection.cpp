@@ -1,28 +1,28 @@
-#include "dissection.h"
+#include "solver/dissection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "relievo/core/parallel.h"
-#include "separator.h"
+#include "solver/bisection.h"
 #include "solver/minimum_degree.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
-// Below this, minimum degree finds a better order than another cut, and faster.
+// For pieces of at most this many vertices minimum degree finds a better order than another cut, and faster.
 constexpr Index leaf_size = 120;
 
 struct Part {
   Graph graph;
   std::vector<Eigen::Vector2f> positions;
   std::vector<Index> vertices;  // in the whole graph
-  Index begin = 0;              // of this part's places in the order
+  Index begin = 0;              // where this part begins in the elimination order
 };
 
-// The vertices of one side with the edges among them.
-Part extract(const Part& part, const Separation& cut, Side side) {
+// Returns the vertices of one side and the edges among them.
+Part extract(const Part& part, const Bisection& cut, Side side) {
   Part result;
   std::vector<Index> slot(part.graph.size());
   for (Index v = 0; v < part.graph.size(); ++v) {
@@ -47,7 +47,9 @@ class Dissection {
   Dissection(const Graph& graph, std::vector<Index>& order)
       : graph_(graph), order_(order), slots_(graph.size(), no_index) {}
 
-  // Level by level while parts are few, then part by part; what is done in parallel depends on sizes alone.
+  // Bisects level by level while parts are large, so that each bisection can use all threads, and orders the
+  // many small parts concurrently afterwards. Which way a part goes depends on sizes alone, so that the
+  // result does not depend on the number of threads.
   void run(Part whole) {
     const Index small = std::max<Index>(2048, whole.graph.size() / 32);
     std::vector<Part> large, pieces;
@@ -65,13 +67,14 @@ class Dissection {
   }
 
  private:
-  // Writes the separator to its places; two empty parts if there is nothing left to cut.
+  // Writes the separator to the end of the part's range in the order and returns the two sides; two empty
+  // parts if the part was small and is ordered as a leaf.
   std::array<Part, 2> split(Part& part) {
     if (part.graph.size() <= leaf_size) {
       order_leaf(part);
       return {};
     }
-    const Separation cut = separate(part.graph, part.positions);
+    const Bisection cut = bisect(part.graph, part.positions);
     if (cut.first == 0 || cut.second == 0) {
       order_leaf(part);
       return {};
@@ -94,8 +97,10 @@ class Dissection {
   void order_leaf(const Part& part) {
     const std::span<Index> places = std::span(order_).subspan(part.begin, part.vertices.size());
     std::copy(part.vertices.begin(), part.vertices.end(), places.begin());
-    // Sets of bits grow with the square; what resists every cut and is this large is left as it is.
-    if (places.size() <= 4096) LeafOrder(graph_, slots_).order(places);
+    // The bit sets of MinimumDegree grow with the square of the size (2 MB at 4,096). A larger part that
+    // resists every cut, such as a complete graph, keeps the order it has.
+    constexpr std::size_t largest_leaf = 4096;
+    if (places.size() <= largest_leaf) MinimumDegree(graph_, slots_).order(places);
   }
 
   const Graph& graph_;
@@ -103,14 +108,14 @@ class Dissection {
   std::vector<Index> slots_;
 };
 
-// Grows with the angle, from 0 to 4.
+// A substitute for the angle of a vector that needs no arc tangent: it grows with the angle, from 0 to 4.
 float pseudo_angle(const Eigen::Vector2f& step) {
   const float sum = std::abs(step.x()) + std::abs(step.y());
   const float turn = sum > 0 ? step.x() / sum : 0;
   return step.y() >= 0 ? 1 - turn : 3 + turn;
 }
 
-// Neighbours counter-clockwise, as the search for paths wants them.
+// Sorts each vertex's neighbours counter-clockwise, as minimum_separators() needs them.
 void turn_in_order(Graph& graph, std::span<const Eigen::Vector2f> positions) {
   parallel_ranges(graph.size(), default_grain, [&](std::size_t begin, std::size_t end) {
     std::vector<std::pair<float, Index>> around;
@@ -138,4 +143,4 @@ std::vector<Index> dissection_order(const Graph& graph, std::span<const Eigen::V
   return order;
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

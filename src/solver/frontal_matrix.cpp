@@ -1,15 +1,16 @@
-#include "dense_front.h"
+#include "solver/frontal_matrix.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/simd.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
-// C -= A B^T, where C has `rows` x `columns` elements, A `rows` x `depth`, B `columns` x `depth`, all column
-// by column. If is_lower, C is square at its top and only its lower triangle matters.
+// Arguments of C -= A B^T, where C has `rows` x `columns` elements, A `rows` x `depth` and B `columns` x
+// `depth`, all stored by columns. If `is_lower`, C begins with a square of which only the lower triangle is
+// computed.
 struct Product {
   double* c;
   const double* a;
@@ -19,7 +20,7 @@ struct Product {
   bool is_lower;
 };
 
-constexpr Index narrow = 8;  // columns that are eliminated or inverted one by one
+constexpr Index narrow = 8;  // up to this many columns are eliminated or inverted one by one
 
 RELIEVO_INLINE Double4& at(double* p) {
   return *reinterpret_cast<Double4*>(p);
@@ -28,7 +29,7 @@ RELIEVO_INLINE const Double4& at(const double* p) {
   return *reinterpret_cast<const Double4*>(p);
 }
 
-// 4 * Height rows by Width columns of C; k from `from` to `to`.
+// Updates 4 * Height rows by Width columns of C, which stay in registers, for the depths `from` to `to`.
 template <int Height, int Width>
 RELIEVO_INLINE void subtract_tile(const Product& p, Index i, Index j, Index from, Index to) {
   Double4 sum[Height][Width] = {};
@@ -49,7 +50,7 @@ RELIEVO_INLINE void subtract_strip(const Product& p, Index j, Index from, Index 
 }
 
 RELIEVO_INLINE void subtract_product_inline(const Product& p) {
-  const Index block = 128;  // of the depth: that many columns of A stay in the cache
+  const Index block = 128;  // of the depth: this many columns of A stay in the cache
   for (Index from = 0; from < p.depth; from += block) {
     const Index to = std::min(p.depth, from + block);
     Index j = 0;
@@ -60,7 +61,7 @@ RELIEVO_INLINE void subtract_product_inline(const Product& p) {
   }
 }
 
-// y[from, to) += factor x[from, to), up to three elements further.
+// Adds factor x to y for the elements [from, to), and up to three beyond, which are padding.
 RELIEVO_INLINE void add_multiple(double* y, const double* x, double factor, Index from, Index to) {
   for (Index i = from; i < to; i += 4) at(y + i) += at(x + i) * factor;
 }
@@ -69,8 +70,9 @@ RELIEVO_INLINE void scale(double* x, double factor, Index from, Index to) {
   for (Index i = from; i < to; i += 4) at(x + i) *= factor;
 }
 
-// Columns begin to begin + width, one after the other. Returns as eliminate_columns().
-RELIEVO_INLINE Index eliminate_inline(Front& front, Index begin, Index width,
+// Eliminates the columns [begin, begin + width) one after the other. Returns the same as eliminate_columns().
+// After a failure it goes on with pivots of 1, so that no element becomes infinite.
+RELIEVO_INLINE Index eliminate_inline(FrontalMatrix& front, Index begin, Index width,
                                       std::span<const double> smallest_pivot) {
   const Index end = begin + width;
   Index failed = no_index;
@@ -85,8 +87,9 @@ RELIEVO_INLINE Index eliminate_inline(Front& front, Index begin, Index width,
   return failed;
 }
 
-// The same for inversion, last column first: what stands right of column j is already inverted.
-RELIEVO_INLINE void invert_inline(Front& front, Index begin, Index width) {
+// Inverts the columns [begin, begin + width) one after the other, the last one first: the columns to the
+// right of column j are already inverted.
+RELIEVO_INLINE void invert_inline(FrontalMatrix& front, Index begin, Index width) {
   const Index end = begin + width;
   for (Index j = end; j-- > begin;) {
     double* column = front.column(j);
@@ -106,10 +109,11 @@ RELIEVO_INLINE void invert_inline(Front& front, Index begin, Index width) {
 RELIEVO_AVX2 void subtract_product_avx2(const Product& p) {
   subtract_product_inline(p);
 }
-RELIEVO_AVX2 Index eliminate_avx2(Front& front, Index begin, Index width, std::span<const double> smallest) {
+RELIEVO_AVX2 Index eliminate_avx2(FrontalMatrix& front, Index begin, Index width,
+                                  std::span<const double> smallest) {
   return eliminate_inline(front, begin, width, smallest);
 }
-RELIEVO_AVX2 void invert_avx2(Front& front, Index begin, Index width) {
+RELIEVO_AVX2 void invert_avx2(FrontalMatrix& front, Index begin, Index width) {
   invert_inline(front, begin, width);
 }
 
@@ -117,12 +121,14 @@ void subtract_product(const Product& p) {
   uses_avx2() ? subtract_product_avx2(p) : subtract_product_inline(p);
 }
 
+// A multiple of `narrow`, so that only the last block of columns is incomplete.
 Index first_half(Index width) {
   return (width / 2 + narrow - 1) / narrow * narrow;
 }
 
-// Halves the columns until few are left, so that nearly all work is in products.
-Index eliminate_recursively(Front& front, Index begin, Index width, std::span<const double> smallest_pivot) {
+// Halves the columns until few are left, so that nearly all of the work is in matrix products.
+Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
+                            std::span<const double> smallest_pivot) {
   if (width <= narrow) {
     return uses_avx2() ? eliminate_avx2(front, begin, width, smallest_pivot)
                        : eliminate_inline(front, begin, width, smallest_pivot);
@@ -138,7 +144,7 @@ Index eliminate_recursively(Front& front, Index begin, Index width, std::span<co
 
 // With columns [La; Lb; Ld] on the left and [Lc; Le] on the right, already inverted to [Wc; We]: the rows
 // below La become [Wc Lb; Ld + We Lb], and then the left is inverted on its own.
-void invert_recursively(Front& front, Index begin, Index width, std::vector<double>& scratch) {
+void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
   if (width <= narrow) {
     uses_avx2() ? invert_avx2(front, begin, width) : invert_inline(front, begin, width);
     return;
@@ -151,7 +157,7 @@ void invert_recursively(Front& front, Index begin, Index width, std::vector<doub
     for (Index r = 0; r < rest; ++r) scratch[c + std::size_t{r} * half] = -inside[r];
     std::fill_n(inside, rest, 0.0);
   }
-  // What stands above the diagonal of Wc must not take part.
+  // Elements above the diagonal of Wc are not defined; the product reads them.
   for (Index c = 1; c < rest; ++c) std::fill_n(front.column(middle + c) + middle, c, 0.0);
   subtract_product({front.column(begin) + middle, front.column(middle) + middle, scratch.data(), front.stride,
                     front.stride, half, front.rows - middle, half, rest, false});
@@ -160,13 +166,14 @@ void invert_recursively(Front& front, Index begin, Index width, std::vector<doub
 
 }  // namespace
 
-void Front::reset(Index new_rows) {
+void FrontalMatrix::reset(Index new_rows) {
   rows = new_rows;
-  stride = (new_rows + 3 + 3) / 4 * 4;
+  stride =
+      (new_rows + 3 + 3) / 4 * 4;  // at least three elements of padding, and a multiple of a vector's four
   data.assign(std::size_t{stride} * new_rows + 8, 0.0);
 }
 
-Index eliminate_columns(Front& front, Index width, std::span<const double> smallest_pivot) {
+Index eliminate_columns(FrontalMatrix& front, Index width, std::span<const double> smallest_pivot) {
   const Index failed = eliminate_recursively(front, 0, width, smallest_pivot);
   const double* left = front.column(0) + width;
   if (width < front.rows) {
@@ -176,9 +183,9 @@ Index eliminate_columns(Front& front, Index width, std::span<const double> small
   return failed;
 }
 
-void invert_columns(Front& front, Index width) {
+void invert_columns(FrontalMatrix& front, Index width) {
   std::vector<double> scratch;
   invert_recursively(front, 0, width, scratch);
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -6,10 +6,11 @@
 
 #include "relievo/core/types.h"
 
-namespace relievo {
+namespace relievo::solver {
 
-// Vertex v has the neighbours to[begin[v]] up to to[begin[v + 1]]; every edge stands at both of its ends,
-// none joins a vertex to itself. `begin` has one element more than there are vertices.
+// An undirected graph in compressed sparse rows: the neighbours of vertex v are to[begin[v]] up to, not
+// including, to[begin[v + 1]]. Every edge is stored at both of its ends; no edge joins a vertex to itself.
+// `begin` has one element more than there are vertices.
 struct Graph {
   std::vector<Index> begin = {0};
   std::vector<Index> to;
@@ -20,4 +21,4 @@ struct Graph {
   }
 };
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <bit>
 
-namespace relievo {
+namespace relievo::solver {
 
-void LeafOrder::order(std::span<Index> piece) {
+void MinimumDegree::order(std::span<Index> piece) {
   gather(piece);
   std::vector<Index> sequence;
   sequence.reserve(piece.size());
@@ -19,7 +19,7 @@ void LeafOrder::order(std::span<Index> piece) {
   std::copy(sequence.begin(), sequence.end(), piece.begin());
 }
 
-void LeafOrder::gather(std::span<const Index> piece) {
+void MinimumDegree::gather(std::span<const Index> piece) {
   const auto n = static_cast<Index>(piece.size());
   for (Index i = 0; i < n; ++i) slots_[piece[i]] = i;
   outside_.clear();
@@ -41,12 +41,13 @@ void LeafOrder::gather(std::span<const Index> piece) {
   }
 }
 
-Index LeafOrder::slot_outside(Index vertex) {
+Index MinimumDegree::slot_outside(Index vertex) {
   return static_cast<Index>(std::lower_bound(outside_.begin(), outside_.end(), vertex) - outside_.begin());
 }
 
-// The neighbours of v become neighbours of each other.
-void LeafOrder::eliminate(Index v) {
+// Makes the neighbours of v neighbours of each other, which is the fill that eliminating v causes. Only
+// vertices of the piece have sets, so the loop ends at the first neighbour outside it.
+void MinimumDegree::eliminate(Index v) {
   degree_[v] = no_index;
   const std::uint64_t* eliminated = set(v);
   for (std::size_t w = 0; w < words_; ++w) {
@@ -66,4 +67,4 @@ void LeafOrder::eliminate(Index v) {
   }
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -1,22 +1,23 @@
-// Minimum degree for small pieces of a graph.
+// Minimum-degree ordering of small pieces of a graph. Tested by tests/solver/dissection_test.cpp.
 #pragma once
 
 #include <cstdint>
 
 #include "solver/graph.h"
 
-namespace relievo {
+namespace relievo::solver {
 
 // Orders pieces of one graph. The object keeps its storage: use one for many pieces.
-class LeafOrder {
+class MinimumDegree {
  public:
-  // Both must outlive the object. `slots` has one no_index per vertex; pieces that do not touch each other
-  // may be ordered concurrently with the same one.
-  LeafOrder(const Graph& graph, std::span<Index> slots) : graph_(graph), slots_(slots) {}
+  // Both arguments must outlive the object. `slots` has one element per vertex of the graph, all no_index,
+  // and is left so. Objects may share it and order pieces concurrently if no edge joins these pieces.
+  MinimumDegree(const Graph& graph, std::span<Index> slots) : graph_(graph), slots_(slots) {}
 
-  // Permutes the vertices of `piece` so that eliminating them in that order, before all others, fills little:
-  // always one with the fewest neighbours left, those outside the piece included. Exact, with sets of bits:
-  // meant for pieces of up to a few hundred vertices.
+  // Permutes the vertices of `piece` so that eliminating them in that order, before all others, causes little
+  // fill: the next vertex is always one with the fewest remaining neighbours, those outside the piece
+  // included. The degrees are exact, kept with bit sets, so that time and memory grow at least with the
+  // square of the size; it is meant for pieces of up to a few hundred vertices.
   void order(std::span<Index> piece);
 
  private:
@@ -27,10 +28,11 @@ class LeafOrder {
 
   const Graph& graph_;
   std::span<Index> slots_;
-  std::vector<Index> outside_;       // vertices around the piece
-  std::vector<std::uint64_t> sets_;  // per vertex of the piece, its neighbours: piece first, then outside
-  std::vector<Index> degree_;        // no_index once eliminated
+  std::vector<Index> outside_;  // vertices adjacent to the piece, ascending
+  std::vector<std::uint64_t>
+      sets_;                   // per vertex of the piece, its neighbours: first the piece, then outside_
+  std::vector<Index> degree_;  // no_index once eliminated
   std::size_t words_ = 0;
 };
 
-}  // namespace relievo
+}  // namespace relievo::solver

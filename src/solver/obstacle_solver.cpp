@@ -5,20 +5,24 @@
 
 #include "core/memory.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
-// Per level, from fine to coarse: what is long takes more sweeps, which cost less.
-constexpr std::array<int, ElasticSheet::levels> sweeps{8, 14, 30, 40};
+// Sweeps per level, from fine to coarse. Coarse levels resolve the long waves, which converge slowly, but a
+// sweep there costs a quarter of one on the next finer level: the four take about as long as 14 fine sweeps.
+// That is enough: an exact solution measures the same in the finished reliefs (docs/decisions/membrane.md).
+constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
+// Successive over-relaxation converges for factors in (0, 2). The best one grows towards 2 with the number of
+// nodes per side; 1.6 suits the short waves that are left to the finer levels.
 constexpr float over_relaxation = 1.6F;
 
 }  // namespace
 
-std::size_t ElasticSheet::Fields::memory() const {
+std::size_t ObstacleSolver::Fields::memory() const {
   return bytes(lowest) + bytes(highest) + bytes(wanted) + bytes(b) + bytes(moment);
 }
 
-ElasticSheet::Level::Level(std::size_t width, Stiffness stiffness)
+ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness)
     : width_(width),
       stiffness_(std::move(stiffness)),
       fixed_(stiffness_.bending.size()),
@@ -27,7 +31,7 @@ ElasticSheet::Level::Level(std::size_t width, Stiffness stiffness)
     if (is_free(n)) couple(n);
 }
 
-void ElasticSheet::Level::couple(std::size_t n) {
+void ObstacleSolver::Level::couple(std::size_t n) {
   nodes_[(n % width_ + 2 * (n / width_)) % nodes_.size()].push_back(static_cast<Index>(n));
   const auto& [bending, tension] = stiffness_;
   diagonal_[n] = 16 * bending[n];
@@ -37,14 +41,15 @@ void ElasticSheet::Level::couple(std::size_t n) {
   }
 }
 
-std::size_t ElasticSheet::Level::memory() const {
+std::size_t ObstacleSolver::Level::memory() const {
   std::size_t sum = bytes(stiffness_.bending) + bytes(stiffness_.tension) + bytes(fixed_) + bytes(diagonal_);
   for (const std::vector<Index>& colour : nodes_) sum += bytes(colour);
   return sum;
 }
 
-// Every other node of every other row. What yields easily at a node or next to it does so here, too.
-ElasticSheet::Level ElasticSheet::Level::coarser() const {
+// Keeps every other node of every other row. A coarse node takes the least bending stiffness of its five fine
+// nodes and the harmonic mean of their tensions, so that thin hinges between stiff regions are not lost.
+ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
   const std::size_t rows = size() / width_, width = width_ / 2 + 2, nodes = width * (rows / 2 + 2);
   const auto& [bending, tension] = stiffness_;
   Stiffness coarse{std::vector<float>(nodes), std::vector<float>(nodes, 1)};
@@ -61,7 +66,7 @@ ElasticSheet::Level ElasticSheet::Level::coarser() const {
   return {width, std::move(coarse)};
 }
 
-void ElasticSheet::Level::restrict_from(const Level& finer, const Fields& from, Fields& to) const {
+void ObstacleSolver::Level::restrict_from(const Level& finer, const Fields& from, Fields& to) const {
   const std::size_t row = finer.width_;
   each_node([&](Index n) {
     const std::size_t m = 2 * (n % width_ + n / width_ * row);
@@ -78,7 +83,7 @@ void ElasticSheet::Level::restrict_from(const Level& finer, const Fields& from, 
   });
 }
 
-void ElasticSheet::Level::prolong_from(const Level& coarser, const Fields& from, Fields& to) const {
+void ObstacleSolver::Level::prolong_from(const Level& coarser, const Fields& from, Fields& to) const {
   each_node([&](Index n) {
     const std::size_t x = n % width_, y = n / width_;
     const std::size_t m = x / 2 + y / 2 * coarser.width_, right = x % 2, up = y % 2 * coarser.width_;
@@ -86,8 +91,8 @@ void ElasticSheet::Level::prolong_from(const Level& coarser, const Fields& from,
   });
 }
 
-// Puts b within its limits.
-void ElasticSheet::Level::start(Fields& f) const {
+// Clamps b to its bounds and computes the moments from it.
+void ObstacleSolver::Level::start(Fields& f) const {
   std::vector<float>& b = f.b;
   each_node([&](Index n) { b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
   each_node([&](Index n) {
@@ -95,17 +100,18 @@ void ElasticSheet::Level::start(Fields& f) const {
   });
 }
 
-// Moves one node to where the energy is least, and further, within its limits.
-inline void ElasticSheet::Level::move(Index n, const Ties& ties, Fields& f) const {
+// One step of projected over-relaxation: moves a node to the minimum of the energy along it, overshooting by
+// the factor above, clamps it to its bounds and updates the moments of the node and its neighbours.
+inline void ObstacleSolver::Level::move(Index n, const Springs& springs, Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;
   const auto row = static_cast<std::ptrdiff_t>(width_);
   const auto pull = [&](std::ptrdiff_t side) { return (t[0] + t[side]) * (b[side] - b[0]); };
   const float tense = (pull(-1) + pull(1) + pull(-row) + pull(row)) / 2;
   const float lap_m = m[-1] + m[1] + m[-row] + m[row] - 4 * m[0];
-  const float tied = ties.pull + ties.anchor * fixed_[n];
-  const float rise = lap_m - tense + (tied - fixed_[n]) * b[0] - f.wanted[n];
-  const float step = over_relaxation * rise / (diagonal_[n] + tied);
+  const float held = springs.stiffness + springs.boundary_stiffness * fixed_[n];
+  const float rise = lap_m - tense + (held - fixed_[n]) * b[0] - f.wanted[n];
+  const float step = over_relaxation * rise / (diagonal_[n] + held);
   const float next = std::clamp(b[0] - step, f.lowest[n], f.highest[n]);
   const float change = next - b[0];
   b[0] = next;
@@ -114,17 +120,17 @@ inline void ElasticSheet::Level::move(Index n, const Ties& ties, Fields& f) cons
     m[side] += c[side] * change;
 }
 
-void ElasticSheet::Level::relax(int times, const Ties& ties, Fields& f) const {
+void ObstacleSolver::Level::relax(int times, const Springs& springs, Fields& f) const {
   start(f);
-  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, ties, f); });
+  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, springs, f); });
 }
 
-ElasticSheet::ElasticSheet(std::size_t width, Stiffness stiffness) {
+ObstacleSolver::ObstacleSolver(std::size_t width, Stiffness stiffness) {
   levels_[0] = Level(width, std::move(stiffness));
   for (std::size_t l = 1; l < levels; ++l) levels_[l] = levels_[l - 1].coarser();
 }
 
-ElasticSheet::Workspace ElasticSheet::make_workspace() const {
+ObstacleSolver::Workspace ObstacleSolver::make_workspace() const {
   Workspace w;
   for (std::size_t l = 0; l < levels; ++l)
     for (std::vector<float>* values : {&w[l].lowest, &w[l].highest, &w[l].wanted, &w[l].b, &w[l].moment})
@@ -132,22 +138,23 @@ ElasticSheet::Workspace ElasticSheet::make_workspace() const {
   return w;
 }
 
-std::size_t ElasticSheet::memory() const {
+std::size_t ObstacleSolver::memory() const {
   std::size_t sum = 0;
   for (const Level& level : levels_) sum += level.memory();
   return sum;
 }
 
-void ElasticSheet::solve(const Ties& ties, Workspace& w) const {
+void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
   for (std::size_t l = 1; l < levels; ++l) levels_[l].restrict_from(levels_[l - 1], w[l - 1], w[l]);
   std::ranges::fill(w.back().b, 0.F);
   for (std::size_t l = levels; l-- > 0;) {
     if (l + 1 < levels) levels_[l].prolong_from(levels_[l + 1], w[l + 1], w[l]);
-    // A node stands for 4^l of the finest, and along a rim for 2^l; more than fixed it cannot be.
-    const Ties here{ties.pull * static_cast<float>(1 << 2 * l),
-                    std::min(ties.anchor * static_cast<float>(1 << l), 1.F)};
+    // A node of level l represents 4^l of the finest nodes and, along a rim, 2^l; the factor of the tension
+    // at the rim cannot exceed 1, which means fixed.
+    const Springs here{springs.stiffness * static_cast<float>(1 << 2 * l),
+                       std::min(springs.boundary_stiffness * static_cast<float>(1 << l), 1.F)};
     levels_[l].relax(sweeps[l], here, w[l]);
   }
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -1,10 +1,10 @@
-#include "trapezoid.h"
+#include "solver/supernode_panel.h"
 
 #include <algorithm>
 
 #include "core/simd.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 RELIEVO_INLINE Float8& eight(float* p) {
@@ -20,25 +20,26 @@ RELIEVO_INLINE const Float4& four(const float* p) {
   return *reinterpret_cast<const Float4*>(p);
 }
 
-// out += panel * b, for Width columns.
+// Adds strip * b to `out`, for a strip of Width columns. Even and odd columns have sums of their own, so that
+// an addition need not wait for the one before.
 template <int Width>
-RELIEVO_INLINE void add_panel(const float* panel, Index rows, const float* b, float* out) {
+RELIEVO_INLINE void add_strip(const float* strip, Index rows, const float* b, float* out) {
   float factor[Width];
   for (int w = 0; w < Width; ++w) factor[w] = b[w];
   Index r = 0;
-  for (; r + 8 <= rows; r += 8, panel += 8 * Width) {
+  for (; r + 8 <= rows; r += 8, strip += 8 * Width) {
     Float8 even = eight(out + r), odd = {};
-    for (int w = 0; w < Width; w += 2) even += eight(panel + 8 * w) * factor[w];
-    for (int w = 1; w < Width; w += 2) odd += eight(panel + 8 * w) * factor[w];
+    for (int w = 0; w < Width; w += 2) even += eight(strip + 8 * w) * factor[w];
+    for (int w = 1; w < Width; w += 2) odd += eight(strip + 8 * w) * factor[w];
     eight(out + r) = even + odd;
   }
   if (r == rows) return;
   Float4 sum = four(out + r);
-  for (int w = 0; w < Width; ++w) sum += four(panel + 4 * w) * factor[w];
+  for (int w = 0; w < Width; ++w) sum += four(strip + 4 * w) * factor[w];
   four(out + r) = sum;
 }
 
-// Sums of the elements of four vectors.
+// Writes the sum of the elements of each of four vectors to `sums`.
 RELIEVO_INLINE void add_across(const Float4* v, float* sums) {
   const Float4 ab =
       __builtin_shufflevector(v[0], v[1], 0, 4, 1, 5) + __builtin_shufflevector(v[0], v[1], 2, 6, 3, 7);
@@ -47,11 +48,11 @@ RELIEVO_INLINE void add_across(const Float4* v, float* sums) {
   four(sums) = __builtin_shufflevector(ab, cd, 0, 1, 4, 5) + __builtin_shufflevector(ab, cd, 2, 3, 6, 7);
 }
 
-// result = panel^T * x, for Width columns. From the last row up: see multiply_transposed().
+// Computes strip^T * x for a strip of Width columns, from the last row up: see multiply_transposed().
 template <int Width>
-RELIEVO_INLINE void multiply_panel(const float* panel, Index rows, const float* x, float* result) {
+RELIEVO_INLINE void multiply_strip(const float* strip, Index rows, const float* x, float* result) {
   Index r = rows / 8 * 8;
-  const float* block = panel + std::size_t{r} * Width;
+  const float* block = strip + std::size_t{r} * Width;
   Float4 half[8] = {};
   if (r < rows)
     for (int w = 0; w < Width; ++w) half[w] = four(block + 4 * w) * four(x + r);
@@ -69,7 +70,7 @@ RELIEVO_INLINE void multiply_panel(const float* panel, Index rows, const float* 
   for (int w = 0; w < Width; ++w) result[w] = sums[w];
 }
 
-// Calls f<Width>() for the width of a panel, 1 to 8.
+// Calls f<Width>() for the width of a strip, 1 to 8, so that the loops over its columns are unrolled.
 template <typename F>
 RELIEVO_INLINE void with_width(Index width, F&& f) {
   switch (width) {
@@ -92,39 +93,39 @@ RELIEVO_INLINE void with_width(Index width, F&& f) {
   }
 }
 
-// out += W b. Returns the end of the values.
+// Adds W b to `out`. Returns the end of the supernode's values.
 RELIEVO_INLINE const float* add_product(NodeSize node, const float* values, const float* b, float* out) {
   const Index rows = padded_rows(node.width, node.below);
   Index c = 0;
   for (; c + 8 <= node.width; c += 8) {
-    add_panel<8>(values, rows - c, b + c, out + c);
+    add_strip<8>(values, rows - c, b + c, out + c);
     values += std::size_t{8} * (rows - c);
   }
   if (c == node.width) return values;
   with_width(
       node.width - c, [&]<int Width>() __attribute__((always_inline)) {
-        add_panel<Width>(values, rows - c, b + c, out + c);
+        add_strip<Width>(values, rows - c, b + c, out + c);
       });
   return values + std::size_t{node.width - c} * (rows - c);
 }
 
-// Number of values of the panels left of column c.
+// Returns the number of values in the strips to the left of column c.
 RELIEVO_INLINE std::size_t values_before(Index c, Index rows) {
-  return std::size_t{c} * rows - std::size_t{c} * (c - panel_width) / 2;
+  return std::size_t{c} * rows - std::size_t{c} * (c - strip_width) / 2;
 }
 
-// result = W^T x. Reads the values exactly backwards: the processor fetches such a stream ahead by itself.
+// Computes W^T x. It reads the values exactly backwards, a pattern that the processor prefetches by itself.
 RELIEVO_INLINE void multiply_transposed(NodeSize node, const float* values, const float* x, float* result) {
   const Index rows = padded_rows(node.width, node.below);
   Index c = node.width / 8 * 8;
   if (c < node.width)
     with_width(
         node.width - c, [&]<int Width>() __attribute__((always_inline)) {
-          multiply_panel<Width>(values + values_before(c, rows), rows - c, x + c, result + c);
+          multiply_strip<Width>(values + values_before(c, rows), rows - c, x + c, result + c);
         });
   while (c > 0) {
     c -= 8;
-    multiply_panel<8>(values + values_before(c, rows), rows - c, x + c, result + c);
+    multiply_strip<8>(values + values_before(c, rows), rows - c, x + c, result + c);
   }
 }
 
@@ -132,25 +133,26 @@ RELIEVO_INLINE void forward_inline(const Subtree& subtree) {
   alignas(32) float out[largest_subtree_rows + 8], b[largest_subtree_rows];
   const float* values = subtree.values;
   const std::uint16_t* rows = subtree.rows;
-  float* own = subtree.segment;
+  float* own = subtree.work;
   for (const NodeSize node : subtree.nodes) {
     const Index count = node.width + node.below;
     for (Index i = 0; i < count; i += 8) eight(out + i) = Float8{};
     for (Index i = 0; i < node.width; ++i) b[i] = own[i], own[i] = 0;
     values = add_product(node, values, b, out);
-    for (Index i = 0; i < count; ++i) subtree.segment[rows[i]] += out[i];
+    for (Index i = 0; i < count; ++i) subtree.work[rows[i]] += out[i];
     own += node.width;
     rows += padded_rows(node.width, node.below);
   }
 }
 
-// Vectors are put together in registers: reading them back right after single stores would stall.
-RELIEVO_INLINE void gather(const float* segment, const std::uint16_t* rows, Index count, float* x) {
+// Copies work[rows[i]] to x[i]. The vectors are assembled in registers: single stores followed at once by a
+// load of the whole vector would stall.
+RELIEVO_INLINE void gather(const float* work, const std::uint16_t* rows, Index count, float* x) {
   Index i = 0;
   for (; i + 8 <= count; i += 8, rows += 8)
-    eight(x + i) = Float8{segment[rows[0]], segment[rows[1]], segment[rows[2]], segment[rows[3]],
-                          segment[rows[4]], segment[rows[5]], segment[rows[6]], segment[rows[7]]};
-  if (i < count) four(x + i) = Float4{segment[rows[0]], segment[rows[1]], segment[rows[2]], segment[rows[3]]};
+    eight(x + i) = Float8{work[rows[0]], work[rows[1]], work[rows[2]], work[rows[3]],
+                          work[rows[4]], work[rows[5]], work[rows[6]], work[rows[7]]};
+  if (i < count) four(x + i) = Float4{work[rows[0]], work[rows[1]], work[rows[2]], work[rows[3]]};
 }
 
 RELIEVO_INLINE std::size_t value_count(NodeSize node) {
@@ -162,7 +164,7 @@ RELIEVO_INLINE void backward_inline(const Subtree& end) {
   alignas(32) float x[largest_subtree_rows + 8];
   const float* values = end.values;
   const std::uint16_t* rows = end.rows;
-  float* own = end.segment;
+  float* own = end.work;
   for (const NodeSize node : end.nodes) own += node.width;
   for (std::size_t s = end.nodes.size(); s-- > 0;) {
     const NodeSize node = end.nodes[s];
@@ -170,7 +172,7 @@ RELIEVO_INLINE void backward_inline(const Subtree& end) {
     const Index count = padded_rows(node.width, node.below);
     rows -= count;
     own -= node.width;
-    gather(end.segment, rows, count, x);
+    gather(end.work, rows, count, x);
     multiply_transposed(node, values, x, own);
   }
 }
@@ -198,25 +200,24 @@ void substitute_backward(const Subtree& end) {
   uses_avx2() ? backward_avx2(end) : backward_inline(end);
 }
 
-void substitute_forward(NodeSize node, const float* values, float* segment, float* scratch) {
-  std::copy_n(segment, node.width, scratch);
-  std::fill_n(segment, node.width, 0.0F);
+void substitute_forward(NodeSize node, const float* values, float* work, float* scratch) {
+  std::copy_n(work, node.width, scratch);
+  std::fill_n(work, node.width, 0.0F);
   if (uses_avx2())
-    add_product_avx2(node, values, scratch, segment);
+    add_product_avx2(node, values, scratch, work);
   else
-    add_product(node, values, scratch, segment);
+    add_product(node, values, scratch, work);
 }
 
-void substitute_backward(NodeSize node, const float* values, float* segment, float* scratch) {
-  uses_avx2() ? multiply_avx2(node, values, segment, scratch)
-              : multiply_transposed(node, values, segment, scratch);
-  std::copy_n(scratch, node.width, segment);
+void substitute_backward(NodeSize node, const float* values, float* work, float* scratch) {
+  uses_avx2() ? multiply_avx2(node, values, work, scratch) : multiply_transposed(node, values, work, scratch);
+  std::copy_n(scratch, node.width, work);
 }
 
-float* write_trapezoid(Front& front, Index width, float* values) {
+float* write_panel(FrontalMatrix& front, Index width, float* values) {
   const Index rows = padded_rows(width, front.rows - width);
-  for (Index c = 0; c < width; c += panel_width) {
-    const Index columns = std::min(panel_width, width - c);
+  for (Index c = 0; c < width; c += strip_width) {
+    const Index columns = std::min(strip_width, width - c);
     for (Index r = c; r < rows;) {
       const Index height = std::min<Index>(8, rows - r);
       for (Index w = 0; w < columns; ++w) {
@@ -230,4 +231,4 @@ float* write_trapezoid(Front& front, Index width, float* values) {
   return values;
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 std::vector<Index> inverse(std::span<const Index> order) {
@@ -12,13 +12,14 @@ std::vector<Index> inverse(std::span<const Index> order) {
   return place;
 }
 
-// Liu's elimination tree: the parent of a column is the first row below its diagonal, after fill.
+// Returns the elimination tree: the parent of a column is the first row below its diagonal, fill included.
+// Liu's algorithm (1990), with path compression in `ancestor`.
 std::vector<Index> elimination_tree(const Graph& graph, std::span<const Index> order,
                                     std::span<const Index> place) {
   std::vector<Index> parent(order.size(), no_index), ancestor(order.size(), no_index);
   for (Index i = 0; i < order.size(); ++i) {
     for (const Index neighbour : graph.neighbours(order[i])) {
-      // Climb from each earlier neighbour to the root of its tree, which i becomes the parent of.
+      // Climb from each earlier neighbour to the root of its tree; i becomes the parent of that root.
       for (Index j = place[neighbour]; j < i;) {
         const Index next = ancestor[j];
         ancestor[j] = i;
@@ -30,7 +31,8 @@ std::vector<Index> elimination_tree(const Graph& graph, std::span<const Index> o
   return parent;
 }
 
-// The nodes of a forest, children before parents and each subtree in one piece; parent[v] > v.
+// Returns the nodes of a forest so that children precede their parents and each subtree is contiguous. Needs
+// parent[v] > v.
 std::vector<Index> postorder(std::span<const Index> parent) {
   const auto n = static_cast<Index>(parent.size());
   std::vector<Index> child(n + 1, no_index), sibling(n, no_index), order, stack;
@@ -56,7 +58,8 @@ std::vector<Index> postorder(std::span<const Index> parent) {
   return order;
 }
 
-// Fundamental supernodes, before any zeros are stored. Rows in no order, all of them below the last column.
+// Finds the fundamental supernodes, those that store no zeros. Their rows are in no particular order, all of
+// them below the last column.
 class Fundamental {
  public:
   Fundamental(const Graph& graph, std::vector<Index> order) : graph_(graph), order_(std::move(order)) {
@@ -93,6 +96,8 @@ class Fundamental {
     column_parent_ = std::move(parent);
   }
 
+  // Returns whether column j has the same structure as the open supernode: its only child is the column
+  // before, and all its later neighbours are rows of the supernode already.
   bool continues(Index j, std::span<const Index> place) const {
     if (j == 0 || column_parent_[j - 1] != j || children_[j] != 1) return false;
     const auto nearby = graph_.neighbours(order_[j]);
@@ -116,7 +121,7 @@ class Fundamental {
     result_.rows.push_back(row);
   }
 
-  // Neighbours further on, and what the children leave behind.
+  // Begins a supernode at column j. Its rows are the later neighbours of j and the rows of its children.
   void open(Index j, std::span<const Index> place) {
     result_.parent.push_back(no_index);
     for (const Index u : graph_.neighbours(order_[j])) add_row(place[u], j);
@@ -147,24 +152,25 @@ class Fundamental {
 
   const Graph& graph_;
   std::vector<Index> order_, column_parent_, children_, mark_, owner_;
-  std::vector<Index> first_child_,
-      next_sibling_;  // child supernodes of a column; the next of the same parent
+  // The supernodes whose parent is a column, as a linked list.
+  std::vector<Index> first_child_, next_sibling_;
   Supernodes result_;
 };
 
-// What a substitution pays for a supernode, in floats read: each row below is gathered and scattered, and the
-// supernode itself begun.
+// The cost of a supernode in a substitution, in units of one float read from memory: its panel, gathering and
+// scattering each row below, and about 40 for starting on it. The figures were measured; they decide how far
+// supernodes are merged.
 double substitution_cost(Index width, Index below) {
-  return static_cast<double>(trapezoid_floats(width, below)) + 2.0 * below + 40;
+  return static_cast<double>(panel_floats(width, below)) + 2.0 * below + 40;
 }
 
-// Which supernodes join their parents: the group of each, named by its topmost member.
+// Decides which supernodes join their parents. Returns the group of each, named by its topmost member.
 std::vector<Index> amalgamate(const Supernodes& nodes) {
   const Index n = nodes.size();
   std::vector<Index> width(n), group(n);
   for (Index s = 0; s < n; ++s) width[s] = nodes.width(s);
-  // In postorder a child is final before its parent is asked; the last child, nearest in structure, comes
-  // first.
+  // In postorder a child is final before its parent is considered. The last child, the most similar in
+  // structure, is considered first.
   std::vector<Index> first_child(n, no_index), sibling(n, no_index);
   for (Index s = 0; s < n; ++s) {
     group[s] = s;
@@ -181,10 +187,10 @@ std::vector<Index> amalgamate(const Supernodes& nodes) {
   return group;
 }
 
-// The groups of a postorder of their own, members in ascending order.
+// The groups in postorder of the merged tree.
 struct Groups {
-  std::vector<Index> top;     // topmost member, in the new order
-  std::vector<Index> number;  // new number of the group a supernode belongs to
+  std::vector<Index> top;     // per group, its topmost member
+  std::vector<Index> number;  // per old supernode, the group it belongs to
 };
 
 Groups number_groups(const Supernodes& nodes, std::span<const Index> group) {
@@ -203,7 +209,7 @@ Groups number_groups(const Supernodes& nodes, std::span<const Index> group) {
   return groups;
 }
 
-// Columns in their new places, group by group; returns where each went.
+// Orders the columns group by group. Returns the new number of each old column.
 std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, Supernodes& result) {
   std::vector<Index> next(groups.top.size() + 1, 0);
   for (Index s = 0; s < nodes.size(); ++s) next[groups.number[s] + 1] += nodes.width(s);
@@ -219,6 +225,7 @@ std::vector<Index> place_columns(const Supernodes& nodes, const Groups& groups, 
   return moved;
 }
 
+// Joins each group into one supernode. Its rows are those of its topmost member, which contain all others.
 Supernodes merged(const Supernodes& nodes, std::span<const Index> group) {
   const Groups groups = number_groups(nodes, group);
   Supernodes result;
@@ -240,11 +247,11 @@ Supernodes analyse(const Graph& graph, std::span<const Index> order) {
   return merged(nodes, amalgamate(nodes));
 }
 
-std::size_t trapezoid_floats(Index width, Index below) {
+std::size_t panel_floats(Index width, Index below) {
   const std::size_t rows = (std::size_t{width} + below + 3) / 4 * 4;
   std::size_t floats = 0;
   for (std::size_t c = 0; c < width; c += 8) floats += std::min<std::size_t>(8, width - c) * (rows - c);
   return floats;
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -1,19 +1,21 @@
-// The structure of a sparse Cholesky factor: which columns are kept together, and which rows they fill.
+// Symbolic factorisation: which columns of a sparse Cholesky factor form supernodes, and which rows they
+// fill. Tested by tests/solver/cholesky_test.cpp.
 #pragma once
 
 #include "solver/graph.h"
 
-namespace relievo {
+namespace relievo::solver {
 
-// Columns in the order of elimination, in supernodes: consecutive columns stored as one dense trapezoid, its
-// rows being the columns themselves and those of `rows`. Supernodes stand in postorder of the assembly tree.
+// The columns in elimination order, grouped into supernodes: consecutive columns stored as one dense panel
+// whose rows are the columns themselves and those of `rows`. Supernodes are in postorder of the assembly
+// tree.
 struct Supernodes {
-  std::vector<Index> order;        // vertex that is eliminated in this place
+  std::vector<Index> order;        // per column, the vertex eliminated there
   std::vector<Index> first = {0};  // supernode s has the columns first[s] up to first[s + 1]
   std::vector<Index> parent;       // supernode of the first row below; no_index for a root
-  std::vector<std::size_t> begin = {
-      0};                   // rows of s below its columns: rows[begin[s]] up to rows[begin[s + 1]]
-  std::vector<Index> rows;  // as places in the order, ascending
+  // The rows of s below its own columns are rows[begin[s]] up to rows[begin[s + 1]], as columns, ascending.
+  std::vector<std::size_t> begin = {0};
+  std::vector<Index> rows;
 
   Index size() const { return static_cast<Index>(parent.size()); }
   Index width(Index s) const { return first[s + 1] - first[s]; }
@@ -23,12 +25,13 @@ struct Supernodes {
   }
 };
 
-// Analyses the elimination of `graph` in about that order (equivalent ones may be chosen). Columns whose
-// structures are alike become supernodes; so do others, with zeros stored, where that makes a substitution
-// cheaper.
+// Returns the supernodes of eliminating `graph` in the given order, or one that causes the same fill. Columns
+// of equal structure form a supernode; supernodes are merged, storing some zeros, where that makes a
+// substitution cheaper.
 Supernodes analyse(const Graph& graph, std::span<const Index> order);
 
-// Number of floats that a supernode's trapezoid takes, see trapezoid.h.
-std::size_t trapezoid_floats(Index width, Index below);
+// Returns the number of floats in a supernode's panel of `width` columns with `below` rows under them, see
+// supernode_panel.h.
+std::size_t panel_floats(Index width, Index below);
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -1,36 +1,42 @@
-// Cuts the assembly tree into tasks.
+// Cuts the assembly tree into tasks, the units of parallel work: subtrees at the bottom, each small enough
+// for one thread, and the single supernodes above them. Declared in cholesky_factor.h, tested by
+// tests/solver/cholesky_test.cpp.
 #include <algorithm>
 #include <numeric>
 
-#include "cholesky_factor.h"
+#include "solver/cholesky_factor.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
-// Columns of a subtree that is one task: small enough that tasks outnumber threads, large enough that few
-// rows cross from one to another.
+// Returns the largest number of columns of a task that is a subtree: small enough that tasks outnumber
+// threads (at least 64 of them), large enough that few rows cross from one task to another. At most 16,384,
+// so that positions in a work vector fit into 16 bits.
 Index subtree_limit(std::size_t columns) {
   return static_cast<Index>(std::clamp<std::size_t>(columns / 64, 1024, 16384));
 }
 
-class Layout {
+class TaskTreeBuilder {
  public:
-  explicit Layout(const Supernodes& nodes) : nodes_(nodes), limit_(subtree_limit(nodes.order.size())) {}
+  explicit TaskTreeBuilder(const Supernodes& nodes)
+      : nodes_(nodes), limit_(subtree_limit(nodes.order.size())) {}
 
   std::unique_ptr<Cholesky::Factor> build() {
     result_ = std::make_unique<Cholesky::Factor>();
     result_->order = nodes_.order;
     for (Index s = 0; s < nodes_.size(); ++s) result_->nodes.push_back({nodes_.width(s), nodes_.below(s)});
-    find_subtrees();
+    mark_supernodes_above();
     make_tasks();
     sort_by_height();
     link();
-    place();
+    assign_storage();
     return std::move(result_);
   }
 
  private:
-  void find_subtrees() {
+  // Marks the supernodes whose subtree is too large for one task. A single one with too many rows counts as
+  // too large, as its products would not fit on the stack; so do all its ancestors.
+  void mark_supernodes_above() {
     const Index n = nodes_.size();
     std::vector<Index> columns(n, 0);
     begin_.resize(n);
@@ -48,14 +54,15 @@ class Layout {
     }
   }
 
-  // Neighbouring subtrees under one parent share a task while they are small.
+  // Neighbouring subtrees under one parent share a task as long as its columns stay below the limit and its
+  // work vector stays addressable.
   void make_tasks() {
     for (Index s = 0; s < nodes_.size(); ++s) {
       const Index p = nodes_.parent[s];
       if (!is_above_[s] && p != no_index && !is_above_[p]) continue;
       const bool joins = !is_above_[s] && !tasks_.empty() && tasks_.back().is_subtree && last_parent_ == p &&
                          nodes_.first[s + 1] - tasks_.back().first_column <= limit_ &&
-                         rows_so_far_ + nodes_.below(s) <= largest_subtree_segment - limit_;
+                         rows_so_far_ + nodes_.below(s) <= largest_subtree_work_vector - limit_;
       if (!joins) {
         tasks_.push_back({});
         tasks_.back().first_node = is_above_[s] ? s : begin_[s];
@@ -82,7 +89,9 @@ class Layout {
     return task_of;
   }
 
-  // All tasks of a height can run side by side, so the widest part of the tree comes first.
+  // Threads take tasks in this order. Tasks of one height do not depend on each other, so that the many
+  // leaves keep all threads busy and a task rarely waits for its children. Stable, for the same order every
+  // time.
   void sort_by_height() {
     const std::vector<Index> task_of = tasks_of_nodes();
     std::vector<Index> height(tasks_.size(), 0), sequence(tasks_.size());
@@ -113,18 +122,22 @@ class Layout {
       if (const Index p = result_->tasks[t].parent; p != no_index) result_->children[next[p]++] = t;
   }
 
-  void place() {
-    // Parents first: where a boundary row stands in the parent's segment depends on the parent's boundary.
+  // Assigns each task its part of the shared arrays: the boundary, the work vector and the values.
+  void assign_storage() {
+    // All boundaries first: where a row stands in the parent's work vector depends on the parent's boundary.
     for (Task& task : result_->tasks) find_boundary(task);
     for (Task& task : result_->tasks) {
-      find_places_in_parent(task);
+      find_rows_in_parent(task);
       if (task.is_subtree) find_rows(task);
+      // A supernode above the subtrees needs a copy of its columns, padded to vectors of eight.
       const Index scratch = task.is_subtree ? 0 : task.own() + 8;
-      task.segment = result_->segment_count;
-      result_->segment_count += (task.own() + task.boundary + scratch + 23) / 16 * 16;
+      task.work_begin = result_->work_count;
+      // Whole cache lines of 16 floats and at least eight floats of padding: no two threads write to one
+      // line.
+      result_->work_count += (task.own() + task.boundary + scratch + 23) / 16 * 16;
       task.values = result_->value_count;
       for (Index s = task.first_node; s < task.end_node; ++s)
-        result_->value_count += trapezoid_floats(nodes_.width(s), nodes_.below(s));
+        result_->value_count += panel_floats(nodes_.width(s), nodes_.below(s));
       task.end_values = result_->value_count;
     }
   }
@@ -141,19 +154,13 @@ class Layout {
     result_->boundary.insert(result_->boundary.end(), rows.begin(), rows.end());
   }
 
-  // Own columns, then boundary.
-  Index place_in(const Task& task, Index column) const {
-    if (column < task.end_column) return column - task.first_column;
-    const auto begin = result_->boundary.begin() + task.first_boundary;
-    return task.own() + static_cast<Index>(std::lower_bound(begin, begin + task.boundary, column) - begin);
-  }
-
-  void find_places_in_parent(const Task& task) {
+  void find_rows_in_parent(const Task& task) {
     for (Index i = 0; i < task.boundary; ++i)
       result_->to_parent.push_back(
-          place_in(result_->tasks[task.parent], result_->boundary[task.first_boundary + i]));
+          work_row(*result_, result_->tasks[task.parent], result_->boundary[task.first_boundary + i]));
   }
 
+  // Lists the work rows of each supernode of a subtree, padded with its first one as the products need it.
   void find_rows(Task& task) {
     task.rows = result_->rows.size();
     std::vector<std::uint16_t>& rows = result_->rows;
@@ -162,7 +169,7 @@ class Layout {
       const std::size_t padded = rows.size() + padded_rows(nodes_.width(s), nodes_.below(s));
       for (Index i = 0; i < nodes_.width(s); ++i) rows.push_back(static_cast<std::uint16_t>(first + i));
       for (const Index row : nodes_.rows_of(s))
-        rows.push_back(static_cast<std::uint16_t>(place_in(task, row)));
+        rows.push_back(static_cast<std::uint16_t>(work_row(*result_, task, row)));
       rows.resize(padded, first);
     }
     task.end_rows = result_->rows.size();
@@ -170,7 +177,7 @@ class Layout {
 
   const Supernodes& nodes_;
   Index limit_;
-  std::vector<Index> begin_;  // first supernode of the subtree of each
+  std::vector<Index> begin_;  // per supernode, the first one of its subtree
   std::vector<std::uint8_t> is_above_;
   std::vector<Task> tasks_;
   Index last_parent_ = no_index;
@@ -180,8 +187,14 @@ class Layout {
 
 }  // namespace
 
-std::unique_ptr<Cholesky::Factor> lay_out(const Supernodes& supernodes) {
-  return Layout(supernodes).build();
+Index work_row(const Cholesky::Factor& factor, const Task& task, Index column) {
+  if (column < task.end_column) return column - task.first_column;
+  const auto begin = factor.boundary.begin() + task.first_boundary;
+  return task.own() + static_cast<Index>(std::lower_bound(begin, begin + task.boundary, column) - begin);
 }
 
-}  // namespace relievo
+std::unique_ptr<Cholesky::Factor> build_task_tree(const Supernodes& supernodes) {
+  return TaskTreeBuilder(supernodes).build();
+}
+
+}  // namespace relievo::solver

@@ -1,15 +1,16 @@
-#include "band_cut.h"
+#include "solver/vertex_separator.h"
 
 #include <algorithm>
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
-// Every vertex is split into an entrance (state 2v) and an exit (state 2v + 1), joined by an arc of capacity
-// 1; arcs between vertices are unbounded. A path through v comes from previous_[v] and goes on to next_[v].
+// A maximum set of vertex-disjoint paths as a flow. Every vertex v is split into an entrance (state 2v) and
+// an exit (state 2v + 1), joined by an arc of capacity 1; arcs between vertices are unbounded, so that only
+// vertices can be cut. The path through a used vertex v comes from previous_[v] and goes on to next_[v].
 class PathFlow {
  public:
-  explicit PathFlow(const Band& band)
+  explicit PathFlow(const SeparatorBand& band)
       : band_(band),
         graph_(band.graph),
         starts_(band.touches_first),
@@ -22,13 +23,16 @@ class PathFlow {
     queue_.reserve(level_.size());
   }
 
-  // From the uppermost start, always the leftmost turn; a vertex left behind is of no use to a lower path.
+  // A greedy start for maximise(). Each path begins at the uppermost unused start and always takes the
+  // leftmost turn. A vertex that such a walk has left behind lies above it, where no lower path of a planar
+  // graph can come without crossing it, so no vertex is visited twice.
   void take_uppermost_paths() {
     std::vector<std::uint8_t> is_seen(graph_.size(), 0);
     for (const Index start : starts_from_above())
       if (!is_seen[start] && find_uppermost_path(start, is_seen)) keep_path();
   }
 
+  // Dinic's algorithm: augments along shortest residual paths until there are none.
   void maximise() {
     while (find_levels()) {
       arc_ = graph_.begin;
@@ -37,7 +41,8 @@ class PathFlow {
     }
   }
 
-  // Of the final flow, after maximise(): what can still be reached is on the near side.
+  // Reads the separator off the final flow, after maximise(): what can still be reached is on the near side,
+  // and a vertex whose entrance can be reached but not its exit is saturated, hence in the separator.
   std::vector<Side> cut(Side near, Side far) const {
     std::vector<Side> side(graph_.size(), far);
     for (Index v = 0; v < graph_.size(); ++v) {
@@ -49,14 +54,14 @@ class PathFlow {
     return side;
   }
 
-  // The same flow, read from the other end.
+  // Reads the same flow from the other end.
   void reverse() {
     std::swap(starts_, ends_);
     std::swap(previous_, next_);
   }
 
  private:
-  // How many neighbours were tried, and where the first of them stands.
+  // A vertex of the current walk, the neighbour at which it began to look, and how many it has tried.
   struct Turn {
     Index vertex, first, tried;
   };
@@ -73,7 +78,8 @@ class PathFlow {
     return order;
   }
 
-  // Where among its neighbours a vertex begins to look: clockwise next to what lies behind it.
+  // Returns the first neighbour to try at the start of a walk: the next one clockwise from the backward
+  // direction, which is the leftmost turn.
   Index first_turn(Index v) const {
     const auto nearby = graph_.neighbours(v);
     Index best = 0;
@@ -82,7 +88,8 @@ class PathFlow {
       const Eigen::Vector2f step = band_.positions[nearby[i]] - band_.positions[v];
       const float x = -step.dot(band_.direction);
       const float y = step.x() * band_.direction.y() - step.y() * band_.direction.x();
-      // Grows clockwise from the backward direction (x = 1, y = 0) from 0 to 4.
+      // A substitute for the angle that needs no arc tangent: it grows clockwise from 0 in the backward
+      // direction (x = 1, y = 0) to 4.
       const float sum = std::abs(x) + std::abs(y), turn = sum > 0 ? x / sum : 1;
       const float angle = -y >= 0 ? 1 - turn : 3 + turn;
       if (angle < best_angle) best = i, best_angle = angle;
@@ -131,7 +138,8 @@ class PathFlow {
     queue_.push_back(state);
   }
 
-  // Distances from the start in the residual network; whether the far end is within reach.
+  // Writes to level_ the distances from the start in the residual network. Returns whether the far end can be
+  // reached; the search stops there, so that then not all levels are known.
   bool find_levels() {
     std::fill(level_.begin(), level_.end(), no_index);
     queue_.clear();
@@ -151,13 +159,15 @@ class PathFlow {
     return false;
   }
 
-  // From the entrance of v: through it if it is free, else back along the path that holds it.
+  // Returns the state that follows the entrance of v: its exit if v is free, otherwise back along the path
+  // that uses v, and no_index if that path begins at v.
   Index inner_arc(Index v) const {
     if (!is_used_[v]) return 2 * v + 1;
     return previous_[v] == no_index ? no_index : 2 * previous_[v] + 1;
   }
 
-  // Depth first along rising levels; path_ holds the states. A state that leads nowhere loses its level.
+  // Searches depth first along rising levels and keeps the states in path_. A dead end loses its level, so
+  // that a phase visits it once.
   bool find_path(Index start) {
     path_.assign(1, start);
     while (!path_.empty()) {
@@ -197,11 +207,11 @@ class PathFlow {
       }
     }
     next_[path_.back() / 2] = no_index;
-    // Paths are vertex-disjoint: within this phase none of these states may be passed again.
+    // Paths are vertex-disjoint: no other path of this phase may pass any of these states.
     for (const Index state : path_) level_[state] = no_index;
   }
 
-  const Band& band_;
+  const SeparatorBand& band_;
   const Graph& graph_;
   std::vector<Turn> turns_;
   std::vector<std::uint8_t> starts_, ends_;
@@ -212,16 +222,16 @@ class PathFlow {
 
 }  // namespace
 
-BandCuts smallest_cuts(const Band& band) {
+MinimumSeparators minimum_separators(const SeparatorBand& band) {
   PathFlow flow(band);
   flow.take_uppermost_paths();
   flow.maximise();
-  BandCuts cuts;
+  MinimumSeparators cuts;
   cuts.near_first = flow.cut(Side::first, Side::second);
   flow.reverse();
-  flow.maximise();  // it is: this only looks what can be reached from here
+  flow.maximise();  // the flow is already maximal; this only finds what can be reached from the other end
   cuts.near_second = flow.cut(Side::second, Side::first);
   return cuts;
 }
 
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -1,6 +1,7 @@
 // The program as its users misuse it: exit codes, one line about what is wrong, nothing left behind.
 #include <cstring>
 
+#include "relievo/io/write.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
 

@@ -2,11 +2,18 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
+#include <sstream>
 
-#include "relievo/preview.h"
+#include "relievo/core/image.h"
+#include "relievo/io/write.h"
+#include "relievo/option_texts.h"
+#include "relievo/picture/preview.h"
 #include "support/cli_folder.h"
 #include "support/format_samples.h"
+#include "support/read_solid.h"
 
 namespace relievo {
 namespace {
@@ -15,29 +22,66 @@ using namespace test;
 
 using Cli = CliFolder;
 
-// Extent of a binary STL's corners.
 Vec3 stl_size(const std::string& file) {
-  Box box;
-  for (std::size_t at = 84; at + 50 <= file.size(); at += 50) {
-    std::array<float, 9> v{};
-    std::memcpy(v.data(), file.data() + at + 12, sizeof v);
-    for (std::size_t i = 0; i < 9; i += 3) box.extend(Vec3f(v[i], v[i + 1], v[i + 2]).cast<double>());
-  }
-  return box.size();
+  return solid_in_stl(file).box().size();
 }
 
+nlohmann::json json_in(const fs::path& path) {
+  return nlohmann::json::parse(read_all(path), nullptr, false);
+}
+
+// The line of a listing that begins with `label`, without it and the spaces after it.
+std::string line_of(const std::string& listing, const std::string& label) {
+  const std::size_t at = ("\n" + listing).find("\n" + label + " ");
+  if (at == std::string::npos) return {};
+  const std::string line = listing.substr(at, listing.find('\n', at) - at);
+  return line.substr(line.find_first_not_of(' ', label.size()));
+}
+
+// The torus is 2.8 units wide and seen along its axis: 50 mm of relief and twice 5 mm of margin, 3 mm of relief on 3 mm.
 TEST_F(Cli, MakesEverythingAskedFor) {
   const Outcome outcome =
       run("make torus.ply -o t.stl --preview t.png --heightmap h.png --heightmap-size 100 --report r.json "
           "--height 3 --width 50");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  for (const char* file : {"t.stl", "t.png", "h.png", "r.json"})
-    EXPECT_GT(fs::file_size(folder_ / file), 100U) << file;
-  const std::string report = read_all(folder_ / "r.json");
-  for (const char* key : {"input_points", "visible_points", "rho", "diagonal", "alpha", "beta", "gamma",
-                          "height_requested_mm", "height_mm", "seconds", "threads", "version", "model_to_mm",
-                          "rotation", "scale", "offset", "size_mm"})
-    EXPECT_NE(report.find('"' + std::string(key) + '"'), std::string::npos) << key;
+  const ReadSolid solid = solid_in_stl(read_all(folder_ / "t.stl"));
+  const Vec3 size = solid.box().size();
+  EXPECT_TRUE(solid.is_closed());
+  EXPECT_NEAR(size.head<2>().maxCoeff(), 60, 1e-3);
+  EXPECT_NEAR(size.head<2>().minCoeff(), 60, .5);
+  EXPECT_NEAR(size.z(), 6, 3e-3);
+  EXPECT_GT(solid.volume(), 3 * size.x() * size.y());
+  EXPECT_LT(solid.volume(), 6 * size.x() * size.y());
+
+  const auto [width, height] = size_of_png(read_all(folder_ / "h.png"));
+  EXPECT_EQ(std::max(width, height), 100U);
+  EXPECT_NEAR(width * size.y(), height * size.x(), 60);
+  const auto preview = size_of_png(read_all(folder_ / "t.png"));
+  EXPECT_NEAR(preview.first, 2 * preview.second, .02 * preview.first);  // two views of a square plate
+}
+
+TEST_F(Cli, ReportsWhatItMade) {
+  ASSERT_EQ(run("make torus.ply -o t.stl --report r.json --height 3 --width 50 --quiet").exit_code, 0);
+  const nlohmann::json report = json_in(folder_ / "r.json");
+  ASSERT_TRUE(report.is_object());
+  const Vec3 size = stl_size(read_all(folder_ / "t.stl"));
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(report["size_mm"][i].get<double>(), size[static_cast<Eigen::Index>(i)], 1e-4);
+  EXPECT_EQ(report["input_points"], 20000);
+  EXPECT_GT(report["visible_points"], 8000);  // a torus shows about half of its points
+  EXPECT_LT(report["visible_points"], 12000);
+  EXPECT_EQ(report["height_requested_mm"], 3);
+  EXPECT_NEAR(report["height_mm"].get<double>(), 3, 3e-3);
+  EXPECT_NEAR(report["diagonal"].get<double>(), std::hypot(2.8, 2.8, .8), .1);
+  EXPECT_EQ(report["gamma"], .04);
+  EXPECT_TRUE(report["version"].is_string());
+  EXPECT_GE(report["threads"], 1);
+  EXPECT_GT(report["seconds"].size(), 5U);
+  const nlohmann::json& to_mm = report["model_to_mm"];
+  EXPECT_NEAR(to_mm["scale"].get<double>(), 50 / 2.8, .1);
+  EXPECT_EQ(to_mm["rotation"], nlohmann::json({1, 0, 0, 0, 1, 0, 0, 0, 1}));
+  for (std::size_t i = 0; i < 2; ++i)
+    EXPECT_NEAR(to_mm["offset"][i].get<double>(), 30, .3);  // the torus' middle
 }
 
 TEST_F(Cli, MakesProjects) {
@@ -75,7 +119,7 @@ TEST_F(Cli, MakesScenes) {
   write_all(folder_ / "p.relievo", R"({"relievo": 1, "input": {"path": "scene.json"}, "options": {}})");
   EXPECT_EQ(run("make p.relievo -o p.stl --quiet").exit_code, 0);
   EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "scene.stl"));
-  EXPECT_NE(run("compare scene.json --height 0.02 --methods ours").out.find("ours"), std::string::npos);
+  EXPECT_NE(run("compare scene.json --height 0.02 --methods layered").out.find("layered"), std::string::npos);
   EXPECT_NE(run("info scene.json").out.find("models     2"), std::string::npos);
   expect_refusal("make scene.json -o scene.json", "scene.json");
   expect_refusal("make torus.ply torus.ply -o torus.ply", "torus.ply: expected different files");
@@ -86,8 +130,13 @@ TEST_F(Cli, MakesScenes) {
 TEST_F(Cli, WritesPlyAndObjToo) {
   EXPECT_EQ(run("make torus.ply -o t.ply --quiet").exit_code, 0);
   EXPECT_EQ(run("make torus.ply -o t.OBJ --quiet").exit_code, 0);
-  EXPECT_EQ(read_all(folder_ / "t.ply").substr(0, 4), "ply\n");
-  EXPECT_NE(read_all(folder_ / "t.OBJ").find("\nv "), std::string::npos);
+  EXPECT_EQ(run("make torus.ply -o t.stl --quiet").exit_code, 0);
+  const ReadSolid stl = solid_in_stl(read_all(folder_ / "t.stl"));
+  const ReadSolid ply = solid_in_ply(read_all(folder_ / "t.ply"));
+  const ReadSolid obj = solid_in_obj(read_all(folder_ / "t.OBJ"));
+  EXPECT_TRUE(stl.is_closed());
+  EXPECT_TRUE(ply.triangles == stl.triangles);
+  EXPECT_TRUE(obj.triangles == stl.triangles);
 }
 
 TEST_F(Cli, IsTheSameForAnyNumberOfThreads) {
@@ -144,8 +193,19 @@ TEST_F(Cli, StreamsLargeFiles) {
 TEST_F(Cli, TellsWhatIsInAScan) {
   const Outcome outcome = run("info torus.ply");
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("20000"), std::string::npos);
-  EXPECT_NE(outcome.out.find("outwards"), std::string::npos);
+  EXPECT_EQ(line_of(outcome.out, "points"), "20000");
+  EXPECT_EQ(line_of(outcome.out, "format"), "PLY binary little endian");
+  EXPECT_EQ(line_of(outcome.out, "normals"), "yes, pointing outwards");
+  std::istringstream size(line_of(outcome.out, "size"));
+  for (const double expected : {2.8, 2.8, .8}) {
+    double side = 0;
+    char comma = 0;
+    size >> side >> comma;
+    EXPECT_NEAR(side, expected, .01);
+  }
+  // The spacing is that of a grid with as many points on the torus' surface of 4 pi^2 times .4.
+  const double in_a_grid = 2 * std::numbers::pi * std::sqrt(.4 / 20000);
+  EXPECT_NEAR(std::stod("0" + line_of(outcome.out, "spacing")) / in_a_grid, 1, .1);
 }
 
 TEST_F(Cli, GeneratesSamplesThatItCanRead) {
@@ -154,16 +214,24 @@ TEST_F(Cli, GeneratesSamplesThatItCanRead) {
 }
 
 TEST_F(Cli, MakesReliefsByEveryMethod) {
-  for (const std::string method : {"ours", "paper", "linear", "equalise", "gradient", "detail"}) {
+  std::set<std::string> different;
+  for (const std::string method : {"layered", "paper", "linear", "equalise", "gradient", "detail"}) {
     const Outcome outcome = run("make torus.ply -o t.stl --height 2 --method " + method + " --report r.json");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-    EXPECT_NE(read_all(folder_ / "r.json").find("\"method\": \"" + method + '"'), std::string::npos);
+    const nlohmann::json report = json_in(folder_ / "r.json");
+    EXPECT_EQ(report.value("method", ""), method);
+    EXPECT_NEAR(report.value("height_mm", 0.0), 2, 2e-3) << method;
+    const std::string file = read_all(folder_ / "t.stl");
+    EXPECT_NEAR(stl_size(file).z(), 3 + 2, 2e-3) << method;
+    EXPECT_TRUE(solid_in_stl(file).is_closed()) << method;
+    EXPECT_TRUE(different.insert(file).second) << method << " makes what another method makes";
   }
-  expect_refusal("make torus.ply -o u.stl --method linear", "--height");
+  expect_refusal("make torus.ply -o u.stl --method linear", "--method: expected a height");
 }
 
 TEST_F(Cli, ComparesMethods) {
-  const Outcome outcome = run("compare torus.ply -o s.png --height 0.02,0.05 --methods ours,linear --json");
+  const Outcome outcome =
+      run("compare torus.ply -o s.png --height 0.02,0.05 --methods layered,linear --json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("\"shading\""), std::string::npos);
   EXPECT_EQ(read_all(folder_ / "s.png").substr(1, 3), "PNG");
@@ -176,7 +244,7 @@ TEST_F(Cli, ComparesMethods) {
 TEST_F(Cli, HelpTellsRangesAndDefaults) {
   const std::string help = run("make --help").out;
   for (const char* part :
-       {"--width", "--height", "--saturation", "--view", "[0.1 to 100000]", "=100", "default 0.02"})
+       {"--width", "--height", "--saturation", "--view", "[0.1 to 100000]", "=100", "0.02 with method paper"})
     EXPECT_NE(help.find(part), std::string::npos) << part;
   EXPECT_EQ(run("--help").exit_code, 0);
   EXPECT_NE(run("--version").out.find("relievo "), std::string::npos);
@@ -216,7 +284,7 @@ TEST_F(Cli, TellsWhatAToolReaches) {
   EXPECT_NE(read_all(folder_ / "r.json").find("reached_share"), std::string::npos);
   EXPECT_EQ(read_all(folder_ / "t.png").substr(1, 3), "PNG");
   expect_refusal("make torus.ply -o u.stl --tool drill:3", "--tool");
-  expect_refusal("make torus.ply -o u.stl --surface reachable", "--surface");
+  expect_refusal("make torus.ply -o u.stl --finish reachable", "--finish");
   expect_refusal("make torus.ply -o u.stl --tool-picture u.png", "--tool-picture");
 }
 
@@ -236,6 +304,33 @@ TEST_F(Cli, KeepsADraftAngleInInchesToo) {
   }
   EXPECT_GT(steepest, std::tan(48 * std::numbers::pi / 180));
   EXPECT_LT(steepest, std::tan(50.01 * std::numbers::pi / 180));
+}
+
+TEST_F(Cli, TheReadmesTableIsTheProgrammes) {
+  const std::string readme = read_all(fs::path(__FILE__).parent_path() / "../../README.md");
+  const std::string table = run("options --markdown").out;
+  EXPECT_TRUE(table.starts_with("| flag | meaning | default |\n"));
+  EXPECT_NE(readme.find(table), std::string::npos) << table;
+}
+
+TEST_F(Cli, OptionsAreAManPageAndJsonToo) {
+  const std::string man = run("options --man").out;
+  EXPECT_TRUE(man.starts_with(".TH RELIEVO"));
+  const auto list = nlohmann::json::parse(run("options --json").out);
+  ASSERT_EQ(list.size(), option_fields().size());
+  for (const auto& option : list) {
+    std::string name = option["name"];
+    for (std::size_t at = name.find('-'); at != std::string::npos; at = name.find('-', at + 2))
+      name.insert(at, "\\");
+    EXPECT_NE(man.find(".BI \\-\\-" + name + " "), std::string::npos) << name;
+    if (option["name"] == "detail") {
+      EXPECT_EQ(option["default"]["paper"], .02);
+      EXPECT_EQ(option["min"], 0);
+    }
+    if (option["name"] == "outline") {
+      EXPECT_EQ(option["choices"].size(), outline_choices.size());
+    }
+  }
 }
 
 }  // namespace

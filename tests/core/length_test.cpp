@@ -35,7 +35,7 @@ TEST(Length, OfAnyOtherTextIsNone) {
 
 TEST(LengthUnit, IsKnownByItsName) {
   for (const LengthUnit unit : {LengthUnit::mm, LengthUnit::inch}) EXPECT_EQ(parse_unit(name_of(unit)), unit);
-  EXPECT_EQ(parse_unit("ft").error().input, "--units");
+  EXPECT_EQ(parse_unit("ft").error().input, "units");
 }
 
 }  // namespace

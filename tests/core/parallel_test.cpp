@@ -54,7 +54,7 @@ TEST_P(Parallel, NestedCallsComplete) {
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), 0), 64 * 64);
 }
 
-INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 4));
+INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 4), testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace relievo

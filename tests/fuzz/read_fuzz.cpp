@@ -4,8 +4,9 @@
 #include <cstdlib>
 #include <string>
 
-#include "relievo/depth_image.h"
+#include "relievo/io/read.h"
 #include "relievo/io/stream.h"
+#include "relievo/scan/depth_image.h"
 #include "support/read_text.h"
 
 namespace {
@@ -46,7 +47,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 }
 
 #ifndef RELIEVO_LIBFUZZER
-#include "fuzz/run_files.h"
+#include "run_files.h"
 
 int main(int argc, char** argv) {
   return run_files(argc, argv, [](const std::string& text) {

@@ -3,23 +3,23 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "scene_file.h"
+#include "common/scene_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace relievo;
-  const auto entries = cli::read_scene_file({reinterpret_cast<const char*>(data), size}, "scene.json");
+  const auto entries = app::read_scene_file({reinterpret_cast<const char*>(data), size}, "scene.json");
   if (!entries) {
     if (entries.error().input != "scene.json" || entries.error().expected.empty()) std::abort();
     return 0;
   }
   if (entries->empty()) std::abort();
-  for (const cli::SceneEntry& entry : *entries)
+  for (const app::SceneEntry& entry : *entries)
     if (entry.path.empty() || !entry.pose.rotate_deg.allFinite() || !(entry.pose.scale > 0)) std::abort();
   return 0;
 }
 
 #ifndef RELIEVO_LIBFUZZER
-#include "fuzz/run_files.h"
+#include "run_files.h"
 
 int main(int argc, char** argv) {
   return run_files(argc, argv, [](const std::string& text) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "blur.h"
+#include "geometry/blur.h"
 
 namespace relievo {
 namespace {
@@ -23,7 +23,7 @@ struct Random {
 // and corners.
 struct Sheet {
   std::vector<Triangle> triangles;
-  Drawing scene;
+  RasterInput scene;
 
   Sheet(int width, int height, int cells, double round) {
     Random random;
@@ -47,65 +47,65 @@ struct Sheet {
   }
 };
 
-std::vector<Sample> draw_all(const Drawing& scene, int band_rows) {
-  const Raster raster(scene, band_rows);
-  std::vector<Sample> samples;
+std::vector<Fragment> draw_all(const RasterInput& scene, int band_rows) {
+  const Rasterizer raster(scene, band_rows);
+  std::vector<Fragment> fragments;
   for (std::size_t b = 0; b < raster.bands(); ++b) {
-    const Band band = raster.draw(b);
+    const RowBand band = raster.draw(b);
     EXPECT_EQ(static_cast<std::size_t>(band.first_row) * static_cast<std::size_t>(scene.width),
-              samples.size());
-    samples.insert(samples.end(), band.samples.begin(), band.samples.end());
+              fragments.size());
+    fragments.insert(fragments.end(), band.fragments.begin(), band.fragments.end());
   }
-  return samples;
+  return fragments;
 }
 
-TEST(Raster, EveryCentreBelongsToExactlyOneTriangle) {
+TEST(Rasterizer, EveryCentreBelongsToExactlyOneTriangle) {
   for (const double round : {1e-9, 0.5}) {
     for (const int cells : {1, 7, 40}) {
       const Sheet sheet(64, 48, cells, round);
       std::vector<int> count(64 * 48, 0);
       for (const Triangle& t : sheet.triangles) {
-        Drawing one = sheet.scene;
+        RasterInput one = sheet.scene;
         one.triangles = std::span(&t, 1);
-        const std::vector<Sample> samples = draw_all(one, 48);
-        for (std::size_t i = 0; i < samples.size(); ++i) count[i] += samples[i].triangle == 0;
+        const std::vector<Fragment> fragments = draw_all(one, 48);
+        for (std::size_t i = 0; i < fragments.size(); ++i) count[i] += fragments[i].triangle == 0;
       }
       EXPECT_EQ(std::ranges::count(count, 1), 64 * 48) << cells << " cells rounded to " << round;
     }
   }
 }
 
-TEST(Raster, FindsTheTriangleThatHoldsTheCentre) {
+TEST(Rasterizer, FindsTheTriangleThatHoldsTheCentre) {
   const Sheet sheet(200, 150, 20, 1e-9);
-  const std::vector<Sample> samples = draw_all(sheet.scene, 150);
+  const std::vector<Fragment> fragments = draw_all(sheet.scene, 150);
   for (int y = 0; y < 150; ++y) {
     for (int x = 0; x < 200; ++x) {
-      const Sample& sample = samples[static_cast<std::size_t>(y * 200 + x)];
-      ASSERT_NE(sample.triangle, no_index);
-      const Vec3f weights = corner_weights(sheet.scene, sample.triangle, x + .5, y + .5);
-      const auto& [a, b, c] = sheet.triangles[sample.triangle];
+      const Fragment& fragment = fragments[static_cast<std::size_t>(y * 200 + x)];
+      ASSERT_NE(fragment.triangle, no_index);
+      const Vec3f weights = corner_weights(sheet.scene, fragment.triangle, x + .5, y + .5);
+      const auto& [a, b, c] = sheet.triangles[fragment.triangle];
       const auto& points = sheet.scene.points;
       const Vec3 place = weights[0] * points[a] + weights[1] * points[b] + weights[2] * points[c];
       // Corners are rounded to 1/256 pixel, and the triangles are not thinner than a pixel.
       EXPECT_LT((place.head<2>() - Vec2(x + .5, y + .5)).norm(), 0.01);
-      EXPECT_NEAR(sample.z, place.z(), 0.01);
+      EXPECT_NEAR(fragment.z, place.z(), 0.01);
     }
   }
 }
 
-TEST(Raster, HeightsOfAPlaneAreExact) {
+TEST(Rasterizer, HeightsOfAPlaneAreExact) {
   Sheet sheet(300, 200, 13, 1e-9);
   const auto plane = [](double x, double y) { return 3 + x / 7 - y / 11; };
   for (Vec3& p : sheet.scene.points) p.z() = plane(p.x(), p.y());
-  const std::vector<Sample> samples = draw_all(sheet.scene, 64);
+  const std::vector<Fragment> fragments = draw_all(sheet.scene, 64);
   for (int y = 0; y < 200; ++y)
     for (int x = 0; x < 300; ++x)
-      ASSERT_NEAR(samples[static_cast<std::size_t>(y * 300 + x)].z, plane(x + .5, y + .5), 1e-5);
+      ASSERT_NEAR(fragments[static_cast<std::size_t>(y * 300 + x)].z, plane(x + .5, y + .5), 1e-5);
 }
 
-TEST(Raster, BandsDoNotChangeThePicture) {
+TEST(Rasterizer, BandsDoNotChangeThePicture) {
   const Sheet sheet(100, 75, 9, 1e-9);
-  const std::vector<Sample> whole = draw_all(sheet.scene, 75), parts = draw_all(sheet.scene, 7);
+  const std::vector<Fragment> whole = draw_all(sheet.scene, 75), parts = draw_all(sheet.scene, 7);
   ASSERT_EQ(whole.size(), parts.size());
   for (std::size_t i = 0; i < whole.size(); ++i) {
     EXPECT_EQ(whole[i].triangle, parts[i].triangle);
@@ -113,31 +113,31 @@ TEST(Raster, BandsDoNotChangeThePicture) {
   }
 }
 
-TEST(Raster, TheNearestIsSeenAndBackFacesAreNot) {
-  Drawing scene{
+TEST(Rasterizer, TheNearestIsSeenAndBackFacesAreNot) {
+  RasterInput scene{
       {{0, 0, 1}, {0, 20, 1}, {20, 0, 1}, {0, 0, 2}, {0, 10, 2}, {10, 0, 2}, {20, 20, 9}}, {}, 20, 20};
   const std::vector<Triangle> triangles{{0, 1, 2}, {3, 4, 5}, {0, 1, 2}, {1, 6, 2}, {1, 2, 6}};
   scene.triangles = triangles;
-  const std::vector<Sample> samples = draw_all(scene, 6);
-  EXPECT_EQ(samples[0].triangle, 1U);             // nearer
-  EXPECT_EQ(samples[12].triangle, 0U);            // equally near: the first
-  EXPECT_EQ(samples[19 * 20 + 19].triangle, 3U);  // the other one there faces away
+  const std::vector<Fragment> fragments = draw_all(scene, 6);
+  EXPECT_EQ(fragments[0].triangle, 1U);             // nearer
+  EXPECT_EQ(fragments[12].triangle, 0U);            // equally near: the first
+  EXPECT_EQ(fragments[19 * 20 + 19].triangle, 3U);  // the other one there faces away
 }
 
-TEST(Raster, ASliverDoesNotSpike) {
-  const Drawing scene{{{0, 10, 0}, {100, 10.004, 5}, {50, 10.001, 100}}, {}, 100, 20};
-  Drawing drawn = scene;
+TEST(Rasterizer, ASliverDoesNotSpike) {
+  const RasterInput scene{{{0, 10, 0}, {100, 10.004, 5}, {50, 10.001, 100}}, {}, 100, 20};
+  RasterInput drawn = scene;
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 1}};
   drawn.triangles = triangles;
-  for (const Sample& sample : draw_all(drawn, 20)) {
-    if (sample.triangle == no_index) continue;
-    EXPECT_GE(sample.z, 0);
-    EXPECT_LE(sample.z, 100);
+  for (const Fragment& fragment : draw_all(drawn, 20)) {
+    if (fragment.triangle == no_index) continue;
+    EXPECT_GE(fragment.z, 0);
+    EXPECT_LE(fragment.z, 100);
   }
 }
 
 TEST(CornerWeights, ReproduceThePlaceAndStayPositiveOutside) {
-  Drawing scene{{{0, 0, 0}, {0, 10, 0}, {10, 0, 0}}, {}, 10, 10};
+  RasterInput scene{{{0, 0, 0}, {0, 10, 0}, {10, 0, 0}}, {}, 10, 10};
   const std::vector<Triangle> triangles{{0, 1, 2}, {0, 0, 1}};
   scene.triangles = triangles;
   const Vec3f weights = corner_weights(scene, 0, 2, 3);
@@ -169,11 +169,11 @@ std::vector<float> slow_blur(std::vector<float> values, int width, int radius) {
 TEST(Blur, IsTheAverageOverBoxesTwice) {
   Random random;
   for (const auto& [width, height, radius] : {std::array{37, 29, 3}, {5, 40, 9}, {1, 1, 2}, {33, 1, 1}}) {
-    std::vector<float> values(static_cast<std::size_t>(width * height));
-    for (float& v : values) v = static_cast<float>(random());
-    const std::vector<float> expected = slow_blur(values, width, radius);
-    blur(values, width, radius);
-    for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], expected[i], 1e-5) << i;
+    Image<float> image = filled_image(width, height, 0.F);
+    for (float& v : image.pixels) v = static_cast<float>(random());
+    const std::vector<float> expected = slow_blur(image.pixels, width, radius);
+    blur(image, radius);
+    for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(image.pixels[i], expected[i], 1e-5) << i;
   }
 }
 

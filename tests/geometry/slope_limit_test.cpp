@@ -1,4 +1,4 @@
-#include "steep_triangles.h"
+#include "geometry/slope_limit.h"
 
 #include <gtest/gtest.h>
 
@@ -35,9 +35,7 @@ double steepest(const Needles& needles) {
 }
 
 double rise_of(const Needles& needles) {
-  Box box;
-  for (const Vec3& p : needles.points) box.extend(p);
-  return box.size().z();
+  return Box::of(needles.points).size().z();
 }
 
 Needles stored(Needles needles) {
@@ -59,7 +57,7 @@ Flattened flattened(const Needles& given, Rounding rounding) {
   std::vector<double> heights;
   for (const Vec3& p : given.points) plane.push_back(p.head<2>()), heights.push_back(p.z());
   const std::vector<std::uint8_t> is_fixed(4, 0);
-  const bool is_flat = flatten({plane, given.triangles, is_fixed}, 1, rounding, heights);
+  const bool is_flat = limit_slopes({plane, given.triangles, is_fixed}, 1, rounding, heights);
   Flattened made{given};
   double largest = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -71,7 +69,7 @@ Flattened flattened(const Needles& given, Rounding rounding) {
 }
 
 // Moves of its far corner by less than half a step of single precision are what these needles wait for.
-TEST(SteepTriangles, NeedlesGetFarByMovesThatRoundingTakes) {
+TEST(SlopeLimit, NeedlesGetFarByMovesThatRoundingTakes) {
   const Needles needles = stored({{Vec3(20.0135155, 20.0189285, 3.00464439),
                                    {20.0135326, 20.0189762, 3.00460148},
                                    {20.0127182, 20.0178108, 3.00594687},
@@ -84,7 +82,7 @@ TEST(SteepTriangles, NeedlesGetFarByMovesThatRoundingTakes) {
 }
 
 // Far corners must move by hundreds of times what makes either flat and the other steep.
-TEST(SteepTriangles, NeedlesThatUndoEachOtherGetThere) {
+TEST(SlopeLimit, NeedlesThatUndoEachOtherGetThere) {
   const Needles needles = stored({{Vec3(20.0088615, 20.0504284, 3.0039897),
                                    {20.0088387, 20.0504589, 3.0040071},
                                    {20.0094261, 20.0471478, 3.00126696},
@@ -119,7 +117,7 @@ Needles random_needles(test::Random& random, double most) {
   return stored(needles);
 }
 
-TEST(SteepTriangles, NeedlesOfAllKinds) {
+TEST(SlopeLimit, NeedlesOfAllKinds) {
   for (std::uint64_t seed = 0; seed < 5000; ++seed) {
     test::Random random(seed);
     const Needles needles = random_needles(random, 1.03);

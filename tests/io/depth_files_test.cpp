@@ -4,8 +4,11 @@
 
 #include <array>
 
-#include "relievo/depth_image.h"
+#include "relievo/core/image.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
+#include "relievo/scan/depth_image.h"
 #include "support/format_samples.h"
 
 namespace relievo {

@@ -1,3 +1,5 @@
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
 
 #include <gtest/gtest.h>
@@ -6,7 +8,7 @@
 #include <cstring>
 #include <map>
 
-#include "relievo/depth_image.h"
+#include "relievo/scan/depth_image.h"
 #include "support/plate_fronts.h"
 
 namespace relievo {

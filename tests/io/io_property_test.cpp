@@ -4,6 +4,7 @@
 
 #include <numeric>
 
+#include "relievo/io/write.h"
 #include "support/format_samples.h"
 #include "support/ply_encoder.h"
 #include "support/read_text.h"

@@ -1,13 +1,13 @@
-#include "relievo/io.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
+#include "relievo/scan/scan_file.h"
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
+#include <cctype>
 
 #include "support/read_text.h"
+#include "support/shared_scans.h"
 
 namespace relievo {
 namespace {
@@ -32,10 +32,9 @@ TEST(ReadCloud, UnreadableFormatsAreToldByName) {
        "scan.xyz", "UTF-16 text"},
   };
   for (const auto& [text, name, what] : all) {
-    EXPECT_EQ(message_of(text, name), name +
-                                          ": expected a point cloud (PLY, PCD, LAS, XYZ, PTS) or a mesh "
-                                          "(PLY, STL, OBJ, OFF, glTF), found " +
-                                          what);
+    const std::string message = message_of(text, name);
+    EXPECT_TRUE(message.starts_with(name + ": expected a point cloud (PLY, ")) << message;
+    EXPECT_TRUE(message.contains(") or a mesh (PLY, ") && message.ends_with("), found " + what)) << message;
   }
 }
 
@@ -90,7 +89,7 @@ TEST(ReadCloud, NormalisesNormalsOfAnyLength) {
 }
 
 TEST(ReadCloud, WithoutFinitePointsIsAnError) {
-  EXPECT_EQ(message_of(as_string(write_ply({})), "scan.ply"),
+  EXPECT_EQ(message_of(as_string(write_ply(Cloud{})), "scan.ply"),
             "scan.ply: expected points, found none with finite coordinates among 0");
   EXPECT_EQ(message_of("nan 0 0\n0 inf 0\n", "scan.xyz"),
             "scan.xyz: expected points, found none with finite coordinates among 2");
@@ -98,7 +97,7 @@ TEST(ReadCloud, WithoutFinitePointsIsAnError) {
 
 TEST(WritePly, TakesFloatNearTheOriginAndDoubleFarFromIt) {
   const auto type_at = [](double offset) {
-    const std::string ply = as_string(write_ply({{{offset, 0, 0}, {offset + 1, 0, 0}}, {}}));
+    const std::string ply = as_string(write_ply(Cloud{{{offset, 0, 0}, {offset + 1, 0, 0}}, {}}));
     return ply.find("property double x\n") == std::string::npos ? "float" : "double";
   };
   EXPECT_STREQ(type_at(0), "float");
@@ -125,7 +124,7 @@ TEST(WritePly, KeepsTheCommentInOneLine) {
   EXPECT_TRUE(read(ply, "scan.ply"));
 }
 
-// --- Real scans, which are not part of the project. The environment may say where they are.
+// ------------------------------------------------------------- real scans, which are not part of the project
 
 struct Scan {
   const char* file;
@@ -133,25 +132,25 @@ struct Scan {
   bool has_normals;
 };
 
-class SharedScan : public testing::TestWithParam<Scan> {};
-
-std::filesystem::path shared_data() {
-  if (const char* folder = std::getenv("RELIEVO_SHARED_DATA")) return folder;
-#ifdef RELIEVO_SHARED_DATA
-  return RELIEVO_SHARED_DATA;
-#else
-  return {};
-#endif
+// Names the scan in messages of its tests.
+void PrintTo(const Scan& scan, std::ostream* out) {
+  *out << scan.file;
 }
 
+// The letters and digits of a file's path: what a test may be named.
+std::string test_name_of(std::string path) {
+  std::erase_if(path, [](unsigned char c) { return !std::isalnum(c) && c != '_'; });
+  return path;
+}
+
+class SharedScan : public testing::TestWithParam<Scan> {};
+
 TEST_P(SharedScan, HasTheKnownCounts) {
-  const auto path = shared_data() / GetParam().file;
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) GTEST_SKIP() << "no such scan here: " << GetParam().file;
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  const auto file = read(bytes, path.filename().string());
+  const std::string path = GetParam().file, name = path.substr(path.find('/') + 1);
+  if (!test::has_shared(path)) GTEST_SKIP() << test::missing_scan(path);
+  const auto file = read(as_string(test::shared_bytes(path)), name);
   ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(check_answer(file, path.filename().string()), "");
+  EXPECT_EQ(check_answer(file, name), "");
   EXPECT_EQ(file->cloud.size(), GetParam().points);
   EXPECT_EQ(file->cloud.has_normals(), GetParam().has_normals);
   EXPECT_EQ(file->dropped_points + file->dropped_normals, 0U);
@@ -172,21 +171,22 @@ INSTANTIATE_TEST_SUITE_P(
         Scan{"original/stanford_bunny_reduced.obj", 3511, true}, Scan{"original/lionscan1.xyz", 62145, false},
         Scan{"original/bunnyData.pts", 30571, false}, Scan{"original/kitten.xyz", 5210, true},
         Scan{"original/grey_nurse_shark.stl", 25057, false},
-        Scan{"original/figurines_scene.pcd", 32087, false}));
+        Scan{"original/figurines_scene.pcd", 32087, false}),
+    [](const auto& test) { return test_name_of(test.param.file); });
 
 class SharedForeign : public testing::TestWithParam<const char*> {};
 
 TEST_P(SharedForeign, IsRefusedByName) {
-  std::ifstream stream(shared_data() / "original" / GetParam(), std::ios::binary);
-  if (!stream) GTEST_SKIP() << "no such file here: " << GetParam();
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-  const std::string message = message_of(bytes, "scan");
+  const std::string path = std::string("original/") + GetParam();
+  if (!test::has_shared(path)) GTEST_SKIP() << test::missing_scan(path);
+  const std::string message = message_of(as_string(test::shared_bytes(path)), "scan");
   EXPECT_TRUE(message.starts_with("scan: expected a point cloud")) << message;
   EXPECT_TRUE(message.ends_with("found a PNG picture")) << message;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SharedForeign,
-                         testing::Values("icl_livingroom_depth.png", "kinect_kitchen_depth.png"));
+                         testing::Values("icl_livingroom_depth.png", "kinect_kitchen_depth.png"),
+                         [](const auto& test) { return test_name_of(test.param); });
 
 }  // namespace
 }  // namespace relievo

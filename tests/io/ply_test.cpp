@@ -136,7 +136,8 @@ TEST_P(Ply, TruncatedVerticesAreAnError) {
 
 INSTANTIATE_TEST_SUITE_P(Encodings, Ply,
                          testing::Values(PlyEncoding::ascii, PlyEncoding::little_endian,
-                                         PlyEncoding::big_endian));
+                                         PlyEncoding::big_endian),
+                         testing::PrintToStringParamName());
 
 TEST(PlyFormat, IsNamed) {
   const PlyTable table{"vertex", xyz, three_rows};

@@ -4,7 +4,9 @@
 #include <cstring>
 #include <map>
 
-#include "relievo/preview.h"
+#include "relievo/core/image.h"
+#include "relievo/io/write.h"
+#include "relievo/picture/preview.h"
 
 namespace relievo {
 namespace {

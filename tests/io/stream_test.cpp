@@ -1,11 +1,12 @@
 #include "relievo/io/stream.h"
+#include "relievo/io/write.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "relievo/core/parallel.h"
-#include "relievo/io.h"
+#include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "support/format_samples.h"
 #include "support/shapes.h"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "relievo/scan/scan_file.h"
 #include "support/read_text.h"
 
 namespace relievo {

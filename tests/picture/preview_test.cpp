@@ -1,4 +1,6 @@
-#include "relievo/preview.h"
+#include "relievo/picture/preview.h"
+#include "relievo/core/image.h"
+#include "relievo/picture/height_map.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +15,7 @@ namespace {
 
 using test::flat_front, test::grid_front, test::pyramid_front;
 
-Solid plate(const Front& front, const PlateOptions& options = {}) {
+Solid plate(const HeightFieldMesh& front, const PlateOptions& options = {}) {
   return make_plate(front, options).value();
 }
 
@@ -134,8 +136,8 @@ TEST(Preview, MirroredLightAndShapeGiveAMirroredPicture) {
   const auto front = [](const std::function<double(double, double)>& z) {
     return plate(grid_front({50, 50, 100, 100}, z));
   };
-  const Image8 image = render_preview(front(bump), {.longer_side_px = 300, .light = {-1, 1, 0.8}});
-  const Image8 other = render_preview(front(mirrored), {.longer_side_px = 300, .light = {1, 1, 0.8}});
+  const Image8 image = render_preview(front(bump), {.longer_side_px = 300, .light = {-1, 1, .8F}});
+  const Image8 other = render_preview(front(mirrored), {.longer_side_px = 300, .light = {1, 1, .8F}});
   const FrontView grey{image, 60, 60}, other_grey{other, 60, 60};
   for (double y = 1.03; y < 59; y += 0.7)
     for (double x = 1.03; x < 59; x += 0.7)
@@ -167,7 +169,8 @@ TEST(Preview, AShadowFallsAwayFromTheLight) {
   };
   const Solid solid = plate(grid_front({50, 50, 100, 100}, tower));
   for (const Vec2& away : {Vec2(9, 0), Vec2(-9, 0), Vec2(0, 9), Vec2(0, -9)}) {
-    const Image8 image = render_preview(solid, {.longer_side_px = 300, .light = {-away.x(), -away.y(), 7.2}});
+    const Image8 image = render_preview(
+        solid, {.longer_side_px = 300, .light = Vec3(-away.x(), -away.y(), 7.2).cast<float>()});
     const FrontView grey{image, 60, 60};
     EXPECT_LT(grey(30 + away.x(), 30 + away.y()), 0.75 * grey(30 - away.x(), 30 - away.y()));
     EXPECT_NEAR(grey(30 + away.y(), 30 - away.x()), grey(30 - away.y(), 30 + away.x()), 3);
@@ -181,13 +184,37 @@ TEST(Preview, NothingToDrawGivesNoPixels) {
   EXPECT_EQ(render_preview(hemisphere_plate(), {.longer_side_px = 1}).pixels.size(), 2U * 3);
 }
 
-TEST(Preview, OddLightsAreDrawn) {
-  // Straight on, from behind, and none at all: pictures without a lamp's shadow, but pictures.
+// A lamp straight in front, straight behind, or none: nothing tells left from right or up from down.
+TEST(Preview, LightsWithoutASideGiveAnEvenPicture) {
   const Solid solid = hemisphere_plate();
-  for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(1, 0, 0), Vec3(0, 0, 0)}) {
-    const Image8 image = render_preview(solid, {.longer_side_px = 60, .light = light});
-    EXPECT_EQ(image.pixels.size(), 120U * 60 * 3);
-    EXPECT_GT((FrontView{image, 60, 60}(30, 30)), 10);
+  for (const Vec3& light : {Vec3(0, 0, 1), Vec3(0, 0, -1), Vec3(0, 0, 0)}) {
+    const Image8 image = render_preview(solid, {.longer_side_px = 200, .light = light.cast<float>()});
+    ASSERT_EQ(image.pixels.size(), 400U * 200 * 3);
+    const FrontView grey{image, 60, 60};
+    for (const double at : {4.0, 8.0, 12.0, 22.0}) {
+      EXPECT_NEAR(grey(30 - at, 30), grey(30 + at, 30), 4) << light << '\n' << at;
+      EXPECT_NEAR(grey(30, 30 - at), grey(30, 30 + at), 4) << light << '\n' << at;
+    }
+  }
+}
+
+TEST(Preview, ALampBehindGivesNoLight) {
+  const Solid solid = hemisphere_plate();
+  const auto top = [&](const Vec3& light) {
+    const Image8 image = render_preview(solid, {.longer_side_px = 200, .light = light.cast<float>()});
+    return FrontView{image, 60, 60}(30, 30);
+  };
+  EXPECT_EQ(top({0, 0, -1}), top({0, 0, 0}));
+  EXPECT_GT(top({0, 0, 1}), top({0, 0, 0}) + 20);
+  EXPECT_GT(top({0, 0, 0}), 10);  // the sky remains
+}
+
+TEST(Preview, ALampBesideThePlateLightsOneSide) {
+  const Image8 image = render_preview(hemisphere_plate(), {.longer_side_px = 200, .light = {1, 0, 0}});
+  const FrontView grey{image, 60, 60};
+  for (const double at : {6.0, 9.0, 12.0}) {
+    EXPECT_GT(grey(30 + at, 30), grey(30 - at, 30) + 20) << at;
+    EXPECT_NEAR(grey(30 + at, 30 - 2), grey(30 + at, 30 + 2), 4) << at;
   }
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -57,19 +58,38 @@ Picture picture(const Field& field, const RenderOptions& options) {
 
 double mean_difference(const Picture& a, const Picture& b) {
   double sum = 0;
-  for (std::size_t i = 0; i < a.rgba.size(); ++i) sum += std::abs(int{a.rgba[i]} - int{b.rgba[i]});
-  return sum / static_cast<double>(a.rgba.size());
+  for (std::size_t i = 0; i < a.image.pixels.size(); ++i)
+    sum += std::abs(int{a.image.pixels[i]} - int{b.image.pixels[i]});
+  return sum / static_cast<double>(a.image.pixels.size());
 }
 
 std::size_t opaque_pixels(const Picture& picture) {
   std::size_t count = 0;
-  for (std::size_t i = 3; i < picture.rgba.size(); i += 4) count += picture.rgba[i] == 255;
+  for (std::size_t i = 3; i < picture.image.pixels.size(); i += 4) count += picture.image.pixels[i] == 255;
   return count;
+}
+
+// The pixels of the plate, as the rectangle around them.
+struct PlatePixels {
+  Vec2 low = Vec2::Constant(1e9), high = Vec2::Constant(-1e9);
+  Vec2 centre() const { return (low + high) / 2; }
+  Vec2 size() const { return high - low; }
+};
+
+PlatePixels plate_in(const Picture& picture) {
+  PlatePixels plate;
+  for (int row = 0; row < picture.image.height; ++row)
+    for (int column = 0; column < picture.image.width; ++column)
+      if (picture.image.pixels[picture.image.index(column, row) + 3] == 255) {
+        plate.low = plate.low.cwiseMin(Vec2(column, row));
+        plate.high = plate.high.cwiseMax(Vec2(column + 1, row + 1));
+      }
+  return plate;
 }
 
 // Red at a pixel.
 int red(const Picture& picture, int column, int row) {
-  return picture.rgba[4 * static_cast<std::size_t>(row * picture.width + column)];
+  return picture.image.at(column, row);
 }
 
 TEST(Render, CoversThePlate) {
@@ -77,7 +97,7 @@ TEST(Render, CoversThePlate) {
     RenderOptions options = small();
     options.is_fine = is_fine;
     const Picture made = picture(bumps(), options);
-    ASSERT_EQ(made.rgba.size(), 240U * 200U * 4U);
+    ASSERT_EQ(made.image.pixels.size(), 240U * 200U * 4U);
     const double side = (2 * 50 + 2 * options.margin_mm) * made.pixels_per_mm;
     EXPECT_NEAR(static_cast<double>(opaque_pixels(made)) / (side * side), 1, .02);
   }
@@ -96,7 +116,8 @@ TEST(Render, AFlatReliefIsEven) {
 TEST(Render, IsBrighterWhereItFacesTheLamp) {
   RenderOptions options = small();
   const auto brightness = [&](const Vec3f& normal) {
-    return red(picture(field([](const Vec3&) { return 0; }, normal.normalized()), options), 120, 100);
+    const auto plane = [&](const Vec3& p) { return -static_cast<double>(normal.x()) * p.x(); };
+    return red(picture(field(plane, normal.normalized()), options), 120, 100);
   };
   options.light = Vec3f(-1, 0, 1);
   const int towards = brightness({-.3F, 0, 1}), level = brightness({0, 0, 1}), away = brightness({.3F, 0, 1});
@@ -115,7 +136,7 @@ TEST(Render, KeepsNothingOfEarlierPictures) {
   used.render(other.shown(), turned, before);
   used.render(other.shown(), wide, before);
   used.render(other.shown(), small(), after);
-  EXPECT_EQ(after.rgba, picture(other, small()).rgba);
+  EXPECT_EQ(after.image.pixels, picture(other, small()).image.pixels);
 }
 
 // Orbiting draws triangles anew, the front looks them up: two ways to one picture.
@@ -144,15 +165,35 @@ TEST(Render, StretchesHeightsAndNormals) {
   }
 }
 
-TEST(Render, ZoomsAndPans) {
-  RenderOptions near = small();
-  near.camera.zoom = 2;
-  EXPECT_DOUBLE_EQ(picture(bumps(), near).pixels_per_mm, 2 * picture(bumps(), small()).pixels_per_mm);
-  near.camera.zoom = 1;
-  near.camera.pan = {1000, 0};  // far beside the plate
-  EXPECT_EQ(opaque_pixels(picture(bumps(), near)), 0U);
-  near.camera = {0, 0, 60, {0, 0}};  // deep in the middle of it
-  EXPECT_EQ(opaque_pixels(picture(bumps(), near)), 240U * 200U);
+TEST(Render, ZoomsAroundTheMiddle) {
+  RenderOptions options = small();
+  const Picture whole = picture(bumps(), options);
+  options.camera.zoom = .5;
+  const Picture half = picture(bumps(), options);
+  EXPECT_DOUBLE_EQ(half.pixels_per_mm, whole.pixels_per_mm / 2);
+  EXPECT_LT((plate_in(half).centre() - Vec2(120, 100)).norm(), 1);
+  EXPECT_LT((plate_in(half).size() - plate_in(whole).size() / 2).norm(), 2);
+  options.camera.zoom = 60;  // deep in the middle of the plate
+  EXPECT_EQ(opaque_pixels(picture(bumps(), options)), 240U * 200U);
+}
+
+// `pan` is the place of the plate in the middle of the picture, so the plate moves the other way; rows run downwards.
+TEST(Render, PansByMillimetresOfThePlate) {
+  RenderOptions options = small();
+  options.camera.zoom = .5;
+  const Picture before = picture(bumps(), options);
+  const int right = 23, up = 17;
+  options.camera.pan = Vec2(right, up) / before.pixels_per_mm;
+  const Picture after = picture(bumps(), options);
+  EXPECT_LT((plate_in(after).centre() - plate_in(before).centre() - Vec2(-right, up)).norm(), 1);
+  EXPECT_LT((plate_in(after).size() - plate_in(before).size()).norm(), 1);
+  double difference = 0;  // what is on the plate moves with it
+  for (int row = 60; row < 140; ++row)
+    for (int column = 80; column < 160; ++column)
+      difference += std::abs(red(after, column - right, row + up) - red(before, column, row));
+  EXPECT_LT(difference / (80 * 80), 1);
+  options.camera.pan = {1000, 0};  // far beside the plate
+  EXPECT_EQ(opaque_pixels(picture(bumps(), options)), 0U);
 }
 
 TEST(Render, HasTheSameBitsForAnyNumberOfThreads) {
@@ -162,7 +203,7 @@ TEST(Render, HasTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(1);
   const Picture one = picture(bumps(), options);
   set_thread_count(3);
-  EXPECT_EQ(one.rgba, picture(bumps(), options).rgba);
+  EXPECT_EQ(one.image.pixels, picture(bumps(), options).image.pixels);
   set_thread_count(0);
 }
 
@@ -172,8 +213,8 @@ TEST(Render, RefusesSizesOutOfRange) {
     options.width = width;
     options.height = height;
     const Picture made = picture(bumps(), options);
-    EXPECT_TRUE(made.rgba.empty());
-    EXPECT_EQ(made.width, 0);
+    EXPECT_TRUE(made.image.pixels.empty());
+    EXPECT_EQ(made.image.width, 0);
   }
 }
 
@@ -200,12 +241,12 @@ TEST(CloudRenderer, ShowsABallAsADisc) {
   const CloudRenderer renderer(test::sphere(20000, 3));
   Picture made;
   renderer.render(*view_towards({1, 2, 3}), 200, 160, made);
-  ASSERT_EQ(made.rgba.size(), 200U * 160U * 4U);
+  ASSERT_EQ(made.image.pixels.size(), 200U * 160U * 4U);
   const double radius = 3 * made.pixels_per_mm;
   const double share = static_cast<double>(opaque_pixels(made)) / (std::numbers::pi * radius * radius);
   EXPECT_GT(share, .99);
   EXPECT_LT(share, 1.1);  // the discs at the rim reach beyond it
-  EXPECT_EQ(made.rgba[3], 0);
+  EXPECT_EQ(made.image.pixels[3], 0);
   EXPECT_GT(red(made, 85, 65), red(made, 125, 105));  // the lamp is at the upper left
 }
 
@@ -223,9 +264,9 @@ TEST(CloudRenderer, DoesWithoutNormals) {
 TEST(CloudRenderer, ShowsNothingOfNothing) {
   Picture made;
   CloudRenderer(Cloud{}).render(View{}, 100, 100, made);
-  EXPECT_TRUE(made.rgba.empty());
+  EXPECT_TRUE(made.image.pixels.empty());
   CloudRenderer(test::sphere(1000, 1)).render(View{}, 0, 100, made);
-  EXPECT_TRUE(made.rgba.empty());
+  EXPECT_TRUE(made.image.pixels.empty());
 }
 
 }  // namespace

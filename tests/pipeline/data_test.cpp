@@ -3,21 +3,23 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "relievo/depth_image.h"
-#include "relievo/io.h"
+#include "relievo/io/read.h"
 #include "relievo/make_relief.h"
+#include "relievo/scan/depth_image.h"
+#include "relievo/scan/scan_file.h"
+#include "support/shared_scans.h"
 
 namespace relievo {
 namespace {
 
 namespace fs = std::filesystem;
 
+using test::has_shared, test::missing_scan, test::shared_bytes, test::shared_data;
+
 std::vector<fs::path> readable_scans() {
   std::vector<fs::path> scans;
-  for (const fs::path& folder : {fs::path(RELIEVO_SHARED_DATA), fs::path(RELIEVO_SHARED_DATA) / "original"})
+  for (const fs::path& folder : {shared_data(), shared_data() / "original"})
     if (fs::is_directory(folder))
       for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         for (const char* ending : {".ply", ".obj", ".xyz", ".pts", ".stl", ".pcd"})
@@ -26,27 +28,19 @@ std::vector<fs::path> readable_scans() {
   return scans;
 }
 
-std::vector<std::byte> bytes_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
 TEST(Data, EveryScanBecomesASolidOfTheHeightAsked) {
   const std::vector<fs::path> scans = readable_scans();
-  if (scans.empty()) GTEST_SKIP() << "no scans in " RELIEVO_SHARED_DATA;
+  if (scans.empty()) GTEST_SKIP() << missing_scan("*.ply");
   for (const fs::path& path : scans) {
     SCOPED_TRACE(path.filename().string());
-    const Result<CloudFile> file = read_cloud(bytes_of(path), path.filename().string());
+    const Result<CloudFile> file = read_cloud(shared_bytes(path), path.filename().string());
     ASSERT_TRUE(file) << file.error().message();
     ReliefOptions options;
     options.height_mm = 2.5;
     if (path.filename() == "lion_takanawa_raw.ply" || path.filename() == "lionscan1.xyz") {
-      options.view = "0,-1,0";
-      options.up = "0,0,1";
+      options.view = *parse_view("0,-1,0", "0,0,1");
     }
-    if (path.extension() == ".stl") options.view = "top";
+    if (path.extension() == ".stl") options.view = *parse_view("top");
     const Result<MadeRelief> made = make_relief(*file, options);
     ASSERT_TRUE(made) << made.error().message();
     EXPECT_EQ(check_solid(made->solid), "");
@@ -59,14 +53,12 @@ TEST(Data, EveryScanBecomesASolidOfTheHeightAsked) {
 }
 
 TEST(Data, DepthFramesBecomeSolids) {
-  const fs::path folder = fs::path(RELIEVO_SHARED_DATA) / "original";
-  if (!fs::exists(folder / "kinect_kitchen_depth.png"))
-    GTEST_SKIP() << "no depth frames in " RELIEVO_SHARED_DATA;
   for (const auto& [name, camera] :
-       {std::pair("kinect_kitchen_depth.png", DepthCamera{585, 585, 320, 240}),
-        std::pair("icl_livingroom_depth.png", DepthCamera{481.2, 480, 319.5, 239.5})}) {
+       {std::pair("original/kinect_kitchen_depth.png", DepthCamera{585, 585, 320, 240}),
+        std::pair("original/icl_livingroom_depth.png", DepthCamera{481.2, 480, 319.5, 239.5})}) {
     SCOPED_TRACE(name);
-    const auto image = read_depth_image(bytes_of(folder / name), name);
+    if (!has_shared(name)) GTEST_SKIP() << missing_scan(name);
+    const auto image = read_depth_image(shared_bytes(name), name);
     ASSERT_TRUE(image) << image.error().message();
     DepthOptions depth;
     depth.camera = camera;

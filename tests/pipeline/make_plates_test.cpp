@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "relievo/make_relief.h"
+#include "relievo/scan/scan_file.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -20,9 +21,7 @@ MadeRelief made(const ReliefOptions& options) {
 }
 
 Box box_of(const Solid& solid) {
-  Box box;
-  for (const Vec3& p : solid.points) box.extend(p);
-  return box;
+  return Box::of(solid.points);
 }
 
 ReliefOptions coin_options() {
@@ -30,7 +29,7 @@ ReliefOptions coin_options() {
   options.width_mm = 20;
   options.height_mm = .8;
   options.margin_mm = 1;
-  options.outline = "circle";
+  options.outline = Outline::circle;
   options.rim_mm = 2;
   return options;
 }
@@ -57,7 +56,7 @@ TEST(MakePlates, ARimIsAsHighAsTheReliefButNoHigherThanWide) {
 TEST(MakePlates, ADieIsTheCoinTurnedOver) {
   ReliefOptions options = coin_options();
   const Box coin = box_of(made(options).solid);
-  options.form = "die";
+  options.form = Form::die;
   const Box die = box_of(made(options).solid);
   EXPECT_NEAR(die.size().z(), coin.size().z(), 1e-9);
   EXPECT_NEAR(die.size().x(), coin.size().x() + 2 * (2 + .3 * .8), 1e-3);
@@ -68,7 +67,7 @@ TEST(MakePlates, AWrapKeepsTheFlatPlateForHeightMaps) {
   options.width_mm = 20;
   options.height_mm = .8;
   options.margin_mm = 1;
-  options.wrap = "cylinder:diameter=30";
+  options.wrap = *parse_wrap("cylinder:diameter=30");
   const MadeRelief shell = made(options);
   ASSERT_TRUE(shell.report.wrap);
   const double width = box_of(shell.flat).size().x(), pi = std::numbers::pi;
@@ -77,21 +76,21 @@ TEST(MakePlates, AWrapKeepsTheFlatPlateForHeightMaps) {
   EXPECT_NEAR(shell.report.wrap->mm_per_degree, 30 * pi / 360, 1e-12);
   EXPECT_EQ(check_solid(shell.flat), "");
   EXPECT_NEAR(shell.report.height_mm, .8, 1e-3);
-  options.base = "wave";
-  EXPECT_TRUE(check(options).error().message().starts_with("--wrap: expected either --base or --wrap"));
+  options.base = *parse_base("wave");
+  EXPECT_TRUE(check(options).error().message().starts_with("wrap: expected either base or wrap"));
 }
 
 TEST(MakePlates, ABaseLeavesTheReliefsHeightAndADieFitsIt) {
   ReliefOptions options = coin_options();
-  options.base = "dome:height=1.5";
+  options.base = *parse_base("dome:height=1.5");
   const MadeRelief coin = made(options);
   EXPECT_NEAR(coin.report.height_mm, .8, 1e-3);
-  options.form = "die";
+  options.form = Form::die;
   const MadeRelief die = made(options);
   EXPECT_NEAR(die.report.height_mm, .8, 1e-3);
   EXPECT_GT(box_of(die.solid).size().z(), 3 + 1.5);
-  options.form = "lithophane";
-  EXPECT_TRUE(check(options).error().message().starts_with("--base: expected a plane for a lithophane"));
+  options.form = Form::lithophane;
+  EXPECT_TRUE(check(options).error().message().starts_with("base: expected a plane for a lithophane"));
 }
 
 }  // namespace

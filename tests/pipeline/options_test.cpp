@@ -3,9 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
-#include <set>
 
-#include "relievo/method.h"
+#include "relievo/relief/weights.h"
 
 namespace relievo {
 namespace {
@@ -37,15 +36,15 @@ TEST(Options, WithAHeightCompressEvenly) {
 TEST(Options, OutOfRangeAreNamed) {
   ReliefOptions options;
   options.width_mm = -5;
-  EXPECT_EQ(complaint(options), "--width: expected a number from 0.1 to 100000, found -5");
+  EXPECT_EQ(complaint(options), "width: expected a number from 0.1 to 100000, found -5");
   options.width_mm = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(complaint(options).find("--width"), std::string::npos);
+  EXPECT_NE(complaint(options).find("width"), std::string::npos);
   options = {};
   options.height_mm = 0;
-  EXPECT_NE(complaint(options).find("--height"), std::string::npos);
+  EXPECT_NE(complaint(options).find("height"), std::string::npos);
   options = {};
   options.thickness_mm = std::numeric_limits<double>::infinity();
-  EXPECT_NE(complaint(options).find("--thickness"), std::string::npos);
+  EXPECT_NE(complaint(options).find("thickness"), std::string::npos);
 }
 
 TEST(Options, HeightAndAlphaContradict) {
@@ -55,36 +54,34 @@ TEST(Options, HeightAndAlphaContradict) {
   EXPECT_NE(complaint(options).find("found both"), std::string::npos);
 }
 
-TEST(Options, MethodsAreKnownAndHaveWhatTheyNeed) {
+TEST(Options, MethodsHaveWhatTheyNeed) {
   ReliefOptions options;
-  options.method = "carving";
-  EXPECT_NE(complaint(options).find("'carving'"), std::string::npos);
-  options.method = "gradient";
-  EXPECT_NE(complaint(options).find("--height"), std::string::npos);
+  options.method = Method::gradient;
+  EXPECT_EQ(complaint(options), "method: expected a height with method gradient");
   options.height_mm = 3;
   EXPECT_EQ(complaint(options), "");
   options.detail = .1;
-  EXPECT_NE(complaint(options).find("--detail"), std::string::npos);
+  EXPECT_NE(complaint(options).find("detail"), std::string::npos);
 }
 
 TEST(Options, ARimGoesAlongAnOutlineAndHoldsItsBevel) {
   ReliefOptions options;
   options.rim_height_mm = 1;
-  EXPECT_NE(complaint(options).find("--rim-height"), std::string::npos);
+  EXPECT_NE(complaint(options).find("rim-height"), std::string::npos);
   options.rim_mm = 2;
   EXPECT_EQ(complaint(options), "");
   options.rim_bevel_mm = 2.5;
-  EXPECT_NE(complaint(options).find("--rim-bevel"), std::string::npos);
+  EXPECT_NE(complaint(options).find("rim-bevel"), std::string::npos);
   options.rim_bevel_mm = 2;
   EXPECT_EQ(complaint(options), "");
-  options.outline = "none";
-  EXPECT_NE(complaint(options).find("--rim: "), std::string::npos);
+  options.outline = Outline::none;
+  EXPECT_NE(complaint(options).find("rim: "), std::string::npos);
 }
 
 TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
   ReliefOptions options;
   options.height_mm = 3;
-  options.method = "paper";
+  options.method = Method::paper;
   EXPECT_EQ(options.effective_saturation(), .01);
   EXPECT_EQ(options.effective_detail(), .02);
 }
@@ -92,32 +89,22 @@ TEST(Options, OfThePapersMethodAreItsOwnWithAHeightToo) {
 TEST(Options, TheSoftRimIsAsWideAsTheMethodStartsFrom) {
   ReliefOptions options;
   options.height_mm = 3;
-  for (const Method method : {Method::ours, Method::paper}) {
-    options.method = name_of(method);
-    EXPECT_EQ(options.effective_boundary_width(), default_shape(method).boundary_width) << options.method;
+  for (const Method method : {Method::layered, Method::paper}) {
+    options.method = method;
+    EXPECT_EQ(options.effective_boundary_width(), default_shape(method).boundary_width) << name_of(method);
   }
 }
 
-TEST(Options, EachFieldHasANameOfItsOwnAndHelp) {
+TEST(Options, AReachableFinishLiesOnAPlane) {
   ReliefOptions options;
-  std::set<std::string_view> names;
-  visit(options, [&](const OptionField& field, auto&) {
-    EXPECT_FALSE(field.name.empty());
-    EXPECT_TRUE(names.insert(field.name).second) << field.name;
-    EXPECT_FALSE(field.help.empty());
-    EXPECT_LT(field.min, field.max);
-  });
-}
-
-TEST(Options, AReachableSurfaceLiesOnAPlane) {
-  ReliefOptions options;
-  options.tool = "ball:2";
-  options.surface = "reachable";
+  options.finish = Finish::reachable;
+  EXPECT_EQ(complaint(options), "finish: expected a tool, which tells what is reachable");
+  options.tool = Tool{};
   EXPECT_TRUE(check(options));
-  options.base = "wave";
+  options.base.kind = BaseKind::wave;
   const auto refused = check(options);
   ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().input, "--surface");
+  EXPECT_EQ(refused.error().input, "finish");
 }
 
 }  // namespace

@@ -1,4 +1,7 @@
 // What is seen of a scene, and the relief of it.
+#include "relievo/io/write.h"
+#include "relievo/make_relief.h"
+#include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
 
 #include <gtest/gtest.h>
@@ -47,7 +50,7 @@ TEST(SeenScene, OfOneModelUnplacedIsThatModel) {
     const auto scene = make_relief(Scene{{model}}, options);
     ASSERT_TRUE(alone && scene);
     EXPECT_EQ(write_stl(alone->solid), write_stl(scene->solid));
-    EXPECT_EQ(alone->report.remarks, scene->report.remarks);
+    EXPECT_EQ(alone->report.sample, scene->report.sample);
   }
 }
 
@@ -72,7 +75,7 @@ TEST(SeenScene, PlacingThenSeeingIsSeeingWhatWasPlaced) {
     CloudFile file = baked(*scene.models[i].file, places[i], scene.models[i].pose.is_mirrored);
     ready.models.push_back({"baked", std::make_shared<const CloudFile>(std::move(file)), at(0, 0, 0)});
   }
-  const SeenPoints a = seen(scene), b = seen(ready);
+  const ViewSample a = seen(scene), b = seen(ready);
   ASSERT_EQ(a.cloud->size(), b.cloud->size());
   for (std::size_t i = 0; i < a.cloud->size(); ++i) {
     ASSERT_TRUE(a.cloud->points[i].isApprox(b.cloud->points[i], 1e-6)) << i;
@@ -104,7 +107,7 @@ TEST(SeenScene, WhatIsBehindAnotherModelDoesNotShow) {
 
 TEST(SeenScene, MeshesHideEachOther) {
   Mesh wall{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
-  const SeenPoints both = seen({{model_of(wall, at(0, 0, 1)), model_of(wall, at(.5, 0, -1))}}, 5000);
+  const ViewSample both = seen({{model_of(wall, at(0, 0, 1)), model_of(wall, at(.5, 0, -1))}}, 5000);
   for (std::size_t i = 0; i < both.cloud->size(); ++i) {
     const Vec3& p = both.cloud->points[i];
     EXPECT_EQ(p.z() > 0, p.x() < 1.001) << p.transpose();
@@ -134,14 +137,14 @@ TEST(SeenScene, CoarseAndFineCloudsGetOneSpacing) {
   const Scene scene{{model_of(test::sphere(150000, 1), at(0, 0, 0)),
                      model_of(test::sphere(30000, 1), at(3, 0, 0)),
                      model_of(test::sphere(3000, 1), at(6, 0, 0))}};
-  const SeenPoints together = seen(scene, 20000);
+  const ViewSample together = seen(scene, 20000);
   std::vector<Look> looks;
   for (const double x : {0, 3, 6}) looks.push_back(look_at_ball(*together.cloud, {x, 0, 0}, 1));
   for (const Look& look : looks) {
     EXPECT_NEAR(look.spacing, looks[1].spacing, .25 * looks[1].spacing);
     EXPECT_LT(look.angle_deg, 1);
   }
-  EXPECT_EQ(together.remarks.size(), 2U);
+  EXPECT_EQ(together.notes.size(), 2U);
   const Surface surface = surface_of(scene, 20000);
   EXPECT_NEAR(inner_area(surface), 3 * std::numbers::pi, .03 * 3 * std::numbers::pi);
 }
@@ -163,11 +166,11 @@ TEST(SeenScene, NormalsAreSettledModelByModel) {
   without.normals.clear();
   const Scene scene{{model_of(inward, at(0, 0, 0)), model_of(without, at(3, 0, 0)),
                      model_of(test::sphere(20000, 1), at(6, 0, 0))}};
-  const SeenPoints together = seen(scene);
+  const ViewSample together = seen(scene);
   for (const double x : {0, 3, 6}) EXPECT_LT(look_at_ball(*together.cloud, {x, 0, 0}, 1).angle_deg, 1);
-  ASSERT_EQ(together.remarks.size(), 2U);
-  EXPECT_NE(together.remarks[0].find("inwards"), std::string::npos);
-  EXPECT_NE(together.remarks[1].find("estimated"), std::string::npos);
+  ASSERT_EQ(together.notes.size(), 2U);
+  EXPECT_EQ(together.notes[0].kind, SampleNote::Kind::turned_normals);
+  EXPECT_EQ(together.notes[1].kind, SampleNote::Kind::estimated_normals);
 }
 
 TEST(SeenScene, ModelsWithoutColoursAreWhiteBesideOthers) {
@@ -175,7 +178,7 @@ TEST(SeenScene, ModelsWithoutColoursAreWhiteBesideOthers) {
   red.colours.assign(red.size(), {200, 0, 0});
   Mesh blue = wedge();
   blue.colours.assign(blue.points.size(), {0, 0, 200});
-  const SeenPoints together = seen({{model_of(test::sphere(5000, 1), at(0, 0, 0)), model_of(red, at(3, 0, 0)),
+  const ViewSample together = seen({{model_of(test::sphere(5000, 1), at(0, 0, 0)), model_of(red, at(3, 0, 0)),
                                      model_of(wedge(), at(6, 0, 0)), model_of(blue, at(12, 0, 0))}});
   ASSERT_EQ(together.cloud->colours.size(), together.cloud->size());
   for (std::size_t i = 0; i < together.cloud->size(); ++i) {
@@ -192,7 +195,7 @@ TEST(SeenScene, ModelsWithoutColoursAreWhiteBesideOthers) {
 TEST(SeenScene, StraysGoModelByModel) {
   Cloud cloud = test::sphere(5000, 1);
   test::add(cloud, {60, 0, 0}, {1, 0, 0});
-  const SeenPoints together =
+  const ViewSample together =
       seen({{model_of(cloud, at(0, 0, 0)), model_of(test::sphere(5000, 1), at(60, 0, 0))}});
   EXPECT_EQ(together.left_out, 1U);
   EXPECT_EQ(together.cloud->size(), 10000U);
@@ -203,17 +206,18 @@ TEST(SeenScene, SaysWhichModelIsNoSurface) {
   for (int i = 0; i < 20; ++i) test::add(dot, {1, 1, 1}, Vec3::UnitZ());
   SceneModel model = model_of(dot);
   model.name = "dot.ply";
-  const auto result = seen_points(Scene{{model_of(test::sphere(5000, 1), at(0, 0, 0)), model}}, front, 1000);
+  const auto result =
+      sample_for_view(Scene{{model_of(test::sphere(5000, 1), at(0, 0, 0)), model}}, front, 1000);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().input, "dot.ply");
 }
 
 TEST(SeenScene, RefusesTooFewPoints) {
   const Scene scene{{model_of(test::sphere(5000, 1)), model_of(test::sphere(3, 1))}};
-  const auto of_three = seen_points(scene, front, 1000);
+  const auto of_three = sample_for_view(scene, front, 1000);
   ASSERT_FALSE(of_three);
   EXPECT_EQ(of_three.error().message(), "cloud: expected at least 4 points, found 3");
-  const auto none_wanted = seen_points(scene, front, 0);
+  const auto none_wanted = sample_for_view(scene, front, 0);
   ASSERT_FALSE(none_wanted);
   EXPECT_EQ(none_wanted.error().kind, ErrorKind::option);
 }
@@ -222,7 +226,7 @@ TEST(SeenScene, CanBeCancelled) {
   Progress progress;
   progress.cancel();
   const Scene scene{{model_of(wedge()), model_of(wedge())}};
-  const auto result = seen_points(scene, front, 1000, &progress);
+  const auto result = sample_for_view(scene, front, 1000, &progress);
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().kind, ErrorKind::cancelled);
 }

@@ -57,7 +57,7 @@ Cloud box_corners(const Vec3& size, const Vec3& from) {
 
 Box box_in_view(const SceneModel& model, const PlacedModel& place, const View& view) {
   Box box;
-  for (const Vec3& p : model.file->cloud.points) box.extend(view.rotation * place(p));
+  for (const Vec3& p : model.file->cloud.points) box.extend(view.R_view_model * place(p));
   return box;
 }
 

@@ -1,7 +1,11 @@
 #include "relievo/session.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <semaphore>
 #include <thread>
 
 #include "support/shapes.h"
@@ -11,130 +15,174 @@ namespace {
 
 using namespace std::chrono_literals;
 
-std::shared_ptr<const Cloud> cloud(std::size_t n = 5000) {
-  return std::make_shared<const Cloud>(test::torus(n, 1, .4));
+Preparation preparation_of(std::size_t points = 5000) {
+  return {.points = [points](Progress&) -> Preparation::Points {
+    return std::make_shared<const Cloud>(test::torus(points, 1, .4));
+  }};
 }
 
-TEST(Session, PreparesAndMakesFrames) {
+Preparation failing() {
+  return {.points = [](Progress&) -> Preparation::Points {
+    return std::unexpected(Error{ErrorKind::input, "scan.ply", {}, "expected a scan"});
+  }};
+}
+
+// A preparation whose points come only when it has been cancelled.
+struct Stuck {
+  std::binary_semaphore has_begun{0};
+  std::atomic<bool> has_ended = false;
+
+  Preparation preparation() {
+    return {.points = [this](Progress& progress) -> Preparation::Points {
+      has_begun.release();
+      while (!progress.is_cancelled()) std::this_thread::yield();
+      has_ended = true;
+      return std::make_shared<const Cloud>(test::torus(5000, 1, .4));
+    }};
+  }
+};
+
+TEST(Session, Prepares) {
   Session session;
   EXPECT_EQ(session.model(), nullptr);
-  EXPECT_EQ(session.frame(), nullptr);
-  session.open(cloud(), {});
-  const std::uint64_t number = session.request({});
+  session.open(preparation_of(5000));
   ASSERT_TRUE(session.wait_until_idle(60s));
-  ASSERT_NE(session.frame(), nullptr);
-  EXPECT_EQ(session.status().finished, number);
+  ASSERT_NE(session.model(), nullptr);
+  EXPECT_EQ(session.model()->surface().input_points, 5000U);
   EXPECT_FALSE(session.status().is_preparing);
   EXPECT_EQ(session.status().fraction, 1);
-  EXPECT_EQ(session.frame()->heights.size(), session.model()->surface().points.size());
+  EXPECT_FALSE(session.status().error);
 }
 
-TEST(Session, ARequestBeforeTheModelWaitsForIt) {
+TEST(Session, HandsOverTheModelOnceAndBeforeItIsReady) {
   Session session;
-  const std::uint64_t number = session.request({});
-  session.open(cloud(), {});
-  ASSERT_TRUE(session.wait_until_idle(60s));
-  EXPECT_EQ(session.status().finished, number);
-}
-
-TEST(Session, TheLatestRequestWins) {
-  Session session;
-  session.open(cloud(20000), {});
-  FrameOptions options;
-  for (int i = 1; i <= 500; ++i) {
-    options.shape.gamma = .0001 * i;
-    session.request(options);
-  }
-  ASSERT_TRUE(session.wait_until_idle(60s));
-  EXPECT_EQ(session.status().finished, 500U);
-  EXPECT_DOUBLE_EQ(session.frame()->options.shape.gamma, .05);
-}
-
-TEST(Session, FramesDoNotChangeWhileHeld) {
-  Session session;
-  session.open(cloud(), {});
-  session.request({});
-  ASSERT_TRUE(session.wait_until_idle(60s));
-  const std::shared_ptr<const Frame> held = session.frame();
-  const std::vector<float> before = held->heights;
-  FrameOptions other;
-  for (int i = 0; i < 10; ++i) {
-    other.shape.compression.u = .1 * (i + 1);
-    session.request(other);
-    ASSERT_TRUE(session.wait_until_idle(60s));
-    ASSERT_NE(session.frame(), held);
-  }
-  EXPECT_EQ(held->heights, before);
+  std::vector<std::shared_ptr<const ReliefModel>> models;
+  Preparation preparation = preparation_of();
+  preparation.ready = [&](const Preparation::Model& model) { models.push_back(model); };
+  session.open(preparation);
+  while (session.status().is_preparing) std::this_thread::yield();
+  ASSERT_EQ(models.size(), 1U);
+  EXPECT_EQ(models[0], session.model());
 }
 
 TEST(Session, AFailedPreparationKeepsTheOldModel) {
   Session session;
-  session.open(cloud(), {});
-  session.request({});
+  session.open(preparation_of());
   ASSERT_TRUE(session.wait_until_idle(60s));
   const auto model = session.model();
-  session.open(std::make_shared<const Cloud>(), {});
+  bool was_ready = false;
+  Preparation preparation = failing();
+  preparation.ready = [&](const Preparation::Model&) { was_ready = true; };
+  session.open(preparation);
   ASSERT_TRUE(session.wait_until_idle(60s));
   ASSERT_TRUE(session.status().error);
-  EXPECT_EQ(session.status().error->kind, ErrorKind::geometry);
+  EXPECT_EQ(session.status().error->kind, ErrorKind::input);
   EXPECT_EQ(session.model(), model);
-  session.request({});
-  ASSERT_TRUE(session.wait_until_idle(60s));
-  EXPECT_EQ(session.status().finished, session.status().requested);
+  EXPECT_FALSE(was_ready);
 }
 
-TEST(Session, CanBeCancelledBeforeDuringAfterAndTwice) {
+TEST(Session, ANewOpeningForgetsAnOldError) {
+  Stuck stuck;
+  Session session;
+  session.open(failing());
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  session.open(stuck.preparation());
+  stuck.has_begun.acquire();
+  EXPECT_FALSE(session.status().error);
+  EXPECT_TRUE(session.status().is_preparing);
+}
+
+TEST(Session, CanBeCancelledBeforeAndAfter) {
   Session session;
   session.cancel();
+  EXPECT_FALSE(session.status().error);
+  session.open(preparation_of());
+  ASSERT_TRUE(session.wait_until_idle(60s));
   session.cancel();
-  session.open(cloud(100000), {});
-  std::this_thread::sleep_for(20ms);
+  session.cancel();
+  EXPECT_NE(session.model(), nullptr);
+  EXPECT_FALSE(session.status().error);
+}
+
+TEST(Session, CanBeCancelledWhileItPrepares) {
+  Stuck stuck;
+  Session session;
+  session.open(stuck.preparation());
+  stuck.has_begun.acquire();
   session.cancel();
   session.cancel();
   ASSERT_TRUE(session.wait_until_idle(60s));
   ASSERT_TRUE(session.status().error);
   EXPECT_EQ(session.status().error->kind, ErrorKind::cancelled);
   EXPECT_EQ(session.model(), nullptr);
-  session.open(cloud(), {});
-  ASSERT_TRUE(session.wait_until_idle(60s));
+}
+
+TEST(Session, CanBeCancelledWhileItWaits) {
+  Stuck stuck;
+  Session session;
+  session.open(stuck.preparation());
+  stuck.has_begun.acquire();
+  bool was_called = false;
+  session.open({.points = [&](Progress&) -> Preparation::Points {
+    was_called = true;
+    return std::make_shared<const Cloud>();
+  }});
   session.cancel();
-  EXPECT_NE(session.model(), nullptr);
-  EXPECT_FALSE(session.status().error);
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  ASSERT_TRUE(session.status().error);
+  EXPECT_EQ(session.status().error->kind, ErrorKind::cancelled);
+  EXPECT_FALSE(session.status().is_preparing);
+  EXPECT_FALSE(was_called || session.model());
 }
 
 TEST(Session, ANewerOpeningReplacesAnOlder) {
+  Stuck stuck;
   Session session;
-  for (const std::size_t n : {100000, 80000, 60000, 3000}) session.open(cloud(n), {});
+  std::atomic<int> ready = 0;
+  const auto count = [&](const Preparation::Model&) { ++ready; };
+  Preparation first = stuck.preparation(), second = preparation_of(4000), third = preparation_of(3000);
+  first.ready = second.ready = third.ready = count;
+  session.open(first);
+  stuck.has_begun.acquire();
+  session.open(second);  // cancels the first, and is itself never begun
+  session.open(third);
   ASSERT_TRUE(session.wait_until_idle(60s));
   ASSERT_NE(session.model(), nullptr);
+  EXPECT_EQ(ready, 1);
   EXPECT_EQ(session.model()->surface().input_points, 3000U);
+  EXPECT_FALSE(session.status().error);
 }
 
-TEST(Session, EndsInTheMiddleOfWork) {
-  for (int i = 0; i < 5; ++i) {
+TEST(Session, EndsInTheMiddleOfWorkWhichItWaitsFor) {
+  Stuck stuck;
+  {
     Session session;
-    session.open(cloud(30000), {});
-    session.request({});
-    std::this_thread::sleep_for(std::chrono::milliseconds(7 * i));
+    session.open(stuck.preparation());
+    stuck.has_begun.acquire();
+    EXPECT_FALSE(stuck.has_ended);
   }
+  EXPECT_TRUE(stuck.has_ended);
 }
 
 TEST(Session, ManyThreadsMayAsk) {
   Session session;
-  session.open(cloud(), {});
+  std::atomic<int> ready = 0;
   std::vector<std::thread> threads;
   for (int t = 0; t < 4; ++t)
-    threads.emplace_back([&session] {
-      for (int i = 0; i < 50; ++i) {
-        session.request({});
+    threads.emplace_back([&] {
+      for (int i = 0; i < 10; ++i) {
+        Preparation preparation = preparation_of(2000);
+        preparation.ready = [&](const Preparation::Model&) { ++ready; };
+        session.open(preparation);
         (void)session.status();
-        (void)session.frame();
         (void)session.model();
       }
     });
   for (std::thread& thread : threads) thread.join();
   ASSERT_TRUE(session.wait_until_idle(60s));
-  EXPECT_EQ(session.status().finished, 200U);
+  EXPECT_NE(session.model(), nullptr);
+  EXPECT_GE(ready, 1);
+  EXPECT_LE(ready, 40);
 }
 
 }  // namespace

@@ -84,23 +84,21 @@ TEST(Base, MirroredIsTheSameFromTheOtherSide) {
     for (const Vec2& p : {Vec2(3, 7), Vec2(-20, 30)}) {
       const Vec2 there(2 * middle.x() - p.x(), p.y());
       EXPECT_NEAR(mirrored.height(there), base.height(p), 1e-12) << shape;
-      EXPECT_NEAR(mirrored.slope(there).x(), -base.slope(p).x(), 1e-12) << shape;
-      EXPECT_NEAR(mirrored.slope(there).y(), base.slope(p).y(), 1e-12) << shape;
     }
   }
 }
 
-TEST(Base, SlopesAreThoseOfItsHeights) {
+TEST(Base, IsSmoothButForItsRidge) {
   EXPECT_TRUE(rc::check([] {
     const std::string shape =
         *rc::gen::elementOf(std::vector<std::string>(std::begin(shapes), std::end(shapes)));
     const Base base = over(shape, hilly_image());
     const Vec2 p(*rc::gen::inRange(-390, 590) / 10. + .01, *rc::gen::inRange(-190, 390) / 10. + .02);
-    const double step = 1e-5;
+    const double step = 1e-3;
     for (const Vec2& way : {Vec2(step, 0), Vec2(0, step)}) {
       if (base.ridge_between(p - way, p + way)) continue;
-      const double rise = base.height(p + way) - base.height(p - way);
-      RC_ASSERT(std::abs(rise / (2 * step) - base.slope(p).dot(way) / step) < 1e-6);
+      const double bend = base.height(p + way) - 2 * base.height(p) + base.height(p - way);
+      RC_ASSERT(std::abs(bend) < step * step);  // a radius of curvature above 1 mm; a jump would be far above
     }
   }));
 }
@@ -126,8 +124,8 @@ TEST(Base, AnImageOfStepsHasNone) {
   BaseOptions options = *parse_base("image:height=19");
   options.image = std::make_shared<const HeightGrid>(grid);
   const Base base = *Base::over(options, plate);
-  for (double x = -30; x < 50; x += .01)
-    EXPECT_LT(std::abs(base.slope({x + .01, 0}).x() - base.slope({x, 0}).x()), .1);
+  const auto slope = [&](double x) { return (base.height({x + .01, 0}) - base.height({x, 0})) / .01; };
+  for (double x = -30; x < 50; x += .01) EXPECT_LT(std::abs(slope(x + .01) - slope(x)), .1);
 }
 
 TEST(Base, KnowsWhereARidgeIsCrossed) {
@@ -144,7 +142,7 @@ TEST(Base, RefusesWhatCannotBe) {
                            "wave:height=nan", "wave:height=3,,length=4", "fold:height=-1", "fold:angle=85",
                            "fold:angle=15,height=3", "wave:height=30,length=5", "cylinder:diameter=99",
                            "dome:diameter=110", "dome:height=300", "fold:height=400", "image"})
-    EXPECT_TRUE(complaint(text).starts_with("--base: expected ")) << text << ": " << complaint(text);
+    EXPECT_TRUE(complaint(text).starts_with("base: expected ")) << text << ": " << complaint(text);
   BaseOptions options = *parse_base("image");
   HeightGrid holey = *hilly_image();
   holey.values[7] = std::nanf("");

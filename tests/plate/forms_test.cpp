@@ -1,8 +1,12 @@
 #include "relievo/plate/forms.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 
 #include <gtest/gtest.h>
 
 #include "relievo/make_relief.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -17,7 +21,7 @@ Cloud balls() {
   return cloud;
 }
 
-MadeRelief made(const std::string& form, std::optional<double> tolerance = {}) {
+MadeRelief made(Form form, std::optional<double> tolerance = {}) {
   ReliefOptions options;
   options.form = form;
   options.height_mm = 4;
@@ -29,23 +33,18 @@ MadeRelief made(const std::string& form, std::optional<double> tolerance = {}) {
 }
 
 Box box_of(const Solid& solid) {
-  Box box;
-  for (const Vec3& p : solid.points) box.extend(p);
-  return box;
+  return Box::of(solid.points);
 }
 
 TEST(Forms, AreToldByTheirNames) {
   EXPECT_EQ(*parse_form("relief"), Form::relief);
   EXPECT_EQ(*parse_form("lithophane"), Form::lithophane);
   EXPECT_EQ(parse_form("coin").error().message(),
-            "--form: expected relief, mirror, die or lithophane, found 'coin'");
-  ReliefOptions options;
-  options.form = "coin";
-  EXPECT_EQ(check(options).error().input, "--form");
+            "form: expected one of relief, mirror, die or lithophane, found 'coin'");
 }
 
 TEST(Forms, AMirrorSwapsLeftAndRight) {
-  const MadeRelief relief = made("relief"), mirror = made("mirror");
+  const MadeRelief relief = made(Form::relief), mirror = made(Form::mirror);
   const double width = box_of(relief.solid).max.x();
   ASSERT_EQ(relief.solid.points.size(), mirror.solid.points.size());
   for (std::size_t i = 0; i < relief.solid.points.size() - 8; i += 97) {
@@ -55,7 +54,7 @@ TEST(Forms, AMirrorSwapsLeftAndRight) {
 }
 
 TEST(Forms, TheReliefFitsIntoItsDie) {
-  const MadeRelief relief = made("relief"), die = made("die");
+  const MadeRelief relief = made(Form::relief), die = made(Form::die);
   const double width = box_of(relief.solid).max.x();
   // Face to face: the die turned about the y axis meets the relief with no gap.
   const double sum = relief.solid.points[0].z() + die.solid.points[0].z();
@@ -68,7 +67,7 @@ TEST(Forms, TheReliefFitsIntoItsDie) {
 
 TEST(Forms, TheReportTellsWhereTheScanLies) {
   const Cloud cloud = balls();
-  for (const std::string form : {"relief", "mirror", "die"}) {
+  for (const Form form : {Form::relief, Form::mirror, Form::die}) {
     const MadeRelief it = made(form);
     // Points of the scan whose normals face the viewer come to lie over points of the front.
     const auto& [rotation, scale, offset] = std::tie(it.report.rotation, it.report.scale, it.report.offset);
@@ -83,18 +82,19 @@ TEST(Forms, TheReportTellsWhereTheScanLies) {
       nearest_sum += nearest, ++count;
     }
     ASSERT_GT(count, 0);
-    EXPECT_LT(nearest_sum / count, 1.5) << form;  // hidden ones lie between their neighbours
+    EXPECT_LT(nearest_sum / count, 1.5)
+        << name_in(form_choices, form);  // hidden ones lie between their neighbours
   }
 }
 
 TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
-  const MadeRelief it = made("lithophane");
+  const MadeRelief it = made(Form::lithophane);
   const Box box = box_of(it.solid);
   EXPECT_NEAR(box.max.z(), 3 + 4, 1e-6);
   EXPECT_NEAR(it.report.height_mm, 4, 1e-12);
   // The lamp is at the upper left: over the ball's upper left the plate is thinner than over its lower right.
   Surface surface = *find_surface(test::sphere(20000, 1), *parse_view("front"));
-  const Front front = lithophane(surface, 10, 4);
+  const HeightFieldMesh front = lithophane(surface, 10, 4);
   double lit = 0, dark = 0;
   int lit_count = 0, dark_count = 0;
   for (const Vec3& p : front.points) {
@@ -115,7 +115,7 @@ TEST(Forms, ColoursDarkenALithophane) {
     cloud.colours.push_back({grey, grey, grey});
   }
   const Surface surface = *find_surface(cloud, *parse_view("front"));
-  const Front front = lithophane(surface, 10, 4);
+  const HeightFieldMesh front = lithophane(surface, 10, 4);
   double bright = 0, dark = 0;
   int bright_count = 0, dark_count = 0;
   for (const Vec3& p : front.points) {
@@ -127,7 +127,7 @@ TEST(Forms, ColoursDarkenALithophane) {
 }
 
 TEST(Forms, AToleranceMakesTheFrontSimplerAndTellsItsError) {
-  const MadeRelief full = made("relief"), simple = made("relief", .02);
+  const MadeRelief full = made(Form::relief), simple = made(Form::relief, .02);
   EXPECT_LT(simple.solid.triangles.size(), full.solid.triangles.size());
   ASSERT_TRUE(simple.report.simplification_error_mm);
   EXPECT_LE(*simple.report.simplification_error_mm, .02);

@@ -1,4 +1,5 @@
 #include "relievo/plate/outline.h"
+#include "relievo/scan/surface.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +9,8 @@
 
 #include "relievo/make_relief.h"
 #include "relievo/plate/forms.h"
-#include "relievo/simplify.h"
+#include "relievo/plate/simplify.h"
+#include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"
 
@@ -96,7 +98,7 @@ TEST(OutlineAround, RoundCornersWithinTheMarginKeepTheRectanglesSize) {
 
 TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
   const std::vector<Vec2> polygon = test::ellipse(37, 20, 12);
-  const Front pyramid = test::pyramid_front(polygon, 6);
+  const HeightFieldMesh pyramid = test::pyramid_front(polygon, 6);
   const double relief = test::polygon_area(polygon) * 6 / 3;
   for (const auto& [name, outline] : all_outlines) {
     const auto solid = make_plate(pyramid, {2, 1.5, outline, 8});
@@ -110,9 +112,10 @@ TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
 }
 
 // Squares of a grid that are relief: '#'. The heights do not matter.
-Front patches(const std::vector<std::string>& rows) {
+HeightFieldMesh patches(const std::vector<std::string>& rows) {
   const int n = static_cast<int>(rows.size());
-  Front front = test::grid_front({10.0 * n, 10.0 * n, n, n}, [](double x, double y) { return (x + y) / 50; });
+  HeightFieldMesh front =
+      test::grid_front({10.0 * n, 10.0 * n, n, n}, [](double x, double y) { return (x + y) / 50; });
   for (const std::string& row : rows)
     for (const char c : row) front.is_relief.insert(front.is_relief.end(), 2, c == '#');
   return front;
@@ -170,7 +173,7 @@ TEST(MakePlate, WithoutGroundAndReliefThereIsNothing) {
 }
 
 TEST(MakePlate, RefusesACornerWithoutARadius) {
-  const Front front = test::flat_front({10, 10, 2, 2});
+  const HeightFieldMesh front = test::flat_front({10, 10, 2, 2});
   EXPECT_FALSE(make_plate(front, {5, 3, Outline::round, 0}));
   EXPECT_TRUE(make_plate(front, {5, 3, Outline::circle, 0}));
 }
@@ -188,11 +191,11 @@ Cloud two_pieces() {
 }
 
 const ReliefModel& model() {
-  static const ReliefModel it = *ReliefModel::prepare(*find_surface(two_pieces(), View{}));
+  static const ReliefModel it = *prepare(two_pieces(), View{});
   return it;
 }
 
-ReliefOptions options_for(const std::string& outline, const std::string& form, bool is_simpler) {
+ReliefOptions options_for(Outline outline, Form form, bool is_simpler) {
   ReliefOptions options;
   options.outline = outline;
   options.form = form;
@@ -204,21 +207,21 @@ ReliefOptions options_for(const std::string& outline, const std::string& form, b
 
 TEST(Outlines, AreWatertightInEveryFormAndSimplified) {
   for (const auto& [name, outline] : all_outlines)
-    for (const std::string form : {"relief", "mirror", "die", "lithophane"})
+    for (const auto& [form_name, form] : form_choices)
       for (const bool is_simpler : {false, true}) {
-        const auto made = make_relief(model(), options_for(name, form, is_simpler));
-        ASSERT_TRUE(made) << name << form << is_simpler << made.error().message();
-        EXPECT_EQ(check_solid(made->solid), "") << name << form << is_simpler;
+        const auto made = make_relief(model(), options_for(outline, form, is_simpler));
+        ASSERT_TRUE(made) << name << form_name << is_simpler << made.error().message();
+        EXPECT_EQ(check_solid(made->solid), "") << name << form_name << is_simpler;
         if (is_simpler)
           EXPECT_LE(*made->report.simplification_error_mm, .05) << name;
         else
-          EXPECT_EQ(pieces(made->solid), outline == Outline::none ? 2U : 1U) << name << form;
+          EXPECT_EQ(pieces(made->solid), outline == Outline::none ? 2U : 1U) << name << form_name;
       }
 }
 
 TEST(Outlines, SimplifyingKeepsTheSilhouette) {
-  const auto full = make_relief(model(), options_for("none", "relief", false));
-  const auto simpler = make_relief(model(), options_for("none", "relief", true));
+  const auto full = make_relief(model(), options_for(Outline::none, Form::relief, false));
+  const auto simpler = make_relief(model(), options_for(Outline::none, Form::relief, true));
   ASSERT_TRUE(full && simpler);
   EXPECT_LT(simpler->solid.triangles.size(), full->solid.triangles.size() * 3 / 4);
   EXPECT_NEAR(flat_area(simpler->solid), flat_area(full->solid), 1e-6);
@@ -227,7 +230,8 @@ TEST(Outlines, SimplifyingKeepsTheSilhouette) {
 // Half cells at the rim: their diagonals need not be Delaunay's choice, for the corners lie on a circle.
 TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
   const int n = 24;
-  Front front = test::grid_front({24, 24, n, n}, [](double x, double y) { return std::sin(x / 3) * y / 24; });
+  HeightFieldMesh front =
+      test::grid_front({24, 24, n, n}, [](double x, double y) { return std::sin(x / 3) * y / 24; });
   for (const Triangle& t : front.triangles) {
     const Vec3 middle = (front.points[t[0]] + front.points[t[1]] + front.points[t[2]]) / 3;
     front.is_relief.push_back((middle.head<2>() - Vec2(12, 12)).norm() < 9);
@@ -248,22 +252,29 @@ TEST(Outlines, TheReportTellsWhereTheScanLies) {
   const Surface& surface = model().surface();
   for (const auto& [name, outline] : all_outlines) {
     if (outline == Outline::none) continue;
-    const auto made = make_relief(model(), options_for(name, "relief", false));
+    const auto made = make_relief(model(), options_for(outline, Form::relief, false));
     const ReliefReport& r = made->report;
     for (std::size_t i = 0; i < surface.points.size(); i += 50) {
-      const Vec3 p = surface.view.rotation.transpose() * surface.points[i] + surface.centre;
+      const Vec3 p = surface.view.R_view_model.transpose() * surface.points[i] + surface.centre;
       const Vec3 mm = r.scale * r.rotation * p + r.offset;
       EXPECT_LT((mm - made->solid.points[i]).head<2>().norm(), 1e-9) << name;
     }
   }
 }
 
+TEST(Outlines, OnlyTheRectangleIsTheBoxOfItsPoints) {
+  const std::vector<Vec2> points = {{0, 0}, {4, 1}, {3, 3}};
+  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
+                                Outline::hexagon, Outline::none}) {
+    const std::vector<Vec2> polygon = outline_around(points, {outline, 1, 2});
+    EXPECT_EQ(is_box(outline), polygon.size() == 4) << static_cast<int>(outline);
+  }
+}
+
 TEST(Outlines, AreToldByTheirNames) {
   for (const auto& [name, outline] : all_outlines) EXPECT_EQ(*parse_outline(name), outline);
-  ReliefOptions options;
-  options.outline = "star";
-  EXPECT_EQ(check(options).error().message(),
-            "--outline: expected rectangle, round, circle, ellipse, hexagon or none, found 'star'");
+  EXPECT_EQ(parse_outline("star").error().message(),
+            "outline: expected one of rectangle, round, circle, ellipse, hexagon or none, found 'star'");
 }
 
 }  // namespace

@@ -26,15 +26,15 @@ double bump(double x, double y) {
 }
 
 // A hill in the middle of flat ground.
-Front hill() {
-  Front front = test::grid_front({30, 20, 30, 20}, bump);
+HeightFieldMesh hill() {
+  HeightFieldMesh front = test::grid_front({30, 20, 30, 20}, bump);
   for (const Triangle& t : front.triangles)
     front.is_relief.push_back(std::ranges::any_of(t, [&](Index i) { return front.points[i].z() > 0; }));
   return front;
 }
 
 // The same with points in no order, whose triangles are Delaunay's; the hill ends in flat ground, too.
-Front scattered_hill() {
+HeightFieldMesh scattered_hill() {
   std::vector<Vec2> places;
   std::uint64_t random = 7;
   const auto next = [&random] {
@@ -43,7 +43,7 @@ Front scattered_hill() {
   };
   for (int i = 0; i < 1500; ++i) places.emplace_back(30 * next(), 20 * next());
   const Triangulation mesh = delaunay(places);
-  Front front{{}, mesh.triangles, mesh.hull};
+  HeightFieldMesh front{{}, mesh.triangles, mesh.hull};
   for (const Vec2& p : places) front.points.emplace_back(p.x(), p.y(), bump(p.x(), p.y()));
   return front;
 }
@@ -57,7 +57,7 @@ PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectang
   return options;
 }
 
-Solid plate(const Front& front, const PlateOptions& options) {
+Solid plate(const HeightFieldMesh& front, const PlateOptions& options) {
   const Result<Solid> solid = make_plate(front, options);
   EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
   return solid.value_or(Solid{});
@@ -111,7 +111,7 @@ class Heights {
 
 // The relief minus its base is the relief on the plane, everywhere: on hill, ground and rim.
 TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
-  for (const Front& front : {scattered_hill()})
+  for (const HeightFieldMesh& front : {scattered_hill()})
     for (const Outline outline : {Outline::rectangle, Outline::circle})
       for (const char* shape : shapes) {
         const PlateOptions options = plate_on(shape, outline, 1);
@@ -151,7 +151,7 @@ TEST(PlateBase, KeepsTheLeastThicknessOnAFlatBack) {
 }
 
 TEST(PlateBase, AFoldHasItsRidgeInTheMesh) {
-  const Front front = hill();
+  const HeightFieldMesh front = hill();
   const PlateOptions options = plate_on("fold:angle=30");
   const Solid solid = plate(front, options);
   // No triangle has corners on both sides.
@@ -167,7 +167,7 @@ TEST(PlateBase, AFoldHasItsRidgeInTheMesh) {
 }
 
 TEST(PlateBase, ASteepDomeOverEmptyGroundIsRoundEverywhere) {
-  const Front front = test::flat_front({4, 4, 1, 1});
+  const HeightFieldMesh front = test::flat_front({4, 4, 1, 1});
   const PlateOptions options{20, 2, Outline::circle, 5, {}, *parse_base("dome:height=12")};
   const Solid solid = plate(front, options);
   ASSERT_EQ(check_solid(solid), "");
@@ -184,7 +184,7 @@ TEST(PlateBase, ASteepDomeOverEmptyGroundIsRoundEverywhere) {
 // watertight
 
 TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
-  const Front front = hill(), scattered = scattered_hill();
+  const HeightFieldMesh front = hill(), scattered = scattered_hill();
   for (const Outline outline : outlines)
     for (const char* shape : shapes)
       for (const double rim : {0., 1.5}) {
@@ -202,7 +202,7 @@ TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
 // triangles
 
 TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
-  const Front front = scattered_hill();
+  const HeightFieldMesh front = scattered_hill();
   for (const char* shape : shapes) {
     if (std::string_view(shape) == "plane") continue;
     for (const double rim : {0., 1.5}) {
@@ -236,7 +236,7 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
 
 TEST(PlateBase, TheGroundIsWhereItIsToldToBe) {
   for (const char* shape : shapes) {
-    const Front front = scattered_hill();
+    const HeightFieldMesh front = scattered_hill();
     const PlateOptions options = plate_on(shape, Outline::hexagon, 1);
     const Solid solid = plate(front, options);
     const Base base = *plate_base(front, options);
@@ -253,7 +253,7 @@ TEST(PlateBase, RefusesABaseThatThePlateIsTooLargeFor) {
   const Result<Solid> solid = make_plate(hill(), plate_on("cylinder:diameter=30"));
   ASSERT_FALSE(solid);
   EXPECT_EQ(solid.error().kind, ErrorKind::option);
-  EXPECT_TRUE(solid.error().message().starts_with("--base: expected a diameter of at least "));
+  EXPECT_TRUE(solid.error().message().starts_with("base: expected a diameter of at least "));
 }
 
 }  // namespace

@@ -14,20 +14,18 @@ using test::depth_in;
 constexpr Outline outlines[] = {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
                                 Outline::hexagon};
 
-Front hill() {
+HeightFieldMesh hill() {
   return test::pyramid_front(test::ellipse(31, 20, 12, .3), 3);
 }
 
-Solid plate(const Front& front, const PlateOptions& options) {
+Solid plate(const HeightFieldMesh& front, const PlateOptions& options) {
   const Result<Solid> solid = make_plate(front, options);
   EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
   return solid.value_or(Solid{});
 }
 
 Box box_of(const Solid& solid) {
-  Box box;
-  for (const Vec3& p : solid.points) box.extend(p);
-  return box;
+  return Box::of(solid.points);
 }
 
 // Corners of the plate's bottom in order: its outline.
@@ -48,7 +46,7 @@ TEST(Rim, OfARectangleHasItsClosedFormVolume) {
 }
 
 TEST(Rim, OfACircleHasItsClosedFormVolume) {
-  const Front coin = test::fan_front(test::ellipse(720, 10, 10));
+  const HeightFieldMesh coin = test::fan_front(test::ellipse(720, 10, 10));
   const Solid solid = plate(coin, {1, 2, Outline::circle, 5, {2, 1, .5}});
   EXPECT_EQ(check_solid(solid), "");
   const double pi = std::numbers::pi, outer = 13, top = 11.5, foot = 11;
@@ -80,7 +78,7 @@ TEST(Rim, InADieIsTheGrooveThatItFits) {
   for (const Outline outline : outlines) {
     const RimOptions rim{2, .8, .3};
     const Solid coin = plate(hill(), {1, 2, outline, 5, rim});
-    Front hollow = hill();
+    HeightFieldMesh hollow = hill();
     for (Vec3& p : hollow.points) p.z() = -p.z();
     const Solid die = plate(hollow, {1, 2, outline, 5, {2, -.8, .3}});
     ASSERT_EQ(check_solid(die), "");

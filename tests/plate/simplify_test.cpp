@@ -1,4 +1,4 @@
-#include "relievo/simplify.h"
+#include "relievo/plate/simplify.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -13,9 +13,10 @@ namespace {
 using test::flat_front, test::grid_front;
 
 // The Delaunay front of scattered points with a rectangle at 0 around them.
-Front scattered_front(int n, const std::function<double(double, double)>& z, std::uint64_t seed = 7) {
+HeightFieldMesh scattered_front(int n, const std::function<double(double, double)>& z,
+                                std::uint64_t seed = 7) {
   test::Random random(seed);
-  Front front;
+  HeightFieldMesh front;
   for (const Vec2& corner : {Vec2(0, 0), Vec2(60, 0), Vec2(60, 40), Vec2(0, 40)})
     front.points.emplace_back(corner.x(), corner.y(), 0);
   for (int i = 0; i < n; ++i) {
@@ -35,7 +36,7 @@ double waves(double x, double y) {
 }
 
 // Height of a front at a place, found by looking at every triangle; NaN outside.
-double height_at(const Front& front, const Vec2& place) {
+double height_at(const HeightFieldMesh& front, const Vec2& place) {
   for (const auto& [a, b, c] : front.triangles) {
     const Vec2 p = front.points[a].head<2>() - place, q = front.points[b].head<2>() - place,
                r = front.points[c].head<2>() - place;
@@ -55,7 +56,7 @@ TEST(Simplify, FlatGroundBecomesTwoTriangles) {
 }
 
 TEST(Simplify, StaysWithinTheToleranceEverywhere) {
-  const Front full = scattered_front(3000, waves);
+  const HeightFieldMesh full = scattered_front(3000, waves);
   for (const double tolerance : {.3, .05, .01}) {
     const auto simpler = simplify(full, tolerance);
     ASSERT_TRUE(simpler) << simpler.error().message();
@@ -74,7 +75,8 @@ TEST(Simplify, StaysWithinTheToleranceEverywhere) {
 
 TEST(Simplify, TheErrorToldIsReached) {
   // One narrow peak that the tolerance allows to widen to the whole square.
-  const Front peak = grid_front({4, 4, 4, 4}, [](double x, double y) { return x == 2 && y == 2 ? 1 : 0; });
+  const HeightFieldMesh peak =
+      grid_front({4, 4, 4, 4}, [](double x, double y) { return x == 2 && y == 2 ? 1 : 0; });
   const auto flat = simplify(peak, 1.5);
   ASSERT_TRUE(flat) << flat.error().message();
   EXPECT_EQ(flat->front.triangles.size(), 4U);  // corners and the peak, which stays
@@ -90,7 +92,7 @@ TEST(Simplify, ATinyToleranceKeepsTheSurface) {
 
 TEST(Simplify, GridsWithTheOtherDiagonalAreMetToo) {
   // Four corners on a circle: Delaunay may cut the cell the other way, and the saddle then differs inside.
-  const Front saddle =
+  const HeightFieldMesh saddle =
       grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x + y, 4) < 2 ? .5 : 0; });
   const auto simpler = simplify(saddle, .01);
   ASSERT_TRUE(simpler) << simpler.error().message();
@@ -108,7 +110,7 @@ TEST(Simplify, PlatesOfItAreClosed) {
 }
 
 TEST(Simplify, ColoursFollowTheirPoints) {
-  Front full = scattered_front(300, waves);
+  HeightFieldMesh full = scattered_front(300, waves);
   for (const Vec3& p : full.points) full.colours.push_back({static_cast<std::uint8_t>(p.x() * 4), 0, 9});
   const auto simpler = simplify(full, .05);
   ASSERT_TRUE(simpler);
@@ -130,7 +132,7 @@ TEST(SimplifyProperty, AnyScatterStaysWithinItsTolerance) {
   ASSERT_TRUE(rc::check([] {
     const auto seed = *rc::gen::arbitrary<std::uint64_t>();
     test::Random heights(seed);
-    const Front full = scattered_front(
+    const HeightFieldMesh full = scattered_front(
         *rc::gen::inRange(0, 200), [&](double, double) { return heights.uniform(); }, seed);
     const double tolerance = *rc::gen::inRange(1, 100) / 100.0;
     const auto simpler = simplify(full, tolerance);
@@ -143,7 +145,7 @@ TEST(SimplifyProperty, AnyScatterStaysWithinItsTolerance) {
   }));
 }
 
-double steepest(const Front& front) {
+double steepest(const HeightFieldMesh& front) {
   double most = 0;
   for (const Triangle& t : front.triangles) {
     const Vec3 p = front.points[t[1]] - front.points[t[0]], q = front.points[t[2]] - front.points[t[0]];
@@ -159,7 +161,7 @@ TEST(Simplify, MakesNoTriangleSteeperThanAsked) {
     const double along = x + .5 * y + 100;
     return std::min({std::abs(along - 6 * std::round(along / 6)), x, 60 - x, y, 40 - y});
   };
-  const Front full = test::grid_front({60, 40, 120, 80}, folds);
+  const HeightFieldMesh full = test::grid_front({60, 40, 120, 80}, folds);
   const double limit = 1.0001 * steepest(full), tolerance = .3;
   EXPECT_GT(steepest(simplify(full, tolerance)->front), 1.3 * limit);
   const auto simpler = simplify(full, SimplifyOptions{tolerance, limit});

@@ -1,4 +1,5 @@
 #include "relievo/plate/solid.h"
+#include "relievo/io/write.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -19,7 +20,7 @@ namespace {
 using test::ellipse, test::fan_front, test::flat_front, test::grid_front, test::polygon_area,
     test::pyramid_front;
 
-Solid plate(const Front& front, const PlateOptions& options = {}) {
+Solid plate(const HeightFieldMesh& front, const PlateOptions& options = {}) {
   Result<Solid> solid = make_plate(front, options);
   EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
   return solid.value_or(Solid{});
@@ -60,7 +61,7 @@ TEST(MakePlate, FlatFrontGivesABox) {
 }
 
 TEST(MakePlate, HasTheCountsItsConstructionImplies) {
-  const Front front = flat_front({60, 40, 6, 4});
+  const HeightFieldMesh front = flat_front({60, 40, 6, 4});
   const Solid solid = plate(front);
   const std::size_t hull = 20, corners = 4;
   ASSERT_EQ(front.hull.size(), hull);
@@ -70,7 +71,7 @@ TEST(MakePlate, HasTheCountsItsConstructionImplies) {
 }
 
 TEST(MakePlate, KeepsTheFrontFirstAndMovesItOnly) {
-  Front front = pyramid_front({{-3, 7}, {9, 7}, {9, 20}}, 4);
+  HeightFieldMesh front = pyramid_front({{-3, 7}, {9, 7}, {9, 20}}, 4);
   const Solid solid = plate(front, {5, 3});
   for (std::size_t t = 0; t < front.triangles.size(); ++t) EXPECT_EQ(solid.triangles[t], front.triangles[t]);
   for (std::size_t i = 0; i < front.points.size(); ++i)
@@ -97,7 +98,7 @@ TEST(MakePlate, ParaboloidCapHasItsVolumeUpToTheGridsError) {
 
 TEST(MakePlate, GroovesBelowTheGroundKeepTheThickness) {
   const auto wave = [](double x, double y) { return 2 * std::sin(x) * std::sin(y) - 0.3; };
-  Front front = grid_front({30, 30, 90, 90}, wave);
+  HeightFieldMesh front = grid_front({30, 30, 90, 90}, wave);
   for (Vec3& p : front.points) p.z() += 17.3;
   front.ground_mm = 17.3;
   const auto [low, high] = std::ranges::minmax(front.points, {}, [](const Vec3& p) { return p.z(); });
@@ -140,7 +141,7 @@ TEST(MakePlate, EdgesAlongTheRectangleGiveNoTriangleWithoutArea) {
 }
 
 TEST(MakePlate, PointsThatTheFrontDoesNotUseCountForNothing) {
-  Front front = flat_front({10, 10, 2, 2});
+  HeightFieldMesh front = flat_front({10, 10, 2, 2});
   front.points.emplace_back(500, -500, -40);
   const Solid solid = plate(front, {5, 3});
   EXPECT_EQ(check_solid(solid), "");
@@ -149,7 +150,7 @@ TEST(MakePlate, PointsThatTheFrontDoesNotUseCountForNothing) {
 
 TEST(MakePlate, SeparatesPointsThatSinglePrecisionWouldMerge) {
   // Two inner points 1e-9 mm apart, in a plate of 100 mm.
-  Front front = fan_front({{0, 0}, {100, 0}, {100, 100}, {0, 100}});
+  HeightFieldMesh front = fan_front({{0, 0}, {100, 0}, {100, 100}, {0, 100}});
   front.points.emplace_back(50, 50, 2);
   front.points.emplace_back(50 + 1e-9, 50, 2);
   front.triangles = {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 4, 5}, {2, 3, 4}, {3, 0, 4}};
@@ -160,8 +161,8 @@ TEST(MakePlate, SeparatesPointsThatSinglePrecisionWouldMerge) {
 }
 
 TEST(MakePlate, RejectsBadOptionsAndFronts) {
-  const Front good = flat_front({10, 10, 2, 2});
-  const auto kind = [](const Front& front, const PlateOptions& options) {
+  const HeightFieldMesh good = flat_front({10, 10, 2, 2});
+  const auto kind = [](const HeightFieldMesh& front, const PlateOptions& options) {
     const auto solid = make_plate(front, options);
     EXPECT_FALSE(solid.has_value());
     return solid ? ErrorKind::cancelled : solid.error().kind;
@@ -171,11 +172,12 @@ TEST(MakePlate, RejectsBadOptionsAndFronts) {
     EXPECT_EQ(kind(good, {5, bad}), ErrorKind::option) << bad;
   }
   EXPECT_EQ(kind({}, {}), ErrorKind::geometry);
-  Front hullless = good, dangling = good, infinite = good;
+  HeightFieldMesh hullless = good, dangling = good, infinite = good;
   hullless.hull.clear();
   dangling.triangles[0][1] = 9;
   infinite.points[4].z() = INFINITY;
-  for (const Front& bad : {hullless, dangling, infinite}) EXPECT_EQ(kind(bad, {}), ErrorKind::geometry);
+  for (const HeightFieldMesh& bad : {hullless, dangling, infinite})
+    EXPECT_EQ(kind(bad, {}), ErrorKind::geometry);
   EXPECT_EQ(make_plate(good, {-1, 3}).error().message(),
             "margin: expected a finite length of at least 0.001 mm, found -1");
 }
@@ -331,7 +333,7 @@ TEST(WriteObj, HoldsEveryPointAndTriangleToTheLastBit) {
 
 TEST(Writers, AnEmptySolidGivesAnEmptyFileWithItsHeader) {
   EXPECT_EQ(write_stl({}).size(), 84U);
-  EXPECT_TRUE(as_text(write_ply({})).ends_with("end_header\n"));
+  EXPECT_TRUE(as_text(write_ply(Solid{})).ends_with("end_header\n"));
   EXPECT_TRUE(as_text(write_obj({})).ends_with("mm\n"));
 }
 
@@ -339,7 +341,7 @@ TEST(Writers, AnEmptySolidGivesAnEmptyFileWithItsHeader) {
 
 TEST(WriteStl, AdmeshFindsNothingToRepair) {
   if (!test::has_admesh()) GTEST_SKIP() << "admesh is not installed";
-  const Front pyramid = pyramid_front(ellipse(101, 30, 20, 0.3), 3);
+  const HeightFieldMesh pyramid = pyramid_front(ellipse(101, 30, 20, 0.3), 3);
   EXPECT_EQ(test::complaint_of_admesh(bumpy_plate()), "");
   for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
                                 Outline::hexagon, Outline::none})
@@ -361,7 +363,7 @@ TEST(InUnit, KeepsPointsApart) {
   int merged = 0;
   for (int i = 0; i < 20; ++i) {
     const double width = 43 + .01 * i;
-    Front front = test::pyramid_front({{0, 0}, {width, 0}, {width, 40}, {0, 40}}, 7);
+    HeightFieldMesh front = test::pyramid_front({{0, 0}, {width, 0}, {width, 40}, {0, 40}}, 7);
     front.points.push_back({width / 2 + 2e-6, 20, 7});
     front.triangles[1] = {1, 2, 5};
     front.triangles.push_back({1, 5, 4});

@@ -1,4 +1,6 @@
 #include "relievo/plate/tool.h"
+#include "relievo/core/image.h"
+#include "relievo/picture/reach_picture.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -78,7 +80,7 @@ TEST(Tool, IsParsed) {
                            "v:171", "v:60:", "v:60:-1", "cone:3", "ball:nan", "flat:1e9"}) {
     const auto tool = parse_tool(text);
     ASSERT_FALSE(tool) << text;
-    EXPECT_EQ(tool.error().input, "--tool");
+    EXPECT_EQ(tool.error().input, "tool");
   }
 }
 
@@ -177,7 +179,7 @@ TEST(CloseByTool, IsTheSameForAnyNumberOfThreadsAndInstructions) {
 }
 
 Solid plate_with_step(double height) {
-  Front front =
+  HeightFieldMesh front =
       test::grid_front({40, 20, 80, 40}, [&](double x, double) { return x > 10 && x < 30 ? height : 0.; });
   return make_plate(front, {}).value();
 }
@@ -202,7 +204,7 @@ TEST(MeasureReach, OfAFlatPlateIsAll) {
 }
 
 TEST(MeasureReach, BesideAPlateThereIsNoObstacle) {
-  Front front = test::flat_front({20, 10, 4, 2});
+  HeightFieldMesh front = test::flat_front({20, 10, 4, 2});
   const Solid round = make_plate(front, {5, 3, Outline::circle}).value();
   const ToolReach reach = measure_reach(round, ball);
   EXPECT_EQ(reach.reached_share, 1);
@@ -210,10 +212,10 @@ TEST(MeasureReach, BesideAPlateThereIsNoObstacle) {
 }
 
 TEST(ReachableFront, IsReachedAndNowhereLower) {
-  Front front = test::grid_front(
+  HeightFieldMesh front = test::grid_front(
       {40, 20, 160, 80}, [&](double x, double y) { return x > 10 && x < 30 && y > 5 && y < 15 ? 3 : 0.; });
   const Solid before = make_plate(front, {}).value();
-  const Front reachable = reachable_front(front, ball).value();
+  const HeightFieldMesh reachable = reachable_front(front, ball).value();
   for (std::size_t i = 0; i < front.points.size(); ++i)
     ASSERT_GE(reachable.points[i].z(), front.points[i].z());
   const Solid after = make_plate(reachable, {}).value();
@@ -225,7 +227,7 @@ TEST(ReachableFront, IsReachedAndNowhereLower) {
 }
 
 TEST(ReachableFront, OfWhatIsReachedIsTheSame) {
-  const Front front = test::flat_front({20, 10, 4, 2});
+  const HeightFieldMesh front = test::flat_front({20, 10, 4, 2});
   EXPECT_EQ(reachable_front(front, ball)->points, front.points);
   EXPECT_EQ(reachable_front({}, ball).error().kind, ErrorKind::geometry);
 }

@@ -38,7 +38,7 @@ constexpr const char* bodies[] = {"cylinder:diameter=60",          "cylinder:tur
                                   "cone:turn=120,angle=-9,inside", "sphere:diameter=70",
                                   "sphere:turn=100,inside"};
 
-Front hill() {
+HeightFieldMesh hill() {
   return test::grid_front({56, 36, 56, 36}, [](double x, double y) {
     const double to_middle = std::hypot(x - 28, y - 18);
     return to_middle < 14 ? 1.2 * (1 + std::cos(to_middle * pi / 14)) : 0;
@@ -97,7 +97,7 @@ TEST(Wrap, AConeLeansAsAsked) {
   EXPECT_NEAR(std::atan2(low.z() - high.z(), high.y() - low.y()) * 180 / pi, 12, 1e-9);
   EXPECT_NEAR((out - wrap.at({30, 20}, 0)).dot(high - low), 0, 1e-9);
   EXPECT_NEAR(wrap.at({30, 20}, 0).z(), 25, 1e-12);
-  EXPECT_LT(wrap.reach_mm(), 25);
+  EXPECT_LT(wrap.min_radius_mm(), 25);
 }
 
 // Everywhere the map keeps its handedness, and heights stand at right angles to the ground.
@@ -123,7 +123,7 @@ TEST(Wrap, RefusesWhatCannotBe) {
   for (const char* text :
        {"none:diameter=3", "cylinder:angle=3", "cylinder:diameter=60,turn=90", "cylinder:turn=400",
         "cylinder:diameter=19", "sphere:diameter=20", "cone:angle=85", "cone:diameter=24,angle=45"})
-    EXPECT_TRUE(complaint(text).starts_with("--wrap: expected ")) << text << ": " << complaint(text);
+    EXPECT_TRUE(complaint(text).starts_with("wrap: expected ")) << text << ": " << complaint(text);
 }
 
 // ---------------------------------------------------------------------------------------------------- bodies
@@ -148,16 +148,15 @@ TEST(WrapPlate, IsWatertightForEveryBodyAndOutline) {
     }
 }
 
-// Front and back lie at their radii, between their corners, too.
+// The front and the back lie at their radii, between their corners, too.
 TEST(WrapPlate, AFlatPlateBecomesAShellOfEvenThickness) {
-  const Front front = test::flat_front({56, 36, 4, 4});
+  const HeightFieldMesh front = test::flat_front({56, 36, 4, 4});
   const PlateOptions options = plate_around("cylinder:diameter=60");
   const Solid plate = *make_plate(front, options), shell = *wrap_plate(plate, options);
   ASSERT_EQ(check_solid(shell), "");
   const double angle = 60. / 30, volume = angle / 2 * (30 * 30 - 28.5 * 28.5) * 40;
   EXPECT_NEAR(volume_mm3(shell), volume, .01 * 2 * angle * 30 * 40);
-  Box box;
-  for (const Vec3& p : shell.points) box.extend(p);
+  const Box box = Box::of(shell.points);
   const Vec2 axis((box.min.x() + box.max.x()) / 2, box.max.z() - 30);
   for (std::size_t t = 0; t < shell.front_triangles; ++t) {
     const auto& [a, b, c] = shell.triangles[t];

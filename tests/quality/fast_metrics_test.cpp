@@ -6,6 +6,7 @@
 
 #include "relievo/quality/measures.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -33,38 +34,38 @@ std::vector<std::vector<double>> reliefs(const Surface& surface) {
   return all;
 }
 
-TEST(QuickJudge, MeasuresWhatJudgeDoes) {
+TEST(FastMetrics, EstimatesWhatReliefMetricsMeasures) {
   const Surface surface = find_surface(make_sample("shell", {120000}).value(), {}).value();
-  const Judge judge(surface);
-  const QuickJudge quick(surface);
-  EXPECT_NEAR(static_cast<double>(quick.pixels()), static_cast<double>(judge.pixels()) / 4,
-              .05 * static_cast<double>(quick.pixels()));
+  const ReliefMetrics metrics(surface);
+  const FastMetrics fast(surface);
+  EXPECT_NEAR(static_cast<double>(fast.pixels()), static_cast<double>(metrics.pixels()) / 4,
+              .05 * static_cast<double>(fast.pixels()));
   for (const std::vector<double>& heights : reliefs(surface)) {
-    const Measures whole = judge.measure(heights);
-    const Plane z = quick.draw(heights);
-    EXPECT_NEAR(quick.kept(z).detail, whole.detail[2], .0005 + .08 * (1 - whole.detail[2]));
-    EXPECT_NEAR(quick.kept(z).order, whole.order, .008);
+    const Measures whole = metrics.measure(heights);
+    const Plane z = fast.draw(heights);
+    EXPECT_NEAR(fast.estimate(z).detail, whole.detail[2], .0005 + .08 * (1 - whole.detail[2]));
+    EXPECT_NEAR(fast.estimate(z).order, whole.order, .008);
   }
 }
 
-TEST(QuickJudge, MeasuresWholePicturesExactlyAsJudgeDoes) {
+TEST(FastMetrics, HasExactScoresOfTheSameBits) {
   const Surface surface = figure();
-  const Judge judge(surface);
-  const QuickJudge quick(surface);
+  const ReliefMetrics metrics(surface);
+  const FastMetrics fast(surface);
   for (const std::vector<double>& heights : reliefs(surface)) {
-    const Measures whole = judge.measure(heights);
-    EXPECT_EQ(quick.kept_by_whole(heights).detail, whole.detail[2]);
-    EXPECT_EQ(quick.kept_by_whole(heights).order, whole.order);
+    const Measures whole = metrics.measure(heights);
+    EXPECT_EQ(fast.exact_scores(heights).detail, whole.detail[2]);
+    EXPECT_EQ(fast.exact_scores(heights).order, whole.order);
   }
 }
 
-TEST(QuickJudge, DrawsSmoothHeightsAlike) {
+TEST(FastMetrics, DrawsSmoothHeightsAlike) {
   const Surface surface = figure();
-  const QuickJudge quick(surface);
+  const FastMetrics fast(surface);
   std::vector<double> heights;
   for (const Vec3& p : surface.points) heights.push_back(.1 * std::sin(3 * p.x()) + .05 * p.y() * p.y());
-  const Plane a = quick.draw(heights),
-              b = quick.draw_smooth([&](Index i) { return static_cast<float>(heights[i]); });
+  const Plane a = fast.draw(heights),
+              b = fast.draw_smooth([&](Index i) { return static_cast<float>(heights[i]); });
   ASSERT_EQ(a.size(), b.size());
   // In pixels; but at silhouettes, where some of the four lie outside.
   std::size_t unlike = 0, inside = 0;
@@ -72,18 +73,18 @@ TEST(QuickJudge, DrawsSmoothHeightsAlike) {
   EXPECT_LT(unlike, inside / 50);
 }
 
-TEST(QuickJudge, KnowsALevelReliefShowsNothing) {
+TEST(FastMetrics, KnowsALevelReliefShowsNothing) {
   const Surface surface = figure();
-  const QuickJudge quick(surface);
-  const Plane level = quick.draw(std::vector<double>(surface.points.size()));
-  EXPECT_EQ(quick.kept(level).detail, 0);
-  EXPECT_EQ(quick.kept(level).order, 0);
+  const FastMetrics fast(surface);
+  const Plane level = fast.draw(std::vector<double>(surface.points.size()));
+  EXPECT_EQ(fast.estimate(level).detail, 0);
+  EXPECT_EQ(fast.estimate(level).order, 0);
 }
 
-TEST(QuickJudge, HasNothingToLookAtOnAThinStrip) {
+TEST(FastMetrics, HasNothingToLookAtOnAThinStrip) {
   Cloud strip = test::sheet(3000, 1, 0);
   for (Vec3& p : strip.points) p.x() *= .005;
-  EXPECT_EQ(QuickJudge(find_surface(strip, {}).value()).pixels(), 0U);
+  EXPECT_EQ(FastMetrics(find_surface(strip, {}).value()).pixels(), 0U);
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
 #include "relievo/quality/measures.h"
+#include "relievo/core/image.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -42,7 +44,7 @@ std::vector<double> heights(const Surface& surface, F f) {
 }
 
 TEST(Measures, OfTheModelItselfAreTheBest) {
-  const Measures m = Judge(bumpy()).measure(depths(bumpy()));
+  const Measures m = ReliefMetrics(bumpy()).measure(depths(bumpy()));
   EXPECT_GT(m.shading, .97);  // what triangles between points scattered at random leave
   EXPECT_LT(m.angle_deg, 1);
   for (const double detail : m.detail) EXPECT_GT(detail, .98);
@@ -57,11 +59,11 @@ TEST(Measures, AngleOfALevelReliefIsTheMeanTilt) {
   double sum = 0;
   for (const Vec3f& n : bumpy().normals) sum += std::acos(static_cast<double>(n.z()));
   const double mean_deg = sum / static_cast<double>(level.size()) * 180 / std::numbers::pi;
-  EXPECT_NEAR(Judge(bumpy()).measure(level).angle_deg, mean_deg, .02 * mean_deg);
+  EXPECT_NEAR(ReliefMetrics(bumpy()).measure(level).angle_deg, mean_deg, .02 * mean_deg);
 }
 
 TEST(Measures, LinearScalingKeepsTheOrderAndLosesTheShading) {
-  const Judge judge(bumpy());
+  const ReliefMetrics judge(bumpy());
   double last = 1;
   for (const double scale : {.5, .1, .02}) {
     const Measures m = judge.measure(depths(bumpy(), scale));
@@ -72,13 +74,13 @@ TEST(Measures, LinearScalingKeepsTheOrderAndLosesTheShading) {
 }
 
 TEST(Measures, UpsideDownTurnsOrderAndDetailRound) {
-  const Measures m = Judge(bumpy()).measure(depths(bumpy(), -1));
+  const Measures m = ReliefMetrics(bumpy()).measure(depths(bumpy(), -1));
   EXPECT_EQ(m.order, 0);
   for (const double detail : m.detail) EXPECT_LT(detail, -.9);
 }
 
 TEST(Measures, NoiseLowersDetailFirstWhereItIsFine) {
-  const Judge judge(bumpy());
+  const ReliefMetrics judge(bumpy());
   std::vector<double> noisy = depths(bumpy());
   test::Random random(3);
   for (double& z : noisy) z += .002 * random.gaussian();
@@ -90,7 +92,7 @@ TEST(Measures, NoiseLowersDetailFirstWhereItIsFine) {
 
 TEST(Measures, HeightUsedOfARampIsItsMiddlePart) {
   const Surface sheet = surface_of(test::sheet(40000, 1, 0));
-  const Measures m = Judge(sheet).measure(heights(sheet, [](double x, double) { return x + 1; }));
+  const Measures m = ReliefMetrics(sheet).measure(heights(sheet, [](double x, double) { return x + 1; }));
   EXPECT_NEAR(m.height_used, .98, .01);
   EXPECT_NEAR(m.height, 2, .01);
 }
@@ -99,7 +101,9 @@ TEST(Measures, SteepIsBeyondEightyDegrees) {
   const Surface sheet = surface_of(test::sheet(40000, 1, 0));
   const auto steep_at = [&](double degrees) {
     const double slope = std::tan(degrees * std::numbers::pi / 180);
-    return Judge(sheet).measure(heights(sheet, [&](double x, double) { return slope * x; })).steep_share;
+    return ReliefMetrics(sheet)
+        .measure(heights(sheet, [&](double x, double) { return slope * x; }))
+        .steep_share;
   };
   EXPECT_LT(steep_at(79), .01);
   EXPECT_GT(steep_at(81), .95);
@@ -107,7 +111,7 @@ TEST(Measures, SteepIsBeyondEightyDegrees) {
 
 TEST(Measures, JumpStepIsWhatIsLeftOfAJump) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, 3, 9)));
-  const Judge judge(sheets);
+  const ReliefMetrics judge(sheets);
   EXPECT_NEAR(judge.measure(depths(sheets)).jump_step, 1, 1e-9);
   const auto ramp = heights(sheets, [](double x, double) { return x + 1; });
   EXPECT_LT(judge.measure(ramp).jump_step, .05);
@@ -122,7 +126,7 @@ TEST(Measures, RimStepIsTheHeightNextToTheSilhouette) {
   std::vector<double> z(sheets.points.size(), 2.0);
   for (std::size_t i = 0; i < z.size(); ++i)
     if (sheets.boundary.is_boundary[i]) z[i] = 0;
-  const Measures m = Judge(sheets).measure(z);
+  const Measures m = ReliefMetrics(sheets).measure(z);
   EXPECT_EQ(m.rim_step, 1);
   EXPECT_EQ(m.jump_step, 0);
 }
@@ -137,7 +141,7 @@ TEST(Measures, AStepAtTheSilhouetteIsNoDetail) {
     test::add(grid, {x, y, bumps(x, y)}, {-g.x(), -g.y(), 1});
   }
   const Surface surface = surface_of(grid);
-  const Judge judge(surface);
+  const ReliefMetrics judge(surface);
   std::vector<double> z = depths(surface, .2);
   const Measures level = judge.measure(z);
   for (std::size_t i = 0; i < z.size(); ++i) z[i] += surface.boundary.is_boundary[i] ? 0 : 1;
@@ -151,14 +155,14 @@ TEST(Measures, AJumpIsNotMeasured) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .5, 3, 9)));
   std::vector<double> z = depths(sheets);
   for (double& value : z) value -= sheets.points[0].z();
-  const Measures m = Judge(sheets).measure(z);
+  const Measures m = ReliefMetrics(sheets).measure(z);
   EXPECT_LT(m.angle_deg, .1);
   EXPECT_GT(m.shading, .999);
 }
 
 TEST(Measures, HaloIsABackgroundThatIsNotLevel) {
   const Surface ring = surface_of(test::torus(40000, 1, .3));
-  const Judge judge(ring);
+  const ReliefMetrics judge(ring);
   std::vector<double> z(ring.points.size(), 1.0);
   EXPECT_GT(judge.measure(z).halo, .1);
   for (std::size_t i = 0; i < z.size(); ++i)
@@ -167,7 +171,7 @@ TEST(Measures, HaloIsABackgroundThatIsNotLevel) {
 }
 
 TEST(Measures, OfAFlatReliefAreZero) {
-  const Measures m = Judge(bumpy()).measure(std::vector<double>(bumpy().points.size(), 0.0));
+  const Measures m = ReliefMetrics(bumpy()).measure(std::vector<double>(bumpy().points.size(), 0.0));
   EXPECT_EQ(m.height, 0);
   EXPECT_EQ(m.order, 0);
 }
@@ -177,7 +181,8 @@ TEST(Measures, DoNotChangeWithTheUnit) {
   const Surface surface = surface_of(cloud);
   for (Vec3& p : cloud.points) p *= 1024;
   const Surface large = surface_of(cloud);
-  const Measures a = Judge(surface).measure(depths(surface, .2)), b = Judge(large).measure(depths(large, .2));
+  const Measures a = ReliefMetrics(surface).measure(depths(surface, .2)),
+                 b = ReliefMetrics(large).measure(depths(large, .2));
   EXPECT_NEAR(a.shading, b.shading, 1e-9);
   EXPECT_NEAR(a.angle_deg, b.angle_deg, 1e-6);
   EXPECT_NEAR(a.height_used, b.height_used, 1e-9);
@@ -185,9 +190,9 @@ TEST(Measures, DoNotChangeWithTheUnit) {
 
 TEST(Measures, HaveTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(1);
-  const Measures one = Judge(bumpy()).measure(depths(bumpy(), .1));
+  const Measures one = ReliefMetrics(bumpy()).measure(depths(bumpy(), .1));
   set_thread_count(3);
-  const Measures three = Judge(bumpy()).measure(depths(bumpy(), .1));
+  const Measures three = ReliefMetrics(bumpy()).measure(depths(bumpy(), .1));
   set_thread_count(0);
   EXPECT_EQ(one.shading, three.shading);
   EXPECT_EQ(one.detail, three.detail);
@@ -195,10 +200,11 @@ TEST(Measures, HaveTheSameBitsForAnyNumberOfThreads) {
 }
 
 TEST(Measures, ShadeTheModelAsTheReliefThatEqualsIt) {
-  const Judge judge(bumpy());
+  const ReliefMetrics judge(bumpy());
   const Image8 model = judge.shade_model({-1, 1, 1}), relief = judge.shade(depths(bumpy()), {-1, 1, 1});
   ASSERT_EQ(model.pixels.size(), relief.pixels.size());
-  EXPECT_EQ(std::max(model.width, model.height), Judge::longer_side_px + 2 * Judge::margin_px);
+  EXPECT_EQ(std::max(model.width, model.height),
+            ReliefMetrics::longer_side_px + 2 * ReliefMetrics::margin_px);
   double difference = 0;
   for (std::size_t i = 0; i < model.pixels.size(); ++i)
     difference += std::abs(model.pixels[i] - relief.pixels[i]);

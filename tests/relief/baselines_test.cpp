@@ -1,11 +1,14 @@
 #include "relievo/relief/baselines.h"
+#include "relievo/relief/heights.h"
+#include "relievo/relief/relief.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/method.h"
+#include "relievo/relief/method.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -42,8 +45,7 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
   ASSERT_TRUE(model);
   for (const MethodInfo& info : methods) {
     const auto relief = make_by_method(info.method, *model, .05, default_shape(info.method), 1);
-    const bool needs_all_points = info.method == Method::gradient || info.method == Method::detail;
-    ASSERT_EQ(relief.has_value(), !needs_all_points) << info.name;
+    ASSERT_EQ(relief.has_value(), !info.needs_all_points) << info.name;
     if (!relief) {
       EXPECT_EQ(relief.error().kind, ErrorKind::option);
     }
@@ -193,7 +195,7 @@ TEST(BaseAndDetail, AmplifiesWhatIsFine) {
   EXPECT_GT(fine_share(5), 3 * fine_share(0));
 }
 
-TEST(Rivals, AreTheHeightAskedAndLieOnTheBase) {
+TEST(Baselines, AreTheHeightAskedAndLieOnTheBase) {
   const ReliefModel model = model_of(test::torus(30000, 1, .4));
   for (const MethodInfo& info : methods) {
     const Result<Relief> relief = make_by_method(info.method, model, .05, default_shape(info.method), 1);
@@ -210,7 +212,9 @@ TEST(Method, NamesLeadBack) {
     EXPECT_EQ(parse_method(info.name), info.method);
     EXPECT_EQ(name_of(info.method), info.name);
   }
-  EXPECT_EQ(parse_method("carving"), std::nullopt);
+  EXPECT_EQ(parse_method("ours"), Method::layered);
+  EXPECT_EQ(parse_method("carving").error().message(),
+            "method: expected one of layered, paper, linear, equalise, gradient or detail, found 'carving'");
 }
 
 }  // namespace

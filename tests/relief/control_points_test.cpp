@@ -9,7 +9,7 @@
 #include <numeric>
 #include <set>
 
-#include "relievo/boundary.h"
+#include "relievo/scan/boundary.h"
 #include "support/shapes.h"
 
 namespace relievo {

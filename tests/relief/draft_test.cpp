@@ -1,4 +1,6 @@
 #include "relievo/relief/draft.h"
+#include "relievo/io/write.h"
+#include "relievo/plate/draft_in_file.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -10,7 +12,8 @@
 
 #include "relievo/core/parallel.h"
 #include "relievo/make_relief.h"
-#include "relievo/simplify.h"
+#include "relievo/plate/simplify.h"
+#include "relievo/scan/surface.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"
 
@@ -98,12 +101,12 @@ TEST(Draft, AnglesAreMeasuredFromTheVertical) {
 
 TEST(Draft, AReliefWithinTheLimitStaysBitForBit) {
   const ReliefModel model = model_of(figure());
-  Shape shape = default_shape(Method::ours);
+  Shape shape = default_shape(Method::layered);
   const Relief relief = model.make(shape);
   const DraftOptions wide{1.01 * steepest(slopes_of(model, relief.heights))};
   EXPECT_EQ(limit_draft(model, relief, wide)->heights, relief.heights);
-  const auto free = make_by_method(Method::ours, model, .2, shape, 1);
-  const auto limited = make_with_draft(model, {Method::ours, shape, .2}, {100});
+  const auto free = make_by_method(Method::layered, model, .2, shape, 1);
+  const auto limited = make_with_draft(model, {Method::layered, shape, .2}, {100});
   EXPECT_EQ(limited->heights, free->heights);
 }
 
@@ -183,9 +186,9 @@ TEST(Draft, TheHeightIsMetExactlyByAllMethods) {
 
 TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   const ReliefModel model = model_of(figure(6000));
-  const Shape shape = default_shape(Method::ours);
+  const Shape shape = default_shape(Method::layered);
   for (const double height : {1.2, 50.0}) {  // in reach without the limit, and not
-    const auto made = make_with_draft(model, {Method::ours, shape, height, 10}, {.4});
+    const auto made = make_with_draft(model, {Method::layered, shape, height, 10}, {.4});
     ASSERT_FALSE(made);
     EXPECT_EQ(made.error().kind, ErrorKind::geometry);
     const std::string text = made.error().message();
@@ -193,7 +196,7 @@ TEST(Draft, AHeightOutOfReachTellsTheLargest) {
     ASSERT_NE(at, std::string::npos) << text;
     const double largest = std::stod(text.substr(at + 8)) / 10;
     EXPECT_LT(largest, height);
-    EXPECT_TRUE(make_with_draft(model, {Method::ours, shape, .99 * largest}, {.4}));
+    EXPECT_TRUE(make_with_draft(model, {Method::layered, shape, .99 * largest}, {.4}));
   }
 }
 
@@ -202,20 +205,21 @@ TEST(Draft, HoldsOnABaseToo) {
   std::vector<double> base;
   for (const Vec3& p : model.surface().points) base.push_back(.3 * p.x() + .1 * p.y() * p.y());
   const DraftOptions options{1.2, base};
-  const auto made = make_with_draft(model, {Method::ours, default_shape(Method::ours), .45}, options);
+  const auto made = make_with_draft(model, {Method::layered, default_shape(Method::layered), .45}, options);
   ASSERT_TRUE(made) << made.error().message();
   EXPECT_EQ(made->height, .45);
   std::vector<double> whole = made->heights;
   for (std::size_t i = 0; i < whole.size(); ++i) whole[i] += base[i];
   EXPECT_LE(steepest(slopes_of(model, whole)), 1.2);
-  const auto steep = make_with_draft(model, {Method::ours, default_shape(Method::ours), .5}, {.2, base});
+  const auto steep =
+      make_with_draft(model, {Method::layered, default_shape(Method::layered), .5}, {.2, base});
   ASSERT_FALSE(steep);
   EXPECT_NE(steep.error().message().find("base"), std::string::npos);
 }
 
 TEST(Draft, HoldsForModelsOfControlPoints) {
   const ReliefModel model = model_of(figure(12000), Mode::subspace);
-  const auto made = make_with_draft(model, {Method::ours, default_shape(Method::ours), .35}, {.7});
+  const auto made = make_with_draft(model, {Method::layered, default_shape(Method::layered), .35}, {.7});
   ASSERT_TRUE(made) << made.error().message();
   EXPECT_LE(steepest(slopes_of(model, made->heights)), .7);
   EXPECT_EQ(made->height, .35);
@@ -223,7 +227,7 @@ TEST(Draft, HoldsForModelsOfControlPoints) {
 
 TEST(Draft, IsTheSameForAnyNumberOfThreads) {
   const ReliefModel model = model_of(figure());
-  const DraftOrder order{Method::ours, default_shape(Method::ours), .4};
+  const DraftOrder order{Method::layered, default_shape(Method::layered), .4};
   set_thread_count(1);
   const auto one = make_with_draft(model, order, {.8});
   set_thread_count(3);
@@ -235,10 +239,11 @@ TEST(Draft, IsTheSameForAnyNumberOfThreads) {
 
 TEST(Draft, ScalesWithTheCloud) {
   Cloud cloud = figure(6000);
-  const auto small = make_with_draft(model_of(cloud), {Method::ours, default_shape(Method::ours), .35}, {.8});
+  const auto small =
+      make_with_draft(model_of(cloud), {Method::layered, default_shape(Method::layered), .35}, {.8});
   for (Vec3& p : cloud.points) p *= 1024;
   const auto large =
-      make_with_draft(model_of(cloud), {Method::ours, default_shape(Method::ours), .35 * 1024}, {.8});
+      make_with_draft(model_of(cloud), {Method::layered, default_shape(Method::layered), .35 * 1024}, {.8});
   ASSERT_TRUE(small && large);
   for (std::size_t i = 0; i < small->heights.size(); ++i)
     ASSERT_NEAR(large->heights[i] / 1024, small->heights[i], 1e-4);
@@ -257,8 +262,8 @@ TEST(Draft, IsKeptInFiles) {
   const ReliefModel model = model_of(figure());
   ReliefOptions options;
   options.height_mm = 8;
-  for (const char* form : {"relief", "mirror", "die"})
-    for (const char* outline : {"rectangle", "circle", "none"})
+  for (const Form form : {Form::relief, Form::mirror, Form::die})
+    for (const Outline outline : {Outline::rectangle, Outline::circle, Outline::none})
       for (const bool is_simple : {false, true}) {
         options.draft_deg = is_simple ? 50 : 35;
         options.form = form;
@@ -268,7 +273,8 @@ TEST(Draft, IsKeptInFiles) {
         ASSERT_TRUE(made) << made.error().message();
         ASSERT_EQ(check_solid(made->solid), "");
         const double found = steepest_deg_in_stl(write_stl(made->solid), made->solid.front_triangles);
-        EXPECT_LE(found, 90 - *options.draft_deg + 1e-9) << form << " " << outline << " " << is_simple;
+        EXPECT_LE(found, 90 - *options.draft_deg + 1e-9)
+            << name_in(form_choices, form) << " " << name_in(outline_choices, outline) << " " << is_simple;
         EXPECT_NEAR(made->report.steepest_deg, found, 1e-9);
         EXPECT_NEAR(made->report.height_mm, 8, 1e-12);
         if (is_simple) {
@@ -283,22 +289,22 @@ TEST(Draft, RimsLeanAsMuch) {
   options.height_mm = 4;
   options.draft_deg = 40;
   options.rim_mm = 5;
-  for (const char* outline : {"rectangle", "round", "circle", "hexagon"})
-    for (const char* form : {"relief", "die"}) {
+  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::hexagon})
+    for (const Form form : {Form::relief, Form::die}) {
       options.outline = outline;
       options.form = form;
       const auto made = make_relief(model, options);
       ASSERT_TRUE(made) << made.error().message();
       EXPECT_EQ(check_solid(made->solid), "");
       const double found = steepest_deg_in_stl(write_stl(made->solid), made->solid.front_triangles);
-      EXPECT_LE(found, 50) << outline << " " << form;
+      EXPECT_LE(found, 50) << name_in(outline_choices, outline) << " " << name_in(form_choices, form);
     }
   options.rim_bevel_mm = 1;
-  EXPECT_EQ(make_relief(model, options).error().input, "--rim-bevel");
+  EXPECT_EQ(make_relief(model, options).error().input, "rim-bevel");
   options.rim_bevel_mm = {};
   options.rim_mm = 2;
   options.rim_height_mm = 4;
-  EXPECT_EQ(make_relief(model, options).error().input, "--rim");
+  EXPECT_EQ(make_relief(model, options).error().input, "rim");
 }
 
 TEST(Draft, WithoutAHeightTooAndNotForLithophanes) {
@@ -308,12 +314,12 @@ TEST(Draft, WithoutAHeightTooAndNotForLithophanes) {
   const auto made = make_relief(figure(6000), options);
   ASSERT_TRUE(made) << made.error().message();
   EXPECT_LE(made->report.steepest_deg, 30);
-  options.form = "lithophane";
-  EXPECT_NE(make_relief(figure(6000), options).error().message().find("--draft"), std::string::npos);
+  options.form = Form::lithophane;
+  EXPECT_NE(make_relief(figure(6000), options).error().message().find("draft"), std::string::npos);
 }
 
 TEST(SteepestSlope, OfARampAndOfAWall) {
-  Front ramp = test::flat_front({10, 10, 2, 2});
+  HeightFieldMesh ramp = test::flat_front({10, 10, 2, 2});
   ramp.points[4].z() = 5;  // 5 mm up over 5 mm
   Solid solid = make_plate(ramp, {}).value();
   EXPECT_NEAR(steepest_slope(solid), std::sqrt(2), 1e-6);
@@ -330,33 +336,28 @@ TEST(HoldDraft, TakesWhatRoundingAdds) {
     const ReliefModel model = model_of(cloud);
     Relief steep = relief_of(model, [&](double, double) { return random.uniform(0, .01); });
     const Relief limited = limit_draft(model, steep, {1}).value();
-    Front front{{}, model.surface().triangulation.triangles, model.surface().triangulation.hull};
+    HeightFieldMesh front{{}, model.surface().triangulation.triangles, model.surface().triangulation.hull};
     for (std::size_t i = 0; i < limited.heights.size(); ++i)
       front.points.emplace_back(model.surface().points[i].x(), model.surface().points[i].y(),
                                 limited.heights[i]);
     Solid solid = make_plate(front, {20, 3}).value();
-    const Box before = [&] {
-      Box box;
-      for (const Vec3& p : solid.points) box.extend(p);
-      return box;
-    }();
-    const auto moved = hold_draft(solid, 1);
+    const Box before = [&] { return Box::of(solid.points); }();
+    const auto moved = enforce_draft_in_float(solid, 1);
     RC_ASSERT(moved.has_value());
     RC_ASSERT(*moved < .001);
     RC_ASSERT(steepest_deg_in_stl(write_stl(solid), solid.front_triangles) <= 45);
-    Box after;
-    for (const Vec3& p : solid.points) after.extend(p);
+    const Box after = Box::of(solid.points);
     RC_ASSERT(after.min == before.min && after.max == before.max);
     RC_ASSERT(check_solid(solid).empty());
   }));
 }
 
 TEST(HoldDraft, RefusesAFrontThatIsTooSteep) {
-  Front peak = test::flat_front({10, 10, 2, 2});
+  HeightFieldMesh peak = test::flat_front({10, 10, 2, 2});
   peak.points[4].z() = 50;
   Solid solid = make_plate(peak, {}).value();
   const std::vector<Vec3> before = solid.points;
-  EXPECT_EQ(hold_draft(solid, 1).error().kind, ErrorKind::geometry);
+  EXPECT_EQ(enforce_draft_in_float(solid, 1).error().kind, ErrorKind::geometry);
   EXPECT_EQ(solid.points, before);
 }
 
@@ -369,7 +370,7 @@ TEST(HoldDraft, RefusesWhatRoundingDoesBetweenPointsThatStay) {
   solid.front_triangles = 1;
   ASSERT_LT(slope_of(solid.points[0], solid.points[1], solid.points[2]).slope.norm(), .995);
   ASSERT_GT(steepest_slope(solid), 1);
-  const auto moved = hold_draft(solid, 1);
+  const auto moved = enforce_draft_in_float(solid, 1);
   ASSERT_FALSE(moved);
   EXPECT_EQ(moved.error().kind, ErrorKind::geometry);
   EXPECT_NE(moved.error().message().find("single precision"), std::string::npos);

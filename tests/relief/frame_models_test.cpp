@@ -1,42 +1,47 @@
-// Frames of every model at hand: the generated samples, and real scans where there are any.
+// Frames of the generated samples, and of real scans where these are at hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 
-#include "relievo/io.h"
+#include "relievo/io/read.h"
 #include "relievo/relief/frame.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/surface.h"
+#include "support/shared_scans.h"
 
 namespace relievo {
 namespace {
 
-namespace fs = std::filesystem;
+const std::string sample_names[] = {"shell", "still_life", "green_man"};
+const std::string scan_names[] = {"armadillo",     "bimba",
+                                  "dragon",        "falcon",
+                                  "gargoyle",      "gutenberg",
+                                  "happy_buddha",  "happy_buddha_rawscans_front",
+                                  "horse",         "igea",
+                                  "lion_takanawa", "lion_takanawa_raw",
+                                  "nefertiti",     "scene_menagerie_front",
+                                  "squirrel"};
 
-std::vector<std::string> models() {
-  std::vector<std::string> names = {"shell", "still_life", "green_man"};
-  if (fs::is_directory(RELIEVO_SHARED_DATA))
-    for (const fs::directory_entry& entry : fs::directory_iterator(RELIEVO_SHARED_DATA))
-      if (entry.path().extension() == ".ply") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
+// A test for each sample and each scan; those of scans that are missing are skipped.
+class FrameOfModel : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const std::string name = GetParam(), file = name + ".ply";
+    if (std::ranges::find(sample_names, name) != std::end(sample_names))
+      cloud_ = make_sample(name, {100000}).value();
+    else if (test::has_shared(file))
+      cloud_ = read_cloud(test::shared_bytes(file), name)->cloud;
+    else
+      GTEST_SKIP() << test::missing_scan(file);
+  }
 
-Cloud cloud_of(const std::string& name) {
-  std::ifstream file(fs::path(RELIEVO_SHARED_DATA) / (name + ".ply"), std::ios::binary);
-  if (!file) return make_sample(name, {100000}).value();
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
-  return read_cloud(std::as_bytes(std::span(text)), name)->cloud;
-}
-
-class FrameOfModel : public testing::TestWithParam<std::string> {};
+  Cloud cloud_;
+};
 
 // Single precision against double.
 TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
-  const ReliefModel model = ReliefModel::prepare(find_surface(cloud_of(GetParam()), {}).value()).value();
+  const ReliefModel model = ReliefModel::prepare(find_surface(cloud_, {}).value()).value();
   FrameMaker maker(model);
   Frame frame;
   for (const Shape& shape : {Shape{{.05, 0}, .04}, Shape{Compression::from_alpha(4, .01), .02}}) {
@@ -53,7 +58,7 @@ TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
 
 // Heights in shares of L_d by saturations, as a slider goes through them. Heights out of reach are told.
 TEST_P(FrameOfModel, KeepsALockedHeight) {
-  const ReliefModel model = ReliefModel::prepare(find_surface(cloud_of(GetParam()), {}).value()).value();
+  const ReliefModel model = ReliefModel::prepare(find_surface(cloud_, {}).value()).value();
   FrameMaker maker(model);
   Frame frame;
   FrameOptions options;
@@ -72,7 +77,9 @@ TEST_P(FrameOfModel, KeepsALockedHeight) {
   EXPECT_GE(met, 6);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, FrameOfModel, testing::ValuesIn(models()),
+INSTANTIATE_TEST_SUITE_P(Samples, FrameOfModel, testing::ValuesIn(sample_names),
+                         [](const auto& model) { return model.param; });
+INSTANTIATE_TEST_SUITE_P(Models, FrameOfModel, testing::ValuesIn(scan_names),
                          [](const auto& model) { return model.param; });
 
 }  // namespace

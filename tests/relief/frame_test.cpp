@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -67,14 +68,6 @@ TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
   }
 }
 
-TEST(Frame, ShadingIsTheCosineToTheLight) {
-  FrameOptions options;
-  options.light = Vec3f(2, 0, 1);
-  const Frame frame = frame_of(options);
-  for (std::size_t i = 0; i < frame.normals.size(); ++i)
-    ASSERT_NEAR(frame.shading[i], std::max(0.F, frame.normals[i].dot(options.light.normalized())), 1e-5F);
-}
-
 TEST(Frame, AgreesWithTheExactReliefInLayersToo) {
   for (const double beta : {0.0, 1.0})
     for (const double u : {.3, 2.0}) {
@@ -90,15 +83,16 @@ TEST(Frame, AgreesWithTheExactReliefInLayersToo) {
     }
 }
 
-TEST(Frame, AreHeldAsTheirShapeSays) {
+TEST(Frame, AreCompressedAsTheirShapeSays) {
   FrameMaker maker(model());
   Frame frame;
   FrameOptions options;
   options.shape = layered_shape();
-  for (const std::optional<Hold>& hold : {std::optional<Hold>(), {{.6, .1}}, {{.9, .06}}, {}}) {
-    options.shape.hold = hold;
+  for (const std::optional<MembraneParams>& membrane :
+       {std::optional<MembraneParams>(), {{.6, .1}}, {{.9, .06}}, {}}) {
+    options.shape.membrane = membrane;
     maker.make(options, frame);
-    EXPECT_EQ(frame.options.shape.hold, hold.value_or(model().hold_at(1)));
+    EXPECT_EQ(frame.options.shape.membrane, membrane.value_or(model().membrane_at(1)));
     const Relief exact = model().make(options.shape);
     for (std::size_t i = 0; i < exact.heights.size(); ++i)
       ASSERT_NEAR(static_cast<double>(frame.heights[i]), exact.heights[i], 1e-4 * exact.height);
@@ -168,13 +162,40 @@ TEST(Frame, TellsThatAHeightIsOutOfReach) {
   EXPECT_LT(frame.height, highest);
 }
 
+// The tilt of the rim is taken away; the inside sinks with it, but keeps its slopes.
 TEST(Frame, AWiderBoundaryLowersTheRimOnly) {
   FrameOptions options;
   const Frame narrow = frame_of(options);
   options.shape.boundary_width = 8;
   const Frame wide = frame_of(options);
   EXPECT_LT(wide.height, narrow.height);
-  EXPECT_GT(wide.height, 0);
+  const Surface& surface = model().surface();
+  double narrow_tilt = 0, wide_tilt = 0, change = 0, inner_tilt = 0;
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const double distance = static_cast<double>(surface.boundary.distance[i]) / surface.rho;
+    const Vec2f before = narrow.normals[i].head<2>(), after = wide.normals[i].head<2>();
+    if (distance < 3) narrow_tilt += before.norm(), wide_tilt += after.norm();
+    if (distance > 24) inner_tilt += before.norm(), change += (after - before).norm();
+  }
+  EXPECT_LT(wide_tilt, .5 * narrow_tilt);
+  EXPECT_LT(change, .03 * inner_tilt);
+}
+
+TEST(Frame, KnowsItsLowestAndHighestPoints) {
+  FrameOptions options;
+  const auto expect_both = [&] {
+    const Frame frame = frame_of(options);
+    const auto [lowest, highest] = std::ranges::minmax(frame.heights);
+    EXPECT_EQ(frame.lowest, std::min(lowest, 0.F));
+    EXPECT_EQ(frame.highest, std::max(highest, 0.F));
+  };
+  expect_both();
+  options.shape = layered_shape();
+  expect_both();
+  options.height = .2;
+  expect_both();
+  options.base = std::make_shared<const std::vector<float>>(model().surface().points.size(), -3.F);
+  expect_both();
 }
 
 TEST(Frame, ABaseIsAddedToTheHeights) {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "relievo/core/parallel.h"
+#include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"
-#include "relievo/weights.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -28,13 +28,18 @@ Surface wavy(double length) {
       [=](double x, double) { return Vec2(a * k * std::cos(k * x), 0); }));
 }
 
+std::vector<PointLayers> layers_of(const Surface& surface) {
+  return normal_layers(surface.points, surface.normals);
+}
+
 // Root mean square of a layer, away from the rim.
 template <typename Layer>
 double size_of(const Surface& surface, Layer layer) {
+  const std::vector<PointLayers> layers = layers_of(surface);
   double sum = 0, n = 0;
   for (std::size_t i = 0; i < surface.points.size(); ++i)
     if (surface.points[i].head<2>().cwiseAbs().maxCoeff() < .7)
-      sum += static_cast<double>(layer(surface.layers[i]).squaredNorm()), ++n;
+      sum += static_cast<double>(layer(layers[i]).squaredNorm()), ++n;
   return std::sqrt(sum / n);
 }
 
@@ -43,19 +48,20 @@ Vec2f sum(const PointLayers& l) {
 }
 
 // What rounding leaves of the sum of four layers.
-constexpr float rounding = 4 * LayerXy::part;
+constexpr float rounding = 4 * LayerXy::unit;
 
 TEST(LayerXy, KeepsWhatItIsGivenToAPart) {
   for (const Vec2f& xy : {Vec2f(0, 0), Vec2f(1, -1), Vec2f(.12345F, -1.98765F), Vec2f(1e-6F, .5F)})
-    EXPECT_LE((Vec2f(LayerXy(xy)) - xy).cwiseAbs().maxCoeff(), LayerXy::part / 2);
-  EXPECT_LT((Vec2f(LayerXy({9, -9})) - Vec2f(2, -2)).norm(), 2 * LayerXy::part);
+    EXPECT_LE((Vec2f(LayerXy(xy)) - xy).cwiseAbs().maxCoeff(), LayerXy::unit / 2);
+  EXPECT_LT((Vec2f(LayerXy({9, -9})) - Vec2f(2, -2)).norm(), 2 * LayerXy::unit);
 }
 
 TEST(Layers, AddUpToTheNormal) {
   const Surface sphere = surface_of(test::sphere(20000, 1));
+  const std::vector<PointLayers> layers = layers_of(sphere);
   for (std::size_t i = 0; i < sphere.points.size(); ++i) {
     if (sphere.normals[i].z() < .6F) continue;
-    ASSERT_LT((sum(sphere.layers[i]) + sphere.normals[i].head<2>()).norm(), rounding);
+    ASSERT_LT((sum(layers[i]) + sphere.normals[i].head<2>()).norm(), rounding);
   }
 }
 
@@ -73,7 +79,7 @@ TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
   EXPECT_LT(kept(2), 2 * rounding);
 }
 
-TEST(Layers, HoldWhatTheirSizeSays) {
+TEST(Layers, ContainWhatTheirSizeSays) {
   const auto fine = [](const PointLayers& l) { return Vec2f(l.fine); };
   const auto middle = [](const PointLayers& l) { return Vec2f(l.middle); };
   const auto coarse = [](const PointLayers& l) { return Vec2f(l.coarse); };
@@ -89,9 +95,8 @@ TEST(Layers, HoldWhatTheirSizeSays) {
 TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
   const auto layers = [](int threads) {
     set_thread_count(threads);
-    const Surface s = surface_of(test::torus(20000, 1, .4));
     std::vector<Vec2f> all;
-    for (const PointLayers& l : s.layers)
+    for (const PointLayers& l : layers_of(surface_of(test::torus(20000, 1, .4))))
       all.insert(all.end(), {Vec2f(l.fine), Vec2f(l.middle), Vec2f(l.coarse), Vec2f(l.broad)});
     return all;
   };
@@ -99,7 +104,7 @@ TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-TEST(LayerWeights, AreEquationSixLayerByLayerTimesWhatLevellingHides) {
+TEST(LayerWeights, AreEquationSixPerLayerTimesTwoMinusTheShare) {
   for (const double u : {.1, 1.0, 5.0}) {
     const double share = .3 + .1 * u, more = 2 - share;
     const LayerWeights even = LayerWeights::of(u, 0, share);
@@ -107,18 +112,18 @@ TEST(LayerWeights, AreEquationSixLayerByLayerTimesWhatLevellingHides) {
     EXPECT_EQ(even.middle, even.fine);
     EXPECT_EQ(even.coarse, even.fine);
     EXPECT_EQ(even.broad, even.fine);
-    const LayerWeights held = LayerWeights::of(u, .04, share);
-    EXPECT_EQ(held.fine, even.fine);
-    EXPECT_LT(held.middle, held.fine);
-    EXPECT_LT(held.coarse, held.middle);
-    EXPECT_FLOAT_EQ(held.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-2.2)))));
+    const LayerWeights attenuated = LayerWeights::of(u, .04, share);
+    EXPECT_EQ(attenuated.fine, even.fine);
+    EXPECT_LT(attenuated.middle, attenuated.fine);
+    EXPECT_LT(attenuated.coarse, attenuated.middle);
+    EXPECT_FLOAT_EQ(attenuated.broad, static_cast<float>(more * (1 - std::exp(-u * std::exp(-2.2)))));
   }
   EXPECT_EQ(LayerWeights::of(infinity, .04, 1).broad, 1);
   EXPECT_EQ(LayerWeights::of(0, .04, .5).fine, 0);
-  EXPECT_EQ(LayerWeights::of(2, .04, .5).held, .5F);
+  EXPECT_EQ(LayerWeights::of(2, .04, .5).height_share, .5F);
 }
 
-// Kept in full, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
+// With weights of 1, a normal gives the surface's own slope; weighted, the slope of the normal that is left.
 TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   PointLayers layers;
   layers.fine = Vec2f(.3F, 0);
@@ -132,12 +137,11 @@ TEST(LayeredSlope, IsThatOfTheWeightedNormal) {
   EXPECT_EQ(flat.norm(), 0);
 }
 
-// Of a surface that is all but levelled, x and y are the slope; in between it is as steep as what stays of
-// it.
-TEST(LayeredSlope, ReckonsWithTheMembrane) {
+// At a height share of 0 the slope is (x, y) itself; in between it anticipates the tilt that is left.
+TEST(LayeredSlope, AnticipatesTheMembrane) {
   PointLayers layers;
   layers.coarse = Vec2f(.6F, -.2F);
-  const auto slope = [&](float held) { return layered_slope(layers, {1, 1, 1, 1, held}, 1.0, 100.0); };
+  const auto slope = [&](float share) { return layered_slope(layers, {1, 1, 1, 1, share}, 1.0, 100.0); };
   EXPECT_NEAR((slope(0) - Vec2(.6, -.2)).norm(), 0, 2 * rounding);
   EXPECT_NEAR((slope(.5F) - Vec2(.6, -.2) / std::sqrt(1 - .25 * .4)).norm(), 0, 2 * rounding);
 }
@@ -147,8 +151,8 @@ TEST(LayeredSlope, IsNeverSteeperThanAllowed) {
   for (const float x : {.2F, .96F, .9999F, 1.F, 1.9F}) {
     layers.coarse = Vec2f(0, x);
     for (const double most : {.1, 1.0, 4.0}) {
-      for (const float held : {.5F, 1.F}) {
-        const Vec2 slope = layered_slope(layers, {1, 1, 1, 1, held}, 1.0, most);
+      for (const float share : {.5F, 1.F}) {
+        const Vec2 slope = layered_slope(layers, {1, 1, 1, 1, share}, 1.0, most);
         EXPECT_LE(slope.norm(), most * (1 + 1e-12)) << x;
         EXPECT_GT(slope.y(), 0);
       }

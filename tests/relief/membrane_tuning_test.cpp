@@ -1,4 +1,4 @@
-#include "grip.h"
+#include "relief/membrane/membrane_tuning.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,9 @@
 #include "relievo/core/parallel.h"
 #include "relievo/quality/measures.h"
 #include "relievo/relief/baselines.h"
+#include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -31,54 +33,60 @@ const ReliefModel& model() {
   return it;
 }
 
-Relief relief_of(const ReliefModel& model, double height, std::optional<Hold> hold = {}) {
+Relief relief_of(const ReliefModel& model, double height, std::optional<MembraneParams> membrane = {}) {
   Shape shape = layered_shape();
-  shape.hold = hold;
+  shape.membrane = membrane;
   return model.make_at_height(height, shape, 1).value();
 }
 
 void expect_to_keep_what_compression_keeps(const ReliefModel& m) {
-  const Judge judge(m.surface());
+  const ReliefMetrics metrics(m.surface());
   for (const double share : {.0125, .025, .05}) {
     const double height = share * longer_side_of(m.surface().points);
-    const Measures ours = judge.measure(relief_of(m, height).heights);
-    const Measures rival = judge.measure(gradient_relief(m, height).heights);
-    EXPECT_GT(ours.detail[2], rival.detail[2] - .001) << share;
-    EXPECT_GT(ours.order, rival.order) << share;
-    EXPECT_GT(ours.shading, rival.shading) << share;
+    const Measures ours = metrics.measure(relief_of(m, height).heights);
+    const Measures baseline = metrics.measure(gradient_relief(m, height).heights);
+    EXPECT_GT(ours.detail[2], baseline.detail[2] - .001) << share;
+    EXPECT_GT(ours.order, baseline.order) << share;
+    EXPECT_GT(ours.shading, baseline.shading) << share;
   }
 }
 
-// What it is for, by the full measures.
-TEST(Grip, KeepsDetailAndOrderOfGradientDomainCompression) {
-  EXPECT_GT(model().hold_at(.25).reach, .199);
+// The purpose of the tuning, measured by the full metrics.
+TEST(MembraneTuning, KeepsDetailAndOrderOfGradientDomainCompression) {
   expect_to_keep_what_compression_keeps(model());
 }
 
-TEST(Grip, HoldsLooselyAndPullsHardWhereOrderNeedsIt) {
+// The green man needs weak compression and a strong pull to keep its order; the shell does not.
+TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
   const ReliefModel mask = model_of(make_sample("green_man", {60000}).value());
-  EXPECT_GT(mask.hold_at(.25).share, .78);
-  EXPECT_LT(mask.hold_at(1).reach, .06);
+  EXPECT_GT(mask.membrane_at(.25).height_share, 1.1 * model().membrane_at(.25).height_share);
+  EXPECT_LT(mask.membrane_at(1).pull_length, .5 * model().membrane_at(1).pull_length);
   expect_to_keep_what_compression_keeps(mask);
+  const double height = .0125 * longer_side_of(mask.surface().points);
+  const MembraneParams like_the_shell = model().membrane_at(relief_of(mask, height).shape.compression.u);
+  const ReliefMetrics metrics(mask.surface());
+  EXPECT_LT(metrics.measure(relief_of(mask, height, like_the_shell).heights).order,
+            metrics.measure(gradient_relief(mask, height).heights).order);
 }
 
-// One a fifth tighter loses detail or order.
-TEST(Grip, HoldsAsTightlyAsItMay) {
-  const Judge judge(model().surface());
+// With a share that is a fifth less, detail or order is lost.
+TEST(MembraneTuning, CompressesAsStronglyAsPossible) {
+  const ReliefMetrics metrics(model().surface());
   for (const double share : {.0125, .025}) {
     const double height = share * longer_side_of(model().surface().points);
     const Relief relief = relief_of(model(), height);
-    const Hold hold = *relief.shape.hold, tighter{.8 * hold.share, hold.reach};
-    const Measures held = judge.measure(relief.heights),
-                   more = judge.measure(relief_of(model(), height, tighter).heights),
-                   rival = judge.measure(gradient_relief(model(), height).heights);
-    EXPECT_TRUE(more.detail[2] < rival.detail[2] + .0004 || more.order < rival.order + .002) << share;
-    EXPECT_LT(more.detail[2], held.detail[2]);
+    const MembraneParams params = *relief.shape.membrane,
+                         stronger{.8 * params.height_share, params.pull_length};
+    const Measures tuned = metrics.measure(relief.heights),
+                   more = metrics.measure(relief_of(model(), height, stronger).heights),
+                   baseline = metrics.measure(gradient_relief(model(), height).heights);
+    EXPECT_TRUE(more.detail[2] < baseline.detail[2] + .0004 || more.order < baseline.order + .002) << share;
+    EXPECT_LT(more.detail[2], tuned.detail[2]);
   }
 }
 
-TEST(Grip, HeightsGrowWithU) {
-  EXPECT_EQ(model().hold_at(infinity).share, 1);
+TEST(MembraneTuning, HeightsGrowWithU) {
+  EXPECT_EQ(model().membrane_at(infinity).height_share, 1);
   const auto span = [&](double u) {
     Shape shape = layered_shape();
     shape.compression.u = u;
@@ -86,57 +94,58 @@ TEST(Grip, HeightsGrowWithU) {
   };
   double last = 0;
   for (double u = .05; u < 10; u *= 1.3) {
-    const Hold hold = model().hold_at(u);
-    EXPECT_GT(hold.share, .2);
-    EXPECT_LE(hold.share, 1);
-    EXPECT_GE(hold.reach, .0349);
-    EXPECT_LE(hold.reach, .2001);
+    const MembraneParams params = model().membrane_at(u);
+    EXPECT_GT(params.height_share, .2);
+    EXPECT_LE(params.height_share, 1);
+    EXPECT_GE(params.pull_length, .0349);
+    EXPECT_LE(params.pull_length, .2001);
     EXPECT_GT(span(u), last) << u;
     last = span(u);
   }
 }
 
-// At the u that holds are found for, too.
-TEST(Grip, IsContinuous) {
-  EXPECT_NEAR(model().hold_at(0).share, model().hold_at(1e-9).share, 1e-8);
+// The knots are included.
+TEST(MembraneTuning, IsContinuous) {
+  EXPECT_NEAR(model().membrane_at(0).height_share, model().membrane_at(1e-9).height_share, 1e-8);
   for (const double u : {.25, .625, 1.5625, 3.90625}) {
-    const Hold before = model().hold_at(u * (1 - 1e-9)), after = model().hold_at(u * (1 + 1e-9));
-    EXPECT_NEAR(before.share, after.share, 1e-7) << u;
-    EXPECT_NEAR(before.reach, after.reach, 1e-7) << u;
+    const MembraneParams before = model().membrane_at(u * (1 - 1e-9)),
+                         after = model().membrane_at(u * (1 + 1e-9));
+    EXPECT_NEAR(before.height_share, after.height_share, 1e-7) << u;
+    EXPECT_NEAR(before.pull_length, after.pull_length, 1e-7) << u;
   }
 }
 
-TEST(Grip, GivesWayToTheShapesHold) {
-  const Hold hold{.6, .1};
-  const Relief relief = relief_of(model(), .05, hold);
-  EXPECT_EQ(relief.shape.hold, hold);
+TEST(MembraneTuning, GivesWayToTheShapesMembrane) {
+  const MembraneParams params{.6, .1};
+  const Relief relief = relief_of(model(), .05, params);
+  EXPECT_EQ(relief.shape.membrane, params);
   EXPECT_NE(relief.heights, relief_of(model(), .05).heights);
   const Relief own = relief_of(model(), .05);
-  const std::vector<double> again = relief_of(model(), .05, own.shape.hold).heights;
+  const std::vector<double> again = relief_of(model(), .05, own.shape.membrane).heights;
   for (std::size_t i = 0; i < again.size(); ++i) ASSERT_NEAR(again[i], own.heights[i], 1e-3 * own.height);
 }
 
-TEST(Grip, IsNotForThePapersStyle) {
-  EXPECT_FALSE(model().make({{1, .01}, .02}).shape.hold);
+TEST(MembraneTuning, IsNotForThePapersStyle) {
+  EXPECT_FALSE(model().make({{1, .01}, .02}).shape.membrane);
 }
 
-TEST(Grip, DoesNotDependOnScale) {
+TEST(MembraneTuning, DoesNotDependOnScale) {
   Cloud cloud = figure();
   for (Vec3& p : cloud.points) p *= 1024;
   const ReliefModel large = model_of(cloud);
   for (const double u : {.3, 1.0, 3.0}) {
-    EXPECT_NEAR(large.hold_at(u).share, model().hold_at(u).share, 1e-3);
-    EXPECT_NEAR(large.hold_at(u).reach, model().hold_at(u).reach, 1e-3);
+    EXPECT_NEAR(large.membrane_at(u).height_share, model().membrane_at(u).height_share, 1e-3);
+    EXPECT_NEAR(large.membrane_at(u).pull_length, model().membrane_at(u).pull_length, 1e-3);
   }
 }
 
-TEST(Grip, IsTheSameInTheSubspace) {
+TEST(MembraneTuning, IsTheSameInTheSubspace) {
   const ReliefModel subspace = model_of(figure(), Mode::subspace);
-  for (const double u : {.3, 1.0, 3.0}) EXPECT_EQ(subspace.hold_at(u), model().hold_at(u)) << u;
+  for (const double u : {.3, 1.0, 3.0}) EXPECT_EQ(subspace.membrane_at(u), model().membrane_at(u)) << u;
 }
 
-// On a dome nothing that holds broad forms back keeps the order.
-TEST(Grip, ComesNearestWhereItCannotKeepAll) {
+// On a dome nothing that attenuates broad forms keeps the order.
+TEST(MembraneTuning, ComesNearestWhereItCannotKeepAll) {
   const auto dome = [](double x, double y) {
     return .8 - .4 * (x * x + y * y) + .06 * std::sin(14 * x) * std::sin(11 * y);
   };
@@ -144,24 +153,29 @@ TEST(Grip, ComesNearestWhereItCannotKeepAll) {
     constexpr double d = 1e-5;
     return Vec2(dome(x + d, y) - dome(x - d, y), dome(x, y + d) - dome(x, y - d)) / (2 * d);
   }));
-  const Judge judge(m.surface());
+  const ReliefMetrics metrics(m.surface());
   const Relief relief = relief_of(m, .05);
-  const Measures ours = judge.measure(relief.heights), rival = judge.measure(gradient_relief(m, .05).heights);
-  ASSERT_LT(ours.order, rival.order - .02);
-  EXPECT_GT(ours.detail[2], rival.detail[2] - .001);
-  const Hold own = *relief.shape.hold;
-  for (const Hold& hold :
-       {Hold{.4, .08}, {.7, .2}, {.7, .05}, {.85 * own.share, own.reach}, {own.share, .7 * own.reach}}) {
-    const Measures other = judge.measure(relief_of(m, .05, hold).heights);
-    EXPECT_TRUE(other.order < ours.order + .01 || other.detail[2] < rival.detail[2] + .001) << hold.share;
+  const Measures ours = metrics.measure(relief.heights),
+                 baseline = metrics.measure(gradient_relief(m, .05).heights);
+  ASSERT_LT(ours.order, baseline.order - .02);
+  EXPECT_GT(ours.detail[2], baseline.detail[2] - .001);
+  const MembraneParams own = *relief.shape.membrane;
+  for (const MembraneParams& params : {MembraneParams{.4, .08},
+                                       {.7, .2},
+                                       {.7, .05},
+                                       {.85 * own.height_share, own.pull_length},
+                                       {own.height_share, .7 * own.pull_length}}) {
+    const Measures other = metrics.measure(relief_of(m, .05, params).heights);
+    EXPECT_TRUE(other.order < ours.order + .01 || other.detail[2] < baseline.detail[2] + .001)
+        << params.height_share;
   }
 }
 
-TEST(Grip, CanBeCancelled) {
+TEST(MembraneTuning, CanBeCancelled) {
   for (const Mode mode : {Mode::exact, Mode::subspace}) {
     Progress* self = nullptr;
     Progress progress([&](std::string_view stage, double) {
-      if (stage == "hold") self->cancel();
+      if (stage == "tuning") self->cancel();
     });
     self = &progress;
     const auto m = ReliefModel::prepare(find_surface(figure(), {}).value(), &progress, mode);
@@ -170,24 +184,34 @@ TEST(Grip, CanBeCancelled) {
   }
 }
 
-// Too narrow, too few points, level: no errors.
-TEST(Grip, IsTheUsualWhereNothingCanBeMeasured) {
+// A strip is too narrow, a sheet has too few points or nothing to compress: none of them is an error.
+TEST(MembraneTuning, HasItsDefaultWhereNothingCanBeMeasured) {
   Cloud strip = test::sheet(3000, 1, 0);
   for (Vec3& p : strip.points) p.x() *= .005;
-  for (const Cloud& cloud : {strip, test::sheet(3000, 1, 0), test::sheet(60000, 1, 0)})
-    EXPECT_NEAR(model_of(cloud).hold_at(.25).share, 1 - .5 * std::exp(-.25 * .25), 1e-12);
+  const MembraneTuning initial;
+  for (const Cloud& cloud : {strip, test::sheet(3000, 1, 0), test::sheet(60000, 1, 0)}) {
+    const ReliefModel m = model_of(cloud);
+    for (const double u : {0.0, .25, 1.0, 10.0}) EXPECT_EQ(m.membrane_at(u), initial.at(u)) << u;
+  }
+  EXPECT_NE(model().membrane_at(.25), initial.at(.25));
+  double last = 0;
+  for (const double u : {.25, 1.0, 3.0, 10.0}) {
+    EXPECT_GT(initial.at(u).height_share, last);
+    EXPECT_LT(initial.at(u).height_share, 1);
+    last = initial.at(u).height_share;
+  }
 }
 
-TEST(Grip, HasTheSameBitsForAnyNumberOfThreads) {
-  const auto holds = [](int threads) {
+TEST(MembraneTuning, HasTheSameBitsForAnyNumberOfThreads) {
+  const auto params = [](int threads) {
     set_thread_count(threads);
     const ReliefModel m = model_of(test::torus(60000, 1, .4));
-    std::vector<Hold> all;
-    for (const double u : {.1, .4, 1.0, 5.0}) all.push_back(m.hold_at(u));
+    std::vector<MembraneParams> all;
+    for (const double u : {.1, .4, 1.0, 5.0}) all.push_back(m.membrane_at(u));
     return all;
   };
-  const std::vector<Hold> one = holds(1);
-  EXPECT_EQ(one, holds(3));
+  const std::vector<MembraneParams> one = params(1);
+  EXPECT_EQ(one, params(3));
   set_thread_count(0);
 }
 

@@ -1,4 +1,4 @@
-#include "relievo/relief.h"
+#include "relievo/relief/relief.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -97,6 +98,13 @@ TEST(Relief, RisesWithU) {
   }
 }
 
+// Names a case by its height, in millionths of the diagonal, and its beta, in hundredths.
+std::string share_and_beta(const testing::TestParamInfo<std::tuple<double, double>>& test) {
+  const auto [share, beta] = test.param;
+  return "Share" + std::to_string(std::lround(share * 1e6)) + "ppm_Beta" +
+         std::to_string(std::lround(beta * 100)) + "pct";
+}
+
 class ReliefAtHeight : public testing::TestWithParam<std::tuple<double, double>> {};
 
 TEST_P(ReliefAtHeight, IsTheHeightAsked) {
@@ -112,7 +120,8 @@ TEST_P(ReliefAtHeight, IsTheHeightAsked) {
 
 INSTANTIATE_TEST_SUITE_P(Grid, ReliefAtHeight,
                          testing::Combine(testing::Values(.09, .05, .025, .0125, 1e-6),
-                                          testing::Values(0, .01, 1, 5, 50, 100)));
+                                          testing::Values(0, .01, 1, 5, 50, 100)),
+                         share_and_beta);
 
 TEST(Relief, TellsTheLargestHeightThatCanBeReached) {
   const ReliefModel model = model_of(figure());
@@ -158,7 +167,7 @@ TEST(Relief, ModesHaveNames) {
   EXPECT_EQ(parse_mode("exact"), Mode::exact);
   EXPECT_EQ(parse_mode("subspace"), Mode::subspace);
   EXPECT_EQ(parse_mode("auto"), Mode::automatic);
-  EXPECT_NE(parse_mode("fast").error().message().find("--mode: expected exact, subspace or auto"),
+  EXPECT_NE(parse_mode("fast").error().message().find("mode: expected one of exact, subspace or auto"),
             std::string::npos);
 }
 
@@ -192,7 +201,8 @@ TEST_P(LayeredReliefAtHeight, IsTheHeightAsked) {
 
 INSTANTIATE_TEST_SUITE_P(Grid, LayeredReliefAtHeight,
                          testing::Combine(testing::Values(.09, .05, .025, .0125, 1e-6),
-                                          testing::Values(0, .01, 1)));
+                                          testing::Values(0, .01, 1)),
+                         share_and_beta);
 
 TEST(Relief, OfTwoSheetsLosesTheJumpBetweenThem) {
   for (const double distance : {.2, 1.0, 30.0}) {
@@ -235,7 +245,7 @@ TEST(Relief, DoesNotChangeWithTheOrigin) {
 TEST(Relief, TurnsWithTheCloud) {
   const Cloud cloud = figure();
   View quarter;
-  quarter.rotation << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  quarter.R_view_model << 0, -1, 0, 1, 0, 0, 0, 0, 1;
   const ReliefModel model = model_of(cloud), turned = model_of(cloud, quarter);
   EXPECT_NEAR(static_cast<double>(turned.surface().points.size()),
               static_cast<double>(model.surface().points.size()),

@@ -12,7 +12,7 @@ namespace {
 // Points with 0 to 9 links each to any others, and a slope and a height each.
 struct Linked {
   std::vector<Index> begin = {0};
-  std::vector<PointLink> links;
+  std::vector<MatrixEntry> links;
   std::vector<Vec2f> slopes;
   std::vector<float> heights;
 
@@ -28,19 +28,19 @@ struct Linked {
     }
   }
 
-  std::span<const PointLink> of(std::size_t i) const {
+  std::span<const MatrixEntry> of(std::size_t i) const {
     return std::span(links).subspan(begin[i], begin[i + 1] - begin[i]);
   }
 
   std::vector<float> divergence() const {
     std::vector<float> sums(heights.size(), -1.F);
-    PointLinks(begin, links).divergence(slopes, sums);
+    SlicedEllMatrix(begin, links).divergence(slopes, sums);
     return sums;
   }
 
-  std::pair<std::vector<Vec3f>, std::vector<float>> normals(const Vec3f& light) const {
-    std::pair<std::vector<Vec3f>, std::vector<float>> out(heights.size(), heights.size());
-    PointLinks(begin, links).normals(heights, light, {out.first, out.second});
+  std::vector<Vec3f> normals() const {
+    std::vector<Vec3f> out(heights.size());
+    SlicedEllMatrix(begin, links).normals(heights, out);
     return out;
   }
 };
@@ -52,8 +52,8 @@ TEST_P(PointLinksOf, GiveTheDivergence) {
   const std::vector<float> sums = linked.divergence();
   for (std::size_t i = 0; i < sums.size(); ++i) {
     float expected = 0;
-    for (const PointLink& link : linked.of(i))
-      expected += (linked.slopes[i] + linked.slopes[link.other]).dot(link.pull);
+    for (const MatrixEntry& link : linked.of(i))
+      expected += (linked.slopes[i] + linked.slopes[link.other]).dot(link.coefficient);
     ASSERT_NEAR(sums[i], expected, 1e-5F);
   }
 }
@@ -63,30 +63,29 @@ TEST_P(PointLinksOf, GiveTheSameDivergenceInDouble) {
   std::vector<Vec2> slopes;
   for (const Vec2f& s : linked.slopes) slopes.push_back(s.cast<double>());
   std::vector<double> sums(slopes.size(), -1);
-  PointLinks(linked.begin, linked.links).divergence(slopes, sums);
+  SlicedEllMatrix(linked.begin, linked.links).divergence(slopes, sums);
   for (std::size_t i = 0; i < sums.size(); ++i) {
     double expected = 0;
-    for (const PointLink& link : linked.of(i))
-      expected += (slopes[i] + slopes[link.other]).dot(link.pull.cast<double>());
+    for (const MatrixEntry& link : linked.of(i))
+      expected += (slopes[i] + slopes[link.other]).dot(link.coefficient.cast<double>());
     ASSERT_NEAR(sums[i], expected, 1e-14);
   }
 }
 
-TEST_P(PointLinksOf, GiveNormalsAndTheirShading) {
+TEST_P(PointLinksOf, GiveNormals) {
   const Linked linked(GetParam());
-  const Vec3f light = Vec3f(1, -2, .5F).normalized();
-  const auto [normals, shading] = linked.normals(light);
+  const std::vector<Vec3f> normals = linked.normals();
   for (std::size_t i = 0; i < normals.size(); ++i) {
     Vec3f expected = Vec3f::UnitZ();
-    for (const PointLink& link : linked.of(i)) expected.head<2>() += linked.heights[link.other] * link.pull;
+    for (const MatrixEntry& link : linked.of(i))
+      expected.head<2>() += linked.heights[link.other] * link.coefficient;
     ASSERT_LT((normals[i] - expected.normalized()).norm(), 1e-5F);
-    ASSERT_NEAR(shading[i], std::max(0.F, expected.normalized().dot(light)), 1e-5F);
   }
 }
 
 TEST_P(PointLinksOf, GiveTheSameBitsForAnyThreadsAndInstructions) {
   const Linked linked(GetParam());
-  const auto all = [&] { return std::pair(linked.divergence(), linked.normals(Vec3f::UnitX())); };
+  const auto all = [&] { return std::pair(linked.divergence(), linked.normals()); };
   set_thread_count(1);
   const auto expected = all();
   set_thread_count(3);

@@ -13,9 +13,10 @@
 #include "relief/subspace/control_mesh.h"
 #include "relief/subspace/region_samples.h"
 #include "relievo/core/parallel.h"
-#include "relievo/io.h"
-#include "relievo/relief.h"
+#include "relievo/io/read.h"
+#include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -106,7 +107,7 @@ TEST(Subspace, TakesReferenceHeightsThatAreKnown) {
   const Surface surface = surface_of(figure());
   const std::vector<double> z0 = ReliefModel::prepare(surface)->make({keep_all, 0}).heights;
   const Shape shape{{.3, .5}, .02};
-  EXPECT_EQ(heights_of(surface, *SubspaceModel::prepare(surface, {}, z0), shape),
+  EXPECT_EQ(heights_of(surface, *SubspaceModel::prepare(surface, {}, {z0, {}}), shape),
             heights_of(surface, *SubspaceModel::prepare(surface), shape));
 }
 
@@ -145,7 +146,8 @@ TEST_P(SubspaceSample, IsCloseToTheExactRelief) {
   EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .02);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, SubspaceSample, testing::Values("still_life", "green_man", "shell"));
+INSTANTIATE_TEST_SUITE_P(All, SubspaceSample, testing::Values("still_life", "green_man", "shell"),
+                         [](const auto& test) { return std::string(test.param); });
 
 TEST(Subspace, IsCloseToTheExactReliefOfCleanScans) {
   for (const char* name : {"armadillo", "igea", "horse", "nefertiti", "falcon", "gutenberg"}) {

@@ -8,7 +8,7 @@
 
 #include "relief/weight_table.h"
 #include "relievo/core/text.h"
-#include "relievo/weights.h"
+#include "relievo/relief/weights.h"
 
 namespace relievo {
 namespace {
@@ -59,7 +59,7 @@ TEST(ToneCurve, StaysBetweenNeighbouringPoints) {
 TEST(ToneCurve, WrongTextsAreNamed) {
   for (const char* text :
        {"1", "a,b", "0;0", "0,0,0", "0,1.5", "-1,0", "0,nan", "0.5,0;0.5,1", "1,0;0,1", ""})
-    EXPECT_NE(complaint(text).find("--tone: expected"), std::string::npos) << text;
+    EXPECT_NE(complaint(text).find("tone: expected"), std::string::npos) << text;
   std::string many;
   for (int i = 0; i < 17; ++i) many += cat(i > 0 ? ";" : "", i / 20.0, ",0");
   EXPECT_NE(complaint(many).find("1 to 16 points"), std::string::npos);

@@ -1,4 +1,4 @@
-#include "relievo/weights.h"
+#include "relievo/relief/weights.h"
 
 #include <gtest/gtest.h>
 
@@ -72,8 +72,8 @@ TEST(BoundaryWeight, IsEquationSeven) {
 TEST(CompressedSlope, KeepsTheSurfaceAtWeightOne) {
   const Vec2 slope(.7, -1.3);
   const Vec3 normal = Vec3(-slope.x(), -slope.y(), 1).normalized();
-  EXPECT_LT((compressed_slope(normal, 1, 4) - slope).norm(), 1e-12);
-  EXPECT_EQ(compressed_slope(normal, 0, 4), Vec2(0, 0));
+  EXPECT_LT((compressed_slope(normal, 1.0, 4) - slope).norm(), 1e-12);
+  EXPECT_EQ(compressed_slope(normal, 0.0, 4), Vec2(0, 0));
 }
 
 // n~ of equation (5) is normal to the compressed surface.
@@ -88,10 +88,10 @@ TEST(CompressedSlope, IsEquationFive) {
 }
 
 TEST(CompressedSlope, IsNeverSteeperThanAllowed) {
-  const Vec2 edge_on = compressed_slope(Vec3(-1, 0, 0), 1, 4);
+  const Vec2 edge_on = compressed_slope(Vec3(-1, 0, 0), 1.0, 4);
   EXPECT_NEAR(edge_on.x(), 4, 1e-12);
   EXPECT_EQ(edge_on.y(), 0);
-  EXPECT_NEAR(compressed_slope(Vec3(.8, .59, .1).normalized(), 1, 2.5).norm(), 2.5, 1e-12);
+  EXPECT_NEAR(compressed_slope(Vec3(.8, .59, .1).normalized(), 1.0, 2.5).norm(), 2.5, 1e-12);
 }
 
 }  // namespace

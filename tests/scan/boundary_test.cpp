@@ -1,4 +1,4 @@
-#include "relievo/boundary.h"
+#include "relievo/scan/boundary.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,5 @@
-#include "relievo/depth_image.h"
+#include "relievo/scan/depth_image.h"
+#include "relievo/io/read.h"
 
 #include <gtest/gtest.h>
 
@@ -72,8 +73,8 @@ Errors errors_of(const Cloud& cloud, double scale) {
 
 DepthOptions as_heights() {
   DepthOptions options;
-  options.values = "height";
-  options.background = "keep";
+  options.values = DepthValues::height;
+  options.background = Background::keep;
   return options;
 }
 
@@ -171,11 +172,11 @@ TEST(DepthCloud, DepthInverseDepthAndHeightAgree) {
     return 4 - (d > 0 ? .5 * std::sqrt(d) : 0);
   };
   DepthOptions options;
-  options.background = "keep";
+  options.background = Background::keep;
   options.camera = DepthCamera{264, 264, 119.5, 89.5};
   const auto by_depth = depth_cloud(image_of(depth, 0), options);
   options.camera.reset();
-  options.values = "inverse";  // its assumed camera is the same: 1.1 times 240
+  options.values = DepthValues::inverse;  // its assumed camera is the same: 1.1 times 240
   const auto by_inverse = depth_cloud(image_of([&](int c, int r) { return 7 / depth(c, r); }, 0), options);
   ASSERT_TRUE(by_depth && by_inverse);
   ASSERT_EQ(by_depth->cloud.size(), by_inverse->cloud.size());
@@ -215,7 +216,7 @@ TEST(DepthCloud, RampsOfABlurredOutlineAreCut) {
 
 TEST(DepthCloud, BackgroundIsTakenOutWhereThereIsOne) {
   DepthOptions options;
-  options.values = "height";
+  options.values = DepthValues::height;
   const auto made = depth_cloud(blurred_disc(2), options);
   ASSERT_TRUE(made);
   const double disc = std::numbers::pi * 50 * 50;
@@ -232,7 +233,7 @@ TEST(DepthCloud, HolesInsideBecomeFlatPointsAndOpenOnesNone) {
     return is_hole || is_open ? 0.0 : 1000 + .1 * c;
   };
   DepthOptions options;
-  options.background = "keep";
+  options.background = Background::keep;
   const auto made = depth_cloud(image_of(value, 1), options);
   ASSERT_TRUE(made);
   EXPECT_EQ(made->cloud.size(), 201U * height);
@@ -254,16 +255,22 @@ TEST(DepthCloud, LargeImagesAreReduced) {
   EXPECT_EQ(made->cloud.size(), 80U * 60);
 }
 
+TEST(DepthTexts, AreReadOnce) {
+  const auto options = parse_depth({"inverse", 2, "keep"});
+  ASSERT_TRUE(options);
+  EXPECT_EQ(options->values, DepthValues::inverse);
+  EXPECT_EQ(options->range, 2);
+  EXPECT_EQ(options->background, Background::keep);
+  EXPECT_EQ(parse_depth({"far", 1, "auto"}).error().message(),
+            "depth-values: expected one of depth, height or inverse, found 'far'");
+  EXPECT_EQ(parse_depth({"depth", 1, "cut"}).error().input, "background");
+  EXPECT_EQ(parse_depth({"depth", 11, "auto"}).error().input, "depth-range");
+}
+
 TEST(DepthCloud, RefusesWhatItCannotUse) {
   DepthOptions options;
-  options.values = "far";
-  EXPECT_EQ(depth_cloud(image_of(hills, 0), options).error().input, "--depth-values");
-  options = {};
-  options.background = "cut";
-  EXPECT_EQ(depth_cloud(image_of(hills, 0), options).error().input, "--background");
-  options = {};
   options.range = 0;
-  EXPECT_EQ(depth_cloud(image_of(hills, 0), options).error().input, "--depth-range");
+  EXPECT_EQ(depth_cloud(image_of(hills, 0), options).error().input, "depth-range");
   EXPECT_EQ(depth_cloud(image_of([](int, int) { return 0; }, 1), {}).error().kind, ErrorKind::geometry);
   Progress progress;
   progress.cancel();
@@ -292,7 +299,7 @@ TEST(ParseCamera, TakesFourOrNineNumbers) {
   EXPECT_EQ(matrix->cy, 240);
   for (const char* text :
        {"", "1,2,3", "1,2,3,x", "0,1,2,3", "1,-1,2,3", "1 2 3 4 5", "1 2 3 4 5 6 7 8 9 10", "nan,1,2,3"})
-    EXPECT_EQ(parse_camera(text).error().input, "--camera") << text;
+    EXPECT_EQ(parse_camera(text).error().input, "camera") << text;
 }
 
 }  // namespace

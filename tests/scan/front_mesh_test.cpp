@@ -1,4 +1,4 @@
-#include "front_mesh.h"
+#include "scan/front_mesh.h"
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ Cloud broken_slope(double half_gap, double depth) {
   std::vector<Index> in_gap;
   for (Index i = 0; i < slope.size(); ++i)
     if (std::abs(slope.points[i].x()) < half_gap) in_gap.push_back(i);
-  Cloud broken = without(slope, in_gap);
+  Cloud broken = erase_points(slope, in_gap);
   for (Vec3& p : broken.points)
     if (p.x() > 0) p.z() -= depth;
   return broken;

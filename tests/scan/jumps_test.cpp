@@ -1,12 +1,14 @@
-#include "jumps.h"
+#include "scan/jumps.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "membrane.h"
-#include "relievo/relief.h"
+#include "relief/membrane/height_correction.h"
+#include "relievo/relief/heights.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -90,14 +92,14 @@ TEST(Jumps, AreWhatModelsHeightsAndMembranesYieldAt) {
 TEST(Jumps, LetTheMembraneStep) {
   const Surface surface = sheets();
   const auto step = [&](std::span<const float> weights) {
-    const Membrane membrane(surface, weights);
-    Membrane::Workspace workspace = membrane.make_workspace();
+    const HeightCorrection correction(surface, weights);
+    HeightCorrection::Workspace workspace = correction.make_workspace();
     const std::vector<double> z(surface.points.size(), .05);
-    membrane.spread(std::span(z), {.1, .085}, workspace);
+    correction.fit(std::span(z), {.1, .085}, workspace);
     double inside = 0, outside = 0, insiders = 0, outsiders = 0;
     for (std::size_t i = 0; i < z.size(); ++i) {
       const double far = surface.points[i].head<2>().cwiseAbs().maxCoeff();
-      const auto b = static_cast<double>(membrane.at(i, workspace));
+      const auto b = static_cast<double>(correction.at(i, workspace));
       if (far > .35 && far < .37) inside += b, ++insiders;
       if (far > .43 && far < .45) outside += b, ++outsiders;
     }

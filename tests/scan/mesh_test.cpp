@@ -1,4 +1,5 @@
-#include "relievo/mesh.h"
+#include "relievo/scan/mesh.h"
+#include "relievo/scan/scan_file.h"
 
 #include <gtest/gtest.h>
 

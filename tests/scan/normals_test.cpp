@@ -1,9 +1,9 @@
-#include "relievo/normals.h"
+#include "relievo/scan/normals.h"
 
 #include <gtest/gtest.h>
 
-#include "relievo/view.h"
-#include "relievo/visible.h"
+#include "relievo/scan/view.h"
+#include "relievo/scan/visible.h"
 #include "support/shapes.h"
 
 namespace relievo {

@@ -1,4 +1,4 @@
-#include "thin.h"
+#include "scan/subsample.h"
 
 #include <gtest/gtest.h>
 
@@ -9,31 +9,31 @@
 namespace relievo {
 namespace {
 
-Cloud thinned(const Cloud& cloud, double wanted) {
-  return relievo::thinned(cloud, measure_spacing(cloud), wanted);
+Cloud subsample(const Cloud& cloud, double wanted) {
+  return relievo::subsample(cloud, measure_spacing(cloud), wanted);
 }
 
-TEST(Thinned, HasAboutTheSpacingAskedFor) {
+TEST(Subsample, HasAboutTheSpacingAskedFor) {
   const Cloud cloud = test::sphere(60000, 1);
   const double own = measure_spacing(cloud).rho;
   for (const double times : {1.2, 1.4, 2.0, 4.0})
-    EXPECT_NEAR(measure_spacing(thinned(cloud, times * own)).rho, times * own, .08 * times * own) << times;
+    EXPECT_NEAR(measure_spacing(subsample(cloud, times * own)).rho, times * own, .08 * times * own) << times;
 }
 
-TEST(Thinned, KeepsPointsOfTheCloudAndNoTwoClose) {
+TEST(Subsample, KeepsPointsOfTheCloudAndNoTwoClose) {
   const Cloud cloud = test::torus(20000, 1, .4);
-  const Cloud thin = thinned(cloud, .1);
+  const Cloud thin = subsample(cloud, .1);
   for (std::size_t i = 0; i < thin.size(); ++i) {
     EXPECT_NE(std::ranges::find(cloud.points, thin.points[i]), cloud.points.end());
     for (std::size_t j = 0; j < i; ++j) ASSERT_GT((thin.points[i] - thin.points[j]).norm(), .05);
   }
 }
 
-TEST(Thinned, AveragesNormalsAndColours) {
+TEST(Subsample, AveragesNormalsAndColours) {
   Cloud cloud = test::noisy(test::sheet(100000, 1, 0), 0, .2);
   for (std::size_t i = 0; i < cloud.size(); ++i)
     cloud.colours.push_back({static_cast<std::uint8_t>(i % 2 ? 200 : 100), 7, 7});
-  const Cloud thin = thinned(cloud, .1);
+  const Cloud thin = subsample(cloud, .1);
   ASSERT_GT(thin.size(), 100U);
   for (std::size_t i = 0; i < thin.size(); ++i) {
     EXPECT_GT(thin.normals[i].z(), .99F);
@@ -42,19 +42,19 @@ TEST(Thinned, AveragesNormalsAndColours) {
   }
 }
 
-TEST(Thinned, BothSidesOfAThinWallStay) {
+TEST(Subsample, BothSidesOfAThinWallStay) {
   const Cloud wall = test::sheet(20000, 1, 0);
   Cloud back = test::sheet(20000, 1, -1e-3, 9);
   for (Vec3f& n : back.normals) n = -n;
-  const Cloud thin = thinned(test::joined(wall, back), .1);
+  const Cloud thin = subsample(test::joined(wall, back), .1);
   const auto facing = std::ranges::count_if(thin.normals, [](const Vec3f& n) { return n.z() > .9F; });
   const auto away = std::ranges::count_if(thin.normals, [](const Vec3f& n) { return n.z() < -.9F; });
   EXPECT_EQ(static_cast<std::size_t>(facing + away), thin.size());
   EXPECT_NEAR(static_cast<double>(facing), static_cast<double>(away), .1 * static_cast<double>(facing));
 }
 
-TEST(Thinned, OfNothingIsNothing) {
-  EXPECT_EQ(thinned({}, 1).size(), 0U);
+TEST(Subsample, OfNothingIsNothing) {
+  EXPECT_EQ(subsample({}, 1).size(), 0U);
 }
 
 }  // namespace

@@ -74,7 +74,7 @@ TEST(Surface, RunsItsStagesInOrderAndCanBeCancelled) {
   const Cloud cloud = test::sphere(5000, 1);
   ASSERT_TRUE(find_surface(cloud, {}, {}, &watched));
   EXPECT_EQ(stages, (std::vector<std::string>{"view", "spacing", "normals", "visible points", "curvature",
-                                              "triangulation", "boundary", "layers"}));
+                                              "triangulation", "boundary"}));
   Progress* self = nullptr;
   Progress cancelled([&](std::string_view stage, double) {
     if (stage == "curvature") self->cancel();

@@ -1,4 +1,4 @@
-#include "relievo/visible.h"
+#include "relievo/scan/visible.h"
 
 #include <gtest/gtest.h>
 
@@ -88,7 +88,7 @@ TEST(Visible, IsTheSameForAnyOrder) {
 }
 
 // A box whose front has a hole: through it one sees the inside of its back, which faces away.
-TEST(FillerPoints, StandInWhereOnlyTheOtherSideWasScanned) {
+TEST(HoleFillPoints, StandInWhereOnlyTheOtherSideWasScanned) {
   Cloud front;
   for (const Vec3& p : test::sheet(40000, 1, 0).points)
     if (p.head<2>().norm() > .2) test::add(front, p, Vec3::UnitZ());
@@ -97,27 +97,27 @@ TEST(FillerPoints, StandInWhereOnlyTheOtherSideWasScanned) {
   const Cloud box = test::joined(front, back);
   const Spacing spacing = measure_spacing(box);
   const std::vector<Index> seen = visible_points(box, spacing);
-  const std::vector<Index> fillers = filler_points(box, spacing, seen);
+  const std::vector<Index> hole_fill = hole_fill_points(box, spacing, seen);
   EXPECT_EQ(share(seen, front.size(), box.size()), 0);
   const double squares = 3.14 * .2 * .2 / (spacing.rho * spacing.rho);
-  EXPECT_GT(static_cast<double>(fillers.size()), .3 * squares);
-  EXPECT_LT(static_cast<double>(fillers.size()), 1.2 * squares);
-  for (const Index i : fillers) {
+  EXPECT_GT(static_cast<double>(hole_fill.size()), .3 * squares);
+  EXPECT_LT(static_cast<double>(hole_fill.size()), 1.2 * squares);
+  for (const Index i : hole_fill) {
     EXPECT_GE(i, front.size());
     EXPECT_LT(box.points[i].head<2>().norm(), .2 - spacing.rho);
   }
 }
 
-TEST(FillerPoints, AreNotNeededOnAClosedModel) {
+TEST(HoleFillPoints, AreNotNeededOnAClosedModel) {
   const Cloud torus = test::torus(30000, 1, .4);
   const Spacing spacing = measure_spacing(torus);
-  EXPECT_TRUE(filler_points(torus, spacing, visible_points(torus, spacing)).empty());
+  EXPECT_TRUE(hole_fill_points(torus, spacing, visible_points(torus, spacing)).empty());
 }
 
 TEST(Visible, OfNothingIsNothing) {
   const Cloud no_normals{test::sheet(1000, 1, 0).points, {}};
   EXPECT_TRUE(visible(no_normals).empty());
-  EXPECT_TRUE(filler_points(no_normals, measure_spacing(no_normals), std::vector<Index>{0}).empty());
+  EXPECT_TRUE(hole_fill_points(no_normals, measure_spacing(no_normals), std::vector<Index>{0}).empty());
   EXPECT_TRUE(visible({}).empty());
   Cloud away = test::sheet(1000, 1, 0);
   for (Vec3f& n : away.normals) n = -n;

@@ -35,7 +35,7 @@ std::atomic<std::size_t> allocations = 0;
 }
 #endif
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 using test::jittered_grid;
@@ -315,4 +315,4 @@ TEST(Cholesky, RefusesPositionsOfAnotherSystem) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::solver

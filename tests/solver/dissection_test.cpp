@@ -1,4 +1,4 @@
-#include "dissection.h"
+#include "solver/dissection.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +8,10 @@
 
 #include "geometry/plane_order.h"
 #include "relievo/core/parallel.h"
-#include "separator.h"
+#include "solver/bisection.h"
 #include "support/planar_systems.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 using test::jittered_grid;
@@ -96,18 +96,18 @@ TEST(Dissection, IsTheSameForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-TEST(Separator, ParsesAGridAcrossItsShortSide) {
+TEST(Bisection, ParsesAGridAcrossItsShortSide) {
   const PlanarSystem system = jittered_grid(90, 30);
-  const Separation cut = separate(test::graph_of(system.A), in_unit_square(system.positions));
+  const Bisection cut = bisect(test::graph_of(system.A), in_unit_square(system.positions));
   EXPECT_EQ(cut.separator, 30U);
   EXPECT_GT(std::min(cut.first, cut.second), 900U);
 }
 
-TEST(Separator, LeavesNoEdgeBetweenTheSides) {
+TEST(Bisection, LeavesNoEdgeBetweenTheSides) {
   const PlanarSystem system = jittered_grid(40, 40);
   const Graph graph = test::graph_of(system.A);
   for (const auto& positions : {system.positions, test::shuffled(system.positions)}) {
-    const Separation cut = separate(graph, in_unit_square(positions));
+    const Bisection cut = bisect(graph, in_unit_square(positions));
     EXPECT_EQ(cut.first + cut.second + cut.separator, graph.size());
     for (Index v = 0; v < graph.size(); ++v)
       for (const Index u : graph.neighbours(v))
@@ -116,4 +116,4 @@ TEST(Separator, LeavesNoEdgeBetweenTheSides) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::solver

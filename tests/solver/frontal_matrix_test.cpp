@@ -1,4 +1,4 @@
-#include "dense_front.h"
+#include "solver/frontal_matrix.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "support/shapes.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 Eigen::MatrixXd random_spd(Index n, std::uint64_t seed) {
@@ -17,15 +17,15 @@ Eigen::MatrixXd random_spd(Index n, std::uint64_t seed) {
   return B * B.transpose() + static_cast<double>(n) * Eigen::MatrixXd::Identity(n, n);
 }
 
-Front front_of(const Eigen::MatrixXd& A) {
-  Front front;
+FrontalMatrix front_of(const Eigen::MatrixXd& A) {
+  FrontalMatrix front;
   front.reset(static_cast<Index>(A.rows()));
   for (Index c = 0; c < front.rows; ++c)
     for (Index r = c; r < front.rows; ++r) front.column(c)[r] = A(r, c);
   return front;
 }
 
-Eigen::MatrixXd lower_of(Front& front) {
+Eigen::MatrixXd lower_of(FrontalMatrix& front) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(front.rows, front.rows);
   for (Index c = 0; c < front.rows; ++c)
     for (Index r = c; r < front.rows; ++r) A(r, c) = front.column(c)[r];
@@ -54,13 +54,13 @@ struct Truth {
 };
 
 // Sizes on both sides of every width that is treated on its own.
-TEST(DenseFront, AgreesWithDenseEigen) {
+TEST(FrontalMatrix, AgreesWithDenseEigen) {
   for (const Index n : {1U, 4U, 9U, 23U, 64U, 150U})
     for (const Index width : {1U, 2U, 5U, 8U, 9U, 17U, 40U, 150U}) {
       if (width > n) continue;
       const Eigen::MatrixXd A = random_spd(n, n * 1000 + width);
       const Truth truth(A, width);
-      Front front = front_of(A);
+      FrontalMatrix front = front_of(A);
       ASSERT_EQ(eliminate_columns(front, width, std::vector<double>(width, 0)), no_index);
       EXPECT_LT((lower_of(front) - truth.eliminated).norm(), 1e-12 * truth.eliminated.norm());
       invert_columns(front, width);
@@ -68,12 +68,12 @@ TEST(DenseFront, AgreesWithDenseEigen) {
     }
 }
 
-TEST(DenseFront, NamesTheColumnThatFails) {
+TEST(FrontalMatrix, NamesTheColumnThatFails) {
   Eigen::MatrixXd A = random_spd(20, 5);
   A(13, 13) = -1;
-  Front front = front_of(A);
+  FrontalMatrix front = front_of(A);
   EXPECT_EQ(eliminate_columns(front, 20, std::vector<double>(20, 0)), 13U);
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::solver

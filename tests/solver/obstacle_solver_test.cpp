@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 constexpr std::size_t width = 40, height = 30;
@@ -40,36 +40,36 @@ float load(std::size_t n) {
 }
 
 struct Problem {
-  Ties ties;
-  ElasticSheet sheet;
-  ElasticSheet::Workspace workspace = sheet.make_workspace();
+  Springs springs;
+  ObstacleSolver sheet;
+  ObstacleSolver::Workspace workspace = sheet.make_workspace();
 
-  Problem(Stiffness stiffness, const Ties& t, float lowest, float highest)
-      : ties(t), sheet(width, std::move(stiffness)) {
-    ElasticSheet::Fields& f = workspace[0];
+  Problem(Stiffness stiffness, const Springs& t, float lowest, float highest)
+      : springs(t), sheet(width, std::move(stiffness)) {
+    ObstacleSolver::Fields& f = workspace[0];
     std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
     for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
   }
   const std::vector<float>& solved() {
-    sheet.solve(ties, workspace);
+    sheet.solve(springs, workspace);
     return workspace[0].b;
   }
 };
 
-// The energy's matrix: L' C L + tension + ties, rows of fixed nodes those of the identity.
-Eigen::MatrixXd matrix(const Stiffness& stiffness, const Ties& ties) {
+// The energy's matrix: L' C L + tension + springs, rows of fixed nodes those of the identity.
+Eigen::MatrixXd matrix(const Stiffness& stiffness, const Springs& springs) {
   const auto& [bending, tensions] = stiffness;
   const auto n = static_cast<Eigen::Index>(bending.size());
   Eigen::MatrixXd lap = Eigen::MatrixXd::Zero(n, n), a = lap;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (!(bending[static_cast<std::size_t>(i)] > 0)) continue;
-    lap(i, i) = -4, a(i, i) = static_cast<double>(ties.pull);
+    lap(i, i) = -4, a(i, i) = static_cast<double>(springs.stiffness);
     for (const Eigen::Index side :
          {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
       const bool is_fixed = !(bending[static_cast<std::size_t>(i + side)] > 0);
       const float mean =
           (tensions[static_cast<std::size_t>(i)] + tensions[static_cast<std::size_t>(i + side)]) / 2;
-      const auto tension = static_cast<double>(is_fixed ? ties.anchor * mean : mean);
+      const auto tension = static_cast<double>(is_fixed ? springs.boundary_stiffness * mean : mean);
       a(i, i) += tension;
       if (is_fixed) continue;
       lap(i, i + side) = 1, a(i, i + side) = -tension;
@@ -97,25 +97,25 @@ double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vec
 }
 
 // Without limits the least energy is that of a linear system.
-TEST(ElasticSheet, ComesNearTheLeastEnergy) {
-  using Case = std::pair<Stiffness, Ties>;
-  for (const auto& [stiffness, ties] : {Case{even(1), {.1F}},
-                                        {even(10), {.02F}},
-                                        {even(10), {}},
-                                        {yielding(10, width / 3, .1F, 1), {.02F}},
-                                        {yielding(10, width / 3, .1F, .2F), {.02F}},
-                                        {yielding(10, width - 3, 10, .2F), {.02F, .1F}},
-                                        {even(10), {.02F, .1F}}}) {
-    const Eigen::MatrixXd a = matrix(stiffness, ties);
+TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
+  using Case = std::pair<Stiffness, Springs>;
+  for (const auto& [stiffness, springs] : {Case{even(1), {.1F}},
+                                           {even(10), {.02F}},
+                                           {even(10), {}},
+                                           {yielding(10, width / 3, .1F, 1), {.02F}},
+                                           {yielding(10, width / 3, .1F, .2F), {.02F}},
+                                           {yielding(10, width - 3, 10, .2F), {.02F, .1F}},
+                                           {even(10), {.02F, .1F}}}) {
+    const Eigen::MatrixXd a = matrix(stiffness, springs);
     const Eigen::VectorXd f = loads(stiffness), exact = a.llt().solve(f);
-    Problem problem(stiffness, ties, -far, far);
+    Problem problem(stiffness, springs, -far, far);
     const double least = -.5 * f.dot(exact);
     EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
     EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
   }
 }
 
-TEST(ElasticSheet, StaysWithinItsLimits) {
+TEST(ObstacleSolver, StaysWithinItsLimits) {
   Problem problem(even(4), {.02F}, -.1F, .2F);
   const std::vector<float>& b = problem.solved();
   EXPECT_EQ(*std::ranges::min_element(b), -.1F);
@@ -127,12 +127,12 @@ TEST(ElasticSheet, StaysWithinItsLimits) {
 }
 
 // Limits cost energy; of what keeps to them it is better than the free sheet cut off.
-TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
-  constexpr Ties ties{.02F};
+TEST(ObstacleSolver, BendsInsteadOfBeingCutOff) {
+  constexpr Springs springs{.02F};
   const Stiffness stiffness = even(4);
-  const Eigen::MatrixXd a = matrix(stiffness, ties);
+  const Eigen::MatrixXd a = matrix(stiffness, springs);
   const Eigen::VectorXd f = loads(stiffness);
-  Problem unlimited(stiffness, ties, -far, far), limited(stiffness, ties, -.1F, .2F);
+  Problem unlimited(stiffness, springs, -far, far), limited(stiffness, springs, -.1F, .2F);
   std::vector<float> cut = unlimited.solved();
   const double least = energy(a, f, cut);
   for (float& b : cut) b = std::clamp(b, -.1F, .2F);
@@ -142,14 +142,14 @@ TEST(ElasticSheet, BendsInsteadOfBeingCutOff) {
 }
 
 // Pushed from both sides, a node stays where its limits meet.
-TEST(ElasticSheet, TakesLimitsThatMeet) {
+TEST(ObstacleSolver, TakesLimitsThatMeet) {
   Problem problem(even(4), {.02F}, .05F, .05F);
   const std::vector<float>& b = problem.solved();
   for (std::size_t n = 0; n < b.size(); ++n) ASSERT_EQ(b[n], is_rim(n) ? 0 : .05F);
 }
 
 // Bends at a hinge: there the second difference is greater than where it is stiff.
-TEST(ElasticSheet, BendsAtAHinge) {
+TEST(ObstacleSolver, BendsAtAHinge) {
   constexpr std::size_t middle = width / 2;
   Problem problem(yielding(50, middle, .05F, 1), {}, -far, far);
   for (std::size_t n = 0; n < problem.workspace[0].wanted.size(); ++n) problem.workspace[0].wanted[n] = .01F;
@@ -161,7 +161,7 @@ TEST(ElasticSheet, BendsAtAHinge) {
 }
 
 // Where it is hinged and tension is low, it is all but torn: what pulls on one side leaves the other alone.
-TEST(ElasticSheet, KeepsApartWhatYields) {
+TEST(ObstacleSolver, KeepsApartWhatYields) {
   const auto step_at_middle = [](float tension) {
     constexpr std::size_t middle = width / 2;
     Problem problem(yielding(50, middle, .05F, tension), {}, -far, far);
@@ -174,7 +174,7 @@ TEST(ElasticSheet, KeepsApartWhatYields) {
   EXPECT_LT(step_at_middle(1), .7F);
 }
 
-TEST(ElasticSheet, HasNothingToDoWhereAllIsFixed) {
+TEST(ObstacleSolver, HasNothingToDoWhereAllIsFixed) {
   Problem problem(even(0), {}, -1, 1);
   EXPECT_EQ(problem.solved(), std::vector<float>(width * height));
   int free = 0;
@@ -183,4 +183,4 @@ TEST(ElasticSheet, HasNothingToDoWhereAllIsFixed) {
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -1,4 +1,4 @@
-#include "band_cut.h"
+#include "solver/vertex_separator.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -8,11 +8,11 @@
 
 #include "support/shapes.h"
 
-namespace relievo {
+namespace relievo::solver {
 namespace {
 
 // Any graph, drawn anywhere: the search must not depend on the drawing for its result.
-Band random_band(Index n, std::uint64_t seed) {
+SeparatorBand random_band(Index n, std::uint64_t seed) {
   test::Random random(seed);
   std::vector<std::vector<Index>> nearby(n);
   for (Index e = 0; e < 2 * n; ++e) {
@@ -21,7 +21,7 @@ Band random_band(Index n, std::uint64_t seed) {
     nearby[a].push_back(b);
     nearby[b].push_back(a);
   }
-  Band band;
+  SeparatorBand band;
   band.direction = {1, 0};
   for (auto& list : nearby) {
     band.graph.to.insert(band.graph.to.end(), list.begin(), list.end());
@@ -33,7 +33,7 @@ Band random_band(Index n, std::uint64_t seed) {
   return band;
 }
 
-bool separates(const Band& band, const std::vector<std::uint8_t>& is_removed) {
+bool separates(const SeparatorBand& band, const std::vector<std::uint8_t>& is_removed) {
   std::vector<std::uint8_t> is_seen = is_removed;
   std::vector<Index> stack;
   const auto reach = [&](Index v) {
@@ -51,7 +51,7 @@ bool separates(const Band& band, const std::vector<std::uint8_t>& is_removed) {
 }
 
 // Tries every set of vertices.
-Index smallest_separator(const Band& band) {
+Index smallest_separator(const SeparatorBand& band) {
   const Index n = band.graph.size();
   Index best = n;
   for (std::uint32_t set = 0; set < 1U << n; ++set) {
@@ -68,7 +68,7 @@ Index separator_size(const std::vector<Side>& sides) {
   return static_cast<Index>(std::count(sides.begin(), sides.end(), Side::separator));
 }
 
-bool is_valid(const Band& band, const std::vector<Side>& sides) {
+bool is_valid(const SeparatorBand& band, const std::vector<Side>& sides) {
   for (Index v = 0; v < band.graph.size(); ++v) {
     if (band.touches_first[v] && sides[v] == Side::second) return false;
     if (band.touches_second[v] && sides[v] == Side::first) return false;
@@ -78,10 +78,11 @@ bool is_valid(const Band& band, const std::vector<Side>& sides) {
   return true;
 }
 
-TEST(BandCut, IsTheSmallestOfAll) {
+TEST(VertexSeparator, IsTheSmallestOfAll) {
   const bool holds = rc::check([] {
-    const Band band = random_band(*rc::gen::inRange<Index>(1, 11), *rc::gen::arbitrary<std::uint64_t>());
-    const BandCuts cuts = smallest_cuts(band);
+    const SeparatorBand band =
+        random_band(*rc::gen::inRange<Index>(1, 11), *rc::gen::arbitrary<std::uint64_t>());
+    const MinimumSeparators cuts = minimum_separators(band);
     const Index smallest = smallest_separator(band);
     for (const auto& sides : {cuts.near_first, cuts.near_second}) {
       RC_ASSERT(is_valid(band, sides));
@@ -91,9 +92,9 @@ TEST(BandCut, IsTheSmallestOfAll) {
   ASSERT_TRUE(holds);
 }
 
-TEST(BandCut, OfNothingIsNothing) {
-  EXPECT_TRUE(smallest_cuts({}).near_first.empty());
+TEST(VertexSeparator, OfNothingIsNothing) {
+  EXPECT_TRUE(minimum_separators({}).near_first.empty());
 }
 
 }  // namespace
-}  // namespace relievo
+}  // namespace relievo::solver

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <string>
 
+#include "relievo/io/write.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo::test {

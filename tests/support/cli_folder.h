@@ -1,4 +1,4 @@
-// A folder with a scan in it and the program `relievo` to run there.
+// Makes a folder with a scan in it for each test, and runs the program `relievo` there.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,7 +12,8 @@
 #include <iterator>
 #include <string>
 
-#include "relievo/io.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 #include "support/shapes.h"
 
 namespace relievo::test {
@@ -59,7 +60,7 @@ class CliFolder : public testing::Test {
     return outcome;
   }
 
-  // Expects failure with one line on stderr that holds `part`, and nothing new in the folder.
+  // Expects that the program fails, prints one line that contains `part` to stderr, and leaves no new file.
   void expect_refusal(const std::string& arguments, const std::string& part,
                       const std::string& before = "") const {
     const auto files = [&] { return std::distance(fs::directory_iterator(folder_), {}); };

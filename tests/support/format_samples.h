@@ -1,4 +1,4 @@
-// Small valid files of the binary formats, written here independently of the readers, for tests to bend.
+// Makes small valid files of the binary formats, independently of the readers; tests change and damage them.
 #pragma once
 
 #include <cstdint>

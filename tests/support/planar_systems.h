@@ -1,4 +1,4 @@
-// Planar graphs and their Laplacians for tests of the solver.
+// Makes random systems of equations whose unknowns are the points of a planar grid, for tests of the solver.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -10,14 +10,14 @@ namespace relievo::test {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
-// The lower triangle of a positive definite matrix and where its unknowns are.
+// The lower triangle of a positive definite matrix, and the place of each of its unknowns.
 struct PlanarSystem {
   Sparse A;
   std::vector<Vec2> positions;
 };
 
-// A grid of unit squares, each cut by one of its diagonals, with points moved at random and random weights of
-// edges; the rim is tied to the ground.
+// Returns the Laplacian of a grid of unit squares, each cut by one of its diagonals. Points are moved at random, edges have
+// random weights, and the points of the rim are tied to the ground, which makes the matrix definite.
 inline PlanarSystem jittered_grid(int width, int height, std::uint64_t seed = 7) {
   Random random(seed);
   PlanarSystem system;
@@ -46,7 +46,7 @@ inline PlanarSystem jittered_grid(int width, int height, std::uint64_t seed = 7)
   return system;
 }
 
-inline Graph graph_of(const Sparse& A) {
+inline solver::Graph graph_of(const Sparse& A) {
   std::vector<std::vector<Index>> nearby(static_cast<std::size_t>(A.cols()));
   for (int j = 0; j < A.outerSize(); ++j)
     for (Sparse::InnerIterator entry(A, j); entry; ++entry)
@@ -54,7 +54,7 @@ inline Graph graph_of(const Sparse& A) {
         nearby[static_cast<std::size_t>(j)].push_back(static_cast<Index>(entry.row()));
         nearby[static_cast<std::size_t>(entry.row())].push_back(static_cast<Index>(j));
       }
-  Graph graph;
+  solver::Graph graph;
   for (const auto& list : nearby) {
     graph.to.insert(graph.to.end(), list.begin(), list.end());
     graph.begin.push_back(static_cast<Index>(graph.to.size()));
@@ -62,7 +62,7 @@ inline Graph graph_of(const Sparse& A) {
   return graph;
 }
 
-// The same points, handed out in another order.
+// Returns the same points in random order.
 inline std::vector<Vec2> shuffled(std::vector<Vec2> positions, std::uint64_t seed = 8) {
   Random random(seed);
   for (std::size_t i = positions.size(); i > 1; --i)

@@ -1,4 +1,4 @@
-// Fronts of known shape for the tests.
+// Makes fronts of plates whose shape is known in closed form, and measures their outlines.
 #pragma once
 
 #include <cmath>
@@ -10,14 +10,14 @@
 
 namespace relievo::test {
 
-// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each cut into two triangles. `z(x, y)` is
-// called for inner points, the rim is at 0.
+// A rectangle [0, width] x [0, height] of cells_x by cells_y cells, each cut into two triangles. grid_front() takes the
+// heights of its inner points from a function `z(x, y)`; its rim is at 0.
 struct Grid {
   double width = 1, height = 1;
   int cells_x = 1, cells_y = 1;
 };
 
-inline void add_cells(const Grid& grid, Front& front) {
+inline void add_cells(const Grid& grid, HeightFieldMesh& front) {
   const auto at = [&](int i, int j) { return static_cast<Index>(j * (grid.cells_x + 1) + i); };
   for (int j = 0; j < grid.cells_y; ++j) {
     for (int i = 0; i < grid.cells_x; ++i) {
@@ -31,8 +31,8 @@ inline void add_cells(const Grid& grid, Front& front) {
   for (int j = grid.cells_y; j > 0; --j) front.hull.push_back(at(0, j));
 }
 
-inline Front grid_front(const Grid& grid, const std::function<double(double, double)>& z) {
-  Front front;
+inline HeightFieldMesh grid_front(const Grid& grid, const std::function<double(double, double)>& z) {
+  HeightFieldMesh front;
   for (int j = 0; j <= grid.cells_y; ++j) {
     for (int i = 0; i <= grid.cells_x; ++i) {
       const double x = grid.width * i / grid.cells_x, y = grid.height * j / grid.cells_y;
@@ -44,13 +44,14 @@ inline Front grid_front(const Grid& grid, const std::function<double(double, dou
   return front;
 }
 
-inline Front flat_front(const Grid& grid) {
+inline HeightFieldMesh flat_front(const Grid& grid) {
   return grid_front(grid, [](double, double) { return 0.0; });
 }
 
-// A convex polygon, counter-clockwise, cut into a fan; flat at `ground_mm`, or with an apex over its centre.
-inline Front fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
-  Front front;
+// Cuts a convex polygon, counter-clockwise, into a fan of triangles at the height `ground_mm`; pyramid_front() raises an
+// apex over its centre instead.
+inline HeightFieldMesh fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
+  HeightFieldMesh front;
   front.ground_mm = ground_mm;
   for (Index i = 0; i < polygon.size(); ++i) {
     front.points.emplace_back(polygon[i].x(), polygon[i].y(), ground_mm);
@@ -60,8 +61,8 @@ inline Front fan_front(const std::vector<Vec2>& polygon, double ground_mm = 0) {
   return front;
 }
 
-inline Front pyramid_front(const std::vector<Vec2>& polygon, double height) {
-  Front front = fan_front(polygon);
+inline HeightFieldMesh pyramid_front(const std::vector<Vec2>& polygon, double height) {
+  HeightFieldMesh front = fan_front(polygon);
   front.triangles.clear();
   Vec2 centre = Vec2::Zero();
   for (const Vec2& p : polygon) centre += p / static_cast<double>(polygon.size());
@@ -71,7 +72,7 @@ inline Front pyramid_front(const std::vector<Vec2>& polygon, double height) {
   return front;
 }
 
-// Polygon of an ellipse with `n` corners, all exactly convex for the sizes tests use.
+// Returns the polygon of an ellipse with `n` corners. Rounding leaves all of them convex for the sizes that tests use.
 inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
   std::vector<Vec2> polygon;
   for (int i = 0; i < n; ++i) {
@@ -90,7 +91,7 @@ inline double polygon_area(const std::vector<Vec2>& polygon) {
   return twice / 2;
 }
 
-// How far a place lies inside the polygon's nearest side; negative outside.
+// Returns the distance of a place inside a convex polygon to its nearest side; it is negative outside.
 inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
   double depth = 1e9;
   for (std::size_t i = 0; i < polygon.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,12 @@ struct PlyTable {
 };
 
 enum class PlyEncoding { ascii, little_endian, big_endian };
+
+// Names the encoding in the names and messages of parameterised tests.
+inline void PrintTo(PlyEncoding encoding, std::ostream* out) {
+  constexpr std::array names{"Ascii", "LittleEndian", "BigEndian"};
+  *out << names[static_cast<std::size_t>(encoding)];
+}
 
 namespace ply_encoder {
 

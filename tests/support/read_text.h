@@ -1,4 +1,4 @@
-// What the tests of the readers share.
+// Reads scans that tests hold as texts, and checks that the answers keep what the readers promise.
 #pragma once
 
 #include <algorithm>
@@ -8,11 +8,12 @@
 #include <string_view>
 #include <vector>
 
-#include "relievo/io.h"
+#include "relievo/io/read.h"
+#include "relievo/scan/scan_file.h"
 
 namespace relievo {
 
-// Reads from an allocation of exactly that size, so that the address sanitizer sees a step past the end.
+// Reads from an allocation of exactly the text's size, so that the address sanitizer sees a step past its end.
 inline Result<CloudFile> read(std::string_view text, std::string_view name) {
   std::vector<std::byte> bytes(text.size());
   if (!text.empty()) std::memcpy(bytes.data(), text.data(), text.size());
@@ -35,7 +36,7 @@ inline std::string replaced(std::string text, std::string_view what, std::string
   return text;
 }
 
-// Returns what read_cloud() promises and does not keep, or an empty string.
+// Returns the first promise of read_cloud() that the answer breaks, or an empty string.
 inline std::string check_answer(const Result<CloudFile>& answer, std::string_view name) {
   if (!answer) {
     const Error& error = answer.error();

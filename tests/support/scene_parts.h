@@ -1,8 +1,9 @@
-// Scenes for tests.
+// Makes the models, poses and placements that scenes in tests consist of.
 #pragma once
 
 #include <gtest/gtest.h>
 
+#include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
 
 namespace relievo::test {
@@ -23,7 +24,7 @@ inline Pose at(double x, double y, double z, const Vec3& rotate_deg = Vec3::Zero
   return {rotate_deg, Vec3(x, y, z)};
 }
 
-// A wedge, which is its own image under no rotation or reflection.
+// Returns a wedge that no rotation or reflection maps onto itself, so that each of them can be told from the others.
 inline Mesh wedge() {
   return {{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
 }
@@ -39,10 +40,10 @@ inline std::vector<PlacedModel> placed(const Scene& scene, const View& view = fr
   return places.value_or(std::vector<PlacedModel>(scene.models.size()));
 }
 
-inline SeenPoints seen(const Scene& scene, double points = 30000, const View& view = front) {
-  auto result = seen_points(scene, view, points);
+inline ViewSample seen(const Scene& scene, double points = 30000, const View& view = front) {
+  auto result = sample_for_view(scene, view, points);
   EXPECT_TRUE(result) << result.error().message();
-  return result.value_or(SeenPoints{std::make_shared<const Cloud>(), 0, {}});
+  return result.value_or(ViewSample{std::make_shared<const Cloud>(), 0, {}});
 }
 
 }  // namespace relievo::test

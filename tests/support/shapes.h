@@ -1,33 +1,24 @@
-// Analytic shapes for tests, scattered at random, with a portable generator.
+// Scatters points at random over shapes that have closed forms, from a generator that is the same on all machines.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 #include <numbers>
 
+#include "core/random.h"
 #include "relievo/scan/cloud.h"
 
 namespace relievo::test {
 
-// SplitMix64: the same numbers on every platform.
-class Random {
+class Random : public SplitMix64 {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t bits() {
-    std::uint64_t z = state_ += 0x9E3779B97F4A7C15U;
-    z = (z ^ z >> 30) * 0xBF58476D1CE4E5B9U;
-    z = (z ^ z >> 27) * 0x94D049BB133111EBU;
-    return z ^ z >> 31;
-  }
+  using SplitMix64::SplitMix64;
   double uniform(double low = 0, double high = 1) {
     return low + (high - low) * static_cast<double>(bits() >> 11) * 0x1p-53;
   }
   double gaussian() {
     return std::sqrt(-2 * std::log(1 - uniform())) * std::cos(2 * std::numbers::pi * uniform());
   }
-
- private:
-  std::uint64_t state_;
 };
 
 inline void add(Cloud& cloud, const Vec3& point, const Vec3& normal) {
@@ -35,7 +26,7 @@ inline void add(Cloud& cloud, const Vec3& point, const Vec3& normal) {
   cloud.normals.push_back(normal.normalized().cast<float>());
 }
 
-// Uniform on the sphere of that radius.
+// Returns points distributed uniformly on the sphere of that radius.
 inline Cloud sphere(std::size_t n, double radius, std::uint64_t seed = 1) {
   Random random(seed);
   Cloud cloud;
@@ -48,7 +39,7 @@ inline Cloud sphere(std::size_t n, double radius, std::uint64_t seed = 1) {
   return cloud;
 }
 
-// Uniform on the lateral surface of a cylinder about the y axis.
+// Returns points distributed uniformly on the lateral surface of a cylinder about the y axis.
 inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t seed = 2) {
   Random random(seed);
   Cloud cloud;
@@ -60,7 +51,7 @@ inline Cloud cylinder(std::size_t n, double radius, double length, std::uint64_t
   return cloud;
 }
 
-// Uniform on a torus about the z axis; R to the middle of the tube, r the tube's radius.
+// Returns points distributed uniformly on a torus about the z axis; R to the middle of the tube, r the tube's radius.
 inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
   Random random(seed);
   Cloud cloud;
@@ -74,7 +65,8 @@ inline Cloud torus(std::size_t n, double R, double r, std::uint64_t seed = 3) {
   return cloud;
 }
 
-// z = f(x, y) over the square of that half side; `gradient` is (df/dx, df/dy). Uniform in x and y.
+// Returns points of z = f(x, y), uniformly distributed in x and y over the square of that half side; `gradient` is its
+// gradient (df/dx, df/dy), for the normals.
 template <typename F, typename G>
 Cloud height_field(std::size_t n, double half, F f, G gradient, std::uint64_t seed = 4) {
   Random random(seed);
@@ -87,7 +79,7 @@ Cloud height_field(std::size_t n, double half, F f, G gradient, std::uint64_t se
   return cloud;
 }
 
-// A square of that half side parallel to the view plane.
+// Returns points of a square of that half side, parallel to the view plane.
 inline Cloud sheet(std::size_t n, double half, double z, std::uint64_t seed = 5) {
   return height_field(
       n, half, [z](double, double) { return z; }, [](double, double) { return Vec2(0, 0); }, seed);

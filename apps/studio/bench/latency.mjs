@@ -15,7 +15,11 @@ const MOVEMENTS = {
 const found = await findBrowser();
 if (found.missing) throw new Error(found.missing);
 const browser = await found.launch();
-console.log("| scan, visible points | movement | p50 | p95 | engine: heights | normals | picture | wire | page | pixels |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |");
+const row = (cells) => console.log(`| ${cells.join(" | ")} |`);
+const columns = ["scan, visible points", "movement", "p50", "p95", "engine: heights", "normals", "picture", "wire",
+  "page", "pixels"];
+row(columns);
+row(columns.map(() => "---"));
 for (const scan of process.argv.slice(2)) await measure(scan);
 await browser.close();
 
@@ -34,7 +38,8 @@ async function measure(scan) {
     const at = (key, share) => times.map((t) => t[key]).sort((a, b) => a - b)[Math.floor(times.length * share)];
     const ms = (x) => x.toFixed(1), mid = (key) => at(key, 0.5);
     const rest = mid("all") - mid("heights") - mid("normals") - mid("picture") - mid("wire");
-    console.log(`| ${path.basename(scan, path.extname(scan))}, ${points} | ${name} | ${ms(mid("all"))} | ${ms(at("all", 0.95))} | ${ms(mid("heights"))} | ${ms(mid("normals"))} | ${ms(mid("picture"))} | ${ms(mid("wire"))} | ${ms(rest)} | ${mid("pixels")} |`);
+    row([`${path.basename(scan, path.extname(scan))}, ${points}`, name, ms(mid("all")), ms(at("all", 0.95)),
+      ...["heights", "normals", "picture", "wire"].map((key) => ms(mid(key))), ms(rest), mid("pixels")]);
   }
   await page.close();
   await engine.stop();
@@ -46,23 +51,28 @@ async function run({slider, from, to, light}) {
   const stage = document.querySelector("#stage"), EVENTS = 150, times = [];
   const input = slider && document.querySelector(`input[type=range][aria-label="${slider}"]`);
   const box = stage.getBoundingClientRect();
-  const pointer = (type, x, y) => stage.dispatchEvent(new PointerEvent(type, {bubbles: true, pointerId: 1, clientX: box.left + x, clientY: box.top + y}));
+  const pointer = (type, x, y) => stage.dispatchEvent(
+    new PointerEvent(type, {bubbles: true, pointerId: 1, clientX: box.left + x, clientY: box.top + y}));
   stage.setPointerCapture = () => {};
   if (light) pointer("pointerdown", box.width / 3, box.height / 3);
   for (let i = 0; i < EVENTS; ++i) {
     const share = 1 - Math.abs(1 - 2 * i / EVENTS), start = performance.now();
-    const drawn = new Promise((resolve) => stage.addEventListener("picture", (event) => resolve(event.detail), {once: true}));
+    const drawn = new Promise((resolve) =>
+      stage.addEventListener("picture", (event) => resolve(event.detail), {once: true}));
     if (light) pointer("pointermove", box.width * (0.3 + 0.4 * share), box.height * (0.3 + 0.1 * share));
     else {
       input.value = Math.round(from + (to - from) * share);
       input.dispatchEvent(new Event("input", {bubbles: true}));
     }
-    const {about} = await Promise.race([drawn, new Promise((_, reject) => setTimeout(() => reject(new Error("no picture came")), 5000))]);
+    const late = new Promise((_, reject) => setTimeout(() => reject(new Error("no picture came")), 5000));
+    const {about} = await Promise.race([drawn, late]);
     // The frame after the one that shows the picture begins when that one is on its way to the screen.
     await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
     const [wire] = performance.getEntriesByType("resource").filter(({name}) => name.endsWith("api/frame")).slice(-1);
     performance.clearResourceTimings();
-    times.push({wire: wire ? wire.duration - about.heights_ms - about.detail_ms - about.normals_ms - about.drawing_ms : NaN, all: performance.now() - start, heights: about.heights_ms + about.detail_ms, normals: about.normals_ms, picture: about.drawing_ms, pixels: about.width * about.height});
+    const heights = about.heights_ms + about.detail_ms, normals = about.normals_ms, picture = about.drawing_ms;
+    times.push({all: performance.now() - start, heights, normals, picture, pixels: about.width * about.height,
+      wire: wire ? wire.duration - heights - normals - picture : NaN});
   }
   if (light) pointer("pointerup", 0, 0);
   else input.dispatchEvent(new Event("change", {bubbles: true}));

@@ -26,17 +26,21 @@ export const spread = {
 
 const STEPS = 1000;
 
-// A labelled slider with a number field. `field` is {label, unit, min, max, otherwise, decimals, spread, help};
-// `onInput(value)` while it moves, `onEnd()` when a movement is over.
+// A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
+// spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets `otherwise`. Calls
+// onInput(value) while the slider moves, and onEnd() when a movement is over.
 export class Slider {
   constructor(field, onInput, onEnd) {
     Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd});
     this.value = this.otherwise;
     const unit = this.unit ? ` in ${this.unitName ?? this.unit}` : " value";
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
-    this.number = make("input", {type: "number", min: this.min, max: this.max, step: "any", "aria-label": this.label + unit});
+    this.number = make("input", {
+      type: "number", min: this.min, max: this.max, step: "any", "aria-label": this.label + unit,
+    });
     this.name = make("span", {class: "name", title: this.help}, this.label);
-    const boxed = make("span", {class: "number"}, this.number, make("span", {class: "unit", "aria-hidden": "true"}, this.unit ?? ""));
+    const shownUnit = make("span", {class: "unit", "aria-hidden": "true"}, this.unit ?? "");
+    const boxed = make("span", {class: "number"}, this.number, shownUnit);
     this.row = make("div", {class: "row"}, this.name, ...(this.extra ? [this.extra] : []), boxed);
     this.element = make("div", {class: "slider"}, this.row, this.range);
     this.listen();
@@ -44,14 +48,14 @@ export class Slider {
   }
 
   listen() {
-    this.range.oninput = () => this.moved(this.spread.from(this.range.value / STEPS, this.min, this.max));
+    this.range.oninput = () => this.moved(this.valueAt(this.range.value));
     this.range.onchange = () => this.onEnd();
     this.number.oninput = () => (this.isTyping = true);
     this.number.onblur = () => (this.isTyping = false);
     this.number.onchange = () => {
       this.isTyping = false;
       const value = Number.parseFloat(this.number.value);
-      if (Number.isFinite(value)) this.moved(clamp(value, this.min, this.max));
+      if (Number.isFinite(value)) this.moved(clamp(value, this.least, this.max));
       else this.show(this.value);
       this.onEnd();
     };
@@ -70,24 +74,34 @@ export class Slider {
     if (this.range.disabled || event.ctrlKey) return;
     event.preventDefault();
     const step = -Math.sign(event.deltaY) * (event.shiftKey ? 1 : 8);
-    this.moved(this.spread.from(clamp(this.position() + step, 0, STEPS) / STEPS, this.min, this.max));
+    this.moved(this.valueAt(clamp(this.position() + step, 0, STEPS)));
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.onEnd(), 400);
   }
 
-  // Arrows move by a hundredth of the way, with shift by a thousandth.
+  // Arrow keys move the slider by a hundredth of the way, with shift by a thousandth.
   key(event) {
     const direction = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1}[event.key];
     if (!direction) return;
     event.preventDefault();
     const step = direction * (event.shiftKey ? 1 : 10);
-    this.moved(this.spread.from(clamp(this.position() + step, 0, STEPS) / STEPS, this.min, this.max));
+    this.moved(this.valueAt(clamp(this.position() + step, 0, STEPS)));
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.onEnd(), 400);
   }
 
+  // Returns the smallest value that is allowed and not rounded to less.
+  get least() {
+    const digit = 10 ** -this.decimals;
+    return Math.ceil(this.min / digit - 1e-9) * digit;
+  }
+
+  valueAt(position) {
+    return this.spread.from(position / STEPS, ...this.hand);
+  }
+
   position() {
-    return Math.round(this.spread.to(clamp(this.value, this.min, this.max), this.min, this.max) * STEPS);
+    return Math.round(this.spread.to(clamp(this.value, ...this.hand), ...this.hand) * STEPS);
   }
 
   moved(value) {
@@ -110,7 +124,7 @@ export class Slider {
   }
 }
 
-// "1,234,567"
+// Returns the number as "1,234,567".
 export const count = (n) => Math.round(n).toLocaleString("en-US");
 
 export function fileSize(bytes) {

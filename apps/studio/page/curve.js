@@ -1,10 +1,11 @@
-// The tone curve: how much of a slope is kept, over the square root of its curvature. The same curve as the
-// engine's ToneCurve, drawn here for the eye.
+// The tone curve: the share of a slope that is kept, over the square root of its curvature. The engine samples the
+// curve, or without one the paper's formula, and sends the samples with each picture.
 
+import {about} from "./about.js";
 import {$, clamp, make} from "./controls.js";
 
-const EVEN = 1 - Math.exp(-1); // of (6) where beta is 0
-const WIDTH = 320, HEIGHT = 150, MOST_POINTS = 16, NEAREST = 0.02;
+const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
+const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // where handles stand while the formula rules
 
 export const PRESETS = [
   {name: "The paper's formula (6)", tone: ""},
@@ -18,32 +19,10 @@ export const parse = (tone) => tone.split(";").map((pair) => pair.split(",").map
 const round = (x) => Math.round(x * 1000) / 1000;
 export const format = (points) => points.map(([x, y]) => `${round(x)},${round(y)}`).join(";");
 
-// Fritsch and Butland's slopes: no piece leaves the values of its ends.
-function slopes(points) {
-  const chord = (i) => (points[i + 1][1] - points[i][1]) / (points[i + 1][0] - points[i][0]);
-  return points.map((_, i) => {
-    if (points.length < 2) return 0;
-    if (i === 0) return chord(0);
-    if (i === points.length - 1) return chord(i - 1);
-    const a = points[i][0] - points[i - 1][0], b = points[i + 1][0] - points[i][0], d0 = chord(i - 1), d1 = chord(i);
-    return d0 * d1 <= 0 ? 0 : (3 * (a + b)) / ((2 * b + a) / d0 + (b + 2 * a) / d1);
-  });
-}
-
-export function evaluate(points, x) {
-  const next = points.findIndex(([px]) => px > x);
-  if (next === 0) return points[0][1];
-  if (next < 0) return points.at(-1)[1];
-  const [px, py] = points[next - 1], [qx, qy] = points[next], m = slopes(points);
-  const width = qx - px, t = (x - px) / width, s = 1 - t;
-  const y = s * s * (1 + 2 * t) * py + t * t * (1 + 2 * s) * qy + width * s * t * (s * m[next - 1] - t * m[next]);
-  return clamp(y, Math.min(py, qy), Math.max(py, qy));
-}
-
 export class CurveEditor {
   // Calls onChange(tone) while a point moves, onEnd() after it.
   constructor(onChange, onEnd) {
-    Object.assign(this, {onChange, onEnd, tone: "", saturation: 0, method: "ours", delta: 0.25, u: 1, histogram: []});
+    Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
     this.svg = make("svg", {viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "group", "aria-label": "Tone curve"});
     this.marks = make("g");
     this.handles = make("g");
@@ -52,26 +31,16 @@ export class CurveEditor {
       make("span", {}, "curvature |k|"), make("span", {}, "sharp")));
     this.svg.ondblclick = (event) => this.add(event);
     this.preset = $("#preset");
-    this.preset.append(...PRESETS.map(({name, tone}) => make("option", {value: tone}, name)), make("option", {value: "own", hidden: true}, "Drawn by hand"));
+    this.preset.append(...PRESETS.map(({name, tone}) => make("option", {value: tone}, name)),
+      make("option", {value: "own", hidden: true}, "Drawn by hand"));
     this.preset.onchange = () => this.change(this.preset.value, true);
   }
 
-  get drawnPoints() {
-    if (this.parsedTone !== this.tone) this.parsed = parse(this.tone);
-    this.parsedTone = this.tone;
-    return this.parsed;
-  }
-
-  // What rules now: the drawn points, or those of the paper's formula, ready to be drawn anew.
+  // Returns the drawn points or, ready to be moved, some of the paper's formula.
   get points() {
     if (this.tone) return parse(this.tone);
-    return [0.05, 0.25, 0.5, 0.75, 1].map((x) => [x, this.share(x)]);
-  }
-
-  share(x) {
-    if (this.tone) return evaluate(this.drawnPoints, x);
-    const weight = 1 - Math.exp(-(((x * x) / Math.max(this.delta, 1e-9)) ** this.saturation));
-    return this.method === "paper" ? weight : Math.min(1, weight / EVEN);  // in layers 1 is no change
+    const {share} = this.samples;
+    return share.length ? FORMULA_POINTS.map((x) => [x, share[Math.round(x * (share.length - 1))]]) : [];
   }
 
   change(tone, isOver) {
@@ -81,25 +50,22 @@ export class CurveEditor {
     if (isOver) this.onEnd();
   }
 
-  // Draws all; `part` holds what has changed.
+  // Draws all; `part` is what has changed of {tone, samples, histogram}.
   show(part = {}) {
     Object.assign(this, part);
-    const key = [this.method, this.tone, this.saturation, this.delta, this.u.toPrecision(3), this.histogram.length].join(" ");
-    if (key === this.drawnKey && this.histogram === this.drawnHistogram) return; // it is drawn for every picture
+    const key = JSON.stringify([this.tone, this.samples, this.histogram]);
+    if (key === this.drawnKey) return; // it is called for every picture
     this.drawnKey = key;
-    this.drawnHistogram = this.histogram;
     const isPreset = PRESETS.some(({tone}) => tone === this.tone);
     this.preset.value = isPreset ? this.tone : "own";
-    const path = (f) => {
-      let d = "";
-      for (let i = 0; i <= 80; ++i) d += `${i ? "L" : "M"}${(i / 80 * WIDTH).toFixed(1)} ${(HEIGHT * (1 - f(i / 80))).toFixed(1)}`;
-      return d;
-    };
-    // With the paper's method the height moves the weights; layers take the curve as it is.
-    const kept = (x) => this.method !== "paper" ? this.share(x) : 1 - (1 - Math.min(this.share(x), 1 - 1e-9)) ** this.u;
-    const grid = [0.25, 0.5, 0.75].map((t) => make("path", {class: "grid", d: `M${t * WIDTH} 0V${HEIGHT}M0 ${t * HEIGHT}H${WIDTH}`}));
+    const place = (y, i, all) =>
+      `${i ? "L" : "M"}${(i / (all.length - 1) * WIDTH).toFixed(1)} ${(HEIGHT * (1 - y)).toFixed(1)}`;
+    const path = (samples) => samples.map(place).join("");
+    const grid = [0.25, 0.5, 0.75].map((t) =>
+      make("path", {class: "grid", d: `M${t * WIDTH} 0V${HEIGHT}M0 ${t * HEIGHT}H${WIDTH}`}));
+    const {share, kept} = this.samples;
     this.marks.replaceChildren(...grid, make("path", {class: "histogram", d: this.histogramPath()}),
-      make("path", {class: "kept", d: path(kept)}), make("path", {class: "drawn", d: path((x) => this.share(x))}));
+      make("path", {class: "kept", d: path(kept)}), make("path", {class: "drawn", d: path(share)}));
     this.showHandles();
   }
 
@@ -148,7 +114,8 @@ export class CurveEditor {
 
   movePoint(i, x, y) {
     const {points} = this;
-    const low = i > 0 ? points[i - 1][0] + NEAREST : 0, high = i + 1 < points.length ? points[i + 1][0] - NEAREST : 1;
+    const low = i > 0 ? points[i - 1][0] + NEAREST : 0;
+    const high = i + 1 < points.length ? points[i + 1][0] - NEAREST : 1;
     points[i] = [clamp(x, low, high), clamp(y, 0, 1)];
     this.change(format(points), false);
   }
@@ -156,7 +123,7 @@ export class CurveEditor {
   add(event) {
     const {points} = this, [x, y] = this.place(event);
     const isFree = points.every(([px]) => Math.abs(px - x) > NEAREST);
-    if (!isFree || points.length >= MOST_POINTS) return;
+    if (!isFree || points.length >= about.curve.most_points) return;
     this.change(format([...points, [clamp(x, 0, 1), clamp(y, 0, 1)]].sort(([a], [b]) => a - b)), true);
   }
 

@@ -1,11 +1,19 @@
-// What is being made, and everything that was done to it: plain data, so that it can be kept, undone and saved.
+// The document: the options of the relief that is being made, and all its former states. It is plain data, so that
+// it can be stored, undone and saved.
+
+import {defaultOf} from "./about.js";
+
+// Where the page begins otherwise than the engine would.
+const START = {height: 4, method: "layered", mode: "auto", tone: "", up: ""};
+
+// The options that the page changes besides.
+const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "view", "outline", "corner", "margin",
+  "thickness", "form", "tolerance", "draft"];
 
 export const FIRST = Object.freeze({
   input: null,
   options: Object.freeze({
-    width: 100, height: 4, saturation: 0, detail: 0.04, steepest: 76, boundary: 0.5, tone: "",
-    view: "front", up: "", outline: "rectangle", corner: 5, margin: 5, thickness: 3, mode: "auto", method: "ours",
-    form: "relief", tolerance: null, draft: null,
+    ...Object.fromEntries(CHANGED.map((name) => [name, defaultOf(name, START.method)])), ...START,
   }),
   isHeightLocked: true,
   u: null, // of the compression, while the height is not locked
@@ -14,6 +22,9 @@ export const FIRST = Object.freeze({
 });
 
 const MOST_STEPS = 200;
+
+// Documents of older versions call the method `layered` by its former name.
+const renamed = (options) => (options?.method === "ours" ? {...options, method: "layered"} : options);
 
 export class Document {
   constructor(onChange) {
@@ -49,7 +60,7 @@ export class Document {
     this.onChange(before);
   }
 
-  // What the engine found out; no step of its own.
+  // Enters what the engine found out, which is no step of its own.
   note(part) {
     this.steps[this.at] = {...this.now, ...part, options: {...this.now.options, ...part.options}};
   }
@@ -85,13 +96,13 @@ export class Document {
   // Returns whether the kept state could be used.
   restore(kept) {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
-    this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
+    this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...renamed(step.options)}}));
     this.at = kept.at;
     return true;
   }
 }
 
-// The options as the engine and `relievo make` take them.
+// Returns the options as the engine and `relievo make` take them.
 export function engineOptions(step) {
   const {steepest, tone, up, form, outline, corner, tolerance, draft, ...rest} = step.options;
   const options = {...rest, height: Math.round(rest.height * 1e4) / 1e4};
@@ -106,14 +117,14 @@ export function engineOptions(step) {
   return options;
 }
 
-// The text of a project file.
+// Returns the text of a project file.
 export function projectText(step) {
   const {input, isHeightLocked, u, material, light} = step;
   const project = {relievo: 1, input, options: engineOptions(step), studio: {isHeightLocked, u, material, light}};
   return JSON.stringify(project, null, 1) + "\n";
 }
 
-// The step that a project file describes; `checked` is what the engine made of it.
+// Returns the step that a project file describes; `checked` is what the engine read in it.
 export function stepOfProject(text, checked) {
   const {studio = {}} = JSON.parse(text);
   const step = {...FIRST, input: checked.input, options: {...FIRST.options, ...checked.options}};

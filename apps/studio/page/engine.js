@@ -2,11 +2,12 @@
 // can take its place.
 //
 // An Engine has
-//   about()                     -> version, options, samples, recent, status, state (what keepState() was given)
+//   about()                     -> version, options, defaults, views, materials, stages, curve, samples, recent,
+//                                  status, state (as keepState() stored it)
 //   follow(onStatus, onLost)       calls back with each new status; onLost when the engine has gone
 //   open(input, view)              starts to read and prepare; upload(file) -> input for a file of the browser
 //   chooseView(view), cancel()     view is {view, up}, as the command line has them
-//   facts(), suggestViews()     -> what is known of the model; names of sides, the best first
+//   facts(), suggestViews()     -> facts about the model; names of sides, the best first
 //   frame(request), scan(request)-> {image: ImageData, about}
 //   profile(request)            -> heights in mm
 //   exportFile(request)         -> Blob

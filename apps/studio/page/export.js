@@ -1,5 +1,6 @@
-// Files of the finished relief, through the browser's download.
+// The dialog that exports files of the finished relief, as downloads of the browser.
 
+import {optionOf} from "./about.js";
 import {$, download, fileSize, make} from "./controls.js";
 
 const FORMATS = [
@@ -12,19 +13,20 @@ const FORMATS = [
   {id: "preview", name: "Picture", ending: ".png", use: "front and oblique view"},
 ];
 
-// Bytes of each file; exact for STL, near for the rest.
+// Estimates the bytes of each file; exact for STL.
 function sizes(facts, options, pixels) {
   const sides = options.outline === "none" ? 2 : 1; // its bottom is as fine as its front
   const triangles = sides * (facts.triangles + facts.hull + 14), points = sides * (facts.points + 8);
   const [longer, shorter] = [Math.max(...facts.size), Math.min(...facts.size)];
   const share = (shorter / longer * options.width + 2 * options.margin) / (options.width + 2 * options.margin);
   return {
-    stl: 84 + 50 * triangles, "3mf": 13 * triangles, tiff: pixels * pixels * share * 4, ply: 230 + 12 * points + 13 * triangles, obj: 31 * points + 23 * triangles,
-    heightmap: pixels * pixels * share * 0.9, preview: 600000,
+    stl: 84 + 50 * triangles, "3mf": 13 * triangles,
+    ply: 230 + 12 * points + 13 * triangles, obj: 31 * points + 23 * triangles,
+    heightmap: pixels * pixels * share * 0.9, tiff: pixels * pixels * share * 4, preview: 600000,
   };
 }
 
-// A simpler mesh is smaller, by as much as the relief allows.
+// Returns the word before the size. How much smaller a simplified mesh is depends on the relief.
 const sizeWord = (id, {tolerance, outline = "rectangle"}) => {
   if (tolerance && ["stl", "3mf", "ply", "obj"].includes(id)) return "less than ";
   return id === "stl" && outline === "rectangle" ? "" : "about ";
@@ -40,8 +42,10 @@ export class ExportDialog {
       make("span", {}, name, make("small", {}, use)), make("span", {class: "muted", id: `size-${id}`}))));
     this.dialog.oninput = () => this.show();
     $("#form").onchange = () => this.choose();
-    $("#tolerance").onchange = () => this.choose();
-    $("#draft").onchange = () => this.choose();
+    for (const name of ["tolerance", "draft"]) {
+      const {min, max} = optionOf(name);
+      Object.assign($(`#${name}`), {min, max, onchange: () => this.choose()});
+    }
     $("#export-go").onclick = (event) => {
       event.preventDefault();
       this.go();
@@ -72,7 +76,8 @@ export class ExportDialog {
     const {facts, options} = this.current();
     const {width, margin, thickness, height, outline = "rectangle"} = options;
     const scale = width / Math.max(...facts.size), ground = outline === "rectangle" ? 2 * margin : 0;
-    const [x, y] = facts.size.map((side) => (side * scale + ground).toFixed(1)), depth = (thickness + height).toFixed(2);
+    const [x, y] = facts.size.map((side) => (side * scale + ground).toFixed(1));
+    const depth = (thickness + height).toFixed(2);
     $("#export-size").textContent = ground || outline === "none"
       ? `${x} × ${y} × ${depth} mm, relief ${height.toFixed(2)} mm high`
       : `Relief ${x} × ${y} mm and ${height.toFixed(2)} mm high, plate ${depth} mm in all`;

@@ -1,21 +1,31 @@
-// The sliders: names as the command line has them, ranges for the hand.
+// The sliders: options of the engine, each with a label, a place, and the range that a hand needs.
 
+import {optionOf} from "./about.js";
 import {spread} from "./controls.js";
 
-export const FIELDS = {
-  height: {label: "Height", unit: "mm", unitName: "mm", min: 0.1, max: 40, decimals: 2, spread: spread.log, place: "#shape",
-    help: "Lowest to highest point of the front, met exactly"},
-  saturation: {label: "Saturation", min: 0, max: 4, decimals: 3, spread: spread.root, place: "#shape", help: "beta: 0 is even, more favours what is strongly curved"},
-  detail: {label: "Detail", min: 0, max: 0.5, decimals: 3, spread: spread.root, place: "#shape", help: "gamma: holds coarse forms back, so that fine ones show"},
-  boundary: {label: "Soft rim", unit: "×", unitName: "sampling distances", min: 0.25, max: 60, decimals: 1, spread: spread.log, place: "#shape", help: "Width of (7), in sampling distances rho"},
-  steepest: {label: "Steepest wall", unit: "°", unitName: "degrees", min: 5, max: 85, decimals: 0, spread: spread.linear, place: "#shape", help: "Steepest slope asked of the surface; walls at jumps can exceed it"},
-  width: {label: "Width", unit: "mm", unitName: "mm", min: 5, max: 1000, decimals: 1, spread: spread.log, place: "#plate", help: "Longer side of the relief, without margin"},
-  margin: {label: "Margin", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Least flat ground around the relief"},
-  corner: {label: "Corner radius", unit: "mm", unitName: "mm", min: 0.1, max: 100, decimals: 1, spread: spread.root, place: "#plate", help: "Of the outline with round corners"},
-  thickness: {label: "Thickness", unit: "mm", unitName: "mm", min: 0.1, max: 50, decimals: 1, spread: spread.root, place: "#plate", help: "Smallest thickness of the plate"},
+// `hand` is what the slider spans. A number may be typed within the whole range of the option.
+const SLIDERS = {
+  height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
+  saturation: {label: "Saturation", hand: [0, 4], decimals: 3, spread: spread.root, place: "#shape"},
+  detail: {label: "Detail", hand: [0, 0.5], decimals: 3, spread: spread.root, place: "#shape"},
+  boundary: {label: "Soft rim", hand: [0.25, 60], decimals: 1, spread: spread.log, place: "#shape"},
+  steepest: {label: "Steepest wall", hand: [5, 85], decimals: 0, spread: spread.linear, place: "#shape"},
+  width: {label: "Width", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#plate"},
+  margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate"},
+  corner: {label: "Corner radius", hand: [0.1, 100], decimals: 1, spread: spread.root, place: "#plate"},
+  thickness: {label: "Thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate"},
 };
 
-// The soft rim that each method starts from.
-export const RIMS = {ours: 0.5, paper: 2};
+// The engine's units as the page shows them, and as it reads them out.
+const UNITS = {
+  MM: {unit: "mm", unitName: "mm"},
+  DEG: {unit: "°", unitName: "degrees"},
+  W: {unit: "×", unitName: "sampling distances"},
+};
 
-export const MATERIALS = {plaster: "Plaster", silver: "Struck silver", bronze: "Bronze", walnut: "Walnut", porcelain: "Porcelain, lit from behind"};
+const sentence = (text) => text[0].toUpperCase() + text.slice(1);
+
+export const FIELDS = Object.fromEntries(Object.entries(SLIDERS).map(([name, slider]) => {
+  const {unit, help, min, max} = optionOf(name);
+  return [name, {...slider, ...UNITS[unit], min, max, help: sentence(help)}];
+}));

@@ -1,4 +1,4 @@
-// What a user does besides pressing buttons: keys, and files dropped on the page.
+// Handles keys, and files that are dropped on the page.
 
 // Arrow keys move within a radio group.
 export function takeArrowKeys(group) {
@@ -12,7 +12,7 @@ export function takeArrowKeys(group) {
   };
 }
 
-// Calls `open` with a file that is dropped; meanwhile the veil tells where.
+// Calls `open` with a file that is dropped; shows the veil while a file is dragged over the page.
 export function takeDrops(veil, open) {
   const show = (isShown) => (event) => {
     if (!event.dataTransfer?.types.includes("Files")) return;
@@ -27,7 +27,7 @@ export function takeDrops(veil, open) {
   });
 }
 
-// Calls what belongs to a key: `commands` with Ctrl or Cmd; `always` and, while `isReady()`, `keys` without;
+// Calls the function of a key: `commands` with Ctrl or Cmd; `always` and, while `isReady()`, `keys` without; and
 // `hold(true)` while B is down. No key counts while a dialog is open, nor letters while something is typed.
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {

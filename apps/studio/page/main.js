@@ -1,20 +1,20 @@
-// The studio's page: puts its parts together.
+// Connects the parts of the studio's page.
 
+import {about, defaultOf, engine} from "./about.js";
 import {$, Slider, clamp, download, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./document.js";
-import {NativeEngine} from "./engine.js";
 import {ExportDialog} from "./export.js";
-import {FIELDS, MATERIALS, RIMS} from "./fields.js";
+import {FIELDS} from "./fields.js";
 import {takeArrowKeys, takeDrops, takeKeys} from "./inputs.js";
-import {engineBack, engineLost, showProgress, toast} from "./messages.js";
+import {engineBack, engineLost, toast} from "./messages.js";
+import {showProgress} from "./progress.js";
 import {showNumbers, showSection} from "./readouts.js";
 import {Stage, TABLE_LIGHTS} from "./stage.js";
 import {ViewDialog, viewName} from "./views.js";
 
 const KEEP_MS = 400;
 
-const engine = new NativeEngine();
 const doc = new Document((before) => changed(before));
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
@@ -24,21 +24,23 @@ const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(
 
 let facts = null;
 let status = {busy: false, model: 0};
-let last = null; // what came with the newest picture
-let shownView = null; // of the model that is shown
+let last = null; // numbers of the newest picture
+let shownView = null; // the view of the model that is shown
 let fallback = null; // the document before the scan that is being opened
 
 // ------------------------------------------------------------------------------------------------- sliders
 
 const lock = make("button", {
-  class: "lock", "aria-label": "Lock the height", "aria-pressed": "true", title: "Keep this height while other things change",
-  onclick: toggleLock,
+  class: "lock", "aria-label": "Lock the height", "aria-pressed": "true", onclick: toggleLock,
+  title: "Keep this height while other things change",
 });
-lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11" width="14" height="9" rx="2"/><path class="shackle" d="M8 11V8a4 4 0 0 1 8 0v3"/></svg>';
+lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11" width="14" height="9" rx="2"/>' +
+  '<path class="shackle" d="M8 11V8a4 4 0 0 1 8 0v3"/></svg>';
 
 const sliders = {};
 for (const [name, field] of Object.entries(FIELDS)) {
-  const slider = new Slider({...field, extra: name === "height" ? lock : null, otherwise: FIRST.options[name]}, (value) => slide(name, value), () => doc.endStroke());
+  const slider = new Slider({...field, extra: name === "height" ? lock : null, otherwise: FIRST.options[name]},
+    (value) => slide(name, value), () => doc.endStroke());
   sliders[name] = slider;
   $(field.place).append(slider.element);
 }
@@ -49,10 +51,11 @@ function slide(name, value) {
   doc.change(part, name);
 }
 
-// A rim that was not touched becomes the one that the new method starts from.
+// Changes the method. A soft rim that was not touched becomes the one that the new method starts from.
 function changeMethod(method) {
   const {options} = doc.now;
-  const boundary = options.boundary === RIMS[options.method] ? RIMS[method] : options.boundary;
+  const isUntouched = options.boundary === defaultOf("boundary", options.method);
+  const boundary = isUntouched ? defaultOf("boundary", method) : options.boundary;
   doc.change({options: {method, boundary}});
 }
 
@@ -82,10 +85,11 @@ function showDocument() {
   for (const [name, slider] of Object.entries(sliders)) slider.show(options[name]);
   sliders.saturation.disabled = options.tone !== "";
   lock.setAttribute("aria-pressed", isHeightLocked);
-  curve.show({tone: options.tone, saturation: options.saturation, method: options.method});
+  curve.show({tone: options.tone});
   $("#method").value = options.method;
   $("#outline").value = options.outline;
-  $("#outline-note").textContent = options.outline === "rectangle" ? "" : "The files have this outline; the picture here keeps the rectangle.";
+  $("#outline-note").textContent =
+    options.outline === "rectangle" ? "" : "The files have this outline; the picture here keeps the rectangle.";
   sliders.corner.disabled = options.outline !== "round";
   sliders.margin.disabled = options.outline === "none";
   $("#undo").disabled = !doc.canUndo;
@@ -96,7 +100,7 @@ function showDocument() {
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
 }
 
-// Exactly one of a radio group can be reached with the Tab key.
+// Checks a radio button, and lets only the checked one of its group be reached with the Tab key.
 function check(radio, isChecked) {
   radio.setAttribute("aria-checked", isChecked);
   radio.tabIndex = isChecked ? 0 : -1;
@@ -109,7 +113,7 @@ function keepSoon() {
 }
 addEventListener("pagehide", () => doc.now.input && engine.keepState(doc.keep(), true).catch(() => {}));
 
-// What is made: a height that the view does not reach is not asked for.
+// Returns the options of the files: a height that the view does not reach is replaced by the one that it does.
 function finalOptions() {
   const options = engineOptions(doc.now);
   if (last && !last.is_height_met) options.height = Math.floor(last.height_mm * 1000) / 1000;
@@ -120,26 +124,29 @@ const baseName = () => (doc.now.input?.name ?? "relief").replace(/\.[a-z0-9]+$/i
 
 // --------------------------------------------------------------------------------------------------- pictures
 
-function pictured(about, ms, isFine) {
-  last = about;
+function pictured(frame, ms, isFine) {
+  last = frame;
   if (!doc.now.isHeightLocked && !status.busy) {
-    const height = Math.round(about.height_mm * 1e4) / 1e4;
-    doc.note({u: about.u, options: {height: clamp(height, 1e-3, 1e5)}});
+    const height = Math.round(frame.height_mm * 1e4) / 1e4;
+    doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
     sliders.height.show(doc.now.options.height);
     keepSoon();
   }
-  curve.show({u: about.u ?? 1, delta: facts?.delta ?? 0.25, histogram: facts?.histogram ?? []});
-  $("#reach").textContent = about.is_height_met ? "" : `This view reaches ${about.height_mm.toFixed(2)} mm at most.`;
-  const paper = `alpha ${number(about.alpha)}, beta ${number(about.beta)}, gamma ${number(doc.now.options.detail)}, u ${number(about.u)}`;
-  sliders.height.name.title = `${FIELDS.height.help}. In the paper's words: ${paper}`;
-  showNumbers({about, ms, isFine, facts, height: shownHeight(about)});
-  stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about, ms, isFine}}));
+  curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
+  $("#reach").textContent = frame.is_height_met ? "" : `This view reaches ${frame.height_mm.toFixed(2)} mm at most.`;
+  const {detail} = doc.now.options;
+  const words = Object.entries({alpha: frame.alpha, beta: frame.beta, gamma: detail, u: frame.u})
+    .map(([name, value]) => `${name} ${number(value)}`);
+  sliders.height.name.title = `${FIELDS.height.help}. In the paper's words: ${words.join(", ")}`;
+  showNumbers({about: frame, ms, isFine, facts, height: shownHeight(frame)});
+  stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about: frame, ms, isFine}}));
 }
 
 const number = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString());
 
-// A frame meets a locked height to a part in a thousand, the finished relief exactly.
-const shownHeight = ({height_mm, is_height_met}) => (doc.now.isHeightLocked && is_height_met ? doc.now.options.height : height_mm);
+// Returns the height to show. A frame meets a locked height to a part in a thousand, the finished relief exactly.
+const shownHeight = ({height_mm, is_height_met}) =>
+  (doc.now.isHeightLocked && is_height_met ? doc.now.options.height : height_mm);
 
 // ----------------------------------------------------------------------------------------------------- status
 
@@ -185,7 +192,7 @@ function complain({error, model}) {
 }
 
 function failed(error) {
-  if (error.kind === "geometry" && status.busy) return; // not ready yet: the next status tells
+  if (error.kind === "geometry" && status.busy) return; // not ready yet: the next status will show it
   toast(error.message);
 }
 
@@ -215,10 +222,10 @@ async function openFile(file) {
   }
 }
 
-// The engine gets the file's bytes; for large scans that takes a moment.
+// Sends the file's bytes to the engine, which takes a moment for large scans.
 async function takeIn(file) {
   showStart(false);
-  showProgress({busy: true, stage: "take in"}, status.model === 0);
+  showProgress({busy: true, stage: "upload"}, status.model === 0);
   try {
     return await engine.upload(file);
   } catch (error) {
@@ -266,8 +273,8 @@ const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "tr
 // ------------------------------------------------------------------------------------------------------- wiring
 
 function buildTools() {
-  $("#materials").append(...Object.entries(MATERIALS).map(([material, name]) => make("button", {
-    role: "radio", "data-material": material, "aria-label": name, title: name, onclick: () => doc.change({material}),
+  $("#materials").append(...about.materials.map(({id, name}) => make("button", {
+    role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
   })));
   $("#table").append(...TABLE_LIGHTS.map(({name, light}, i) => make("button", {
     "data-cell": i, "aria-label": `Light from: ${name}`, onclick: () => {
@@ -311,24 +318,27 @@ function wire() {
 }
 
 const COMMANDS = {
-  z: () => doc.undo(), Z: () => doc.redo(), y: () => doc.redo(), o: () => $("#file").click(), s: () => facts && saveProject(), e: () => facts && exporting.open(),
+  z: () => doc.undo(), Z: () => doc.redo(), y: () => doc.redo(), o: () => $("#file").click(),
+  s: () => facts && saveProject(), e: () => facts && exporting.open(),
 };
 const KEYS = {
-  l: () => setTool("light"), o: () => setTool("turn"), h: () => setTool("pan"), s: () => setTool("section"), f: () => stage.fit(),
-  t: () => setTable(!isPressed("#light-table")), c: () => setComparing(!isPressed("#compare")), v: () => views.show(doc.now.options),
-  Escape: () => setTable(false),
-  ...Object.fromEntries(Object.keys(MATERIALS).map((material, i) => [i + 1, () => doc.change({material})])),
+  l: () => setTool("light"), o: () => setTool("turn"), h: () => setTool("pan"), s: () => setTool("section"),
+  f: () => stage.fit(), t: () => setTable(!isPressed("#light-table")), Escape: () => setTable(false),
+  c: () => setComparing(!isPressed("#compare")), v: () => views.show(doc.now.options),
+  ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),
 };
 
 // ------------------------------------------------------------------------------------------------------- start
 
-function fillStart(about) {
-  $("#samples").append(...about.samples.map(({name, description}) => make("li", {}, make("button", {onclick: () => openInput({sample: name, name})},
+function fillStart() {
+  const card = ({name, description}) => make("button", {onclick: () => openInput({sample: name, name})},
     make("img", {src: `sample-${name}.jpg`, alt: "", width: 320, height: 200}),
-    make("span", {}, make("b", {}, sampleName(name)), make("small", {}, description))))));
+    make("span", {}, make("b", {}, sampleName(name)), make("small", {}, description)));
+  $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
   const recent = about.recent.filter(({sample}) => !sample);
   $("#recent-shelf").hidden = recent.length === 0;
-  $("#recent").append(...recent.map((input) => make("li", {}, make("button", {title: input.path, onclick: () => openInput(input)}, input.name))));
+  const entry = (input) => make("button", {title: input.path, onclick: () => openInput(input)}, input.name);
+  $("#recent").append(...recent.map((input) => make("li", {}, entry(input))));
 }
 
 const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
@@ -355,8 +365,8 @@ async function start() {
   wire();
   setTool("light");
   try {
-    const about = await engine.about();
-    fillStart(about);
+    $("#file").accept = [...about.endings, ".relievo"].join();
+    fillStart();
     await resume(about);
   } catch (error) {
     failed(error);

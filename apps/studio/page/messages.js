@@ -1,24 +1,6 @@
-// What the page says while it works: progress with the stage's name, and lines for people.
+// Lines for people, at the edge of the page.
 
 import {$} from "./controls.js";
-
-const STAGES = {
-  "take in": "Taking in the file", waiting: "Getting ready", read: "Reading the scan", view: "Turning the model", spacing: "Measuring the spacing", normals: "Looking at normals",
-  visible: "Finding what is seen", curvature: "Measuring curvature", triangulation: "Connecting the points", boundary: "Finding the rim", layers: "Splitting the normals in layers",
-  factorisation: "Preparing live work",
-};
-const stageName = (stage) => STAGES[stage] ?? "Preparing";
-
-// `isAlone` while there is no relief to look at.
-export function showProgress({busy, stage, fraction = 0}, isAlone) {
-  const box = $("#progress"), percent = Math.round(fraction * 100);
-  box.hidden = !busy;
-  box.classList.toggle("alone", isAlone);
-  box.setAttribute("aria-valuenow", percent);
-  box.setAttribute("aria-valuetext", `${stageName(stage)}, ${percent} percent`);
-  $(".fill", box).style.width = `${Math.max(4, percent)}%`;
-  $("#stage-name").textContent = `${stageName(stage)} …`;
-}
 
 let timer = 0, isLost = false;
 

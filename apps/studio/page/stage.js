@@ -1,10 +1,11 @@
-// The relief in the middle of the page: pictures from the engine, and what the mouse and the keys do to them.
+// The relief in the middle of the page: shows the engine's pictures, and turns, lights and cuts the relief by mouse
+// and keys.
 
 import {$, clamp, make} from "./controls.js";
 import {engineOptions} from "./document.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
-const REST_MS = 160; // without changes until the fine picture is asked for
+const REST_MS = 160; // pause without changes after which the fine picture is asked for
 const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
 export const TABLE_LIGHTS = [
   {name: "Upper left", light: [-1, 1, 1]},
@@ -16,12 +17,13 @@ export const TABLE_LIGHTS = [
 const degrees = (radians) => radians * 180 / Math.PI;
 const radians = (angle) => angle * Math.PI / 180;
 
-// From azimuth and elevation in degrees to a direction, and back.
+// Converts azimuth and elevation in degrees to a direction, and back.
 const direction = (azimuth, elevation) => {
   const flat = Math.cos(radians(elevation));
   return [flat * Math.cos(radians(azimuth)), flat * Math.sin(radians(azimuth)), Math.sin(radians(elevation))];
 };
-const angles = ([x, y, z]) => ({azimuth: degrees(Math.atan2(y, x)), elevation: degrees(Math.atan2(z, Math.hypot(x, y)))});
+const angles = ([x, y, z]) =>
+  ({azimuth: degrees(Math.atan2(y, x)), elevation: degrees(Math.atan2(z, Math.hypot(x, y)))});
 
 export function paint(canvas, image) {
   if (canvas.width !== image.width) canvas.width = image.width;
@@ -30,7 +32,7 @@ export function paint(canvas, image) {
 }
 
 export class Stage {
-  // `on` has picture(about, ms), section(heights, from, to), failed(error).
+  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error).
   constructor(engine, doc, on) {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
@@ -54,7 +56,8 @@ export class Stage {
 
   request(extra = {}) {
     const step = this.doc.now;
-    const request = {options: engineOptions(step), material: step.material, light: step.light, camera: this.camera, ...extra};
+    const {material, light} = step;
+    const request = {options: engineOptions(step), material, light, camera: this.camera, ...extra};
     if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
     return request;
   }
@@ -62,21 +65,21 @@ export class Stage {
   invalidate() {
     ++this.wanted;
     this.changedAt = performance.now();
-    this.tellBusy();
+    this.showBusy();
     this.pump();
   }
 
-  // Another model is on its way.
+  // Shows that another model is being prepared.
   await(isAwaiting) {
     this.isAwaiting = isAwaiting;
-    this.tellBusy();
+    this.showBusy();
   }
 
-  tellBusy() {
+  showBusy() {
     this.element.setAttribute("aria-busy", Boolean(this.isAwaiting || this.fine !== this.wanted));
   }
 
-  // One picture at a time; the newest wish wins.
+  // The one queue of the studio: asks for one picture at a time, always of the newest state.
   async pump() {
     if (this.isBusy || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
@@ -100,7 +103,7 @@ export class Stage {
       this.on.failed(error);
     }
     this.isBusy = false;
-    this.tellBusy();
+    this.showBusy();
     this.pump();
   }
 
@@ -115,17 +118,17 @@ export class Stage {
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
-    if (this.isComparing || this.isHolding) await this.drawBefore(isFine);
+    if (this.isComparing || this.isHolding) await this.drawBefore(isFine, `${this.model} ${about.scene}`);
     if (this.tool === "section") await this.cut();
   }
 
-  async drawBefore(isFine) {
+  // Draws the model itself, unless it was drawn in the same scene before.
+  async drawBefore(isFine, scene) {
+    if (scene === this.sceneBefore) return;
     const request = this.request({...this.pixels(isFine), fine: isFine, original: true});
-    const {height, saturation, detail, tone, ...lasting} = request.options;
-    const key = JSON.stringify({...request, options: lasting, model: this.model});
-    if (key === this.beforeKey) return;
-    paint(this.before, (await this.engine.frame(request)).image);
-    this.beforeKey = key;
+    const {image, about} = await this.engine.frame(request);
+    paint(this.before, image);
+    this.sceneBefore = `${this.model} ${about.scene}`;
   }
 
   async drawTable(isFine) {
@@ -153,7 +156,9 @@ export class Stage {
   setTool(tool) {
     this.tool = tool;
     this.element.dataset.tool = tool;
-    const does = {light: "move the light", turn: "turn the relief", pan: "move the picture", section: "move the section"};
+    const does = {
+      light: "move the light", turn: "turn the relief", pan: "move the picture", section: "move the section",
+    };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
     if (tool === "section") {
       this.camera = {...this.camera, yaw: 0, pitch: 0};
@@ -185,7 +190,8 @@ export class Stage {
   setSplit(share) {
     this.split = share;
     this.before.style.clipPath = this.isHolding ? "none" : `inset(0 ${(1 - share) * 100}% 0 0)`;
-    this.picture.style.clipPath = this.isHolding ? "inset(100%)" : this.isComparing ? `inset(0 0 0 ${share * 100}%)` : "none";
+    const cut = this.isComparing ? `inset(0 0 0 ${share * 100}%)` : "none";
+    this.picture.style.clipPath = this.isHolding ? "inset(100%)" : cut;
     this.drawOverlay();
   }
 
@@ -232,7 +238,8 @@ export class Stage {
     }
     if (this.sun) {
       const [x, y] = this.sun;
-      marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}), make("circle", {class: "sun", cx: x, cy: y, r: 9}));
+      marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}),
+        make("circle", {class: "sun", cx: x, cy: y, r: 9}));
     }
     this.overlay.replaceChildren(...marks);
   }
@@ -276,7 +283,7 @@ export class Stage {
     this.drawOverlay();
   }
 
-  // Above the middle the light comes from the viewer; towards the rim it rakes.
+  // Sets the light: over the middle of the picture it comes from the viewer, towards the rim it rakes.
   lightFrom(x, y) {
     const {width, height} = this.size, radius = Math.min(width, height) / 2;
     const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;
@@ -311,7 +318,8 @@ export class Stage {
     event.preventDefault();
     const zoom = clamp(this.camera.zoom * Math.exp(-event.deltaY * 0.0015), 0.3, 40);
     const [x, y] = this.toPlace(event.offsetX, event.offsetY), rest = 1 - this.camera.zoom / zoom;
-    this.camera = {...this.camera, zoom, x: this.camera.x + rest * (x - this.camera.x), y: this.camera.y + rest * (y - this.camera.y)};
+    const {camera} = this;
+    this.camera = {...camera, zoom, x: camera.x + rest * (x - camera.x), y: camera.y + rest * (y - camera.y)};
     if (zoom <= 1) this.camera = {...this.camera, x: 0, y: 0};
     this.invalidate();
   }

@@ -1,18 +1,16 @@
-// Choosing the view: the model turned in space, and the six sides.
+// The dialog in which the view is chosen: by turning the model in space, or as one of the six sides.
 
+import {about} from "./about.js";
 import {$, make} from "./controls.js";
 import {paint} from "./stage.js";
 
-const SIDES = ["front", "back", "left", "right", "top", "bottom"];
-const TOWARDS = {
-  front: [[0, 0, 1], [0, 1, 0]], back: [[0, 0, -1], [0, 1, 0]], left: [[-1, 0, 0], [0, 1, 0]],
-  right: [[1, 0, 0], [0, 1, 0]], top: [[0, 1, 0], [0, 0, -1]], bottom: [[0, -1, 0], [0, 0, 1]],
-};
+const SIDES = about.views.map(({name}) => name);
+const TOWARDS = Object.fromEntries(about.views.map(({name, towards, up}) => [name, [towards, up]]));
 
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => a.map((x) => x / Math.hypot(...a));
-// a turned about a unit axis
+// Returns a, turned about a unit axis.
 const turned = (a, axis, angle) => {
   const c = Math.cos(angle), s = Math.sin(angle), side = cross(axis, a), along = dot(axis, a) * (1 - c);
   return a.map((x, i) => x * c + side[i] * s + axis[i] * along);
@@ -20,7 +18,7 @@ const turned = (a, axis, angle) => {
 const text = (a) => a.map((x) => Number(x.toFixed(4))).join(",");
 const triple = (t) => t.split(",").map(Number);
 
-// "front", or "turned by hand"
+// Returns "Front", or "Turned by hand" for other directions.
 export const viewName = (view) => (SIDES.includes(view) ? view[0].toUpperCase() + view.slice(1) : "Turned by hand");
 
 export class ViewDialog {
@@ -29,7 +27,9 @@ export class ViewDialog {
     this.dialog = $("#view-dialog");
     this.model = $("#model");
     this.canvas = $("canvas", this.model);
-    $("#sides").append(...SIDES.map((side) => make("button", {type: "button", "data-side": side, onclick: () => this.face(side)}, viewName(side))));
+    const button = (side) =>
+      make("button", {type: "button", "data-side": side, onclick: () => this.face(side)}, viewName(side));
+    $("#sides").append(...SIDES.map(button));
     $("#suggest").onclick = () => this.suggest();
     this.dialog.onclose = () => this.dialog.returnValue === "apply" && this.onApply(this.result());
     this.listen();
@@ -49,10 +49,11 @@ export class ViewDialog {
     this.draw();
   }
 
-  // Up at a right angle to the view.
+  // Makes `up` perpendicular to the view.
   straighten() {
     let right = cross(this.up, this.towards);
-    if (Math.hypot(...right) < 1e-6) right = cross(Math.abs(this.towards[2]) < 0.9 ? [0, 0, 1] : [0, 1, 0], this.towards);
+    const other = Math.abs(this.towards[2]) < 0.9 ? [0, 0, 1] : [0, 1, 0];
+    if (Math.hypot(...right) < 1e-6) right = cross(other, this.towards);
     this.right = unit(right);
     this.up = cross(this.towards, this.right);
     this.mark();
@@ -69,7 +70,7 @@ export class ViewDialog {
     for (const button of $("#sides").children) button.setAttribute("aria-pressed", button.dataset.side === this.side);
   }
 
-  // The model follows the hand: the viewer turns the other way.
+  // Turns the model with the hand, which is to turn the viewer the other way.
   turn(dx, dy, roll = 0) {
     const {up, right} = this;
     for (const [axis, angle] of [[up, -dx], [right, -dy], [this.towards, -roll]]) {

@@ -52,7 +52,7 @@ async function press(locator, key, times) {
   for (let i = 0; i < times; ++i) await locator.press(key);
 }
 
-// What the relief looks like, once it stands still: the bytes of its picture.
+// Returns the bytes of the relief's picture, once it stands still.
 async function picture() {
   const read = () => page.getByRole("application", {name: /^Relief/}).locator("canvas").first().evaluate((canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -75,8 +75,11 @@ function difference(a, b) {
 const assertSame = (a, b) => assert.ok(difference(a, b) < 0.05, `pictures differ by ${difference(a, b)}`);
 const assertOther = (a, b) => assert.ok(difference(a, b) > 0.2, `pictures differ by ${difference(a, b)} only`);
 
-// Of the newest frame, not what was asked for.
-const heightShown = async () => Number((await numbers().getByTitle(/height reached/).getAttribute("title")).match(/reached ([\d.]+)/)[1]);
+// Returns the height of the newest frame, which need not be the one asked for.
+async function heightShown() {
+  const title = await numbers().getByTitle(/height reached/).getAttribute("title");
+  return Number(title.match(/reached ([\d.]+)/)[1]);
+}
 
 async function untilHeight(wanted, tolerance) {
   for (let i = 0; i < 100; ++i) {
@@ -191,6 +194,51 @@ test("shapes the tone curve with presets and keys", {skip}, async () => {
   assert.match(await point.getAttribute("aria-valuetext"), /keeps 40 percent/);
   await point.press("Delete");
   await page.getByRole("slider", {name: "Curve point 3 of 3"}).waitFor();
+  await untilHeight(3, 0.01);
+});
+
+test("has sliders, defaults and units of the engine's options", {skip}, async () => {
+  const {fields, first, options, defaults} = await page.evaluate(async () => {
+    const from = (name) => import(new URL(name, location));
+    const [{FIELDS}, {FIRST}, {about}] = await Promise.all([from("fields.js"), from("document.js"), from("about.js")]);
+    return {fields: FIELDS, first: FIRST.options, options: about.options, defaults: about.defaults.layered};
+  });
+  const option = (name) => options.find((o) => o.name === name) ?? assert.fail(`there is no option ${name}`);
+  for (const [name, {label, hand, unit, decimals}] of Object.entries(fields)) {
+    const {min, max, unit: engineUnit} = option(name);
+    assert.ok(min <= hand[0] && hand[0] < hand[1] && hand[1] <= max, `${name} ${hand} in ${min} to ${max}`);
+    assert.equal(Boolean(unit), ["MM", "DEG", "W"].includes(engineUnit), name);
+    assert.ok(first[name] >= hand[0] && first[name] <= hand[1], `${name} ${first[name]}`);
+    assert.equal(first[name], Number(first[name].toFixed(decimals)), name);
+    const number = page.getByRole("spinbutton", {name: new RegExp(`^${label} `)});
+    assert.deepEqual([await number.getAttribute("min"), await number.getAttribute("max")], [`${min}`, `${max}`], name);
+  }
+  for (const name of Object.keys(first)) option(name);
+  for (const [name, value] of Object.entries(defaults)) assert.equal(first[name], value, name);
+  for (const name of ["width", "corner", "margin", "thickness"]) assert.equal(first[name], option(name).default, name);
+});
+
+// The curve that is on the page, as shares from 0 to 1.
+const curveShown = async (name) => (await page.locator(`#curve .${name}`).getAttribute("d")).split(/[ML]/).slice(1)
+  .map((place) => 1 - Number(place.split(" ")[1]) / 150);
+
+test("draws the curve that the engine has sampled", {skip}, async () => {
+  let sampled = null;
+  const listen = (response) => {
+    const text = response.url().endsWith("api/frame") && response.headers()["x-relievo"];
+    if (text) sampled = JSON.parse(text).curve;
+  };
+  page.on("response", listen);
+  await set("Height in mm", 3.5);
+  await untilHeight(3.5, 0.01);
+  await picture();
+  page.off("response", listen);
+  for (const [name, shares] of [["drawn", sampled.share], ["kept", sampled.kept]]) {
+    const shown = await curveShown(name);
+    assert.equal(shown.length, shares.length);
+    shown.forEach((y, i) => assert.ok(Math.abs(y - shares[i]) < 5e-4, `${name} ${i}: ${y} for ${shares[i]}`));
+  }
+  await button("Undo").click();
   await untilHeight(3, 0.01);
 });
 
@@ -344,7 +392,7 @@ test("cancels", {skip}, async () => {
   await page.getByRole("button", {name: /still life/i}).first().click();
   await button("Cancel").click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
-  await page.getByText("scan.ply", {exact: true}).first().waitFor();  // what was there before
+  await page.getByText("scan.ply", {exact: true}).first().waitFor();  // the scan before it
   assert.equal(await value("Height in mm"), 2.5);
 });
 
@@ -352,8 +400,12 @@ test("helps at the press of a key, and names all it has", {skip}, async () => {
   await page.keyboard.press("?");
   await page.getByRole("dialog", {name: "Help"}).waitFor();
   await page.keyboard.press("Escape");
-  const nameless = await page.evaluate(() => [...document.querySelectorAll("button, input, select, [role=slider], [role=application], dialog")]
-    .filter((e) => !(e.ariaLabel || e.getAttribute("aria-labelledby") || e.textContent.trim() || e.closest("label"))).map((e) => e.outerHTML.slice(0, 80)));
+  const nameless = await page.evaluate(() => {
+    const all = document.querySelectorAll("button, input, select, [role=slider], [role=application], dialog");
+    const hasName = (e) =>
+      e.ariaLabel || e.getAttribute("aria-labelledby") || e.textContent.trim() || e.closest("label");
+    return [...all].filter((e) => !hasName(e)).map((e) => e.outerHTML.slice(0, 80));
+  });
   assert.deepEqual(nameless, []);
 });
 

@@ -1,10 +1,11 @@
-// What the server does with requests that do not come from its page, are broken, or are too many.
+// Sends the server requests: those of its page, and those that do not come from it, are broken, or are too many.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {existsSync, readFileSync, writeFileSync} from "node:fs";
+import {existsSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import net from "node:net";
 import path from "node:path";
 import {after, before, test} from "node:test";
+import {fileURLToPath} from "node:url";
 import {EngineProcess, PROGRAM, readStl, removeFolder, temporaryFolder} from "./support.mjs";
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
@@ -26,6 +27,15 @@ after(async () => {
 });
 
 const status = async (answer) => (await answer).status;
+const about = async () => JSON.parse((await engine.get("api/about")).body);
+const facts = async () => JSON.parse((await engine.get("api/facts")).body);
+
+// Returns what is sent along with a picture's pixels; `part` replaces parts of the usual request.
+async function frame(part = {}) {
+  const answer = await engine.post("frame", {...FRAME, ...part});
+  assert.equal(answer.status, 200, String(answer.body));
+  return JSON.parse(answer.headers["x-relievo"]);
+}
 const stillWorks = async () => assert.equal(await status(engine.post("frame", FRAME)), 200);
 
 test("serves the page and nothing else", async () => {
@@ -33,13 +43,17 @@ test("serves the page and nothing else", async () => {
   assert.equal(page.status, 200);
   assert.match(page.headers["content-security-policy"], /default-src 'none'/);
   assert.equal(await status(engine.get("main.js")), 200);
-  for (const name of ["gone.js", "../main.js", "../../etc/passwd", "%2e%2e/%2e%2e/etc/passwd", "..%2f..%2fetc%2fpasswd", "/etc/passwd", "main.js%00.css", "api/", "api/gone"])
+  const wrong = ["gone.js", "../main.js", "../../etc/passwd", "%2e%2e/%2e%2e/etc/passwd", "..%2f..%2fetc%2fpasswd",
+    "/etc/passwd", "main.js%00.css", "api/", "api/gone"];
+  for (const name of wrong)
     assert.notEqual(await status(engine.get(name)), 200, name);
 });
 
 test("wants its token", async () => {
   const token = engine.url.pathname.slice(1, -1), wrong = token.replace(/.$/, (c) => (c === "0" ? "1" : "0"));
-  for (const target of ["/", "/main.js", `/${wrong}/`, `/${token.slice(0, -1)}/`, `/${token}x/`, "/api/about", `/x/${token}/`, "//", "*"])
+  const targets = ["/", "/main.js", `/${wrong}/`, `/${token.slice(0, -1)}/`, `/${token}x/`, "/api/about",
+    `/x/${token}/`, "//", "*"];
+  for (const target of targets)
     assert.ok([400, 403].includes(await status(engine.request(target))), target);
   assert.equal(await status(engine.request(`/${wrong}/api/frame`, {method: "POST", body: "{}"})), 403);
   assert.equal(await status(engine.request(`/${token}`)), 308);
@@ -49,7 +63,9 @@ test("refuses other hosts and origins", async () => {
   const {pathname, port} = engine.url;
   for (const Host of ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1:${+port + 1}`])
     assert.ok([400, 403].includes(await status(engine.request(pathname, {headers: {Host}}))), Host);
-  for (const Origin of ["http://evil.example", "null", `https://127.0.0.1:${port}`, `http://127.0.0.1:${+port + 1}`, `http://127.0.0.1:${port}.evil.example`])
+  const origins = ["http://evil.example", "null", `https://127.0.0.1:${port}`, `http://127.0.0.1:${+port + 1}`,
+    `http://127.0.0.1:${port}.evil.example`];
+  for (const Origin of origins)
     assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin}})), 403, Origin);
   assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin: `http://127.0.0.1:${port}`}})), 200);
   assert.equal(await status(engine.request(pathname, {headers: {Host: `localhost:${port}`}})), 200);
@@ -81,11 +97,13 @@ test("refuses malformed requests and says what was expected", async () => {
     for (const action of ["frame", "export", "open", "state", "project", "profile", "scan"]) {
       const answer = await engine.post(action, Buffer.from(body, "latin1"));
       const isFine = action === "state" && body.startsWith("{\"options\": 3");
-      assert.ok(isFine || (answer.status >= 400 && answer.status < 500), `${action} ${body.slice(0, 20)} ${answer.status}`);
+      const isRefused = answer.status >= 400 && answer.status < 500;
+      assert.ok(isFine || isRefused, `${action} ${body.slice(0, 20)} ${answer.status}`);
       if (!isFine) assert.ok(JSON.parse(answer.body).error.text.length > 5);
     }
-  const wrong = [{width: "wide"}, {width: -1}, {width: 1e9}, {material: "cheese"}, {material: 3}, {camera: []}, {camera: {zoom: 0}},
-    {options: {heigth: 2}}, {options: {height: "2"}}, {options: {height: -1}}, {options: {tone: "x"}}, {options: {view: 3}}, {u: -1}];
+  const wrong = [{width: "wide"}, {width: -1}, {width: 1e9}, {material: "cheese"}, {material: 3}, {camera: []},
+    {camera: {zoom: 0}}, {options: {heigth: 2}}, {options: {height: "2"}}, {options: {height: -1}},
+    {options: {tone: "x"}}, {options: {view: 3}}, {u: -1}];
   for (const part of wrong) {
     const answer = await status(engine.post("frame", {...FRAME, ...part}));
     assert.ok([400, 422].includes(answer), `${JSON.stringify(part)} ${answer}`);
@@ -95,6 +113,108 @@ test("refuses malformed requests and says what was expected", async () => {
   assert.equal(await status(engine.post("view", {view: "sideways"})), 422);
   assert.equal(await status(engine.request(engine.url.pathname, {method: "DELETE"})), 405);
   await stillWorks();
+});
+
+// Returns all stages that the sources name in begin_stage(progress, "..."), progress.stage("..."), each("...").
+function stagesInSources() {
+  const root = fileURLToPath(new URL("../../..", import.meta.url)), stages = new Set(["waiting"]);
+  for (const folder of ["src", "apps"])
+    for (const name of readdirSync(path.join(root, folder), {recursive: true})) {
+      if (!name.endsWith(".cpp")) continue;
+      const text = readFileSync(path.join(root, folder, name), "utf8");
+      for (const [, stage] of text.matchAll(/(?:begin_stage\(\s*&?\w+,|[.>]stage\(|[.]each\()\s*"([^"]+)"/g))
+        stages.add(stage);
+    }
+  return [...stages];
+}
+
+test("names every stage for people", async () => {
+  const {stages} = await about(), found = stagesInSources();
+  assert.ok(found.length >= 25, `${found}`);
+  for (const stage of found) assert.match(stages[stage] ?? "", /^[A-Z].{5,}/, stage);
+});
+
+test("takes everything that the page offers to choose", async () => {
+  const page = (await engine.get("index.html")).body.toString();
+  for (const name of ["method", "outline", "form"]) {
+    const [, list] = page.match(new RegExp(`<select id="${name}">(.*?)</select>`, "s"));
+    const values = [...list.matchAll(/value="([^"]+)"/g)].map(([, value]) => value);
+    assert.ok(values.length >= 2, name);
+    for (const value of values) await frame({options: {...OPTIONS, [name]: value}});
+  }
+  for (const {id} of (await about()).materials) await frame({material: id});
+});
+
+test("sends the views as it turns the model", async () => {
+  for (const {name, towards, up} of (await about()).views) {
+    await engine.post("view", {view: name});
+    await engine.untilIdle();
+    const {rotation} = await facts();
+    const rows = [...rotation.slice(6), ...rotation.slice(3, 6)];
+    assert.ok([...towards, ...up].every((x, i) => x === rows[i]), `${name}: ${towards} ${up} ${rows}`);
+  }
+  await engine.post("view", {view: "front"});
+  await engine.untilIdle();
+});
+
+test("samples the tone curve and the paper's formula", async () => {
+  const {delta} = await facts(), last = 80;
+  const near = (found, wanted) => assert.ok(Math.abs(found - wanted) < 6e-4, `${found} is not ${wanted}`);
+  const paper = await frame({options: {...OPTIONS, method: "paper", saturation: 0.5}});
+  const even = await frame({options: {...OPTIONS, saturation: 0}});
+  const drawn = await frame({options: {...OPTIONS, tone: "0,0.2;0.5,0.4;1,0.9"}});
+  for (let i = 0; i <= last; ++i) {
+    const power = Math.sqrt((i / last) ** 2 / delta);
+    near(paper.curve.share[i], 1 - Math.exp(-power));
+    near(paper.curve.kept[i], 1 - Math.exp(-paper.u * power));
+    near(even.curve.share[i], 1);
+    assert.ok(i === 0 || drawn.curve.share[i] >= drawn.curve.share[i - 1]);
+  }
+  for (const [i, share] of [[0, 0.2], [40, 0.4], [80, 0.9]]) near(drawn.curve.share[i], share);
+  assert.deepEqual(drawn.curve.kept, drawn.curve.share);
+});
+
+test("numbers what a picture shows besides the relief", async () => {
+  const {scene} = await frame();
+  assert.equal((await frame({options: {...OPTIONS, saturation: 0.3, height: 1, method: "paper"}})).scene, scene);
+  assert.equal((await frame({original: true})).scene, scene);
+  for (const part of [{light: [1, 0, 1]}, {width: 150}, {fine: true}, {camera: {yaw: 5}}, {material: "silver"},
+    {options: {...OPTIONS, margin: 6}}, {options: {...OPTIONS, width: 50}}])
+    assert.notEqual((await frame(part)).scene, (await frame()).scene, JSON.stringify(part));
+});
+
+test("makes a frame once", async () => {
+  const options = {...OPTIONS, saturation: 0.7};
+  assert.ok((await frame({options, fine: true})).solves >= 1);
+  assert.equal((await frame({options, fine: true})).solves, 0);
+  assert.equal((await frame({options, light: [1, 0, 1]})).solves, 0);
+  assert.equal((await frame({options: {...options, height: 2.1}})).solves, 1);
+});
+
+test("takes a view that is chosen while the scan is read", async () => {
+  await engine.post("open", {input: {sample: "still_life", name: "still_life"}});
+  await engine.post("view", {view: "left"});
+  const {input, view} = await engine.untilIdle();
+  assert.equal(input.sample, "still_life");
+  assert.equal(view, "left");
+  assert.equal((await facts()).rotation[6], -1);
+  await engine.open({path: scan});
+});
+
+test("goes on with the old scan when the new one is cancelled", async () => {
+  const {model} = (await about()).status;
+  await engine.post("open", {input: {sample: "still_life", name: "still_life"}});
+  await engine.post("cancel", {});
+  let now;
+  do now = (await about()).status; while (now.busy);
+  assert.equal(now.error.kind, "cancelled");
+  assert.equal(now.model, model);
+  assert.equal(now.input.path, scan);
+  await stillWorks();
+  await engine.post("view", {view: "left"});
+  await engine.untilIdle();
+  assert.equal((await facts()).input_points, 20000);
+  await engine.open({path: scan});
 });
 
 test("opens scenes, and exports what make makes of them", async () => {
@@ -113,7 +233,8 @@ test("opens scenes, and exports what make makes of them", async () => {
 
 test("keeps dropped files inside its folder", async () => {
   const bytes = readFileSync(scan);
-  const upload = (name) => engine.request(`${engine.url.pathname}api/upload?name=${encodeURIComponent(name)}`, {method: "POST", body: bytes});
+  const target = `${engine.url.pathname}api/upload?name=`;
+  const upload = (name) => engine.request(target + encodeURIComponent(name), {method: "POST", body: bytes});
   for (const name of ["../../../escape.ply", "/tmp/escape.ply", "..", "a\\..\\b.ply", "x\u0000y.ply", ""]) {
     const answer = await upload(name);
     assert.equal(answer.status, 200, name);
@@ -123,7 +244,8 @@ test("keeps dropped files inside its folder", async () => {
 });
 
 test("answers a thousand requests at once", async () => {
-  const answers = await Promise.all(Array.from({length: 1000}, (_, i) => status(i % 2 ? engine.post("frame", FRAME) : engine.get("api/about"))));
+  const ask = (_, i) => status(i % 2 ? engine.post("frame", FRAME) : engine.get("api/about"));
+  const answers = await Promise.all(Array.from({length: 1000}, ask));
   assert.ok(answers.every((answer) => answer === 200 || answer === 503), [...new Set(answers)].join());
   assert.ok(answers.filter((answer) => answer === 200).length >= 500);
   await stillWorks();
@@ -136,7 +258,10 @@ test("survives a page that closes during an export, and half a request", async (
 });
 
 test("exports the very bytes that make writes", async () => {
-  const options = {...OPTIONS, saturation: 0.3, detail: 0.05, tone: "0,0.2;0.6,0.5;1,0.9", steepest: 60, boundary: 4, margin: 2, thickness: 1.5, form: "mirror", tolerance: 0.02, draft: 40};
+  const options = {
+    ...OPTIONS, saturation: 0.3, detail: 0.05, tone: "0,0.2;0.6,0.5;1,0.9", steepest: 60, boundary: 4, margin: 2,
+    thickness: 1.5, form: "mirror", tolerance: 0.02, draft: 40,
+  };
   const project = path.join(folder, "p.relievo");
   writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "scan.ply"}, options}));
   for (const format of ["stl", "3mf", "ply", "obj"]) {
@@ -149,7 +274,7 @@ test("exports the very bytes that make writes", async () => {
 });
 
 test("opens a mesh and looks at it from where the view is", async () => {
-  const mesh = path.join(folder, "mesh.stl"), project = path.join(folder, "mesh.relievo"), out = path.join(folder, "again.stl");
+  const [mesh, project, out] = ["mesh.stl", "mesh.relievo", "again.stl"].map((name) => path.join(folder, name));
   assert.equal(spawnSync(PROGRAM, ["make", scan, "-o", mesh, "--height", "6"]).status, 0);
   const other = await new EngineProcess(path.join(folder, "mesh")).ready();
   await other.open({path: mesh});
@@ -194,12 +319,15 @@ function chunks(size) {
   return `${part.length.toString(16)}\r\n${part}\r\n`.repeat(size / part.length + 1) + "0\r\n\r\n";
 }
 
-// The status of a request whose headers Node would not send.
+// The first two lines of a request.
+const head = (action) => `POST ${engine.url.pathname}api/${action} HTTP/1.1\r\nHost: ${engine.url.host}\r\n`;
+
+// Returns the status of a request whose headers Node would not send.
 function rawStatus(action, headers, body) {
   return new Promise((resolve, reject) => {
     const socket = net.connect(engine.url.port, "127.0.0.1");
     const lines = Object.entries(headers).map(([name, value]) => `${name}: ${value}\r\n`).join("");
-    socket.write(`POST ${engine.url.pathname}api/${action} HTTP/1.1\r\nHost: ${engine.url.host}\r\n${lines}\r\n${body}`);
+    socket.write(`${head(action)}${lines}\r\n${body}`);
     let text = "";
     socket.on("data", (data) => {
       text += data;
@@ -209,7 +337,9 @@ function rawStatus(action, headers, body) {
         socket.destroy();
       }
     });
-    socket.on("error", (error) => (text ? null : error.code === "EPIPE" || error.code === "ECONNRESET" ? resolve(400) : reject(error)));
+    socket.on("error", (error) => {
+      if (!text) ["EPIPE", "ECONNRESET"].includes(error.code) ? resolve(400) : reject(error);
+    });
     socket.on("close", () => resolve(text ? 0 : 400));
   });
 }
@@ -219,7 +349,7 @@ function cut(action, body, ms, promised = body.length) {
   return new Promise((resolve) => {
     const socket = net.connect(engine.url.port, "127.0.0.1");
     socket.on("error", resolve);
-    socket.write(`POST ${engine.url.pathname}api/${action} HTTP/1.1\r\nHost: ${engine.url.host}\r\nContent-Length: ${promised}\r\n\r\n${body}`);
+    socket.write(`${head(action)}Content-Length: ${promised}\r\n\r\n${body}`);
     setTimeout(() => {
       socket.destroy();
       resolve();

@@ -1,4 +1,4 @@
-// What the studio's tests share: the engine as a process, its page in Chromium, and the files they leave.
+// Helpers of the studio's tests: the engine as a process, its page in Chromium, and temporary files.
 import {spawn} from "node:child_process";
 import {existsSync, mkdtempSync, rmSync} from "node:fs";
 import http from "node:http";
@@ -7,8 +7,8 @@ import path from "node:path";
 
 export const PROGRAM = process.env.RELIEVO ?? path.resolve("build/release/apps/cli/relievo");
 const CHROMIUM = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
-const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
-  "--disable-component-update", "--disable-sync"];
+const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
+  "--disable-background-networking", "--disable-component-update"];
 
 export function temporaryFolder() {
   return mkdtempSync(path.join(tmpdir(), "relievo-studio-"));
@@ -39,14 +39,16 @@ export class EngineProcess {
     return this;
   }
 
-  // One request; {status, headers, body}. `target` is taken as it is, without tidying dots.
+  // Sends one request; returns {status, headers, body}. `target` is taken as it is, without tidying dots.
   request(target, {method = "GET", headers = {}, body} = {}) {
+    const {port} = this.url;
+    const options = {host: "127.0.0.1", port, method, path: target, headers: {Connection: "close", ...headers}};
     return new Promise((resolve, reject) => {
-      const request = http.request({host: "127.0.0.1", port: this.url.port, method, path: target, headers: {Connection: "close", ...headers}}, (response) => {
-        const parts = [];
+      const request = http.request(options, (response) => {
+        const parts = [], {statusCode: status, headers} = response;
         response.on("data", (part) => parts.push(part));
         response.on("error", reject);
-        response.on("end", () => resolve({status: response.statusCode, headers: response.headers, body: Buffer.concat(parts)}));
+        response.on("end", () => resolve({status, headers, body: Buffer.concat(parts)}));
       });
       request.on("error", reject);
       request.end(body);
@@ -84,7 +86,7 @@ export class EngineProcess {
   }
 }
 
-// Chromium's driver and path, or a text that tells what is missing.
+// Returns Chromium's driver and path, or a text that says what is missing.
 export async function findBrowser() {
   const executablePath = CHROMIUM.find((candidate) => candidate && existsSync(candidate));
   if (!executablePath) return {missing: "Chromium is not installed (apt-get install chromium)"};
@@ -96,9 +98,9 @@ export async function findBrowser() {
   }
 }
 
-// The triangles of a binary STL: their number, their box, and whether every edge has two.
+// Returns of a binary STL the number of triangles, the size of their box, and whether every edge has two.
 export function readStl(bytes) {
-  const count = bytes.readUInt32LE(80), box = {min: [Infinity, Infinity, Infinity], max: [-Infinity, -Infinity, -Infinity]};
+  const count = bytes.readUInt32LE(80), box = {min: Array(3).fill(Infinity), max: Array(3).fill(-Infinity)};
   const edges = new Map(), at = (offset) => [0, 4, 8].map((i) => bytes.readFloatLE(offset + i));
   const balance = (a, b, by) => edges.set(a + b, (edges.get(a + b) ?? 0) + by);
   for (let t = 0; t < count; ++t) {
@@ -111,5 +113,6 @@ export function readStl(bytes) {
     const [a, b, c] = corners.map((corner) => corner.join(","));
     for (const [p, q] of [[a, b], [b, c], [c, a]]) p < q ? balance(`${p} `, q, 1) : balance(`${q} `, p, -1);
   }
-  return {count, size: box.max.map((x, i) => x - box.min[i]), isClosed: bytes.length === 84 + 50 * count && [...edges.values()].every((n) => n === 0)};
+  const isClosed = bytes.length === 84 + 50 * count && [...edges.values()].every((n) => n === 0);
+  return {count, size: box.max.map((x, i) => x - box.min[i]), isClosed};
 }

@@ -3,6 +3,7 @@
 
 #include <expected>
 #include <string>
+#include <utility>
 
 namespace relievo {
 
@@ -14,14 +15,16 @@ enum class ErrorKind {
   output,     // a file could not be written
 };
 
-// What went wrong: which input, where in it, and what was expected there.
+// Describes what went wrong: in which input, where in it, and what was expected there.
 struct Error {
   ErrorKind kind = ErrorKind::input;
-  std::string input;  // the name the caller gave to the input or option, "scan.ply", "--height"; may be empty
-  std::string place;  // "line 12", "byte 340", "vertex 7"; empty when the whole input is meant
+  // The name that the caller gave to the input or option, "scan.ply" or "height"; may be empty.
+  std::string input;
+  std::string place;     // "line 12", "byte 340", "vertex 7"; empty if the error concerns the whole input
   std::string expected;  // one clause: what was expected and what was found instead
 
-  // One line for a person: "scan.ply, line 12: expected 3 numbers, found 'abc'". Empty parts are left out.
+  // Returns one line for a person: "scan.ply, line 12: expected 3 numbers, found 'abc'". Empty parts are left
+  // out.
   std::string message() const {
     std::string head = input;
     if (!place.empty()) head += (head.empty() ? "" : ", ") + place;
@@ -31,5 +34,29 @@ struct Error {
 
 template <typename T>
 using Result = std::expected<T, Error>;
+
+// Return an error of kind option or geometry, ready to be returned from a function that returns a Result.
+inline std::unexpected<Error> option_error(std::string option, std::string expected) {
+  return std::unexpected(Error{ErrorKind::option, std::move(option), {}, std::move(expected)});
+}
+inline std::unexpected<Error> geometry_error(std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
+}
+
+// Macros, as only these can return from the function they stand in.
+#define RELIEVO_JOIN_(a, b) a##b
+#define RELIEVO_JOIN(a, b) RELIEVO_JOIN_(a, b)
+
+// Returns the error of a Result, if it is one.
+#define RELIEVO_CHECK(...) \
+  if (auto checked = (__VA_ARGS__); !checked) return std::unexpected(std::move(checked).error())
+
+// Declares a variable with the value of a Result, or returns its error:
+// RELIEVO_TRY(const Surface surface, find_surface(cloud, view));
+#define RELIEVO_TRY(declaration, ...) RELIEVO_TRY_(RELIEVO_JOIN(tried_, __LINE__), declaration, __VA_ARGS__)
+#define RELIEVO_TRY_(result, declaration, ...)                    \
+  auto result = (__VA_ARGS__);                                    \
+  if (!result) return std::unexpected(std::move(result).error()); \
+  declaration = *std::move(result)
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// Lengths as people write them: in millimetres, centimetres or inches.
+// Lengths as people write them: in millimetres, centimetres or inches. Tested by tests/core/length_test.cpp.
 #pragma once
 
 #include <string_view>
@@ -11,22 +11,23 @@ enum class LengthUnit { mm, inch };
 
 inline constexpr double mm_per_inch = 25.4;
 
-// Millimetres of one unit.
+// Returns the millimetres in one unit.
 constexpr double mm_per(LengthUnit unit) {
   return unit == LengthUnit::inch ? mm_per_inch : 1;
 }
 
-// "mm" or "in".
+// Returns "mm" or "in".
 constexpr std::string_view name_of(LengthUnit unit) {
   return unit == LengthUnit::inch ? "in" : "mm";
 }
 
-// Returns the unit of that name, mm or in. Errors: kind option for any other, naming --units.
+// Returns the unit called "mm" or "in". Errors: kind option for any other name; the error's input is "units".
 Result<LengthUnit> parse_unit(std::string_view name);
 
-// Returns the millimetres of "12.5mm", "1cm", "4in", "4\"" or "3/8in": a number or a fraction of two, and its
-// unit, with or without a space between; without a unit it is in `bare`. Finite, of any sign. Errors: kind
-// option for any other text; its input is for the caller to name.
+// Returns the length in millimetres of a text such as "12.5mm", "1cm", "4in", "4\"" or "3/8in": a number or a
+// fraction of two numbers, followed by a unit, with or without a space between them. A text without a unit is
+// in `bare` units. The result is finite and may have any sign. Errors: kind option for any other text; the
+// error's input is empty, for the caller to fill in.
 Result<double> parse_length(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 }  // namespace relievo

@@ -1,5 +1,6 @@
-// The one place that knows threads. Work is cut into blocks whose limits depend on the size alone, never on
-// the number of threads, so that results are the same bits for any number.
+// Parallel loops, and the only file of the library that creates threads. Work is cut into blocks whose limits
+// depend on the amount of work alone, never on the number of threads, so that results have the same bits for
+// any number of threads. Tested by tests/core/parallel_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -15,24 +16,25 @@
 
 namespace relievo {
 
-// Number of threads that parallel calls use, this one included; at first what the machine has.
+// Returns the number of threads that parallel calls use, the calling one included. Initially it is the number
+// of hardware threads.
 int thread_count();
 
-// Sets it for the whole process, clamped to [1, 256]; 0 means what the machine has. Call it while no parallel
-// call runs.
+// Sets that number for the whole process, clamped to [1, 256]; 0 stands for the number of hardware threads.
+// Must not be called while a parallel call runs.
 void set_thread_count(int threads);
 
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
-// Runs f(context, b) once for each b in [0, blocks), on all threads; returns when all are done. Blocks are
-// begun in ascending order. A nested call runs on the calling thread alone.
+// Runs f(context, b) once for each b in [0, blocks), on all threads, and returns when all are done. Blocks
+// are started in ascending order. A nested call runs on the calling thread alone.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
 inline constexpr std::size_t default_grain = 4096;
 
-// Calls f(begin, end) for consecutive ranges of at most `grain` elements that cover [0, n). The ranges run
-// concurrently: f may write only what belongs to its own range. f must not throw.
+// Calls f(begin, end) for consecutive ranges of at most `grain` elements that together are [0, n). The ranges
+// run concurrently, so f may only write what belongs to its own range. f must not throw.
 template <typename F>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
   struct Context {
@@ -55,7 +57,7 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = default_grain) {
   });
 }
 
-// Returns merge(...merge(merge(start, map(range 0)), map(range 1))...): ranges are mapped concurrently,
+// Returns merge(...merge(merge(start, map(range 0)), map(range 1))...). Ranges are mapped concurrently and
 // merged in order, so that sums of floating-point numbers do not depend on the number of threads.
 template <typename T, typename Map, typename Merge>
 T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t grain = default_grain) {
@@ -66,8 +68,9 @@ T parallel_reduce(std::size_t n, T start, Map&& map, Merge&& merge, std::size_t 
   return start;
 }
 
-// One flag per block, for blocks that need the results of earlier ones. A block may wait for a block of a
-// lower number of the same parallel call, and no other: as blocks are begun in order, that one is under way.
+// One flag per block, for blocks that need the results of earlier ones. A block may only wait for a block of
+// the same parallel call with a lower number: as blocks are started in order, that one is running or done, so
+// that there is no deadlock.
 class BlockFlags {
  public:
   explicit BlockFlags(std::size_t blocks = 0) : flags_(blocks) {}
@@ -76,14 +79,14 @@ class BlockFlags {
     for (auto& flag : flags_) flag.store(0, std::memory_order_relaxed);
   }
   void set(std::size_t block) { flags_[block].store(1, std::memory_order_release); }
-  // Returns when the flag is set; what was written before is then visible.
+  // Returns when the flag is set. Everything that was written before set() is then visible.
   void wait(std::size_t block) const;
 
  private:
   std::vector<std::atomic<std::uint8_t>> flags_;
 };
 
-// A value that threads share: with() is the only way to it, one caller at a time.
+// A value that threads share. with() is the only access to it and admits one caller at a time.
 template <typename T>
 class Guarded {
  public:
@@ -103,16 +106,17 @@ class Guarded {
   T value_;
 };
 
-// A thread of its own that calls one function again and again, as long as that returns true, and then sleeps
-// until wake(). Its methods may be called from any thread but that one.
+// A thread that calls one function repeatedly as long as it returns true, and then sleeps until wake(). Its
+// methods may be called from any other thread.
 class BackgroundLoop {
  public:
   explicit BackgroundLoop(std::function<bool()> step);
-  ~BackgroundLoop();  // ends after the running step
+  ~BackgroundLoop();  // waits for the running step to end
 
   void wake();
 
-  // Waits until the loop sleeps and was not woken since. Returns false if that takes longer than the timeout.
+  // Waits until the loop sleeps and has nothing left to do. Returns false if that takes longer than the
+  // timeout.
   bool wait_until_idle(std::chrono::milliseconds timeout);
 
  private:

@@ -1,4 +1,4 @@
-// Progress of a long call: stage names, fraction, timing and cancellation in one small object.
+// Progress of a long call: stage names, fraction done, timing and cancellation in one small object.
 #pragma once
 
 #include <atomic>
@@ -17,9 +17,9 @@ struct StageTime {
   double seconds = 0;
 };
 
-// Passed as the last argument of long calls; a null pointer means "nobody watches".
-// Threads: stage() and times() belong to the thread that runs the call; cancel() and is_cancelled() may be
-// called from any thread at any time.
+// Long calls take a pointer to it as their last argument; a null pointer means that nobody watches.
+// stage() and times() may only be called by the thread that runs the call; cancel() and is_cancelled() by any
+// thread at any time.
 class Progress {
  public:
   // Called at the start of each stage with its name and the fraction done so far, in [0, 1], never
@@ -29,17 +29,17 @@ class Progress {
   Progress() = default;
   explicit Progress(Watcher watcher) : watcher_(std::move(watcher)) {}
 
-  // Ends the running stage, records its time, and starts the next. Returns an error of kind `cancelled` if
-  // cancel() was called, in which case the caller returns it at once.
+  // Ends the running stage, records its time, and starts the next one. Returns an error of kind `cancelled`
+  // if cancel() was called; the caller then returns that error at once.
   Result<void> stage(std::string_view name, double fraction);
 
-  // Ends the last stage and records its time; fraction becomes 1.
+  // Ends the last stage, records its time and sets the fraction to 1.
   void finish();
 
   void cancel() { is_cancelled_ = true; }
   bool is_cancelled() const { return is_cancelled_; }
 
-  // Stages that have ended, in order.
+  // Returns the stages that have ended, in order.
   const std::vector<StageTime>& times() const { return times_; }
 
  private:
@@ -54,7 +54,7 @@ class Progress {
   double fraction_ = 0;
 };
 
-// The same for a pointer that may be null: no-op then.
+// Calls stage() on a pointer that may be null, in which case it does nothing.
 inline Result<void> begin_stage(Progress* progress, std::string_view name, double fraction) {
   return progress ? progress->stage(name, fraction) : Result<void>{};
 }

@@ -1,4 +1,5 @@
-// Text without locale: joining, and parsing of small things that users type.
+// Joining of texts and parsing of small inputs, independent of the locale. Tested by
+// tests/core/text_test.cpp.
 #pragma once
 
 #include <charconv>
@@ -28,7 +29,8 @@ void append(std::string& out, T number) {
   out.append(digits, end.ptr);
 }
 
-// Joins texts and numbers; floating-point numbers with six significant digits.
+// Returns the parts joined: texts, characters and numbers, floating-point numbers with six significant
+// digits.
 template <typename... Parts>
 std::string cat(const Parts&... parts) {
   std::string out;
@@ -36,7 +38,7 @@ std::string cat(const Parts&... parts) {
   return out;
 }
 
-// "X,Y,Z" as three finite numbers; nothing for any other text.
+// Parses "X,Y,Z" as three finite numbers. Returns nothing for any other text.
 std::optional<Vec3> parse_triple(std::string_view text);
 
 }  // namespace relievo

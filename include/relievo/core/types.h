@@ -1,7 +1,8 @@
-// The small types every other header shares.
+// Basic types that all other headers use.
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -15,17 +16,25 @@ using Vec3 = Eigen::Vector3d;
 using Vec3f = Eigen::Vector3f;
 using Mat3 = Eigen::Matrix3d;
 
-// Number of a point, vertex or triangle. No stage takes more than 2^32 - 2 of them.
+// The number of a point, vertex or triangle. No stage accepts more than 2^32 - 2 of them.
 using Index = std::uint32_t;
 inline constexpr Index no_index = ~Index{0};
 
-// Three vertices, counter-clockwise as seen from +Z (from outside, for a solid).
+// Three vertices, counter-clockwise as seen from +Z; those of a solid as seen from outside.
 using Triangle = std::array<Index, 3>;
 
 // Red, green, blue.
 using Colour = std::array<std::uint8_t, 3>;
 
-// An axis-aligned box. Empty until the first extend(): then min is above max.
+// Returns the colour at a fraction `share` of the way from a to b, rounded.
+inline Colour mixed(const Colour& a, const Colour& b, double share) {
+  Colour out;
+  for (std::size_t i = 0; i < 3; ++i) out[i] = static_cast<std::uint8_t>(a[i] + share * (b[i] - a[i]) + .5);
+  return out;
+}
+
+// An axis-aligned box. It is empty, with min above max, until the first extend(). An empty box has size 0 and
+// its centre at the origin.
 struct Box {
   Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity());
   Vec3 max = Vec3::Constant(-std::numeric_limits<double>::infinity());
@@ -34,10 +43,24 @@ struct Box {
     min = min.cwiseMin(p);
     max = max.cwiseMax(p);
   }
+  // Returns the box of points of any precision; for points in the plane z is 0.
+  template <typename Points>
+  static Box of(const Points& points) {
+    Box box;
+    for (const auto& p : points) {
+      Vec3 corner = Vec3::Zero();
+      corner.head<std::remove_cvref_t<decltype(p)>::RowsAtCompileTime>() = p.template cast<double>();
+      box.extend(corner);
+    }
+    return box;
+  }
+
   bool is_empty() const { return (min.array() > max.array()).any(); }
   Vec3 size() const { return is_empty() ? Vec3::Zero() : Vec3(max - min); }
   Vec3 centre() const { return is_empty() ? Vec3::Zero() : Vec3((min + max) / 2); }
   double diagonal() const { return size().norm(); }
+  // The longer one of its sides in x and y.
+  double longer_side() const { return std::max(size().x(), size().y()); }
 };
 
 }  // namespace relievo

@@ -1,7 +1,8 @@
-// Multilevel B-splines: a smooth function of the plane through scattered values, at places fixed beforehand.
+// Multilevel B-splines: smooth functions of the plane that fit values at scattered sites known beforehand.
 //
 // Lee, Wolberg and Shin, "Scattered Data Interpolation with Multilevel B-Splines", 1997: uniform cubic
-// B-splines on lattices whose cells halve from level to level, each fitted to what the coarser ones leave.
+// B-splines on lattices whose cells halve from level to level, each fitted to the residual of the coarser
+// ones.
 #pragma once
 
 #include <span>
@@ -12,21 +13,22 @@
 namespace relievo {
 
 struct SplineOptions {
-  Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; other places take the value at its edge
+  Vec2 min = Vec2::Zero(), max = Vec2::Ones();  // the domain; points outside take the value at its edge
   double cell = .01;                            // side of the finest lattice's cells, > 0
   int levels = 5;  // number of lattices, [1, 16]; cells are twice as wide from each to the next coarser
-  int first_fitted = 0,
-      last_fitted = 15;  // levels that are fitted, the coarsest is 0; others are only refined
-  double damping = 0;    // share of the mean weight of the sites, >= 0: see MultilevelSpline::fit()
+  // The levels that are fitted, counted from the coarsest, 0; the others only refine the coarser function.
+  int first_fitted = 0, last_fitted = 15;
+  // In units of the mean weight of the sites, >= 0; see MultilevelSpline::fit().
+  double damping = 0;
 };
 
-// A place in the finest lattice.
+// A point relative to the finest lattice.
 struct SplinePlace {
-  Index node = 0;              // lower left of the 4 x 4 nodes that count
-  std::uint16_t x = 0, y = 0;  // position in the middle one of their cells, in 65536ths
+  Index node = 0;              // lower left of the 4 x 4 nodes with an influence
+  std::uint16_t x = 0, y = 0;  // position in the middle cell of these, in 65536ths
 };
 
-// The function: mean plus a uniform cubic B-spline.
+// A function of the plane: a constant plus a uniform cubic B-spline.
 struct SplineFunction {
   float mean = 0;
   std::vector<float> nodes;  // of the finest lattice, row by row
@@ -35,40 +37,43 @@ struct SplineFunction {
 // Fits and evaluates functions given at fixed sites. Const calls may run concurrently.
 class MultilevelSpline {
  public:
-  // What a fit needs besides the function, so that it allocates nothing.
+  // Scratch memory of fit(), so that it allocates nothing.
   struct Workspace {
-    std::vector<float> rest;        // per site, what the levels so far leave
+    std::vector<float> rest;        // per site, the residual of the levels so far
     std::vector<float> coarser;     // nodes of the level before
     std::vector<float> correction;  // per node
   };
 
-  MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // no sites: the function is 0
+  MultilevelSpline() : MultilevelSpline({}, {}, {}) {}  // without sites: functions are 0
 
-  // Prepares fits at the sites, each of a weight >= 0: how much it counts against its neighbours.
+  // Prepares fits at the sites. Each has a weight >= 0 relative to the other sites near it.
   MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights, const SplineOptions& options);
 
-  // Bytes held.
+  // Returns the bytes held.
   std::size_t memory() const;
 
   SplineFunction make_function() const;
   Workspace make_workspace() const;
 
-  // Overwrites the function with the fit to one value per site: their weighted mean, corrected level by
-  // level. A node's correction shrinks to a half where the weight around it is the damping; where there is
-  // none the function keeps what the coarser levels say. All sites of weight 0: the function is 0.
+  // Overwrites the function with the fit to one value per site: the weighted mean of the values, corrected
+  // level by level. Damping shrinks corrections that few sites support: to a half at nodes where the weight
+  // around them equals the damping. Nodes without sites around them keep the values of the coarser levels. If
+  // all weights are 0, the function is 0.
   void fit(std::span<const float> values, SplineFunction& function, Workspace& workspace) const;
 
+  // Returns the places of points, for evaluate().
   std::vector<SplinePlace> pack(std::span<const Vec2> points) const;
 
-  // Writes the function's value at each place.
+  // Writes the function's value at each place to `values`, which has the same size.
   void evaluate(const SplineFunction& function, std::span<const SplinePlace> places,
                 std::span<float> values) const;
 
-  // Overwrites `pair` with two functions, which may be those of another spline with the same domain, cell and
-  // levels: at each node both, side by side.
+  // Interleaves the nodes of two functions into `pair`, which is overwritten. They may belong to another
+  // spline with the same domain, cell size and number of levels.
   static void pair_up(const SplineFunction& a, const SplineFunction& b, std::vector<float>& pair);
 
-  // Writes the values of both at each place, less their means; in the calling thread alone.
+  // Writes the values of both functions, without their means, at each place. Runs in the calling thread
+  // alone.
   struct PairValues {
     std::span<float> a, b;
   };
@@ -81,15 +86,15 @@ class MultilevelSpline {
     float x = 0, y = 0;  // in the middle cell, [0, 1]
   };
   struct Site {
-    Eigen::Array4f x, y;  // weights of the nodes
+    Eigen::Array4f x, y;  // weights of the 4 nodes along each axis
     Index node = 0;
-    float scale = 0;  // the site's weight over the sum of the squares of those
+    float scale = 0;  // the site's weight divided by the sum of their squares
   };
   struct Level {
     std::size_t columns = 0, rows = 0;  // of nodes: cells + 3
     double cell = 0;
-    std::vector<Site> sites;     // none unless the level is fitted
-    std::vector<float> inverse;  // per node, of the weight around it
+    std::vector<Site> sites;     // empty unless the level is fitted
+    std::vector<float> inverse;  // per node, 1 / the weight around it
   };
 
   Position locate(const Level& level, const Vec2& point) const;

@@ -2,23 +2,23 @@
 // drawn on the CPU. For a picture of a finished solid see render_preview().
 #pragma once
 
-#include <cstdint>
+#include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "relievo/core/image.h"
+#include "relievo/picture/material.h"
 #include "relievo/relief/frame.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 
-// Row-major, first row at the top; red, green, blue and opacity of each pixel, colours not multiplied by it.
 struct Picture {
-  int width = 0, height = 0;
+  Image8 image;              // 4 channels
   double pixels_per_mm = 1;  // of the plate's plane, seen from the front
-  std::vector<std::uint8_t> rgba;
 };
-
-enum class Material { plaster, silver, bronze, walnut, porcelain };  // porcelain is lit from behind
 
 // Turned first about the upright axis of the picture, then about the level one; without turns it is the view
 // from the front.
@@ -26,6 +26,8 @@ struct Camera {
   double yaw_deg = 0, pitch_deg = 0;
   double zoom = 1;          // 1 fits the plate into the picture
   Vec2 pan = Vec2::Zero();  // of the plate's plane, in mm: the place in the middle of the picture
+
+  bool operator==(const Camera&) const = default;
 };
 
 struct RenderOptions {
@@ -34,21 +36,25 @@ struct RenderOptions {
   double margin_mm = 5, thickness_mm = 3;
   Camera camera;
   Material material = Material::plaster;
-  Vec3f light = Vec3f(-1, 1, 1);  // towards the lamp, seen from the plate; not zero
+  Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate; not zero
   bool has_shadows = true;        // cast by the relief on itself
-  bool is_fine = false;           // four samples per pixel and finer shadows, for four times the time
+  bool is_fine = false;           // nine samples per pixel and finer shadows, for about five times the time
+
+  bool operator==(const RenderOptions&) const = default;
 };
 
 // What a point of the surface looks like: one entry per point.
 struct Shown {
-  std::span<const float> heights;  // in the model's units, above the ground
-  std::span<const Vec3f> normals;  // unit length
-  float stretch = 1;               // shown this much higher, normals and all, > 0
+  std::span<const float> heights;                  // in the model's units, above the ground
+  std::span<const Vec3f> normals;                  // unit length
+  float stretch = 1;                               // shown this much higher, normals and all, > 0
+  std::optional<std::array<float, 2>> range = {};  // lowest and highest, if known: else they are searched for
 };
 
-// Draws frames of one model on its plate, on nothing (opacity 0) but the plate's soft shadow. Not for
-// concurrent use. From the front the picture of the triangles is kept: while only heights or light change, a
-// picture is a look-up per pixel. About 10 ms for 500,000 pixels on two cores, orbiting three times that.
+// Draws frames of one model on a rectangular plate, on nothing (opacity 0) but the plate's soft shadow. Not for
+// concurrent use. From the front the visible triangle of each pixel is kept: while only heights or light
+// change, a picture is a look-up per pixel. About 10 ms for 500,000 pixels on two cores, orbiting three times
+// that.
 class FrameRenderer {
  public:
   // Shares the model.
@@ -69,8 +75,8 @@ class FrameRenderer {
                              const Vec2& to, std::size_t samples);
 
  private:
-  struct Scenery;
-  std::unique_ptr<Scenery> scenery_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 // Draws a cloud from any side, for choosing a view: its points as discs, as wide as they lie apart.

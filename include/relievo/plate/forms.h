@@ -1,13 +1,16 @@
-// What is made of a relief besides the relief itself: its mirror image, the die that strikes it, a
-// lithophane.
+// The forms in which a relief can be made: itself, its mirror image, the die that strikes it, a lithophane.
 #pragma once
 
+#include <array>
 #include <string_view>
 
-#include "relievo/plate/solid.h"
-#include "relievo/scan/surface.h"
+#include "relievo/core/choice.h"
+#include "relievo/core/error.h"
 
 namespace relievo {
+
+struct HeightFieldMesh;
+struct Surface;
 
 enum class Form {
   relief,
@@ -16,20 +19,25 @@ enum class Form {
   lithophane  // held before a light it shows the model: thick where the model is dark
 };
 
+inline constexpr std::array<Choice<Form>, 4> form_choices{{{"relief", Form::relief},
+                                                           {"mirror", Form::mirror},
+                                                           {"die", Form::die},
+                                                           {"lithophane", Form::lithophane}}};
+
 // Returns the form of that name. Errors: kind option for any other name.
 Result<Form> parse_form(std::string_view name);
 
 // Returns the front with left and right swapped.
-Front mirrored(Front front);
+HeightFieldMesh mirrored(HeightFieldMesh front);
 
 // Returns the front of the die: mirrored, and every height negative.
-Front as_die(Front front);
+HeightFieldMesh as_die(HeightFieldMesh front);
 
-// Returns a front over the surface, which is `mm_per_unit` as large, with heights from 0, where the model is
-// brightest, to `height_mm`. Light passes as exp(-thickness), so heights are minus the logarithm of the
-// brightness: that of a white model under a lamp from the upper left, times the brightness of its colours
-// where it has them. The ground and the outline are dark, and the least that is told from dark is a tenth of
-// the brightest.
-Front lithophane(const Surface& surface, double mm_per_unit, double height_mm);
+// Returns a lithophane of the surface, scaled by `mm_per_unit`, with heights from 0, where the model is
+// brightest, to `height_mm`. A plate transmits light as exp(-thickness), so a height is minus the logarithm
+// of the brightness: that of a white model under a lamp from the upper left, times the luminance of its
+// colours if it has any. The ground and the outline are dark; anything below a tenth of the brightest counts
+// as dark.
+HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double height_mm);
 
 }  // namespace relievo

@@ -1,10 +1,12 @@
 // The shape of a plate, seen from the front.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "relievo/core/choice.h"
 #include "relievo/core/error.h"
 #include "relievo/core/types.h"
 
@@ -19,21 +21,32 @@ enum class Outline {
   none      // the relief alone, without any ground
 };
 
+inline constexpr std::array<Choice<Outline>, 6> outline_choices{{{"rectangle", Outline::rectangle},
+                                                                 {"round", Outline::round},
+                                                                 {"circle", Outline::circle},
+                                                                 {"ellipse", Outline::ellipse},
+                                                                 {"hexagon", Outline::hexagon},
+                                                                 {"none", Outline::none}}};
+
 struct OutlineOptions {
   Outline outline = Outline::rectangle;
-  double corner_mm = 5;  // radius of `round`; at most half the shorter side counts
+  double corner_mm = 5;  // radius of the corners of `round`; limited to half the shorter side
   double margin_mm = 5;  // least distance from the enclosed points to the outline
 };
 
 // Returns the outline of that name. Errors: kind option for any other name.
 Result<Outline> parse_outline(std::string_view name);
 
-// Returns the outline around points of the plane: a convex polygon, counter-clockwise, whose edges have at
-// least the margin from every point. Curves are polygons around the curve, nowhere further than 0.01 mm from
-// it, and are as wide and as high as the curve. All but `round` are as small as they can be around their
-// centre: that of the points' box for a rectangle, of the smallest circle (ellipse) around the points for the
-// others, near enough that they are at most 1 % too large. Rounded corners that would cut into the margin
-// move the sides out. Empty for no points and for `none`.
+// Returns true if the outline is the box around the points, grown by the margin: opposite sides are equal,
+// and upright or level.
+bool is_box(Outline outline);
+
+// Returns the outline around points of the plane: a convex polygon, counter-clockwise, whose edges are at
+// least the margin away from every point. A curve becomes a polygon around it, as wide and as high as the
+// curve and nowhere further than 0.01 mm from it. Outlines are centred on the points' box (rectangle, round)
+// or on the smallest enclosing circle or ellipse (others, approximated, so at most 1 % too large), and all
+// but `round` are as small as their centre allows. Rounded corners that would cut into the margin move the
+// sides out. The result is empty for no points and for `none`.
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options);
 
 }  // namespace relievo

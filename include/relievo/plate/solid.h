@@ -1,4 +1,4 @@
-// A relief as a closed body that a machine can cut or print, in millimetres, and its files.
+// A relief as a closed body that a machine can cut or print, in millimetres.
 #pragma once
 
 #include <cstddef>
@@ -16,49 +16,49 @@
 
 namespace relievo {
 
-// The front of a relief: a height field over the view plane, in millimetres.
+// The front of a relief: a triangulated height field over the view plane, in millimetres.
 // - `points`: x, y in the plane, z the height; no two share x and y.
 // - `triangles`: cover the convex hull of the points, counter-clockwise seen from +Z, no overlaps.
 // - `hull`: the convex hull, counter-clockwise, with the points on its edges; all at height `ground_mm`.
-struct Front {
+struct HeightFieldMesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::vector<Index> hull;
   double ground_mm = 0;              // height of the flat background
   std::vector<Colour> colours = {};  // of the points, or empty
-  // Per triangle: part of the relief, not of the ground around and within it; empty if all are. Only a plate
-  // without ground asks for it.
+  // Per triangle, whether it is part of the relief rather than of the ground around and within it; empty if
+  // all are. Only a plate without ground uses it.
   std::vector<std::uint8_t> is_relief = {};
 };
 
-// A raised edge along the outline, as coins and plaques have. Lengths but 0 are at least 0.001.
+// A raised edge along the outline, as coins and plaques have. Each length is 0 or at least 0.001.
 struct RimOptions {
-  double width_mm = 0;  // from the outline to its foot on the ground; 0 is no rim
-  // Of its flat top above the ground. Below 0 it is a groove instead, what the rim is in a die, and the plate
-  // goes on outside of it, as wide as the rim.
+  double width_mm = 0;  // from the outline to the ground within; 0 for no rim
+  // Of its flat top above the ground. A negative height makes a groove, which the rim becomes in a die; the
+  // plate then continues outside the groove by the rim's width.
   double height_mm = 1;
-  double bevel_mm = .3;  // of its width, what its slanting inner side takes; at most all of it
+  double bevel_mm = .3;  // the part of the width that the slanting inner side takes; at most all of it
 };
 
 struct PlateOptions {
-  double margin_mm = 5;     // least flat ground around the front, up to the rim, >= 0.001
+  double margin_mm = 5;     // smallest width of the flat ground between the front and the rim, >= 0.001
   double thickness_mm = 3;  // smallest thickness of the plate anywhere, >= 0.001
   Outline outline = Outline::rectangle;
   double corner_mm = 5;  // radius of the corners of outline `round`, >= 0.001
   RimOptions rim = {};
   BaseOptions base = {};
-  WrapOptions wrap = {};      // what the plate is to be bent around, see wrap_plate(); then on a plane
-  double tolerance_mm = .01;  // between a curved base, or wrap, and the triangles that follow it, >= 0.0001
-  // Of a curved plate with ground: fewer triangles, so far from its full front at most; 0 for all of them.
+  WrapOptions wrap = {};      // the body that wrap_plate() will bend the plate around; needs a plane base
+  double tolerance_mm = .01;  // largest distance of triangles from a curved base or wrap, >= 0.0001
+  // Curved plates with ground: the tolerance of simplify() for the whole front; 0 keeps all triangles.
   double simplify_mm = 0;
-  double max_slope = std::numeric_limits<double>::infinity();  // of those triangles, as for simplify()
+  double max_slope = std::numeric_limits<double>::infinity();  // of the simplified triangles, see simplify()
 };
 
-// Surfaces that meet in an edge, however little they bend there.
+// The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.
 enum class Region : std::uint8_t { relief, ground, bevel };
 
-// A closed triangle mesh, oriented outwards. `front_triangles` first triangles are the front (relief, ground
-// and rim).
+// A closed triangle mesh, oriented outwards. The first `front_triangles` triangles are the front (relief,
+// ground and rim).
 struct Solid {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
@@ -67,43 +67,43 @@ struct Solid {
   std::vector<Region> regions = {};  // of the front's triangles, for pictures; empty if all are relief
   Vec3 shift = Vec3::Zero();         // from the front's coordinates to these, on flat ground
   double ground_mm = 0;              // height of that ground; of a curved base in the middle
-  double error_mm = 0;               // largest distance to the curved or full surface that is meant
-  LengthUnit unit = LengthUnit::mm;  // of the coordinates; everything but in_unit() and the files takes mm
+  double error_mm = 0;               // largest distance to the exact surface, from curving and simplifying
+  LengthUnit unit = LengthUnit::mm;  // of the coordinates; only in_unit() and the files know other units
 };
 
-// Returns the same body with coordinates in that unit, for files: points that its single precision would no
-// longer tell apart are separated as in make_plate().
+// Returns the same body with coordinates in that unit, for files. Points that would coincide in single
+// precision are separated as in make_plate().
 Solid in_unit(Solid solid, LengthUnit unit);
 
-// Returns the plate: front, flat ground and rim out to the outline, walls, bottom. Moved so that its box
-// starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z = thickness_mm.
-// Its z extent is thickness + (highest - lowest point of the front, ground and rim included). The front's
-// points and triangles come first, in their order; the ground adds no points but the corners of the outline
-// and of the rim's edges. Of two points that single precision cannot tell apart the second is lifted or
+// Returns the plate: front, flat ground and rim out to the outline, walls, bottom. It is moved so that its
+// box starts at the origin: x, y, z >= 0, the bottom at z = 0, the lowest point of the front at z =
+// thickness_mm. Its z extent is thickness + (highest - lowest point of the front, ground and rim included).
+// The front's points and triangles come first, in their order; the ground adds no points but the corners of
+// the outline and of the rim's edges. If two points coincide in single precision, the second is lifted or
 // lowered by the smallest step that separates them.
 //
-// Outline `none` makes a body of the relief alone, or several where it has several pieces, with their holes:
-// the front is the relief's points and triangles alone, in their order, and the bottom has as many. Left out
-// are triangles that hang on by a corner only, and pieces below a thousandth of the whole.
+// Outline `none` makes a body of the relief alone, or several bodies if it has several pieces, with their
+// holes: the front is the relief's points and triangles alone, in their order, and the bottom has as many.
+// Triangles that are connected by a corner only, and pieces below a thousandth of the whole, are left out.
 //
 // Errors: kind option for a margin, thickness, corner or rim that is not finite or below a micrometre, a
 // bevel wider than its rim, or a rim for outline `none`; kind geometry for an empty front, one whose corners
 // are not finite points of it, or without relief for outline `none`. Time: O(n log n), 0.1 s for 340k points.
-Result<Solid> make_plate(const Front& front, const PlateOptions& options);
+Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the base that make_plate() lays under the front, in the front's coordinates. Errors: those of
+// Returns the base that make_plate() puts under the front, in the front's coordinates. Errors: those of
 // make_plate() and Base::over().
-Result<Base> plate_base(const Front& front, const PlateOptions& options);
+Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& options);
 
-// Returns the plate bent around its wrap: its front stands on the wrap, its bottom becomes the shell's other
-// side, and walls point at the axis. Moved so that its box starts at the origin. Where a rectangle goes all
-// the way around a cylinder or a cone its sides become one. The plate is of make_plate() with the same
-// options. Errors: kind option if the shell or the relief would reach the axis, or if another outline, a rim
-// or a slanting axis goes all the way around; kind option without a wrap.
-// The wrap's own numbers are those of plate_wrap().
+// Returns the plate bent around its wrap: its front stands on the wrap, its bottom becomes the other side of
+// the shell, and its walls point at the axis. It is moved so that its box starts at the origin. If a
+// rectangle goes all the way around a cylinder or a cone, its two sides are joined. `plate` is the result of
+// make_plate() with the same options. Errors: those of plate_wrap(); kind option if the shell or the relief
+// would reach the axis, if another outline, a rim or a slanting axis goes all the way around, or if there is
+// no wrap.
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options);
 
-// Returns the wrap of a plate of make_plate() with the same options. Errors: those of Wrap::around().
+// Returns the wrap of a plate that make_plate() made with the same options. Errors: those of Wrap::around().
 Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 
 // Returns what is wrong with a solid, or an empty string: every edge shared by exactly two triangles with
@@ -111,14 +111,7 @@ Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options);
 // coordinates, volume positive. A public checker, for tests and bug reports; 0.1 s for 1M triangles.
 std::string check_solid(const Solid& solid);
 
-// Enclosed volume in cubic millimetres; negative if the solid is inside out.
+// Returns the enclosed volume in cubic millimetres; negative if the solid is inside out.
 double volume_mm3(const Solid& solid);
-
-// The solid as a file: binary STL; binary little-endian PLY; OBJ. Coordinates are in single precision, in the
-// solid's unit, which a comment tells. Of colours only PLY tells. The solid's corners must exist, as
-// check_solid() tells.
-std::vector<std::byte> write_stl(const Solid& solid);
-std::vector<std::byte> write_ply(const Solid& solid);
-std::vector<std::byte> write_obj(const Solid& solid);
 
 }  // namespace relievo

@@ -5,11 +5,13 @@
 #include <string_view>
 #include <vector>
 
+#include "relievo/core/image.h"
 #include "relievo/core/length.h"
-#include "relievo/plate/solid.h"
-#include "relievo/preview.h"
 
 namespace relievo {
+
+struct HeightFieldMesh;
+struct Solid;
 
 // The tip of a tool that turns about the z axis and cuts downwards. Diameters are those of the cut, in mm.
 struct Tool {
@@ -21,7 +23,7 @@ struct Tool {
 };
 
 // Returns the tool of "ball:DIAMETER", "flat:DIAMETER", "v:ANGLE" or "v:ANGLE:TIP", in degrees and lengths,
-// see parse_length(). Errors: kind option, naming --tool.
+// see parse_length(). Errors: kind option, naming tool.
 Result<Tool> parse_tool(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 // The tool as parse_tool() reads it, in millimetres.
@@ -57,10 +59,6 @@ ToolReach measure_reach(const Solid& solid, const Tool& tool);
 // points next to it are lifted no further than they are from it. The triangles are Delaunay's. A front that
 // tells what is relief gets no new points. Heights between points, as those between samples, are
 // interpolated. Errors: kind geometry for a front without triangles or hull.
-Result<Front> reachable_front(const Front& front, const Tool& tool);
-
-// Returns the front from above, shaded, with what the tool leaves standing in orange to red: by share of the
-// largest residual. No pixels if there are no samples.
-Image8 render_reach(const ToolReach& reach, int longer_side_px);
+Result<HeightFieldMesh> reachable_front(const HeightFieldMesh& front, const Tool& tool);
 
 }  // namespace relievo

@@ -1,5 +1,5 @@
 // How much of its model a relief shows: objective measures and the guards that belong to them.
-// docs/quality.md defines each and tells where it comes from.
+// docs/quality.md defines each and gives its source.
 #pragma once
 
 #include <array>
@@ -7,20 +7,20 @@
 #include <memory>
 #include <span>
 
-#include "relievo/preview.h"
+#include "relievo/core/image.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo {
 
-// Taken on a picture whose longer side is 512 pixels, inside the silhouette and at least 5 pixels away from
-// it and from the model's depth jumps; halo, steep_share, height_used and the steps see all of it. The model
-// is what the scan's own normals and depths say. A noisy relief can win on shading: read them together.
+// Measured on a picture whose longer side is 512 pixels, inside the silhouette and at least 5 pixels away from it and
+// from the model's depth jumps; halo, steep_share, height_used and the steps use all pixels. The model is given by the
+// scan's own normals and depths. A noisy relief can win on shading, so read the measures together.
 struct Measures {
-  double shading = 0;    // mean SSIM of Lambert shadings under 16 lights, [-1, 1]; 1 is the model's
+  double shading = 0;    // mean SSIM of Lambert shadings under 16 lights, [-1, 1]; 1 equals the model
   double angle_deg = 0;  // mean angle between the relief's and the model's normals
   std::array<double, 3>
       detail{};      // correlation of div n, smoothed by Gaussians of 1, 2 and 4 pixels, [-1, 1]
-  double order = 0;  // share of random pairs, further apart than 1 % of the depth, that keep their order
+  double order = 0;  // share of random pairs whose depths differ by more than 1 % that keep their order
 
   double halo = 0;         // standard deviation of the background, of the height
   double steep_share = 0;  // of the silhouette's pixels, steeper than 80 degrees
@@ -30,32 +30,32 @@ struct Measures {
   double height = 0;       // lowest to highest, base included, in the surface's units
 };
 
-// The model that reliefs are measured against. Const calls may run concurrently.
-class Judge {
+// Measures reliefs against their model. Const calls may run concurrently.
+class ReliefMetrics {
  public:
   static constexpr int longer_side_px = 512;
   static constexpr int margin_px = 8;  // of background around it, in the pictures
 
   // Copies what it needs. The pictures have no pixels if the surface has no area.
-  explicit Judge(const Surface& surface);
-  Judge(Judge&&) noexcept;
-  ~Judge();
+  explicit ReliefMetrics(const Surface& surface);
+  ReliefMetrics(ReliefMetrics&&) noexcept;
+  ~ReliefMetrics();
 
   // Measures heights above the base, one per point of the surface. All zeros if no pixel is far enough from
   // silhouette and jumps; correlations with something constant are 0.
   Measures measure(std::span<const double> heights) const;
 
-  // Lambert shading under a light, which need not be a unit vector, as grey levels: of a relief and of the
-  // model. The background is level.
+  // Return the Lambert shading of a relief and of the model as grey levels. The light need not be a unit vector; the
+  // background is level.
   Image8 shade(std::span<const double> heights, const Vec3f& light) const;
   Image8 shade_model(const Vec3f& light) const;
 
-  // Pixels that are measured.
+  // Returns the number of pixels that are measured.
   std::size_t pixels() const;
 
  private:
-  struct Truth;
-  std::unique_ptr<Truth> truth_;
+  struct Reference;
+  std::unique_ptr<Reference> reference_;
 };
 
 }  // namespace relievo

@@ -4,14 +4,14 @@
 #include <memory>
 #include <span>
 
-#include "relievo/boundary.h"
 #include "relievo/core/progress.h"
 #include "relievo/geometry/triangulation.h"
+#include "relievo/scan/boundary.h"
 #include "relievo/solver/cholesky.h"
 
 namespace relievo {
 
-class PointLinks;
+class SlicedEllMatrix;
 
 // Equation (9) for fixed points, written for slopes: over all edges pq of triangles inside the relief, the
 // least squares of z_p - z_q = (s_p + s_q) / 2 . (p - q) with cotangent weights, and z = 0 at boundary
@@ -19,20 +19,20 @@ class PointLinks;
 // Concurrent solves are safe, each with a workspace of its own.
 class HeightSystem {
  public:
-  // What solves need besides the system, so that they allocate nothing.
-  using Workspace = Cholesky::Workspace;
+  // Scratch memory of solves, so that they allocate nothing.
+  using Workspace = solver::Cholesky::Workspace;
 
   HeightSystem(HeightSystem&&) noexcept;
   HeightSystem& operator=(HeightSystem&&) noexcept;
   ~HeightSystem();
 
-  // Copies what it needs of its arguments. Edges count for the mean of their ends' weights, one per point,
-  // in (0, 1]; without weights for 1. Errors: those of Cholesky::factor(), which a Delaunay
+  // Copies what it needs of its arguments. The weight of an edge is multiplied by the mean of its ends' `weights`,
+  // one per point, in (0, 1]; without them by 1. Errors: those of solver::Cholesky::factor(), which a Delaunay
   // triangulation with its boundary does not cause.
   static Result<HeightSystem> build(std::span<const Vec2> points, const Triangulation& triangulation,
                                     const Boundary& boundary, std::span<const float> weights = {});
 
-  // Number of points, of slopes and of heights.
+  // Returns the number of points, which is that of slopes and of heights.
   std::size_t size() const;
 
   // Bytes held.
@@ -40,8 +40,9 @@ class HeightSystem {
 
   Workspace make_workspace() const { return factor_.make_workspace(); }
 
-  // Between neighbours and from boundary points to themselves, for others that link the same points.
-  const PointLinks& links() const { return *edges_; }
+  // Returns the matrix of the right-hand side: entries between neighbours and from every point to itself. Other
+  // matrices over the same points reuse its pattern.
+  const SlicedEllMatrix& edges() const { return *edges_; }
 
   // Writes the height of every point above the base to `heights`; boundary points get 0. Exact: the residual
   // is at the level of rounding.
@@ -50,16 +51,16 @@ class HeightSystem {
   // The same in single precision, for frames: within about 1e-6 of the span of the heights.
   void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
 
-  // Solves for a right-hand side that others wrote, in place and in single precision; boundary points stay as
-  // they are.
+  // Solves in place for a right-hand side that the caller wrote, in single precision; boundary points stay as they
+  // are.
   void solve_in_place(std::span<float> heights, Workspace& workspace) const;
 
  private:
-  HeightSystem(Cholesky factor, PointLinks edges);
+  HeightSystem(solver::Cholesky factor, SlicedEllMatrix edges);
 
-  Cholesky factor_;
+  solver::Cholesky factor_;
   // Pull: half the weight times the step from the other point; 0 at boundary points.
-  std::unique_ptr<const PointLinks> edges_;
+  std::unique_ptr<const SlicedEllMatrix> edges_;
 };
 
 }  // namespace relievo

@@ -9,18 +9,18 @@
 #include "relievo/geometry/spline.h"
 #include "relievo/relief/control_points.h"
 #include "relievo/relief/heights.h"
+#include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"
-#include "relievo/weights.h"
 
 namespace relievo {
 
 struct SubspaceOptions {
   ControlPointOptions control;
-  std::size_t normals_per_point = 8;  // whose mean slope stands for the region of a control point, > 0
+  std::size_t normals_per_point = 8;  // samples whose mean slope a control point gets, > 0
   double max_slope = 4;               // of the reference heights, see Shape
 };
 
-// Returns z0, the heights of all points that (9) gives for w_k = 1, found by the system of all points.
+// Returns z0, the heights of all points that (9) gives for w_k = 1. `system` is that of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
 // Control points with their factored system, and the way from their heights to those of all points: z = r z0
@@ -33,14 +33,14 @@ std::vector<double> reference_heights(const Surface& surface, const HeightSystem
 // its own.
 class SubspaceModel {
  public:
-  // What a relief needs besides the model, so that frames allocate nothing.
+  // Scratch memory of a relief, so that frames allocate nothing.
   class Workspace {
    public:
     Workspace(Workspace&&) noexcept;
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Bytes held, up to a little.
+    // Bytes held, but for a few per control point.
     std::size_t memory() const;
 
    private:
@@ -50,11 +50,19 @@ class SubspaceModel {
     std::unique_ptr<Storage> storage_;
   };
 
-  // Copies what it needs of the surface. `reference` holds reference_heights() for the same greatest slope;
-  // if it is empty, they are solved for, which takes most of the time and memory. Errors: see
+  // Results that callers may have already; prepare() computes those that are empty.
+  struct Known {
+    std::span<const double> reference = {};    // reference_heights() for the same greatest slope
+    std::span<const PointLayers> layers = {};  // normal_layers() of the surface
+  };
+
+  // Copies what it needs of the surface. The reference heights take most of the time and memory. Errors: see
   // HeightSystem::build(); kind cancelled.
-  static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {},
-                                       std::span<const double> reference = {}, Progress* progress = nullptr);
+  static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options,
+                                       const Known& known, Progress* progress = nullptr);
+  static Result<SubspaceModel> prepare(const Surface& surface, const SubspaceOptions& options = {}) {
+    return prepare(surface, options, {});
+  }
 
   // Number of points of the surface.
   std::size_t size() const { return reference_.size(); }
@@ -70,20 +78,20 @@ class SubspaceModel {
   // shape's boundary width.
   void solve(const Shape& shape, std::span<const float> boundary_weight, Workspace& workspace) const;
 
-  // Carries them to all points: writes their heights above the base, before detail.
+  // Carries them over to all points: writes the heights above the base, before detail.
   void carry(std::span<const float> boundary_weight, Workspace& workspace, std::span<float> heights) const;
 
  private:
-  // Normals that stand for a region, as many for each control point.
+  // Normals sampled from the regions of the control points, equally many from each.
   struct Samples {
     std::vector<Vec3f> normals;
     std::vector<float> k;
     std::vector<PointLayers> layers;
-    std::vector<Index> points;  // that they are taken from
+    std::vector<Index> points;  // the sampled points
   };
-  // A control point's ratio is z_c pull + (the ratio of all of them) rest.
+  // The ratio of a control point is z_c own + (the ratio of all of them) overall.
   struct RatioTerm {
-    float pull = 0, rest = 0;
+    float own = 0, overall = 0;
   };
 
   SubspaceModel(HeightSystem system, Samples samples, double delta);

@@ -1,4 +1,4 @@
-// Generated scans to try the program with; the licences of real scans forbid shipping them.
+// Generated scans for trying the program; licences of real scans do not allow shipping them.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace relievo {
 
 struct SampleOptions {
   std::size_t points = 300000;  // in the cloud, [1000, 100000000]
-  double noise = 0.15;  // standard deviation along the normal, in units of the sampling distance, [0, 5]
+  double noise = 0.15;          // standard deviation along the normal, in sampling distances, [0, 5]
 };
 
 struct SampleInfo {
@@ -20,12 +20,12 @@ struct SampleInfo {
   std::string_view description;
 };
 
-// The names that make_sample() knows.
+// Returns the names that make_sample() knows, with descriptions.
 std::span<const SampleInfo> samples();
 
 // Returns the sample `name` as a scanner would deliver it: scattered points with noise and outward normals,
-// +Y up, the front towards +Z. Same name and options, same bits. Errors: kind option for an unknown name
-// (lists the known ones) or an option out of range.
+// +Y up, the front towards +Z. The same name and options give the same bits. Errors: kind option for an
+// unknown name, with a list of the known ones, or an option out of range.
 Result<Cloud> make_sample(std::string_view name, const SampleOptions& options = {});
 
 }  // namespace relievo

@@ -1,4 +1,4 @@
-// A scattered point cloud and what can be said of it before a view is chosen.
+// Scattered point clouds, and operations that need no view.
 #pragma once
 
 #include <span>
@@ -22,15 +22,15 @@ struct Cloud {
   bool has_colours() const { return !colours.empty(); }
 };
 
-// Box of all points; empty for an empty cloud.
+// Returns the box of all points; an empty box for an empty cloud.
 Box bounds(const Cloud& cloud);
 
-// Returns the numbers of points that cannot belong to the model, ascending: further from its middle (the
-// median) than 20 times the distance within which nine points in ten lie. One stray, say at the origin of a
-// geo-referenced scan, would make the model a speck in its own box.
-std::vector<Index> far_points(const Cloud& cloud);
+// Returns the numbers of points that cannot belong to the model, ascending: those further from its middle
+// (the median of each coordinate) than 20 times the distance within which 90 % of the points lie. A single
+// outlier, for instance at the origin of a geo-referenced scan, would make the model a speck in its own box.
+std::vector<Index> outliers(const Cloud& cloud);
 
-// Returns the cloud without the points numbered by `left_out`, ascending.
-Cloud without(const Cloud& cloud, std::span<const Index> left_out);
+// Returns the cloud without the points numbered by `erased`, which is ascending.
+Cloud erase_points(const Cloud& cloud, std::span<const Index> erased);
 
 }  // namespace relievo

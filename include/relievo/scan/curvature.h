@@ -1,4 +1,4 @@
-// Mean curvature of the surface through a scattered cloud (stage 4), paper's equations (2) and (3).
+// Mean curvature of the surface through a scattered cloud (stage 4).
 #pragma once
 
 #include <span>
@@ -10,44 +10,37 @@
 
 namespace relievo {
 
-enum class CurvatureMethod {
-  // Half the divergence of the normals, fitted linearly in the tangent plane: exact for spheres and
-  // cylinders, and
-  // several times less noisy on scattered points than (3), whose second derivatives see how unevenly they
-  // lie.
-  normal_fit,
-  // Equations (2) and (3) in closed form, at the point's projection onto the moving-least-squares surface g =
-  // 0.
-  // Source: Yang and Qian, Direct computing of surface curvatures for point-set surfaces, 2007.
-  mls_surface,
-};
-
 struct CurvatureOptions {
-  CurvatureMethod method = CurvatureMethod::normal_fit;
-  double scale = 2;  // width h of the weight, about exp(-d^2 / h^2), in local spacings; more is smoother
+  // Width h of the neighbours' weights, about exp(-d^2 / h^2), in local spacings, > 0; more is smoother.
+  double scale = 2;
 };
 
-// Returns the mean curvature, 1/length, convex positive, at the points numbered by `queries`, clamped to 1 /
-// rho. Neighbours whose normals face away (the other side of a thin wall) do not count. 0 where there are too
-// few neighbours. Needs unit normals. See docs/decisions/curvature.md for the two methods measured.
+// Returns the mean curvature at the points numbered by `queries`: in 1 / length, positive where the surface is
+// convex, clamped to [-1 / rho, 1 / rho]. It is half the divergence of the normals, fitted linearly in the
+// tangent plane: exact on spheres and cylinders, and several times less noisy on scattered points than the
+// paper's equations (2) and (3), whose second derivatives depend on how unevenly the points lie (see
+// docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of a thin wall, do not
+// count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no normals. Normals must
+// have unit length.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options = {});
 
-// Returns the values averaged over each point's neighbours in the view plane, up to about 2 rho away, each
-// weighted by the area it stands for there. Where the front stops short of what lies behind it, points of
-// both alternate in the plane: an amount added to heights by the one's and the other's curvature would show
-// as specks along the edge.
+// Returns each point's value averaged over its neighbours in the view plane, up to about 2 rho away, weighted by
+// the area that each neighbour represents there. At a depth jump, points of the front and of the surface behind
+// it alternate in the plane; without the average, their different curvatures would show as specks along the
+// edge.
 std::vector<double> average_in_plane(std::span<const double> values, std::span<const Vec2> points,
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho);
 
 struct NormalisedCurvature {
-  std::vector<float> k;  // in [-1, 1]
+  std::vector<float> k;  // per point, in [-1, 1]
   double delta = 0;      // standard deviation of |k|; 0 for a surface without curvature
-  double unit = 0;       // k times this is the mean curvature, where it was not clipped
+  double unit = 0;       // the mean curvature that k = 1 stands for; larger ones were clipped
 };
 
-// Divides by the 99th percentile of the absolute values and clips, so that k and delta are dimensionless.
+// Divides the curvatures by the 99th percentile of their absolute values and clips them to [-1, 1], so that k
+// and delta have no unit. Without values, or if that percentile is 0, delta and unit are 0.
 NormalisedCurvature normalise(std::span<const double> mean_curvature);
 
 }  // namespace relievo

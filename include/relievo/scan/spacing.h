@@ -1,4 +1,4 @@
-// Sampling distance (stage 1): how far apart the points are, everywhere and on the whole.
+// Sampling distance (stage 1): the spacing of points, locally and overall.
 #pragma once
 
 #include <vector>
@@ -10,17 +10,18 @@ namespace relievo {
 inline constexpr std::size_t spacing_neighbours = 8;
 
 struct Spacing {
-  // rho: the median over all points, in the cloud's units; 0 if fewer than 2 points or most are equal.
+  // The median of `local` over all points, in the cloud's units. 0 if there are fewer than 2 points or most
+  // of them coincide.
   double rho = 0;
-  // Per point sqrt(pi r^2 / k), r the distance to the k-th nearest other point: the side of the square that a
-  // point has to itself. Not the nearest distance, which is half of that where points are scattered at
-  // random.
+  // Per point sqrt(pi r^2 / k), where r is the distance to the k-th nearest other point and k is
+  // spacing_neighbours: the side of a square with the area per point. For randomly scattered points this is
+  // about twice the distance to the nearest neighbour.
   std::vector<float> local;
-  // Per point the numbers of its k nearest other points, nearest first; no_index where the cloud has fewer.
+  // Per point the numbers of its k nearest other points, nearest first; no_index if the cloud has fewer.
   std::vector<std::array<Index, spacing_neighbours>> nearest;
 };
 
-// Returns the spacing of a cloud. The order of the points does not matter to rho and local.
+// Returns the spacing of a cloud; rho and local do not depend on the order of the points.
 Spacing measure_spacing(const Cloud& cloud);
 
 }  // namespace relievo

@@ -1,13 +1,12 @@
-// What a view shows of a cloud, ready to be made a relief: stages 1 to 6 in a row.
+// The surface that is visible in a view of a cloud: stages 1 to 6.
 #pragma once
 
-#include "relievo/boundary.h"
 #include "relievo/core/progress.h"
 #include "relievo/geometry/triangulation.h"
-#include "relievo/relief/layers.h"
+#include "relievo/scan/boundary.h"
 #include "relievo/scan/curvature.h"
-#include "relievo/view.h"
-#include "relievo/visible.h"
+#include "relievo/scan/view.h"
+#include "relievo/scan/visible.h"
 
 namespace relievo {
 
@@ -17,27 +16,27 @@ struct SurfaceOptions {
   BoundaryOptions boundary;
 };
 
-// The visible points and the fillers between them, in view coordinates, along a space-filling curve:
-// neighbours in space are neighbours in memory, and the order of the cloud does not matter.
+// The visible points and the hole fill points between them, in view coordinates. They are in the order of a
+// space-filling curve, so that neighbours in the view plane are close in memory and the order of the cloud
+// has no influence.
 struct Surface {
-  std::vector<Vec3> points;     // relative to `centre`, rotated
-  std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at fillers
-  std::vector<Colour> colours;  // of the points; empty if the cloud has none
+  std::vector<Vec3> points;     // R_view_model (p - centre)
+  std::vector<Vec3f> normals;   // unit length, z > 0; (0, 0, 1) at hole fill points
+  std::vector<Colour> colours;  // per point; empty if the cloud has none
   NormalisedCurvature curvature;
-  std::vector<PointLayers> layers;
   Triangulation triangulation;  // its `neighbours` are not kept
   Boundary boundary;
 
   View view;
   Vec3 centre = Vec3::Zero();  // of the cloud's box, in the model's frame
   double rho = 0;              // sampling distance of the cloud
-  double diagonal = 0;         // L_d, of the whole cloud's box
+  double diagonal = 0;         // L_d, the diagonal of the whole cloud's box
   std::size_t input_points = 0;
-  std::size_t visible_points = 0;  // of them; the rest of `points` are fillers
+  std::size_t visible_points = 0;  // of the cloud; the rest of `points` are hole fill points
   bool has_estimated_normals = false;
-  bool has_flipped_normals = false;  // the file's normals pointed inwards
+  bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 
-  // Bytes held.
+  // Returns the bytes held.
   std::size_t memory() const;
 };
 

@@ -8,24 +8,25 @@
 #include "relievo/core/error.h"
 #include "relievo/core/types.h"
 
-namespace relievo {
+namespace relievo::solver {
 
-// Owns the factorisation of one matrix, in single precision, and a copy of the matrix. How it works:
-// docs/cholesky.md. Concurrent solves are safe, each with a workspace of its own. The results are the same
+// Owns the factorisation of one matrix, in single precision, and a copy of the matrix. docs/cholesky.md
+// explains how it works. Concurrent solves are safe, each with a workspace of its own. Results have the same
 // bits for any number of threads.
 class Cholesky {
  public:
   struct Factor;
 
-  // What solves need besides the factor; about 5 floats per unknown, and 2 doubles from the first solve in
-  // double on. It belongs to the factorisation that made it, which must outlive it; one solve at a time.
+  // Scratch memory of solves: about 5 floats per unknown, and 2 doubles more from the first solve in double
+  // precision on. It belongs to the factorisation that made it, which must outlive it. One solve at a time
+  // may use it.
   class Workspace {
    public:
     Workspace(Workspace&&) noexcept;
     Workspace& operator=(Workspace&&) noexcept;
     ~Workspace();
 
-    // Bytes held.
+    // Returns the bytes held.
     std::size_t memory() const;
 
     struct Storage;
@@ -36,10 +37,10 @@ class Cholesky {
     std::unique_ptr<Storage> storage_;
   };
 
-  // Factors A, of which the lower triangle is read. A 0 x 0 matrix is fine.
+  // Factors A, reading its lower triangle only. A 0 x 0 matrix is allowed.
   //
-  // `positions` says where in the plane the unknowns are, if A belongs to a planar graph such as a
-  // triangulation: one point per unknown, or none. They only steer the order of elimination; wrong ones cost
+  // `positions` are the places of the unknowns in the plane if A belongs to a planar graph such as a
+  // triangulation: one point per unknown, or none. They only guide the elimination order; wrong ones cost
   // memory and time, never correctness. Errors: kind geometry if A is not square, has an entry that is not
   // finite, or is not positive definite (a pivot at most 1e-14 times its diagonal entry); kind option if
   // there are positions, but not one per unknown.
@@ -49,33 +50,33 @@ class Cholesky {
   Cholesky& operator=(Cholesky&&) noexcept;
   ~Cholesky();
 
-  // Number of unknowns.
+  // Returns the number of unknowns.
   std::size_t size() const;
 
-  // From now on unknown i stands at element numbers[i] of b and x; their other elements are neither read nor
-  // written. One number per unknown, no two the same.
+  // Renumbers the unknowns for later solves: unknown i is then element numbers[i] of b and x, whose other
+  // elements are neither read nor written. One number per unknown, all different.
   void renumber(std::span<const Index> numbers);
 
-  // Bytes held, workspaces not counted.
+  // Returns the bytes held, workspaces not counted.
   std::size_t memory() const;
 
   Workspace make_workspace() const;
 
-  // All of these write to x the solution of A x = b. b and x have size() elements (see also
-  // renumber()) and may be the same storage. With a workspace nothing is allocated (see there for the first
-  // solve in double).
+  // The following functions write the solution of A x = b to x. b and x have size() elements (but see
+  // renumber()) and may be the same storage. With a workspace they allocate nothing, except for the first
+  // solve in double precision.
 
-  // One substitution in single precision: an error of about 1e-6 of the largest |x| for a well-shaped
-  // triangulation.
+  // One substitution in single precision. For a well-shaped triangulation the error is about 1e-6 of the
+  // largest |x|.
   void solve(std::span<const float> b, std::span<float> x, Workspace& workspace) const;
 
-  // Substitution, then refinement in double until the largest element of the residual is 1e-13 of that of b
-  // or stops falling: two substitutions as a rule.
+  // Substitution, then refinement in double precision until the largest element of the residual is 1e-13 of
+  // that of b or stops falling; two substitutions are usually enough.
   void solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
   void solve(std::span<const double> b, std::span<double> x) const;
 
-  // One step of refinement of an x close to the solution: its residual in double, a substitution in single
-  // precision. b and x must not be the same storage.
+  // One step of refinement of an x close to the solution: computes the residual in double precision and
+  // corrects x by a substitution in single precision. b and x must not be the same storage.
   void refine(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
 
  private:
@@ -83,4 +84,4 @@ class Cholesky {
   std::unique_ptr<Factor> factor_;
 };
 
-}  // namespace relievo
+}  // namespace relievo::solver

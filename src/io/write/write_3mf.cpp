@@ -4,7 +4,7 @@
 
 #include "io/write/zip.h"
 #include "relievo/core/parallel.h"
-#include "relievo/picture/height_map.h"
+#include "relievo/io/write.h"
 
 namespace relievo {
 namespace {

@@ -4,6 +4,7 @@
 #include "io/write/mesh_bytes.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
+#include "relievo/io/write.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {

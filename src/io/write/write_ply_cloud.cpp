@@ -2,7 +2,8 @@
 #include <bit>
 #include <cstring>
 
-#include "relievo/io.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
 
 namespace relievo {
 namespace {

@@ -6,7 +6,9 @@
 #include <csetjmp>
 #include <new>
 
-#include "relievo/preview.h"
+#include "relievo/core/image.h"
+#include "relievo/io/write.h"
+#include "relievo/picture/preview.h"
 
 namespace relievo {
 namespace {

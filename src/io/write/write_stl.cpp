@@ -5,6 +5,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
+#include "relievo/io/write.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {

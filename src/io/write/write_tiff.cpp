@@ -1,6 +1,7 @@
 #include "io/tiff_bytes.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
+#include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
 
 namespace relievo {

@@ -4,11 +4,15 @@
 #include "relief/baselines/scaled.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/baselines.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
 #include "scan/surface_blur.h"
 
 namespace relievo {
 namespace {
 
+// Returns the slopes of the normals, shortened to 76 degrees, the default of our own Shape::max_slope: a few
+// steeper ones at silhouettes would take most of the height.
 std::vector<Vec2> moderate_slopes(const Surface& surface) {
   constexpr double steepest = 4;
   std::vector<Vec2> slopes(surface.points.size());
@@ -19,8 +23,8 @@ std::vector<Vec2> moderate_slopes(const Surface& surface) {
   return slopes;
 }
 
-// Averaged in the view plane, where these heights have no jumps. A blur's cells are as wide as its Gaussian
-// and would show once amplified: sixteen narrow ones instead of one.
+// Blurs in the view plane, where these heights have no jumps. The cells of a blur are as wide as its Gaussian and
+// would show once amplified, so sixteen narrow blurs take the place of one.
 std::vector<Vec2f> smoothed(const std::vector<double>& heights, const Surface& surface, double sigma) {
   std::vector<Vec3> flat = surface.points;
   for (Vec3& p : flat) p.z() = 0;
@@ -44,6 +48,10 @@ Relief base_and_detail_relief(const ReliefModel& model, double height, const Det
   for (std::size_t i = 0; i < z.size(); ++i)
     z[i] += options.amplification * (heights[i] - static_cast<double>(smooth[i].x()));
   return scaled_relief(std::move(z), surface, height);
+}
+
+Relief base_and_detail_relief(const ReliefModel& model, double height) {
+  return base_and_detail_relief(model, height, DetailOptions{});
 }
 
 }  // namespace relievo

@@ -6,11 +6,12 @@
 #include "relief/baselines/scaled.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/baselines.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
 
-// The front's depths as a picture: bins and weights of its pixels; the background weighs nothing.
+// The depths as a picture: the histogram bin and the weight of each pixel. The background weighs nothing.
 struct DepthPicture {
   int width = 0, height = 0;
   std::vector<int> bin;
@@ -24,7 +25,7 @@ struct Depths {
   Depths(const Surface& surface, int bins_) : bins(bins_) {
     for (const Vec3& p : surface.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
   }
-  // In bins, at least 0 and below their number.
+  // Returns a depth in bins, at least 0 and below their number.
   double place(double z) const {
     const double span = std::max(highest - lowest, 1e-300);
     return std::clamp((z - lowest) / span * bins, 0.0, std::nextafter(static_cast<double>(bins), 0.0));
@@ -61,8 +62,8 @@ Histogram histogram_around(const DepthPicture& picture, int column, int row, int
   return counts;
 }
 
-// Cuts bins above the limit, spreads what is cut over all, and sums up: values in [0, 1] at the bins' upper
-// ends. Without any weight it is the identity.
+// Turns counts into the equalising curve: clips bins at the limit, spreads the excess over all bins, and sums up
+// to values in [0, 1] at the bins' upper ends. Without any weight the curve is the identity.
 void equalise(Histogram& counts, double clip) {
   const auto bins = static_cast<double>(counts.size());
   double total = 0, cut = 0;
@@ -73,7 +74,7 @@ void equalise(Histogram& counts, double clip) {
   for (double& c : counts) c = sum += total > 0 ? (c + cut / bins) / total : 1 / bins;
 }
 
-// Equalising curves for the windows around the nodes of a lattice; between nodes they are interpolated.
+// Equalising curves for the windows around the nodes of a lattice, interpolated between nodes.
 class Lattice {
  public:
   Lattice(const DepthPicture& picture, int window, const EqualiseOptions& options)
@@ -90,7 +91,7 @@ class Lattice {
         1);
   }
 
-  // The equalised value of a depth, given in bins, at a place of the picture.
+  // Returns the equalised value of a depth, given in bins, at a position in the picture.
   double at(const Vec2& pixel, double depth) const {
     const double x = pixel.x() / step_, y = pixel.y() / step_;
     const int column = static_cast<int>(x), row = static_cast<int>(y);
@@ -126,6 +127,10 @@ Relief equalised_relief(const Surface& surface, double height, const EqualiseOpt
     });
   }
   return scaled_relief(std::move(z), surface, height);
+}
+
+Relief equalised_relief(const ReliefModel& model, double height) {
+  return equalised_relief(model.surface(), height);
 }
 
 }  // namespace relievo

@@ -1,5 +1,7 @@
 #include "relief/baselines/scaled.h"
 #include "relievo/relief/baselines.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 
@@ -8,6 +10,10 @@ Relief gradient_relief(const ReliefModel& model, double height, const GradientOp
   std::vector<double> heights(slopes.size());
   model.system()->solve(slopes, heights);
   return scaled_relief(std::move(heights), model.surface(), height);
+}
+
+Relief gradient_relief(const ReliefModel& model, double height) {
+  return gradient_relief(model, height, GradientOptions{});
 }
 
 }  // namespace relievo

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "relievo/detail.h"
+#include "relief/height_span.h"
 
 namespace relievo {
 

@@ -1,16 +1,17 @@
-// What all rivals end with.
+// Shared last step of all baselines: boundary points to 0, heights scaled to the height asked for.
 #pragma once
 
 #include <span>
 
-#include "relievo/relief.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 
-// Puts the boundary points on the base and scales to the height.
+// Returns the relief of heights, one per point: boundary points on the base, scaled to `height`.
 Relief scaled_relief(std::vector<double> heights, const Surface& surface, double height);
 
-// Every point's depth above the deepest.
+// Returns the depth of every point above the deepest one.
 std::vector<double> depths(const Surface& surface);
 
 }  // namespace relievo

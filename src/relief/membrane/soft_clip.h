@@ -1,5 +1,5 @@
-// Rounds off the highest and the deepest points of a relief, so that a few do not take the height that all
-// others need.
+// Soft clipping of the highest and the deepest points of a relief, so that a few of them do not take the height
+// that all others need.
 #pragma once
 
 #include <algorithm>
@@ -12,20 +12,22 @@
 
 namespace relievo {
 
-// A curve over heights: rising everywhere, 1 : 1 in the middle and at the base, 0, flatter beyond two limits,
-// each with `share` of the points beyond it, down to a slope of `flattest` at the extremes.
+// A monotone curve over heights: the identity between two limits, each with a share of `clipped_share` of the
+// points beyond it, and at the base, 0; beyond the limits its slope falls from 1 to `least_slope` at the
+// extremes.
 template <typename Real>
-class HeightTails {
+class SoftClip {
  public:
-  static constexpr double share = .002, flattest = .12;
+  // docs/quality.md, "Our method", step 4, has the reason.
+  static constexpr double clipped_share = .002, least_slope = .12;
 
-  explicit HeightTails(std::span<const Real> heights) {
+  explicit SoftClip(std::span<const Real> heights) {
     const HeightSpan<Real> span = span_of(heights);
     lowest_ = lower_ = span.lowest;
     highest_ = upper_ = span.highest;
     if (!(span.size() > 0)) return;
     const Histogram counts = histogram(heights);
-    const double wanted = share * static_cast<double>(heights.size()) / stride;
+    const double wanted = clipped_share * static_cast<double>(heights.size()) / stride;
     upper_ = std::max(Real(0), highest_ - bins_from_end(counts.rbegin(), counts.rend(), wanted) * bin());
     lower_ = std::min(Real(0), lowest_ + bins_from_end(counts.begin(), counts.end(), wanted) * bin());
   }
@@ -35,7 +37,7 @@ class HeightTails {
     return z < lower_ ? lower_ - bent(lower_ - z, lower_ - lowest_) : z;
   }
 
-  // What is left of the span of the heights, base included.
+  // Returns the span of the clipped heights, base included.
   Real span() const { return (*this)(highest_) - (*this)(lowest_); }
 
  private:
@@ -44,8 +46,10 @@ class HeightTails {
 
   Real bin() const { return (highest_ - lowest_) / static_cast<Real>(bins); }
 
-  // From 0 with slope 1 to the end of the tail with the flattest slope.
-  static Real bent(Real z, Real length) { return z - static_cast<Real>((1 - flattest) / 2) * z * z / length; }
+  // A parabola with slope 1 at 0 and the least slope at `length`.
+  static Real bent(Real z, Real length) {
+    return z - static_cast<Real>((1 - least_slope) / 2) * z * z / length;
+  }
 
   Histogram histogram(std::span<const Real> heights) const {
     const Real per_unit = 1 / bin();
@@ -66,7 +70,7 @@ class HeightTails {
         1 << 15);
   }
 
-  // How many bins, with a fraction, hold the points wanted.
+  // Returns how many bins, with a fraction, contain the number of points wanted.
   template <typename It>
   static Real bins_from_end(It begin, It end, double wanted) {
     double sum = 0;

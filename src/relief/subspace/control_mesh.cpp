@@ -1,24 +1,21 @@
 #include "relief/subspace/control_mesh.h"
 
 #include "core/disjoint_sets.h"
+#include "geometry/plane.h"
 
 namespace relievo {
 namespace {
-
-double cross(const Vec2& u, const Vec2& v) {
-  return u.x() * v.y() - u.y() * v.x();
-}
 
 double twice_area(const Vec2& a, const Vec2& b, const Vec2& c) {
   return cross(b - a, c - a);
 }
 
-// Finds triangles by walking towards a place from the last one found.
+// Finds the triangle at a position by walking there from the last one found.
 class Walker {
  public:
   Walker(std::span<const Vec2> points, const Triangulation& mesh) : points_(points), mesh_(mesh) {}
 
-  // A triangle that holds p up to rounding, no_index outside the hull.
+  // Returns a triangle that contains p up to rounding, no_index outside the hull.
   Index find(const Vec2& p) {
     for (std::size_t step = 0; step < mesh_.triangles.size(); ++step) {
       const int edge = edge_towards(p);
@@ -31,7 +28,7 @@ class Walker {
   }
 
  private:
-  // The edge that has p farthest on its outer side, -1 if none has.
+  // Returns the edge that has p farthest on its outer side, -1 if none has.
   int edge_towards(const Vec2& p) const {
     int found = -1;
     double least = 0;
@@ -71,12 +68,12 @@ std::vector<std::uint8_t> covered(const ControlMesh& mesh, const Surface& surfac
   return is_inside;
 }
 
-// Points of the surface's boundary and of no inside triangle; and of pieces that have neither, because the
-// mesh cuts corners, the points at the piece's edge.
-std::vector<std::uint8_t> held_points(const ControlMesh& mesh, std::size_t boundary_points) {
+// Returns which points are at height 0: those on the surface's boundary and in no inside triangle; in pieces
+// without any, which exist because the mesh cuts corners, those at the edge of the piece.
+std::vector<std::uint8_t> fixed_points(const ControlMesh& mesh, std::size_t boundary_points) {
   const std::size_t n = mesh.points.size();
-  std::vector<std::uint8_t> is_held(n, 0), is_used(n, 0), is_at_edge(n, 0), has_held(n, 0);
-  std::fill_n(is_held.begin(), boundary_points, 1);
+  std::vector<std::uint8_t> is_fixed(n, 0), is_used(n, 0), is_at_edge(n, 0), has_fixed(n, 0);
+  std::fill_n(is_fixed.begin(), boundary_points, 1);
   DisjointSets pieces(n);
   for (std::size_t t = 0; t < mesh.triangulation.triangles.size(); ++t) {
     const bool is_inside = mesh.boundary.is_inside[t];
@@ -86,10 +83,10 @@ std::vector<std::uint8_t> held_points(const ControlMesh& mesh, std::size_t bound
   }
   for (const Index i : mesh.triangulation.hull) is_at_edge[i] = 1;
   for (Index i = 0; i < n; ++i)
-    if (is_held[i]) has_held[pieces.find(i)] = 1;
+    if (is_fixed[i]) has_fixed[pieces.find(i)] = 1;
   for (Index i = 0; i < n; ++i)
-    if (!is_used[i] || (is_at_edge[i] && !has_held[pieces.find(i)])) is_held[i] = 1;
-  return is_held;
+    if (!is_used[i] || (is_at_edge[i] && !has_fixed[pieces.find(i)])) is_fixed[i] = 1;
+  return is_fixed;
 }
 
 }  // namespace
@@ -99,7 +96,7 @@ ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& con
   for (const Index i : control.points) mesh.points.push_back(surface.points[i].head<2>());
   mesh.triangulation = delaunay(mesh.points);
   mesh.boundary.is_inside = covered(mesh, surface);
-  mesh.boundary.is_boundary = held_points(mesh, control.boundary_points);
+  mesh.boundary.is_boundary = fixed_points(mesh, control.boundary_points);
   return mesh;
 }
 

@@ -1,10 +1,10 @@
-// The triangles between control points, and which of them belong to the relief.
+// The triangulation of the control points, and which of its triangles belong to the relief.
 #pragma once
 
 #include <span>
 
-#include "relievo/boundary.h"
 #include "relievo/relief/control_points.h"
+#include "relievo/scan/boundary.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo {
@@ -16,8 +16,8 @@ struct ControlMesh {
 };
 
 // Returns the mesh of a surface's control points. A triangle is inside if most of its area is covered by
-// triangles of the surface that are, so that holes and concavities stay outside; boundary points are those of
-// the surface. Every connected piece has one.
+// inside triangles of the surface, so that holes and concavities stay outside. The boundary points are those of
+// the surface; every connected piece has at least one.
 ControlMesh mesh_control_points(const Surface& surface, const ControlPoints& control);
 
 }  // namespace relievo

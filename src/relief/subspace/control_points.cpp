@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// The points chosen so far, by square cells of at least one radius.
+// The points chosen so far, in square cells at least one radius wide.
 class ChosenPoints {
  public:
   ChosenPoints(std::span<const Vec2> points, double radius) : points_(points) {
@@ -29,7 +29,7 @@ class ChosenPoints {
     first = i;
   }
 
-  // Whether one lies nearer to point i than the radius, which is at most that of the constructor.
+  // Returns whether a chosen point is nearer to point i than the radius, which is at most that of the constructor.
   bool has_within(Index i, double radius) const {
     const std::size_t c = column(i), r = row(i);
     for (std::size_t y = r - (r > 0); y <= std::min(r + 1, rows_ - 1); ++y)
@@ -51,7 +51,7 @@ class ChosenPoints {
   std::vector<Index> first_, next_;  // lists of the points in each cell
 };
 
-// Inwards from the boundary: its points first, then layer by layer.
+// Returns the points in an order from the boundary inwards.
 std::vector<Index> inward_order(std::span<const Vec2> points, std::span<const float> boundary_distance) {
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), Index{0});
@@ -80,7 +80,7 @@ struct Growth {
   }
 };
 
-// Area of the box; only a first guess is made of it.
+// Returns the area of the box, for a first guess.
 double box_area(std::span<const Vec2> points) {
   Vec2 low = points[0], high = points[0];
   for (const Vec2& p : points) low = low.cwiseMin(p), high = high.cwiseMax(p);
@@ -99,7 +99,7 @@ ControlPoints grow_control_points(std::span<const Vec2> points, std::span<const 
   const auto wanted = static_cast<double>(options.count);
   if (points.size() <= options.count || box_area(points) == 0) return best;
 
-  // n r^2 is the area, whatever the radius: the second or third guess is within a few percent.
+  // The count times radius^2 hardly depends on the radius, so the second or third guess is within 3 %.
   double radius = std::sqrt(box_area(points) / wanted);
   for (int round = 0; round < 6; ++round) {
     best = growth.grow(radius);

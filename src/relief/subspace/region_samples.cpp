@@ -1,15 +1,16 @@
 #include "relief/subspace/region_samples.h"
 
-#include <numeric>
-
+#include "core/groups.h"
 #include "geometry/neighbours.h"
+#include "geometry/plane.h"
 #include "relievo/core/parallel.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
 
-// Per point its share of the area of the relief, times 6. Scans have more points per area of the view plane
-// where the surface is steep: a plain mean over points would make slopes too steep.
+// Returns, per point, its share of the area of the relief, times 6. Scans have more points per area of the view
+// plane where the surface is steep, so an unweighted mean over points would make slopes too steep.
 std::vector<double> shares(const Surface& surface) {
   std::vector<double> share(surface.points.size(), 0.0);
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
@@ -17,7 +18,7 @@ std::vector<double> shares(const Surface& surface) {
     const Triangle& corners = surface.triangulation.triangles[t];
     const Vec2 a = surface.points[corners[0]].head<2>();
     const Vec2 u = surface.points[corners[1]].head<2>() - a, v = surface.points[corners[2]].head<2>() - a;
-    for (const Index i : corners) share[i] += u.x() * v.y() - u.y() * v.x();
+    for (const Index i : corners) share[i] += cross(u, v);
   }
   return share;
 }
@@ -34,8 +35,8 @@ std::vector<Index> nearest_control_points(const Surface& surface, const ControlP
   return nearest;
 }
 
-// The points at the middles of `count` equal parts of the region's area, taken in the order given: it is one
-// in which neighbours follow each other, so the parts are compact.
+// Picks the points at the middles of equal parts of the region's area. Points are in an order in which neighbours
+// follow each other, so the parts are compact.
 void sample(std::span<const Index> region, std::span<const double> share, std::span<Index> samples) {
   double total = 0, sum = 0;
   for (const Index i : region) total += share[i];
@@ -54,19 +55,16 @@ std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& c
                                   std::size_t per_region) {
   const std::vector<Index> nearest = nearest_control_points(surface, control);
   const std::size_t regions = control.points.size();
-  std::vector<std::size_t> begin(regions + 1, 0);
-  for (const Index c : nearest) ++begin[c + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Index> members(nearest.size());
-  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
-  for (Index i = 0; i < nearest.size(); ++i) members[next[nearest[i]]++] = i;
+  const Groups<Index> members = grouped<Index>(regions, [&](auto&& add) {
+    for (Index i = 0; i < nearest.size(); ++i) add(nearest[i], i);
+  });
 
   const std::vector<double> share = shares(surface);
   std::vector<Index> samples(regions * per_region);
   for (std::size_t c = 0; c < regions; ++c) {
     const std::span<Index> own = std::span(samples).subspan(c * per_region, per_region);
     std::fill(own.begin(), own.end(), control.points[c]);  // stays where the region has no area
-    sample(std::span(members).subspan(begin[c], begin[c + 1] - begin[c]), share, own);
+    sample(members[c], share, own);
   }
   return samples;
 }

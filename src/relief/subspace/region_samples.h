@@ -1,4 +1,4 @@
-// Points that stand for the regions around control points.
+// Samples of the regions around control points.
 #pragma once
 
 #include <span>
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// Returns `per_region` points for each control point in turn, from the points nearest to it, each standing
-// for the same area in the view plane; in small regions one stands several times.
+// Returns `per_region` points for each control point in turn, from the points nearest to it. Each represents the
+// same area in the view plane; in small regions one is repeated.
 std::vector<Index> sample_regions(const Surface& surface, const ControlPoints& control,
                                   std::size_t per_region);
 

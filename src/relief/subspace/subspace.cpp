@@ -3,28 +3,31 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <ranges>
 
 #include "core/memory.h"
-#include "frame_slopes.h"
-#include "jumps.h"
+#include "relief/style.h"
 #include "relief/subspace/control_mesh.h"
 #include "relief/subspace/region_samples.h"
-#include "slope_input.h"
+#include "relief/weight_table.h"
+#include "relievo/geometry/spline.h"
+#include "relievo/scan/surface.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
-template <typename T>
-std::vector<T> pick(const std::vector<T>& from, std::span<const Index> which) {
-  std::vector<T> out(which.size());
+template <typename Range>
+auto pick(const Range& from, std::span<const Index> which) {
+  std::vector<std::ranges::range_value_t<Range>> out(which.size());
   for (std::size_t i = 0; i < which.size(); ++i) out[i] = from[which[i]];
   return out;
 }
 
-// Ratio and offset share their lattices, with cells from 12 radii of the control points down to 3/4. The
-// ratio is fitted on the first, the offset on the others.
+// Ratio and offset share their lattices, whose cells go from 12 radii of the control points down to 3/4 of one.
+// The ratio is fitted on the coarsest two, the offset on the others.
 constexpr int last_ratio_level = 1;
 
 SplineOptions spline_options(std::span<const Vec2> points, double radius) {
@@ -46,7 +49,7 @@ SplineOptions spline_options(std::span<const Vec2> points, double radius) {
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope) {
   const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<Vec2> slopes(surface.points.size());
-  compressed_slopes(slope_input(surface, boundary_weight), keep_all, max_slope, slopes);
+  find_slopes(slope_input(surface, {}, boundary_weight), {keep_all, 0, max_slope}, slopes);
   std::vector<double> heights(slopes.size());
   system.solve(slopes, heights);
   return heights;
@@ -77,10 +80,11 @@ SubspaceModel::SubspaceModel(HeightSystem system, Samples samples, double delta)
     : system_(std::move(system)), samples_(std::move(samples)), delta_(delta) {}
 
 Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const SubspaceOptions& options,
-                                             std::span<const double> reference, Progress* progress) {
+                                             const Known& known, Progress* progress) {
   const std::vector<Vec2> points = in_plane(surface.points);
   const std::vector<float> boundary_weight = boundary_weights(surface.boundary.distance, surface.rho),
                            weights = jump_weights(surface);
+  std::span<const double> reference = known.reference;
   std::vector<double> solved;
   if (reference.empty()) {
     if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
@@ -96,11 +100,14 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
       HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary, pick(weights, control.points));
   if (!system) return std::unexpected(system.error());
   const std::vector<Index> samples = sample_regions(surface, control, options.normals_per_point);
+  std::vector<PointLayers> own_layers;
+  if (known.layers.empty()) own_layers = normal_layers(surface.points, surface.normals);
+  const std::span<const PointLayers> layers = known.layers.empty() ? own_layers : known.layers;
 
-  SubspaceModel model(std::move(*system),
-                      {pick(surface.normals, samples), pick(surface.curvature.k, samples),
-                       pick(surface.layers, samples), samples},
-                      surface.curvature.delta);
+  SubspaceModel model(
+      std::move(*system),
+      {pick(surface.normals, samples), pick(surface.curvature.k, samples), pick(layers, samples), samples},
+      surface.curvature.delta);
   model.control_ = std::move(control);
   model.reference_.assign(reference.begin(), reference.end());
   model.set_reference(options.max_slope, boundary_weight);
@@ -131,31 +138,26 @@ SubspaceModel::Workspace SubspaceModel::make_workspace() const {
 void SubspaceModel::solve(const Shape& shape, std::span<const float> boundary_weight,
                           Workspace& workspace) const {
   Workspace::Storage& storage = *workspace.storage_;
-  const bool is_layered = shape.style == Style::layered;
-  storage.weight.fill(delta_, is_layered ? saturation_alone(shape.compression) : shape.compression);
-  const LayerWeights layers = layer_weights(shape);
-  const auto scale = static_cast<float>(is_layered ? saturation_scale(shape.compression) : 1);
-  const auto max_slope = static_cast<float>(shape.max_slope);
-  const auto slope_of = [&](std::size_t i) {
-    const float w = scale * storage.weight(samples_.k[i]) * boundary_weight[samples_.points[i]];
-    return is_layered ? layered_slope(samples_.layers[i], layers, w, max_slope)
-                      : frame_slope(samples_.normals[i], w, max_slope);
-  };
-  // A control point's slope is the mean of those its region's samples have.
+  const SlopeInput input{samples_.normals, samples_.k, {}, delta_, samples_.layers};
   const std::size_t per_point = samples_.k.size() / control_.points.size();
-  parallel_for(
-      control_.points.size(),
-      [&](std::size_t c) {
-        Vec2f sum = Vec2f::Zero();
-        for (std::size_t i = c * per_point; i < (c + 1) * per_point; ++i) sum += slope_of(i);
-        storage.slopes[c] = sum / static_cast<float>(per_point);
-      },
-      512);
+  with_style(shape, [&](const auto& style) {
+    storage.weight.fill(delta_, style.weighted());
+    const auto slope_of = [&](std::size_t i) -> Vec2f {
+      return style.slope(input, i, storage.weight(samples_.k[i]), boundary_weight[samples_.points[i]]);
+    };
+    // The slope of a control point is the mean slope of the samples of its region.
+    const auto mean_slope = [&](std::size_t c) {
+      Vec2f sum = Vec2f::Zero();
+      for (std::size_t i = c * per_point; i < (c + 1) * per_point; ++i) sum += slope_of(i);
+      storage.slopes[c] = sum / static_cast<float>(per_point);
+    };
+    parallel_for(control_.points.size(), mean_slope, 512);
+  });
   system_.solve(storage.slopes, storage.heights, storage.system);  // z_c
 }
 
-// Below a thousandth of the height, where z0_c says nothing about the ratio, it fades to that of all control
-// points.
+// Below a thousandth of the height z0_c is too small to divide by: there the ratio fades to that of all
+// control points.
 void SubspaceModel::set_reference(double max_slope, std::span<const float> boundary_weight) {
   Workspace workspace = make_workspace();
   solve({keep_all, 0, max_slope}, boundary_weight, workspace);
@@ -168,7 +170,7 @@ void SubspaceModel::set_reference(double max_slope, std::span<const float> bound
   }
 }
 
-// Weights z0_c^2 make the fit of the ratio r one of z_c - r z0_c.
+// With weights z0_c^2 the fit of the ratio r minimises z_c - r z0_c.
 void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec2> points) {
   std::vector<float> weights;
   for (const float z0 : control_reference_) weights.push_back(z0 * z0);
@@ -192,8 +194,8 @@ void SubspaceModel::fit(Workspace::Storage& storage) const {
   }
   const auto overall = static_cast<float>(reference > 0 ? compressed / reference : 0);
   for (std::size_t c = 0; c < storage.heights.size(); ++c) {
-    const auto [pull, rest] = ratio_terms_[c];
-    storage.ratios[c] = storage.heights[c] * pull + rest * overall;
+    const RatioTerm& term = ratio_terms_[c];
+    storage.ratios[c] = storage.heights[c] * term.own + term.overall * overall;
   }
   ratio_spline_.fit(storage.ratios, storage.ratio, storage.ratio_fit);
   for (std::size_t c = 0; c < storage.heights.size(); ++c) {

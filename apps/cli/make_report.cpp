@@ -1,0 +1,109 @@
+#include "cli/make_report.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "common/wording.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/version.h"
+
+namespace relievo::app::cli {
+namespace {
+
+nlohmann::json wrap_json(const std::optional<ReliefReport::Wrapped>& wrap) {
+  if (!wrap) return {};
+  return {{"diameter_mm", wrap->diameter_mm},
+          {"turn_degrees", wrap->turn_deg},
+          {"mm_per_degree", wrap->mm_per_degree}};
+}
+
+nlohmann::json reach_json(const ReliefReport& report) {
+  if (!report.reach) return {};
+  return {{"reached_share", report.reach->reached_share},
+          {"largest_residual_mm", report.reach->largest_residual_mm},
+          {"tolerance_mm", report.reach->tolerance_mm},
+          {"mm_per_sample", report.reach->mm_per_sample}};
+}
+
+std::vector<double> row_by_row(const Mat3& m) {
+  std::vector<double> values;
+  for (int i = 0; i < 9; ++i) values.push_back(m(i / 3, i % 3));
+  return values;
+}
+
+std::vector<double> as_list(const Vec3& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+// Returns the models of the scene and their places: a point p of a file is scale * rotation * p + offset in it.
+nlohmann::json models_json(const Scene& scene, const View& view) {
+  const auto places = place_models(scene, view);
+  nlohmann::json models = nlohmann::json::array();
+  for (std::size_t i = 0; places && i < places->size(); ++i) {
+    const CloudFile& file = *scene.models[i].file;
+    const PlacedModel& place = (*places)[i];
+    models.push_back({{"file", scene.models[i].name},
+                      {"format", file.format},
+                      {"points", file.cloud.size()},
+                      {"triangles", file.mesh.triangles.size()},
+                      {"model_to_scene",
+                       {{"rotation", row_by_row(place.turn)},
+                        {"scale", place.scale},
+                        {"offset", as_list(place.offset)}}}});
+  }
+  return models;
+}
+
+nlohmann::json report_json(const ReliefReport& report, const Progress& progress) {
+  const auto number_or_null = [](double x) {
+    return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
+  };
+  nlohmann::json seconds = nlohmann::json::object();
+  for (const StageTime& stage : progress.times())
+    seconds[stage.name] = seconds.value(stage.name, 0.0) + stage.seconds;
+  return {
+      {"version", version},
+      {"threads", thread_count()},
+      {"input_points", report.input_points},
+      {"visible_points", report.visible_points},
+      {"rho", report.rho},
+      {"diagonal", report.diagonal},
+      {"method", name_of(report.method)},
+      {"alpha", number_or_null(report.alpha)},
+      {"beta", report.beta},
+      {"gamma", report.gamma},
+      {"u", number_or_null(report.u)},
+      {"height_requested_mm",
+       report.height_requested_mm ? nlohmann::json(*report.height_requested_mm) : nlohmann::json()},
+      {"height_mm", report.height_mm},
+      {"below_ground_mm", report.below_ground_mm},
+      {"steepest_deg", report.steepest_deg},
+      {"tool", reach_json(report)},
+      {"simplification_error_mm",
+       report.simplification_error_mm ? nlohmann::json(*report.simplification_error_mm) : nlohmann::json()},
+      {"wrap", wrap_json(report.wrap)},
+      {"seconds", seconds},
+      {"model_to_mm",
+       {{"rotation", row_by_row(report.rotation)},
+        {"scale", report.scale},
+        {"offset", as_list(report.offset)}}},
+      {"remarks", remarks_on(report)}};
+}
+
+}  // namespace
+
+Vec3 size_mm(const Solid& solid) {
+  Box box;
+  for (const Vec3& p : solid.points) box.extend(p);
+  return box.size();
+}
+
+std::string make_report(const MakeOutcome& outcome) {
+  nlohmann::json report = report_json(outcome.made.report, outcome.progress);
+  report["size_mm"] = as_list(size_mm(outcome.made.solid));
+  report["units"] = name_of(outcome.unit);
+  report["models"] = models_json(outcome.scene, outcome.view);
+  return report.dump(2) + "\n";
+}
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,56 @@
+// The files that can be made of a finished relief, in one table.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/core/length.h"
+#include "relievo/make_relief.h"
+
+namespace relievo::app {
+
+struct FileFormat {
+  std::string_view name;    // as the studio asks for it
+  std::string_view ending;  // of its files, with its dot; what stands before it belongs to the studio's name
+  std::string_view type;    // as browsers know it
+  std::string_view label, use;                                    // for people
+  std::vector<std::byte> (*write_solid)(const Solid&) = nullptr;  // null for pictures
+};
+
+// Returns all formats.
+std::span<const FileFormat> file_formats();
+
+// Returns the format of that name; null if there is none.
+const FileFormat* find_format(std::string_view name);
+
+// Returns the format of solids whose files end so, "stl"; null if there is none.
+const FileFormat* find_solid_format(std::string_view ending);
+
+// Returns the endings of solids, for people: ".stl, .3mf, .ply or .obj".
+std::string solid_endings();
+
+// Returns a list of objects with name, label, use, ending and type.
+nlohmann::json format_list();
+
+struct ExportedFile {
+  std::string bytes, type;
+};
+
+// Returns the relief as a file of that format, the bytes that `relievo make` writes. `heightmap_px` is the
+// longer side of a height map.
+ExportedFile export_file(const MadeRelief& made, const FileFormat& format, int heightmap_px);
+
+struct HeightMapOrder {
+  int longer_side_px = 1024;
+  bool is_tiff = false;  // else PNG
+  LengthUnit unit = LengthUnit::mm;
+};
+
+// Returns the height map as a file, with its scale. Of what was bent around a wrap the flat plate is shown,
+// for machines that turn the stock.
+std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
+
+}  // namespace relievo::app

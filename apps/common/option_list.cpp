@@ -1,0 +1,119 @@
+#include "common/option_list.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "relievo/core/text.h"
+#include "relievo/core/version.h"
+
+namespace relievo::app {
+namespace {
+
+using Json = nlohmann::json;
+
+bool is_number(const ReliefField& field) {
+  return !std::holds_alternative<std::string OptionTexts::*>(field.value);
+}
+
+// Returns the default of an option for each method that has a shape.
+Json effective_default(const ReliefField& field) {
+  Json by_method = Json::object();
+  bool is_same = true;
+  ReliefOptions options;
+  for (const MethodInfo& info : methods) {
+    if (!has_shape(info.method)) continue;
+    options.method = info.method;
+    const double value = field.effective(options);
+    is_same &= by_method.empty() || by_method.front() == value;
+    by_method[std::string(info.name)] = value;
+  }
+  return is_same ? by_method.front() : by_method;
+}
+
+// Null where nothing that has a value rules.
+Json default_of(const ReliefField& field) {
+  if (field.effective) return effective_default(field);
+  const OptionTexts defaults;
+  return std::visit(
+      [&]<typename M>(const M member) -> Json {
+        if constexpr (std::is_same_v<M, std::optional<double> NumericOptions::*>)
+          return {};
+        else
+          return defaults.*member;
+      },
+      field.value);
+}
+
+std::string plain(const Json& value) {
+  return value.is_string() ? value.get<std::string>() : cat(value.get<double>());
+}
+
+std::string replaced(std::string text, std::string_view from, std::string_view to) {
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+// In roff a dash of the text is no hyphen, and a dot that begins a line is a command.
+std::string roff(std::string_view text) {
+  return replaced(replaced(std::string(text), "\\", "\\e"), "-", "\\-");
+}
+
+std::string range_text(const ReliefField& field) {
+  return is_number(field) ? cat(" [", field.min, " to ", field.max, "]") : std::string();
+}
+
+constexpr std::string_view man_head =
+    ".SH NAME\nrelievo\\-make \\- turn a 3D scan into a bas\\-relief\n"
+    ".SH SYNOPSIS\n.B relievo make\n.I INPUT\n.B \\-o\n.I OUT\n.RI [ options ]\n"
+    ".SH DESCRIPTION\nMakes a relief of point clouds, meshes, depth images, a scene or a studio's project, "
+    "and "
+    "writes it as a solid: .stl, .3mf, .ply or .obj. Lengths are in millimetres, or carry their unit. "
+    "The files that can be written besides are listed by\n.BR \"relievo make \\-\\-help\" .\n"
+    ".SH OPTIONS\n";
+
+}  // namespace
+
+std::string default_text(const ReliefField& field) {
+  if (!field.otherwise.empty()) return std::string(field.otherwise);
+  const Json value = default_of(field);
+  if (!value.is_object()) return plain(value);
+  std::string text;
+  for (const auto& [method, number] : value.items())
+    text += cat(text.empty() ? "" : ", ", plain(number), " with method ", method);
+  return text;
+}
+
+std::string help_text(const OptionField& field) {
+  return field.choices.empty() ? std::string(field.help) : cat(field.help, "; ", either(field.choices));
+}
+
+Json option_list() {
+  Json list = Json::array();
+  for (const ReliefField& field : option_fields()) {
+    Json entry{{"name", field.name}, {"unit", field.unit}, {"help", field.help}, {"slider", field.is_slider}};
+    if (is_number(field)) entry.update({{"min", field.min}, {"max", field.max}});
+    if (!field.choices.empty()) entry["choices"] = field.choices;
+    if (const Json value = default_of(field); !value.is_null()) entry["default"] = value;
+    list.push_back(entry);
+  }
+  return list;
+}
+
+std::string option_markdown() {
+  std::string text = "| flag | meaning | default |\n| --- | --- | --- |\n";
+  for (const ReliefField& field : option_fields())
+    text += cat("| `--", field.name, " ", field.unit, "` | ", help_text(field), range_text(field), " | ",
+                default_text(field), " |\n");
+  return text;
+}
+
+std::string option_man_page() {
+  std::string text = cat(".TH RELIEVO\\-MAKE 1 \"\" \"relievo ", version, "\"\n", man_head);
+  for (const ReliefField& field : option_fields())
+    text += cat(".TP\n.BI \\-\\-", roff(field.name), " \" ", roff(field.unit), "\"\n", roff(help_text(field)),
+                roff(range_text(field)), "; default: ", roff(default_text(field)), "\n");
+  return text;
+}
+
+}  // namespace relievo::app

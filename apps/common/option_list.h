@@ -1,0 +1,28 @@
+// The table of options for all who show it: the page, the README and the man page.
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "relievo/option_texts.h"
+
+namespace relievo::app {
+
+// Returns what rules where the option is not given, for people: "5", "0.04 with method layered, 0.02 with method paper".
+std::string default_text(const ReliefField& field);
+
+// Returns the help, with the words that may stand there.
+std::string help_text(const OptionField& field);
+
+// Returns a list of objects with name, unit, help and slider (whether the studio shows it live); of numbers with min
+// and max; of enumerations with choices. `default` is there if something rules without a value: itself, or, where
+// methods differ, an object of method names and values.
+nlohmann::json option_list();
+
+// Returns the rows of the README's table.
+std::string option_markdown();
+
+// Returns the man page of `relievo make`.
+std::string option_man_page();
+
+}  // namespace relievo::app

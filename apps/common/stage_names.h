@@ -1,0 +1,20 @@
+// What the stages of a long call are called for people.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+namespace relievo::app {
+
+struct StageName {
+  std::string_view stage;  // as Progress reports it
+  std::string_view text;
+};
+
+// Returns the names of all stages that the library and the programs report.
+std::span<const StageName> stage_names();
+
+// Returns the name of one; of others what Progress calls them.
+std::string_view name_of_stage(std::string_view stage);
+
+}  // namespace relievo::app

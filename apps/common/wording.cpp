@@ -1,0 +1,77 @@
+#include "common/wording.h"
+
+#include <cctype>
+
+#include "relievo/core/text.h"
+
+namespace relievo::app {
+namespace {
+
+std::string left_out(std::size_t points) {
+  return cat("left out ", points, " points far from all others");
+}
+
+std::string text_of(const SampleNote& note) {
+  using Kind = SampleNote::Kind;
+  switch (note.kind) {
+    case Kind::outliers:
+      return left_out(note.points);
+    case Kind::estimated_normals:
+      return "has no normals: they were estimated";
+    case Kind::turned_normals:
+      return "normals point inwards: they were turned";
+    case Kind::mesh:
+      return cat("the mesh has ", note.of, " triangles: ", note.points, " points taken");
+    case Kind::coarse:
+      return "coarser than the scene: points taken between its points";
+    case Kind::fine:
+      return cat("finer than the scene: ", note.points, " of ", note.of, " points kept");
+  }
+  return {};
+}
+
+std::string reach_text(const Tool& tool, const ToolReach& reach) {
+  return cat("the tool ", relievo::text_of(tool), " reaches ", 100 * reach.reached_share,
+             " % of the front within ", reach.tolerance_mm, " mm and leaves at most ",
+             reach.largest_residual_mm, " mm (sampled every ", reach.mm_per_sample, " mm)");
+}
+
+std::string wrap_text(const ReliefReport::Wrapped& wrap) {
+  return cat("the ground has a diameter of ", wrap.diameter_mm, " mm, goes around by ", wrap.turn_deg,
+             " degrees and has ", wrap.mm_per_degree, " mm in a degree");
+}
+
+}  // namespace
+
+std::vector<std::string> remarks_on(const ScanFacts& facts) {
+  std::vector<std::string> lines;
+  if (facts.has_estimated_normals) lines.push_back("the scan has no normals: they were estimated");
+  if (facts.has_turned_normals) lines.push_back("the scan's normals point inwards: they were turned");
+  if (facts.left_out > 0) lines.push_back(left_out(facts.left_out));
+  return lines;
+}
+
+std::vector<std::string> remarks_on(const ReliefReport& report) {
+  std::vector<std::string> lines;
+  if (report.has_idle_alpha)
+    lines.push_back("alpha has no effect at saturation 0; a height sets how flat the relief is");
+  for (const std::string& line :
+       remarks_on(ScanFacts{report.has_estimated_normals, report.has_turned_normals}))
+    lines.push_back(line);
+  if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
+  if (report.simplification_error_mm)
+    lines.push_back(cat("the front has ", report.front_triangles, " triangles, the full relief ",
+                        report.full_triangles, ", and is off by at most ", *report.simplification_error_mm,
+                        " mm"));
+  if (report.wrap) lines.push_back(wrap_text(*report.wrap));
+  for (const SampleNote& note : report.sample)
+    lines.push_back(note.model.empty() ? text_of(note) : cat(note.model, ": ", text_of(note)));
+  return lines;
+}
+
+std::string as_sentence(std::string line) {
+  if (!line.empty()) line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
+  return line + ".";
+}
+
+}  // namespace relievo::app

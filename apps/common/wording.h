@@ -1,0 +1,24 @@
+// Sentences for people, made of the facts that the library returns: for the command line and the studio alike.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "relievo/make_relief.h"
+
+namespace relievo::app {
+
+// What is to be known of scanned points.
+struct ScanFacts {
+  bool has_estimated_normals = false, has_turned_normals = false;
+  std::size_t left_out = 0;  // outliers
+};
+
+// Returns a line for each fact that a user should know, without capital and full stop.
+std::vector<std::string> remarks_on(const ScanFacts& facts);
+std::vector<std::string> remarks_on(const ReliefReport& report);
+
+// Returns the line with a capital and a full stop.
+std::string as_sentence(std::string line);
+
+}  // namespace relievo::app

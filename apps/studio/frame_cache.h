@@ -1,0 +1,45 @@
+// The frames behind pictures: each is made once, and with a single solve while a slider moves.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "relievo/relief/frame.h"
+
+namespace relievo::app::studio {
+
+// A frame to draw. It is valid until the cache makes the next one but one.
+struct CachedFrame {
+  const Frame* frame = nullptr;
+  double stretch = 1;   // factor of the heights in the picture
+  bool is_new = false;  // was made for this call
+};
+
+// Makes frames of one model, which must outlive the cache. Not for concurrent use.
+class FrameCache {
+ public:
+  explicit FrameCache(const ReliefModel& model) : maker_(model) {}
+
+  // Returns the frame asked for.
+  CachedFrame exact(const FrameOptions& wanted);
+
+  // Returns the frame asked for or, if a height is locked, one that is made with one solve at the u that the
+  // last frame's height suggests. The stretch makes up for what that misses, at most 3 %.
+  CachedFrame quick(const FrameOptions& wanted);
+
+  // Returns what the last call returned; a null frame before the first.
+  CachedFrame last() const { return last_; }
+
+ private:
+  std::optional<FrameOptions> guess(const FrameOptions& wanted) const;
+  const Frame& newest() const { return frames_[newest_]; }
+
+  FrameMaker maker_;
+  std::array<Frame, 2> frames_;  // the newest, and the one before, which the next overwrites
+  std::size_t newest_ = 0;
+  std::optional<FrameOptions> made_;  // options of the newest frame; none before the first
+  CachedFrame last_;
+  double elasticity_ = 1;  // d ln height / d ln u, estimated from the last two frames
+};
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,24 @@
+// The engine, and what it said of itself when the page began: options with their ranges and defaults, names of
+// views, materials and stages. The page spells none of these itself.
+
+import {NativeEngine} from "./engine.js";
+import {toast} from "./messages.js";
+
+export const engine = new NativeEngine();
+
+async function ask() {
+  try {
+    return await engine.about();
+  } catch (error) {
+    toast(error.message, true);
+    throw error;
+  }
+}
+
+export const about = await ask();
+
+// Returns {name, unit, help, min, max, default} of an option; min and max of numbers only.
+export const optionOf = (name) => about.options.find((option) => option.name === name);
+
+// Returns the value that rules with a method where the option is not given; null if it has none.
+export const defaultOf = (name, method) => about.defaults[method][name] ?? optionOf(name).default ?? null;

@@ -1,0 +1,15 @@
+// Shows the progress of the engine's work in the background, with the name of its stage.
+
+import {about} from "./about.js";
+import {$} from "./controls.js";
+
+// `isAlone` while there is no relief to look at.
+export function showProgress({busy, stage, fraction = 0}, isAlone) {
+  const box = $("#progress"), percent = Math.round(fraction * 100), name = about.stages[stage] ?? stage;
+  box.hidden = !busy;
+  box.classList.toggle("alone", isAlone);
+  box.setAttribute("aria-valuenow", percent);
+  box.setAttribute("aria-valuetext", `${name}, ${percent} percent`);
+  $(".fill", box).style.width = `${Math.max(4, percent)}%`;
+  $("#stage-name").textContent = `${name} …`;
+}

@@ -1,0 +1,48 @@
+# A newcomer waits for the compiler more than for anything else. Headers that most sources need are precompiled, and the
+# sources of a folder are compiled a few at a time, as one (CMake's unity build). Without RELIEVO_UNITY each source is
+# compiled by itself: that is quicker after a small change, and shows every warning.
+option(RELIEVO_UNITY "Compile the sources of a folder together" ON)
+
+# False alarms of g++ 12, which sees through <string> where that is precompiled; programs and tests are built with these.
+set(RELIEVO_FALSE_ALARMS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+
+# relievo_precompile(TARGET HEADER...) precompiles cmake/precompiled.h and the given headers for the target;
+# relievo_precompile(TARGET REUSE_FROM OTHER) takes what was precompiled for another target with the same options.
+function(relievo_precompile target)
+  if(ARGV1 STREQUAL REUSE_FROM)
+    target_precompile_headers(${target} REUSE_FROM ${ARGV2})
+  else()
+    target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.h ${ARGN})
+  endif()
+endfunction()
+
+# relievo_unite(TARGET SIZE) compiles the target's sources in groups of at most SIZE from one folder.
+function(relievo_unite target size)
+  if(NOT RELIEVO_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+  # These two warnings mistake names in the anonymous namespaces of two sources for one; builds without unity have them.
+  target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)
+  get_target_property(sources ${target} SOURCES)
+  set(group 0)
+  set(in_group 0)
+  set(last_folder "")
+  foreach(source IN LISTS sources)
+    get_filename_component(folder ${source} DIRECTORY)
+    if(in_group EQUAL size OR NOT folder STREQUAL last_folder)
+      math(EXPR group "${group} + 1")
+      set(in_group 0)
+    endif()
+    math(EXPR in_group "${in_group} + 1")
+    set(last_folder ${folder})
+    get_filename_component(room ${folder} NAME)
+    set_source_files_properties(${source} TARGET_DIRECTORY ${target} PROPERTIES UNITY_GROUP ${room}_${group})
+  endforeach()
+endfunction()
+
+# What the library and the programs are built with. The arguments after the target are those of relievo_precompile().
+function(relievo_fast_build target)
+  relievo_precompile(${target} ${ARGN})
+  relievo_unite(${target} 8)
+endfunction()

@@ -1,0 +1,49 @@
+// The bytes of files for solids, clouds, pictures and height maps.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "relievo/core/image.h"
+#include "relievo/picture/height_map.h"
+#include "relievo/plate/solid.h"
+#include "relievo/scan/cloud.h"
+
+namespace relievo {
+
+// Return the solid as binary STL, binary little-endian PLY, or OBJ. Coordinates are in single precision, in
+// the solid's unit, which a comment states. Only PLY stores colours. The solid must pass check_solid().
+std::vector<std::byte> write_stl(const Solid& solid);
+std::vector<std::byte> write_ply(const Solid& solid);
+std::vector<std::byte> write_obj(const Solid& solid);
+
+// Returns the solid as 3MF (core specification 1.3): one object with the solid's unit and coordinates, in
+// single precision. `metadata` becomes the model's metadata, keys being names that the specification knows
+// (Title, Description, Designer, Copyright, Application ...). The same solid gives the same bytes: no dates.
+// Empty if the file would exceed 4 GB. The solid must pass check_solid().
+std::vector<std::byte> write_3mf(const Solid& solid,
+                                 std::span<const std::pair<std::string, std::string>> metadata = {});
+
+// Returns the cloud as binary little-endian PLY with float properties x y z (double when float would lose
+// digits that matter, i.e. if the box lies more than 1,000 times its diagonal from the origin, or overflow)
+// and float nx ny nz if present. `comment` goes into the header, in one line.
+std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment = {});
+
+// Return the image as PNG. `text` becomes the key and value pairs of tEXt chunks: keys of 1 to 79 Latin-1
+// characters. A positive `mm_per_pixel` is stored as the physical size of a pixel (pHYs). The result is empty
+// for an image without pixels, for a number of pixels other than width times height, and for a key that PNG
+// forbids.
+std::vector<std::byte> write_png(const Image8& image);
+std::vector<std::byte> write_png(const Image16& image,
+                                 std::span<const std::pair<std::string, std::string>> text = {},
+                                 double mm_per_pixel = 0);
+
+// Returns the heights as a deflated float32 TIFF, with pixels per centimetre in its resolution tags, and
+// mm_per_pixel and the unit of the heights in its description. Empty for an image without pixels.
+std::vector<std::byte> write_tiff(const HeightsMm& heights);
+
+}  // namespace relievo

@@ -1,0 +1,15 @@
+// What a body in a picture is made of, and where its light comes from.
+#pragma once
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+enum class Material { plaster, silver, bronze, walnut, porcelain };  // porcelain is lit from behind
+
+// Towards the lamp, seen from the plate: from the upper left, where people assume light to come from (Kleffner
+// and Ramachandran, On the perception of shape from shading, 1992), and 30 degrees above the plate, which is
+// low enough for the slopes of a shallow relief to differ.
+inline const Vec3f upper_left_lamp(-1, 1, .8F);
+
+}  // namespace relievo

@@ -1,0 +1,23 @@
+// Shaded pictures of a finished body, drawn on the CPU.
+#pragma once
+
+#include "relievo/core/image.h"
+#include "relievo/picture/material.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+struct PreviewOptions {
+  int longer_side_px = 1200;      // of each of the two pictures, front and oblique
+  Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
+  Material material = Material::plaster;
+};
+
+// Returns the body as seen from the front and, beside it, obliquely, on a neutral ground (3 channels). Each of
+// the two is what FrameRenderer draws of the same body as a fine picture of this size: the same lamp and sky,
+// soft cast shadows and darkened hollows, to the pixel. The light belongs to the plate, so both views show the
+// same shading. Level triangles are shaded flat. No pixels for an empty solid or a side not in [1, 5461].
+// About 0.4 s for 700k triangles on two cores.
+Image8 render_preview(const Solid& solid, const PreviewOptions& options);
+
+}  // namespace relievo

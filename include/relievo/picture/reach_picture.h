@@ -1,0 +1,12 @@
+// A picture of what a milling tool reaches.
+#pragma once
+
+#include "relievo/plate/tool.h"
+
+namespace relievo {
+
+// Returns the front from above, shaded, with what the tool leaves standing in orange to red: by share of the
+// largest residual. No pixels if there are no samples.
+Image8 render_reach(const ToolReach& reach, int longer_side_px);
+
+}  // namespace relievo

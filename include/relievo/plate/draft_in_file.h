@@ -1,0 +1,20 @@
+// The slopes of a solid in files, whose coordinates are rounded to single precision, and their limit.
+#pragma once
+
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// Returns the steepest slope (tangent) of the front's triangles, with corners rounded to single precision as
+// in files. Infinite if a triangle that is not level stands upright or hangs over.
+double steepest_slope(const Solid& solid);
+
+// Moves points of the solid's front up or down, as far as rounding to single precision requires, until none
+// of its triangles is steeper than the limit in a file; returns the largest move in mm, usually a few
+// micrometres. The ground, the highest and the lowest points stay. Errors: kind geometry, with the solid
+// unchanged, if no such moves are found: because the front was steeper before, or because rounding made
+// triangles too steep that moves cannot mend, between fixed points or points a few steps of single precision
+// apart.
+Result<double> enforce_draft_in_float(Solid& solid, double max_slope);
+
+}  // namespace relievo

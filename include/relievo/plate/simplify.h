@@ -1,0 +1,39 @@
+// Fewer triangles for a height field mesh, within an error bound that is kept and reported.
+#pragma once
+
+#include <limits>
+
+#include "relievo/core/progress.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+struct SimplifiedMesh {
+  HeightFieldMesh front;
+  // Largest difference in height between the two surfaces, in mm. It is exact: both are flat between the
+  // corners of their overlay, and it is measured at all of these.
+  double error_mm = 0;
+};
+
+struct SimplifyOptions {
+  double tolerance_mm = .01;  // > 0
+  // Limit of the slopes of the new triangles, unless the front's own are steeper. Needles may exceed it by
+  // what a micrometre makes of their slope.
+  double max_slope = std::numeric_limits<double>::infinity();
+};
+
+// Returns the front with fewer points, nowhere further from the original than `tolerance_mm`: a Delaunay
+// triangulation to which the points of the front, or of its edges, with the largest error are added until
+// none exceeds the tolerance. The highest and the lowest point stay. Flat ground becomes a few triangles. If
+// `is_relief` is given, all points on the relief's rim are kept and the result's `is_relief` is set. Errors:
+// kind option for a tolerance that is not positive; kind geometry for a front without triangles, or whose
+// triangles are not a Delaunay triangulation up to rounding, so that they do not cover their hull; kind
+// cancelled.
+Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
+                                Progress* progress = nullptr);
+
+// The same without a limit of slopes.
+Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, double tolerance_mm,
+                                Progress* progress = nullptr);
+
+}  // namespace relievo

@@ -1,0 +1,67 @@
+// The methods that a relief can be made with, by name. To add a baseline: declare it in baselines.h, write it in
+// src/relief/baselines/, and give it a row in the table below.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+
+#include "relievo/core/error.h"
+
+namespace relievo {
+
+class Progress;
+class ReliefModel;
+struct Relief;
+struct Shape;
+
+enum class Method { layered, paper, linear, equalise, gradient, base_detail };
+
+// Makes a relief by a published method that we compare with: of exactly the height asked for, > 0, with boundary
+// points on the base; flat where the surface gives it nothing to scale. Its `shape` has no meaning.
+using Baseline = Relief(const ReliefModel& model, double height);
+
+Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relief;  // see baselines.h
+
+struct MethodInfo {
+  Method method;
+  std::string_view name;  // as typed
+  std::string_view help;  // one line
+  // Makes the relief of a baseline; null for methods that shape a relief by Shape.
+  Baseline* make = nullptr;
+  bool needs_all_points = false;  // and so has no subspace mode
+};
+
+inline constexpr std::array<MethodInfo, 6> methods{{
+    {Method::layered, "layered", "normals compressed layer by layer, heights by a membrane"},
+    {Method::paper, "paper", "normal space compression as in the paper"},
+    {Method::linear, "linear", "depths scaled", linear_relief},
+    {Method::equalise, "equalise", "adaptive histogram equalisation of the depths (Sun et al. 2009)",
+     equalised_relief},
+    {Method::gradient, "gradient", "gradient-domain compression (Weyrich et al. 2007)", gradient_relief,
+     true},
+    {Method::base_detail, "detail", "linear base with amplified detail (Ji et al. 2014)",
+     base_and_detail_relief, true},
+}};
+
+// Returns the method of that name; `ours` is the former name of `layered`. Errors: kind option for any other,
+// naming `option`.
+Result<Method> parse_method(std::string_view name, std::string_view option = "method");
+std::string_view name_of(Method method);
+
+// Returns all names, for people: "layered, paper, ...".
+std::string method_names();
+
+// Returns whether the method shapes a relief by Shape; baselines have options of their own.
+bool has_shape(Method method);
+
+// Returns the default shape of a method that has one, for a height that is asked for.
+Shape default_shape(Method method);
+
+// Returns the relief of that height by that method: ReliefModel::make_at_height(), or a baseline with its default
+// options, which ignores `shape`. Errors: those of make_at_height(); kind option if the method needs the system
+// of all points and the model has none.
+Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
+                              double unit_mm, Progress* progress = nullptr);
+
+}  // namespace relievo

@@ -1,0 +1,87 @@
+// The relief of a surface: prepared once, shaped many times. Stages 7 to 12 and 14.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "relievo/core/progress.h"
+#include "relievo/relief/mode.h"
+#include "relievo/relief/shape.h"
+
+namespace relievo {
+
+class HeightCorrection;
+class HeightSystem;
+class SubspaceModel;
+struct PointLayers;
+struct Surface;
+
+struct Relief {
+  std::vector<double> heights;  // per point of the surface, above the base, in its units
+  double height = 0;            // h: highest minus lowest, base and detail included
+  Shape shape;                  // what it was made with
+};
+
+// Most visible points of Mode::automatic that are not reduced: their frames take about 40 ms on two cores.
+inline constexpr std::size_t most_exact_points = 1'500'000;
+
+// Resolves `automatic` by the number of points; returns any other mode unchanged.
+Mode resolve_mode(Mode mode, const Surface& surface);
+
+// A surface with its factored system, and with the membrane that compresses layered reliefs. Movable. Const
+// calls may run concurrently.
+class ReliefModel {
+ public:
+  // Takes the surface, splits its normals into layers, factors its system and tunes the membrane; in subspace
+  // mode it goes on to the system of the control points. Errors: see HeightSystem::build(); kind cancelled.
+  static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
+
+  ReliefModel(ReliefModel&&) noexcept;
+  ReliefModel& operator=(ReliefModel&&) noexcept;
+  ~ReliefModel();
+
+  const Surface& surface() const;
+
+  // Returns the layers of the surface's normals; empty in subspace mode, whose control points have their own.
+  std::span<const PointLayers> layers() const;
+
+  // Returns the system of all points, or of the control points; the other is null.
+  const HeightSystem* system() const;
+  const SubspaceModel* subspace() const;
+
+  // Returns what compresses layered heights.
+  const HeightCorrection& correction() const;
+
+  // Returns the parameters of the membrane at u in [0, infinity], for shapes that set none. They are tuned to
+  // this surface: the strongest compression that keeps detail and depth order at least as good as
+  // gradient-domain compression does, where that is possible.
+  MembraneParams membrane_at(double u) const;
+
+  // Returns the shape with membrane_at() its u, if it is layered and sets no membrane.
+  Shape with_membrane(Shape shape) const;
+
+  // Bytes held.
+  std::size_t memory() const;
+
+  // Returns the relief of that shape.
+  Relief make(const Shape& shape) const;
+
+  // Returns the relief whose height is `height`, detail included, by changing the compression's u at the beta,
+  // gamma and slope asked for (the intent of Algorithm 1, section 3.6). Errors: kind geometry if no u gives
+  // that height; the message states the largest that is reached, in units of `unit_mm` millimetres. Kind
+  // cancelled.
+  Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
+                                Progress* progress = nullptr) const;
+
+ private:
+  struct State;
+  class Maker;
+  explicit ReliefModel(std::unique_ptr<const State> state);
+
+  std::unique_ptr<const State> state_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,60 @@
+// The quantities that shape a relief. All of them can change from frame to frame: none touches the model that
+// was prepared.
+#pragma once
+
+#include <memory>
+#include <optional>
+
+namespace relievo {
+
+class ToneCurve;
+
+enum class Style {
+  paper,   // equations (5) to (7), and detail added to the heights
+  layered  // ours: normals compressed layer by layer, fine ones least; heights compressed by the membrane
+};
+
+// Parameters of the membrane, which compresses layered heights: see HeightCorrection.
+struct MembraneParams {
+  double height_share =
+      1;  // height of the relief, as a share of the height that (9) gives its slopes, (0, 1]
+  double pull_length =
+      .1;  // of the longer side, > 0: a shorter one pulls points harder to their depth's rank
+
+  bool operator==(const MembraneParams&) const = default;
+};
+
+// Height and saturation of a relief. The paper's height coefficient is alpha; u = alpha^-beta says the same
+// for every beta > 0 and gives every height at beta = 0 as well, where alpha has no effect.
+struct Compression {
+  double u = 1;     // [0, infinity]; 0 is flat, infinity keeps every normal that has curvature
+  double beta = 0;  // saturation coefficient, [0, 100]; 0 compresses all points alike
+  // Replaces the exponential of (6): w_k = 1 - (1 - curve(|k|))^u, so that u still sets the height and u = 1
+  // keeps the share that the curve gives. Beta has no effect then.
+  std::shared_ptr<const ToneCurve> curve = nullptr;
+
+  // Two curves are equal if they go through the same points.
+  bool operator==(const Compression& other) const;
+
+  // Converts the paper's pair; alpha in [0, infinity).
+  static Compression from_alpha(double alpha, double beta);
+  // Returns the paper's height coefficient u^(-1/beta); NaN where beta = 0 leaves it undetermined.
+  double alpha() const;
+};
+
+struct Shape {
+  Compression compression;    // height and saturation
+  double gamma = 0;           // detail coefficient, [0, 1]; in layers it attenuates the coarse ones
+  double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
+  double boundary_width = 2;  // of (7), in rho, > 0: a wider one softens the rim
+  Style style = Style::paper;
+  // Of the layered style alone; if not set, the model's own: ReliefModel::membrane_at().
+  std::optional<MembraneParams> membrane = {};
+
+  bool operator==(const Shape&) const = default;
+};
+
+// Returns the default parameters of the layered style: beta = 0 and a slight attenuation of coarse layers.
+Shape layered_shape();
+
+}  // namespace relievo

@@ -1,0 +1,62 @@
+// Normal space compression (stages 8 and 9): how much of each normal the relief keeps. Paper, equations (5)
+// to (7).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <type_traits>
+#include <vector>
+
+#include "relievo/core/types.h"
+#include "relievo/relief/layers.h"
+#include "relievo/relief/shape.h"
+
+namespace relievo {
+
+// Equation (6), w_k = 1 - exp(-(|k| / (alpha delta))^beta) = 1 - exp(-u (|k| / delta)^beta), in [0, 1]. Never
+// overflows. Where delta is 0 (no curvature anywhere) all points are alike, as for beta = 0.
+double curvature_weight(double k, double delta, const Compression& compression);
+
+// Equation (7), w_b = 1 - exp(-(distance / (2 rho))^2), in [0, 1].
+double boundary_weight(double distance, double rho);
+
+// Returns w_b for distances to the boundary.
+std::vector<float> boundary_weights(std::span<const float> distance, double rho);
+
+// Equation (5), divided by its z: returns the slope (dz/dx, dz/dy) of the compressed normal w n + (1 - w)
+// (0, 0, 1), shortened to at most `max_slope`. The normal is a unit vector with z >= 0.
+template <typename Real>
+Eigen::Vector2<Real> compressed_slope(const std::type_identity_t<Eigen::Vector3<Real>>& normal, Real w,
+                                      std::type_identity_t<Real> max_slope) {
+  const Real x = -w * normal.x(), y = -w * normal.y(), z = w * normal.z() + (1 - w);
+  const Real length = std::sqrt(x * x + y * y);
+  const auto scaled = [&](Real scale) { return Eigen::Vector2<Real>(x * scale, y * scale); };
+  if (!(length <= max_slope * z)) return scaled(max_slope / length);
+  // Frames multiply by the reciprocal, because one division takes less time than two.
+  if constexpr (std::is_same_v<Real, float>) return scaled(1 / std::max(z, 1e-30F));
+  return length > 0 ? Eigen::Vector2<Real>(x / z, y / z) : Eigen::Vector2<Real>(0, 0);
+}
+
+// The per-point inputs of slopes, one entry per point.
+struct SlopeInput {
+  std::span<const Vec3f> normals;
+  std::span<const float> k;                  // normalised mean curvature
+  std::span<const float> boundary_weight;    // w_b
+  double delta = 0;                          // of k
+  std::span<const PointLayers> layers = {};  // read by the layered style alone
+};
+
+// Writes the target slope of every point: in the paper's style compressed_slope() with w = w_k w_b, in the
+// layered style layered_slope() with layer_weights(shape), times w_b and the factor of the saturation.
+void find_slopes(const SlopeInput& input, const Shape& shape, std::span<Vec2> slopes);
+
+// Returns the weights of a layered shape; without membrane parameters, those at a height share of 1.
+LayerWeights layer_weights(const Shape& shape);
+
+// Splits off the saturation: w_k of saturation_alone(c), times saturation_scale(c), is the factor that
+// saturation or tone curve apply to a layered slope. It is 1 everywhere for saturation 0.
+Compression saturation_alone(const Compression& compression);
+double saturation_scale(const Compression& compression);
+
+}  // namespace relievo

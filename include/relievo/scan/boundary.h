@@ -1,0 +1,35 @@
+// Boundary (stage 5): which triangles belong to the relief, and where it meets the base.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/geometry/triangulation.h"
+
+namespace relievo {
+
+struct BoundaryOptions {
+  // Radius in rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
+  double gap = 3;
+  // Radius in rho. A hole inside the silhouette is closed if no larger empty circle fits into it.
+  double smallest_hole = 5;
+};
+
+struct Boundary {
+  std::vector<std::uint8_t> is_inside;    // per triangle: belongs to the relief
+  std::vector<std::uint8_t> is_boundary;  // per point: in P_b, on the silhouette or the rim of an inner hole
+  // Per point the distance in the view plane to the nearest point of P_b: `dist` of equation (7).
+  std::vector<float> distance;
+};
+
+// Returns the boundary of points in the view plane, given their Delaunay triangulation and sampling distance
+// rho.
+//
+// A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds the gap,
+// unless it belongs to a narrow hole: a connected set of such triangles that does not touch the hull and has
+// no radius above smallest_hole. Boundary points are the corners of outside triangles and the hull, and
+// points that are in no inside triangle.
+Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
+                       const BoundaryOptions& options = {});
+
+}  // namespace relievo

@@ -1,0 +1,115 @@
+// Depth images from a depth camera, a renderer or a depth estimator, and their conversion into points.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "relievo/core/choice.h"
+#include "relievo/core/option_field.h"
+#include "relievo/core/progress.h"
+#include "relievo/scan/cloud.h"
+
+namespace relievo {
+
+// Values as in the file, row by row, the first row at the top; NaN where there is no value.
+struct DepthImage {
+  int width = 0, height = 0;
+  std::vector<float> values;
+  double step = 0;     // difference between possible values: 1 for whole numbers, 0 for fractions
+  std::string format;  // for people: "PNG, 16 bits"
+};
+
+// A pinhole camera, in pixels.
+struct DepthCamera {
+  double fx = 0, fy = 0, cx = 0, cy = 0;
+};
+
+// What the values of a depth image are.
+enum class DepthValues {
+  depth,   // grows away from the viewer, 0 is missing
+  height,  // grows towards the viewer
+  inverse  // one over the depth, up to a factor, as estimators give it; 0 is infinitely far
+};
+
+inline constexpr std::array<Choice<DepthValues>, 3> depth_value_choices{
+    {{"depth", DepthValues::depth}, {"height", DepthValues::height}, {"inverse", DepthValues::inverse}}};
+
+enum class Background {
+  keep,
+  remove,    // what lies behind the largest gap in depth, if that is most of the border
+  automatic  // remove without a camera, keep with one
+};
+
+inline constexpr std::array<Choice<Background>, 3> background_choices{
+    {{"keep", Background::keep}, {"remove", Background::remove}, {"auto", Background::automatic}}};
+
+struct DepthOptions {
+  DepthValues values = DepthValues::depth;
+  std::optional<DepthCamera> camera;
+  double range = .5;  // without a camera: depth from the nearest to the farthest, in picture widths
+  Background background = Background::automatic;
+  double points = 3e5;  // the image is reduced until about as many are left
+};
+
+// Checks ranges. Errors: kind option, naming the option.
+Result<void> check(const DepthOptions& options);
+
+// What users type of it.
+struct DepthTexts {
+  std::string values = "depth";
+  double range = DepthOptions{}.range;
+  std::string background = "auto";
+};
+
+// Calls f(field, value) for each of them, as visit() of OptionTexts does.
+template <typename Texts, typename F>
+requires std::is_same_v<std::remove_const_t<Texts>, DepthTexts>
+void visit(Texts& o, F&& f) {
+  f(OptionField{.name = "depth-values",
+                .unit = "KIND",
+                .help =
+                    "of a depth image: depth (0 is missing), height, or inverse depth as estimators give it",
+                .choices = names_of(depth_value_choices)},
+    o.values);
+  f(OptionField{.name = "depth-range",
+                .unit = "R",
+                .help = "of a depth image without camera: nearest to farthest, in picture widths",
+                .min = .01,
+                .max = 10},
+    o.range);
+  f(OptionField{.name = "background",
+                .unit = "B",
+                .help = "of a depth image: keep, remove or auto (remove if there is no camera)",
+                .choices = names_of(background_choices)},
+    o.background);
+}
+
+// Returns the options that the texts ask for, without camera. Errors: kind option, naming the option.
+Result<DepthOptions> parse_depth(const DepthTexts& texts);
+
+// The points of a depth image, and what was done to obtain them.
+struct DepthCloud {
+  Cloud cloud;                 // seen from +Z, +Y up, in pixels; all normals face the viewer
+  int reduction = 1;           // each point stands for reduction x reduction pixels
+  std::size_t missing = 0;     // number of pixels without a depth
+  std::size_t cut = 0;         // number of points removed from ramps between two surfaces
+  std::size_t background = 0;  // number of points removed with the background
+  double noise = 0;            // median uncertainty of a depth, in pixels
+};
+
+// Returns the image as points. x and y are pixels. With a camera, z is -f log(depth), f the focal length in
+// pixels: surfaces that face the camera stay flat, and no point hides another. Without a camera the values
+// are taken as depths along parallel rays.
+//
+// Rounding steps and noise are removed: of all surfaces whose depths lie within the intervals given by the
+// step of the values and the noise measured in the image, the smoothest is returned. It is not smoothed
+// across depth jumps. Pixels on ramps between two surfaces, which blurred outlines cause, are removed.
+// Enclosed holes are filled with points whose normal is (0, 0, 1). Errors: those of check(); kind geometry if
+// fewer than 16 pixels have a depth; kind cancelled.
+Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options,
+                               Progress* progress = nullptr);
+
+}  // namespace relievo

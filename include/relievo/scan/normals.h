@@ -1,0 +1,33 @@
+// Normals of scattered clouds: estimating them and giving them the right sign.
+#pragma once
+
+#include <span>
+
+#include "relievo/scan/cloud.h"
+#include "relievo/scan/spacing.h"
+
+namespace relievo {
+
+// Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
+// (principal component analysis). The sign is arbitrary until turn_to_viewer(). Does nothing to a cloud of
+// fewer than 3 points.
+void estimate_normals(Cloud& cloud, std::size_t neighbours = 16);
+
+// Reverses the normals of a cloud in view coordinates that face away from the viewer, so that z >= 0.
+void turn_to_viewer(Cloud& viewed);
+
+// Gives all normals of a cloud in view coordinates consistent signs. The visible points, `seen`, whose
+// normals are within 60 degrees of the viewer's direction are turned to the viewer. From these the signs
+// spread from neighbour to neighbour, so that the surface continues around edges instead of folding back.
+void turn_to_viewer(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen);
+
+// Returns whether the normals point into the model: whether of the points that are in front, seen from each
+// of the six sides along the axes, on average less than a third face the viewer. For a cloud that was scanned
+// from one side only, this side and the opposite one cancel out and the other four decide. False without
+// normals.
+bool normals_point_inward(const Cloud& cloud);
+
+// Reverses every normal.
+void flip_normals(Cloud& cloud);
+
+}  // namespace relievo

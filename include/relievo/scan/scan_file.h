@@ -1,0 +1,22 @@
+// The contents of a scan file.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "relievo/scan/cloud.h"
+#include "relievo/scan/mesh.h"
+
+namespace relievo {
+
+struct CloudFile {
+  Cloud cloud;         // finite points only, at least one; normals are unit length, or absent
+  std::string format;  // for people: "PLY binary little endian", "XYZ text, 6 columns with normals"
+  std::size_t dropped_points = 0;  // removed because a coordinate was NaN or infinite
+  // Number of further points whose normal was zero, not finite or missing. These points are removed, too,
+  // unless they are the majority: then all points are kept and the cloud has no normals.
+  std::size_t dropped_normals = 0;
+  Mesh mesh = {};  // the file's faces, with points of their own; empty if it has none
+};
+
+}  // namespace relievo

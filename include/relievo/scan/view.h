@@ -1,0 +1,45 @@
+// The view (stage 2): the side of the model that becomes the relief.
+#pragma once
+
+#include <string_view>
+
+#include "relievo/scan/cloud.h"
+
+namespace relievo {
+
+// A direction of view. R_view_model maps the model's frame to the view's, in which x points to the right, y
+// up and z towards the viewer, who looks along -z: p_view = R_view_model p_model.
+struct View {
+  Mat3 R_view_model = Mat3::Identity();
+};
+
+// Returns the view from the direction `towards_viewer`, which points from the model to the viewer: (0, 0, 1)
+// shows the side +Z. `up` points upwards in the view. Neither needs to have unit length; if they are
+// parallel, another up axis is chosen. Errors: kind option if either is zero or not finite.
+Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up = Vec3::UnitY());
+
+// Returns the view called "front", "back", "left", "right", "top" or "bottom", or towards "X,Y,Z". The front
+// is +Z, the right side +X and the top +Y. Without `up`, -Z and +Z point upwards in the views from the top
+// and the bottom, +Y in all others. Errors: kind option for any other text.
+Result<View> parse_view(std::string_view text, std::string_view up = {});
+
+// Returns the paper's equation (1): a rotation by theta_x about X, then by theta_y about Y, in radians. The
+// programs take a direction instead; this one is for comparisons with the paper.
+View view_from_euler(double theta_x, double theta_y);
+
+// Returns the cloud in view coordinates: R_view_model (p - c), where c is the centre of its box in the
+// model's frame.
+Cloud in_view(const Cloud& cloud, const View& view);
+
+// How much relief a side of the model shows: the sum of the differences between the normals of neighbouring
+// cells of a coarse image, without those across depth jumps.
+struct ViewGuess {
+  std::string_view name;
+  double score = 0;
+};
+
+// Returns the six sides along the axes, the one with the highest score first. Estimates normals if the cloud
+// has none.
+std::array<ViewGuess, 6> rank_views(const Cloud& cloud);
+
+}  // namespace relievo

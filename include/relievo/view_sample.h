@@ -1,0 +1,37 @@
+// The points from which a view's relief is made, and what was done to the scans to get them.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace relievo {
+
+struct Cloud;
+
+// A step that changed a model's points.
+struct SampleNote {
+  enum class Kind {
+    outliers,           // `points` far from all others were left out
+    estimated_normals,  // the model has none
+    turned_normals,     // the model's point inwards
+    mesh,               // `points` were taken from a mesh of `of` triangles
+    coarse,             // the cloud is coarser than the scene: points were taken between its own
+    fine                // the cloud is finer than the scene: `points` of its `of` were kept
+  };
+
+  Kind kind = Kind::outliers;
+  std::string model = {};  // its name in a scene; empty where there is only one
+  std::size_t points = 0, of = 0;
+
+  bool operator==(const SampleNote&) const = default;
+};
+
+struct ViewSample {
+  std::shared_ptr<const Cloud> cloud;  // in the scene's frame; part of the file where no point was changed
+  std::size_t left_out = 0;            // outliers, of all models together
+  std::vector<SampleNote> notes;
+};
+
+}  // namespace relievo

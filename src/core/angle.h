@@ -1,0 +1,16 @@
+// Degrees, which options and reports use, and radians, which computations use.
+#pragma once
+
+#include <numbers>
+
+namespace relievo {
+
+constexpr double to_radians(double degrees) {
+  return degrees * std::numbers::pi / 180;
+}
+
+constexpr double to_degrees(double radians) {
+  return radians * 180 / std::numbers::pi;
+}
+
+}  // namespace relievo

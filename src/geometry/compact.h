@@ -1,0 +1,31 @@
+// Leaves out the points of a mesh that no triangle uses.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// Which points of a mesh its triangles use.
+struct UsedPoints {
+  std::vector<Index> points;      // the old numbers of the used points, ascending
+  std::vector<Index> new_number;  // per old point its place in `points`, no_index if it is not used
+
+  // Returns the elements of an array over the old points that belong to used ones; of an empty array, none.
+  template <typename T>
+  std::vector<T> pick(const std::vector<T>& old) const {
+    std::vector<T> picked;
+    if (old.empty()) return picked;
+    picked.reserve(points.size());
+    for (const Index i : points) picked.push_back(old[i]);
+    return picked;
+  }
+};
+
+// Renumbers the corners of triangles over `point_count` points so that they count used points only, which keep
+// their order.
+UsedPoints compact(std::size_t point_count, std::span<Triangle> triangles);
+
+}  // namespace relievo

@@ -1,0 +1,36 @@
+// Limits the slopes of a height field over triangles of the plane.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// Triangles of the plane over which heights are given.
+struct PlaneMesh {
+  std::span<const Vec2> plane;
+  std::span<const Triangle> triangles;
+  std::span<const std::uint8_t> is_fixed;  // per point: its height must not change
+};
+
+// Whether heights are rounded to floats, as files store them.
+enum class Rounding { none, single_precision };
+
+// Returns the slope (dz/dx, dz/dy) of a triangle; it is not finite if the triangle has no area.
+Vec2 triangle_slope(const PlaneMesh& field, const Triangle& triangle, std::span<const double> heights);
+
+// Returns the steepest slope of all triangles, as rise over run; infinite if one that is not level has no
+// area or is clockwise. 0 without triangles.
+double steepest_of(const PlaneMesh& field, std::span<const double> heights);
+
+// Changes heights until no triangle is steeper than `max_slope`, by projections onto convex sets: each
+// triangle that is too steep moves its free corners by the least sum of squares that makes it flat enough,
+// repeatedly, as its neighbours do the same. Meant for a few steep triangles. With Rounding::single_precision
+// every height is representable as a float. Returns whether it succeeded; if not, some triangles are still
+// too steep.
+bool limit_slopes(const PlaneMesh& field, double max_slope, Rounding rounding, std::span<double> heights);
+
+}  // namespace relievo

@@ -1,0 +1,34 @@
+#include <algorithm>
+
+#include "io/pictures.h"
+#include "relievo/core/text.h"
+#include "relievo/io/read.h"
+
+namespace relievo {
+namespace {
+
+io::Source source_of(std::span<const std::byte> bytes, std::string_view name = {}) {
+  return {{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name};
+}
+
+}  // namespace
+
+bool is_picture(std::span<const std::byte> bytes) {
+  return std::ranges::any_of(io::picture_formats,
+                             [&](const auto& format) { return format.is_format(source_of(bytes)); });
+}
+
+Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name) {
+  const io::Source source = source_of(bytes, name);
+  const auto format =
+      std::ranges::find_if(io::picture_formats, [&](const auto& known) { return known.is_format(source); });
+  if (format == io::picture_formats.end())
+    return source.error({}, "expected a PNG or TIFF picture of depths, found another file");
+  Result<DepthImage> image = format->read(source);
+  if (image && (image->width < 4 || image->height < 4))
+    return source.error({},
+                        cat("expected at least 4 x 4 pixels, found ", image->width, " x ", image->height));
+  return image;
+}
+
+}  // namespace relievo

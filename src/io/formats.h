@@ -1,0 +1,112 @@
+// All file formats that are known: those that are read, and those that errors can only name. A new format
+// needs its source, which defines the two functions declared here, and its row in `formats`.
+#pragma once
+
+#include <array>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/readers.h"
+#include "io/records.h"
+
+namespace relievo::io {
+
+// Return true if the content, or else the name, is that of a file of the format. `source` may hold only the
+// beginning of a file.
+bool is_ply(const Source& source);
+bool is_pcd(const Source& source);
+bool is_las(const Source& source);
+bool is_gltf(const Source& source);
+bool is_off(const Source& source);
+bool is_stl(const Source& source);
+bool is_obj(const Source& source);
+bool is_text(const Source& source);
+
+// Return the content of a file, with as many points as the file has. Errors: kind input.
+Result<RawCloud> read_ply(const Source& source);
+Result<RawCloud> read_pcd(const Source& source);
+Result<RawCloud> read_las(const Source& source);
+Result<RawCloud> read_gltf(const Source& source);
+Result<RawCloud> read_off(const Source& source);
+Result<RawCloud> read_stl(const Source& source);
+Result<RawCloud> read_obj(const Source& source);
+Result<RawCloud> read_text(const Source& source);
+
+// Return where the points are in a file of which `head` holds the beginning. Errors: those of the format's
+// header, and kind input for a file of the format that cannot be read row by row.
+Result<StreamRecords> find_ply_rows(const Source& head);
+Result<StreamRecords> find_pcd_rows(const Source& head);
+Result<StreamRecords> find_las_rows(const Source& head);
+
+enum class Content { points, triangles, both };
+
+struct Format {
+  std::string_view name;     // for people
+  std::string_view endings;  // of file names, separated by blanks
+  Content content;
+  bool (*is_format)(const Source&);
+  Result<RawCloud> (*read)(const Source&);
+  Result<StreamRecords> (*find_rows)(const Source& head) = nullptr;  // null if files are always read whole
+};
+
+// The first row that recognises a file reads it, so formats with a mark in their content come first, and text
+// of numbers, which may begin with anything, comes last.
+inline constexpr std::array formats = {
+    Format{"PLY", ".ply", Content::both, is_ply, read_ply, find_ply_rows},
+    Format{"PCD", ".pcd", Content::points, is_pcd, read_pcd, find_pcd_rows},
+    Format{"LAS", ".las", Content::points, is_las, read_las, find_las_rows},
+    Format{"glTF", ".glb .gltf", Content::triangles, is_gltf, read_gltf},
+    Format{"OFF", ".off", Content::triangles, is_off, read_off},
+    Format{"STL", ".stl", Content::triangles, is_stl, read_stl},
+    Format{"OBJ", ".obj", Content::triangles, is_obj, read_obj},
+    Format{"XYZ, PTS", ".xyz .pts .txt .csv .asc", Content::points, is_text, read_text}};
+
+// A format that is not read.
+struct ForeignFormat {
+  std::string_view mark;  // how the content begins, or how the name ends
+  std::string_view what;  // for people
+};
+
+inline constexpr std::array<ForeignFormat, 16> foreign_beginnings = {{{"ASTM-E57", "an E57 file"},
+                                                                      {"\x89PNG", "a PNG picture"},
+                                                                      {"\xFF\xD8\xFF", "a JPEG picture"},
+                                                                      {"II*", "a TIFF picture"},
+                                                                      {"MM", "a TIFF picture"},
+                                                                      {"{", "a JSON file"},
+                                                                      {"<", "an XML or HTML file"},
+                                                                      {"#VRML", "a VRML file"},
+                                                                      {"Kaydara FBX", "an FBX file"},
+                                                                      {"\x93NUMPY", "a NumPy file"},
+                                                                      {"%PDF", "a PDF file"},
+                                                                      {"PK\x03\x04", "a ZIP archive"},
+                                                                      {"\x1F\x8B", "a gzip archive"},
+                                                                      {"7z\xBC\xAF", "a 7z archive"},
+                                                                      {"\xFF\xFE", "UTF-16 text"},
+                                                                      {"\xFE\xFF", "UTF-16 text"}}};
+
+inline constexpr std::array<ForeignFormat, 12> foreign_endings = {
+    {{".laz", "a LAZ file"},
+     {".e57", "an E57 file"},
+     {".ptx", "a PTX file"},
+     {".3ds", "a 3DS file"},
+     {".dxf", "a DXF file"},
+     {".fbx", "an FBX file"},
+     {".mtl", "a file of OBJ materials"},
+     {".step", "a STEP file"},
+     {".stp", "a STEP file"},
+     {".tif", "a TIFF picture"},
+     {".tiff", "a TIFF picture"},
+     {".ply", "a file that does not begin with the line 'ply'"}}};
+
+// Returns what the file is, "a ZIP archive", if it is in a format that is not read, or binary data without a
+// mark; empty for text that no foreign format claims.
+std::string foreign_format(const Source& source);
+
+// Returns the names of the formats that hold points or triangles: "PLY, PCD, LAS".
+std::string format_names(Content content);
+
+// Returns the names of the formats that can be read row by row: "PLY, PCD or LAS".
+std::string row_format_names();
+
+}  // namespace relievo::io

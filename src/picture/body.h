@@ -1,0 +1,78 @@
+// A body as triangles, as the renderer takes it: a finished solid, or a frame on its plate.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// What a triangle belongs to, which decides how it is shaded.
+enum class Part : std::uint8_t {
+  nothing,
+  relief,  // by the normals of its points, or flat if it is level
+  ground,  // level, at height 0
+  curved,  // the rest of the front (a base, a rim), by normals of its own corners
+  wall     // sides and bottom, by normals of their own corners, without cast shadows
+};
+
+// The part of each triangle, and normals of those that are not shaded by their points'.
+struct PlateParts {
+  std::vector<Part> parts;                           // per triangle
+  std::vector<Index> corners_at;                     // per triangle: its place below, or no_index
+  std::vector<std::array<Vec3f, 3>> corner_normals;  // unit length
+  std::size_t front_triangles = 0;                   // which come first
+};
+
+// Returns the parts of a solid. Corner normals are smooth where triangles of one part meet at less than 20
+// degrees.
+PlateParts plate_parts(const Solid& solid);
+
+// A body with x and y from the middle of its box and z from the ground. Triangles name its points by number:
+// those with heights, then those of `box_corners`. It refers to arrays of its owner.
+struct DrawnBody {
+  std::span<const Triangle> triangles;
+  const PlateParts& parts;
+  std::span<const Vec2> places;  // times mm_per_place
+  double mm_per_place = 1;
+  std::span<const float> heights;  // times mm_per_height
+  float mm_per_height = 1;
+  std::span<const Vec3f> normals;  // of the points of the relief, unit length
+  float stretch = 1;               // by which these normals are to be steeper
+  std::vector<Vec3> box_corners = {};
+  Box front = {};  // of the front's points, in mm
+  // No point of the front hides another from above, so that seen from there heights need not be known.
+  bool is_height_field = false;
+
+  Vec3 point(Index i) const {
+    if (i >= places.size()) return box_corners[i - places.size()];
+    const Vec2 xy = mm_per_place * places[i];
+    return {xy.x(), xy.y(), static_cast<double>(mm_per_height * heights[i])};
+  }
+  float lowest_mm() const { return static_cast<float>(front.min.z()); }
+  float span_mm() const { return static_cast<float>(front.size().z()); }
+};
+
+// A finished solid as a body.
+class SolidBody {
+ public:
+  explicit SolidBody(const Solid& solid);
+
+  // Valid as long as this object and the solid are.
+  DrawnBody body() const;
+
+ private:
+  const Solid& solid_;
+  PlateParts parts_;
+  std::vector<Vec2> places_;
+  std::vector<float> heights_;
+  std::vector<Vec3f> normals_;
+};
+
+// Returns unit normals of the relief's points, weighted by the areas around them; zero for others.
+std::vector<Vec3f> relief_normals(const Solid& solid);
+
+}  // namespace relievo

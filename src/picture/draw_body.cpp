@@ -1,0 +1,208 @@
+#include "picture/draw_body.h"
+
+#include <algorithm>
+
+#include "picture/drop_shadow.h"
+#include "picture/light_map.h"
+#include "picture/shading.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+// Of fine pictures, in both directions: with 3 x 3 samples steps along slanting edges are not seen any more.
+constexpr int fine_samples = 3;
+constexpr int most_samples = fine_samples * fine_samples;
+
+// Longer side of the map of light. Shadows are soft, so that it may be coarser than the picture; live pictures
+// take what can be walked in a few milliseconds.
+constexpr int fine_light_px = 640, least_light_px = 120, most_quick_light_px = 280;
+
+int light_map_px(const ScreenTransform& transform, bool is_fine) {
+  const int side = std::max(transform.width, transform.height);
+  return is_fine ? std::max(fine_light_px, side / 2)
+                 : std::clamp(side / 3, least_light_px, most_quick_light_px);
+}
+
+// Walls and bottom get the same light everywhere, a little less of the lamp than the front, so that its edge
+// stands out, and lean towards the viewer: plain walls in the dark would look like holes.
+constexpr Light wall_light{.8F, 1};
+constexpr float wall_lean = .8F;
+constexpr float wall_height = .55F;  // as light through them is, about the middle between thin and thick
+
+// The colour of places on a body.
+class Painter {
+ public:
+  Painter(const DrawnBody& body, const ScreenTransform& transform, const LightMap& light,
+          const DrawParams& params)
+      : body_(body),
+        transform_(transform),
+        light_(light),
+        to_viewer_(transform.to_viewer()),
+        shader_(params.material, direction_of(params.light), to_viewer_) {}
+
+  // Linear; the place is in pixels of the transform.
+  Vec3f colour(const VisiblePoint& seen, float x, float y) const {
+    Lit lit{Vec3f::UnitZ(),
+            {1, 1},
+            transform_.to_body(static_cast<double>(x), static_cast<double>(y), static_cast<double>(seen.z))};
+    if (seen.part == Part::wall) {
+      lit.normal = (corner_normal(seen) + wall_lean * to_viewer_).normalized();
+      lit.light = wall_light;
+      lit.height = wall_height;
+      return shader_.colour(lit);
+    }
+    if (seen.part == Part::relief) lit.normal = relief_normal(seen);
+    if (seen.part == Part::curved) lit.normal = corner_normal(seen);
+    lit.place.z() = height_mm(body_, seen);
+    lit.height = body_.span_mm() > 0 ? (lit.place.z() - body_.lowest_mm()) / body_.span_mm() : 0;
+    lit.light = light_.at(lit.place);
+    return shader_.colour(lit);
+  }
+
+ private:
+  Vec3f relief_normal(const VisiblePoint& seen) const {
+    const auto& [a, b, c] = seen.corners;
+    if (body_.heights[a] == body_.heights[b] && body_.heights[a] == body_.heights[c]) return Vec3f::UnitZ();
+    Vec3f normal = seen.mean(body_.normals[a], body_.normals[b], body_.normals[c]);
+    normal.head<2>() *= body_.stretch;
+    return normal.normalized();
+  }
+
+  Vec3f corner_normal(const VisiblePoint& seen) const {
+    const auto& [a, b, c] = body_.parts.corner_normals[body_.parts.corners_at[seen.triangle]];
+    return seen.mean(a, b, c).normalized();
+  }
+
+  const DrawnBody& body_;
+  const ScreenTransform& transform_;
+  const LightMap& light_;
+  Vec3f to_viewer_;
+  Shader shader_;
+};
+
+void store(const Vec3f& colour, float coverage, const DisplayTable& display, std::uint8_t* rgba) {
+  if (coverage <= 0) {
+    std::fill_n(rgba, 4, std::uint8_t{0});
+    return;
+  }
+  for (int i = 0; i < 3; ++i) rgba[i] = display(colour[i] / coverage);
+  rgba[3] = static_cast<std::uint8_t>(coverage * 255 + .5F);
+}
+
+// A triangle that some of a pixel's samples show.
+struct SeenTriangle {
+  Index triangle = no_index;
+  int samples = 0;
+  Vec3f places = Vec3f::Zero();  // their sum
+};
+
+// The triangles that the n x n samples of a pixel show, each once: colours are computed for triangles, not for
+// samples.
+int find_seen(const RowBand& band, int width, int column, int row, int n,
+              std::array<SeenTriangle, most_samples>& seen) {
+  int count = 0;
+  for (int y = row * n; y < row * n + n; ++y) {
+    const Fragment* const fragments = band.fragments.data() + std::ptrdiff_t{y - band.first_row} * width;
+    for (int x = column * n; x < column * n + n; ++x) {
+      const Index t = fragments[x].triangle;
+      if (t == no_index) continue;
+      int i = 0;
+      while (i < count && seen[i].triangle != t) ++i;
+      if (i == count) seen[count++] = {t, 0, Vec3f::Zero()};
+      ++seen[i].samples;
+      seen[i].places += Vec3f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F, fragments[x].z);
+    }
+  }
+  return count;
+}
+
+// Draws with n x n samples per pixel; the painter's transform is that of the samples.
+void draw_triangles(const DrawnBody& body, const RasterInput& input, const Painter& painter, int n,
+                    Image8& picture) {
+  const Rasterizer rasterizer(input, 12 * n);
+  const DisplayTable& display = display_table();
+  const float share = 1 / static_cast<float>(n * n);
+  const auto draw_band = [&](std::size_t b) {
+    const RowBand band = rasterizer.draw(b);
+    std::array<SeenTriangle, most_samples> seen;
+    for (int row = band.first_row / n; row < (band.first_row + band.rows) / n; ++row) {
+      std::uint8_t* rgba = &picture.at(0, row);
+      for (int column = 0; column < picture.width; ++column, rgba += 4) {
+        Vec3f sum = Vec3f::Zero();
+        int covered = 0;
+        const int count = find_seen(band, input.width, column, row, n, seen);
+        for (int i = 0; i < count; ++i) {
+          const auto samples = static_cast<float>(seen[i].samples);
+          const Vec3f place = seen[i].places / samples;
+          const VisiblePoint point = visible_point(body, input, seen[i].triangle, place);
+          sum += share * samples * painter.colour(point, place.x(), place.y());
+          covered += seen[i].samples;
+        }
+        store(sum, share * static_cast<float>(covered), display, rgba);
+      }
+    }
+  };
+  parallel_for(rasterizer.bands(), draw_band, 1);
+}
+
+// Draws what is known to be visible, with a sample per pixel.
+void draw_visible(const VisibilityBuffer& visible, const Painter& painter, Image8& picture) {
+  const DisplayTable& display = display_table();
+  const auto draw_row = [&](std::size_t r) {
+    const int row = static_cast<int>(r);
+    std::uint8_t* rgba = &picture.at(0, row);
+    for (int column = 0; column < picture.width; ++column, rgba += 4) {
+      const VisiblePoint& seen = visible.at(column, row);
+      if (seen.part == Part::nothing)
+        std::fill_n(rgba, 4, std::uint8_t{0});
+      else
+        store(painter.colour(seen, static_cast<float>(column) + .5F, static_cast<float>(row) + .5F), 1,
+              display, rgba);
+    }
+  };
+  parallel_for(static_cast<std::size_t>(picture.height), draw_row, 8);
+}
+
+}  // namespace
+
+HeightField front_heights(const DrawnBody& body, int longer_side_px, CachedVisibility& cache) {
+  HeightField field = flat_height_field(body.front, longer_side_px);
+  if (field.z.empty()) return field;
+  ScreenTransform from_above;
+  from_above.width = field.z.width;
+  from_above.height = field.z.height;
+  from_above.pixels_per_mm = 1 / field.mm_per_pixel;
+  from_above.pan << body.front.centre().head<2>(), 0;
+  DrawnBody front = body;
+  front.triangles = body.triangles.first(body.parts.front_triangles);
+  const VisibilityBuffer& visible = cache.get(front, from_above);
+  parallel_for(visible.pixels.size(), [&](std::size_t i) {
+    const VisiblePoint& seen = visible.pixels[i];
+    field.z.pixels[i] = seen.part == Part::nothing ? 0 : height_mm(body, seen) - body.lowest_mm();
+  });
+  if (body.is_height_field) return field;  // its plate is a rectangle, so that all pixels show it
+  field.is_beside.resize(field.z.width, field.z.height);
+  std::ranges::transform(visible.pixels, field.is_beside.pixels.begin(),
+                         [](const VisiblePoint& seen) { return seen.part == Part::nothing; });
+  return field;
+}
+
+void draw_body(const DrawnBody& body, const ScreenTransform& transform, const DrawParams& params,
+               DrawCache& cache, Image8& picture) {
+  picture.resize(transform.width, transform.height, 4);
+  const Vec3f to_lamp = direction_of(params.light);
+  const LightMap light(front_heights(body, light_map_px(transform, params.is_fine),
+                                     params.is_fine ? cache.fine_light : cache.quick_light),
+                       params.has_shadows ? to_lamp : Vec3f(Vec3f::UnitZ()));
+  const int n = params.is_fine ? fine_samples : 1;
+  const ScreenTransform samples = transform.finer(n);
+  const Painter painter(body, samples, light, params);
+  if (n == 1 && body.is_height_field && transform.is_front)
+    draw_visible(cache.front.get(body, samples), painter, picture);
+  else
+    draw_triangles(body, raster_input(body, samples), painter, n, picture);
+  add_drop_shadow(picture, transform.R_screen_body.cast<float>() * to_lamp);
+}
+
+}  // namespace relievo

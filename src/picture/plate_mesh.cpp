@@ -1,0 +1,85 @@
+#include "picture/plate_mesh.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace relievo {
+namespace {
+
+constexpr double frame_padding =
+    .055;  // around the plate for its shadow, as a share of the picture's shorter side
+
+// The plate's triangles are found once, for a relief of this width; its corners move with the options.
+constexpr double width_mm = 100;
+
+Mat3 rotation_of(const Camera& camera) {
+  const double degree = std::numbers::pi / 180;
+  return (Eigen::AngleAxisd(camera.pitch_deg * degree, Vec3::UnitX()) *
+          Eigen::AngleAxisd(camera.yaw_deg * degree, Vec3::UnitY()))
+      .matrix();
+}
+
+Vec2 half_plate(const PlateMesh& mesh, const RenderOptions& options) {
+  return options.mm_per_unit * mesh.half + Vec2::Constant(options.margin_mm);
+}
+
+}  // namespace
+
+PlateMesh plate_mesh(const Surface& surface) {
+  PlateMesh mesh;
+  const Box box = Box::of(surface.points);
+  mesh.half = box.size().head<2>() / 2;
+  HeightFieldMesh front{std::vector<Vec3>(surface.points.size()), surface.triangulation.triangles,
+                        surface.triangulation.hull};
+  const double to_mm = width_mm / box.size().head<2>().maxCoeff();
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    mesh.places.push_back((surface.points[i] - box.centre()).head<2>());
+    front.points[i] << to_mm * mesh.places.back(), 0;
+  }
+  Result<Solid> solid = make_plate(front, {});
+  if (!solid) return mesh;
+  mesh.parts = plate_parts(*solid);
+  for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
+    if (surface.boundary.is_inside[t]) mesh.parts.parts[t] = Part::relief;
+  mesh.triangles = std::move(solid->triangles);
+  return mesh;
+}
+
+DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOptions& options) {
+  const float scale = static_cast<float>(options.mm_per_unit) * shown.stretch;
+  DrawnBody body{mesh.triangles, mesh.parts, mesh.places,   options.mm_per_unit,
+                 shown.heights,  scale,      shown.normals, shown.stretch};
+  body.is_height_field = true;
+  const auto search = [&]() -> std::array<float, 2> {
+    const auto [low, high] = std::ranges::minmax(shown.heights);
+    return {low, high};
+  };
+  const auto [lowest, highest] = shown.range ? *shown.range : search();
+  const Vec2 half = half_plate(mesh, options);
+  body.front.extend({-half.x(), -half.y(), static_cast<double>(scale * std::min(0.F, lowest))});
+  body.front.extend({half.x(), half.y(), static_cast<double>(scale * std::max(0.F, highest))});
+  const double bottom = body.front.min.z() - options.thickness_mm;
+  for (int i = 0; i < 8; ++i) {  // in the order of make_plate()
+    const double x = i % 4 == 1 || i % 4 == 2 ? half.x() : -half.x(), y = i % 4 >= 2 ? half.y() : -half.y();
+    body.box_corners.push_back({x, y, i < 4 ? 0 : bottom});
+  }
+  return body;
+}
+
+ScreenTransform frame_transform(const PlateMesh& mesh, const RenderOptions& options) {
+  const Vec2 size = 2 * half_plate(mesh, options);
+  const double pad = 2 * frame_padding * std::min(options.width, options.height);
+  const Camera& camera = options.camera;
+  const Mat3 rotation = rotation_of(camera);
+  const Vec3 seen = rotation.cwiseAbs() * Vec3(size.x(), size.y(), 2 * options.thickness_mm);
+  const double fit = std::min((options.width - pad) / std::max(size.x(), seen.x()),
+                              (options.height - pad) / std::max(size.y(), seen.y()));
+  ScreenTransform transform{options.width, options.height, std::max(fit, 1e-3) * camera.zoom, rotation};
+  transform.pan << camera.pan, 0;
+  transform.is_front = camera.yaw_deg == 0 && camera.pitch_deg == 0;
+  return transform;
+}
+
+}  // namespace relievo

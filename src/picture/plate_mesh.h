@@ -1,0 +1,28 @@
+// The rectangular plate around a model's frames, as triangles that last while heights change.
+#pragma once
+
+#include <vector>
+
+#include "picture/body.h"
+#include "picture/screen_transform.h"
+#include "relievo/picture/render.h"
+
+namespace relievo {
+
+// Triangles name the surface's points by number, then the plate's eight corners.
+struct PlateMesh {
+  std::vector<Triangle> triangles;
+  PlateParts parts;
+  std::vector<Vec2> places;  // of the surface's points from the middle, in its units
+  Vec2 half = Vec2::Zero();  // half the size of their box
+};
+
+PlateMesh plate_mesh(const Surface& surface);
+
+// Returns a frame on its plate; it refers to the mesh and to `shown`.
+DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOptions& options);
+
+// Returns the transform that fits the plate into the picture, turned and moved by the camera.
+ScreenTransform frame_transform(const PlateMesh& mesh, const RenderOptions& options);
+
+}  // namespace relievo

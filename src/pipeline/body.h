@@ -1,0 +1,35 @@
+// The plate and the body that the options of a relief ask for.
+#pragma once
+
+#include "relievo/options.h"
+#include "relievo/plate/simplify.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// Returns whether left and right are swapped in this form.
+bool is_mirrored(Form form);
+
+// Returns the plate of a relief as high as that. The options have passed check().
+PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
+
+// Returns how simple the front may become, with a tolerance; a curved base takes its share of that.
+SimplifyOptions simplest_front(const ReliefOptions& options);
+
+// Returns whether the tolerance is for make_plate() to use: on a curved ground, whose triangles are not the front's.
+bool is_simplified_as_plate(const ReliefOptions& options);
+
+// A solid, and what it was before it was bent around a body.
+struct Body {
+  Solid solid;
+  Solid flat = {};  // empty without a wrap
+  std::optional<Wrap> wrap = {};
+
+  const Solid& plate() const { return wrap ? flat : solid; }
+};
+
+// Returns the body with that front, whose relief is as high as that. Errors: kind option for a rim that does not lean
+// as the draft asks; those of make_plate(), enforce_draft_in_float() and wrap_plate().
+Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options);
+
+}  // namespace relievo

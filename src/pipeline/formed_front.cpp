@@ -1,0 +1,80 @@
+#include "pipeline/formed_front.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "pipeline/body.h"
+#include "plate/silhouette.h"
+#include "relievo/make_relief.h"
+#include "relievo/plate/simplify.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+namespace {
+
+constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
+
+// Lowest and highest point of the front, ground included.
+std::pair<double, double> span_of(const HeightFieldMesh& front) {
+  double lowest = front.ground_mm, highest = lowest;
+  for (const Vec3& p : front.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
+  return {lowest, highest};
+}
+
+double height_of(const HeightFieldMesh& front) {
+  const auto [lowest, highest] = span_of(front);
+  return highest - lowest;
+}
+
+// The front with all its points, in the form asked for.
+FormedFront full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
+  const double scale = mm_per_unit(surface, options);
+  FormedFront made;
+  if (options.form == Form::lithophane) {
+    made.height_mm = options.height_mm.value_or(default_lithophane_mm);
+    made.front = lithophane(surface, scale, made.height_mm);
+  } else {
+    made.height_mm = relief.height * scale;
+    made.front = front_in_mm(surface, relief.heights, scale);
+  }
+  if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
+  if (options.form == Form::mirror) made.front = mirrored(std::move(made.front));
+  if (options.form == Form::die) made.front = as_die(std::move(made.front));
+  return made;
+}
+
+}  // namespace
+
+HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit) {
+  HeightFieldMesh front{std::vector<Vec3>(surface.points.size()), surface.triangulation.triangles,
+                        surface.triangulation.hull};
+  for (std::size_t i = 0; i < front.points.size(); ++i) {
+    const Vec3& p = surface.points[i];
+    front.points[i] = mm_per_unit * Vec3(p.x(), p.y(), heights[i]);
+  }
+  front.colours = surface.colours;
+  return front;
+}
+
+Result<FormedFront> form_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                               Progress* progress) {
+  FormedFront made = full_front(surface, relief, options);
+  if (options.finish == Finish::reachable) {
+    RELIEVO_TRY(made.front, reachable_front(made.front, *options.tool));
+    made.height_mm = height_of(made.front);  // what is narrow and deep is filled
+  }
+  if (options.tolerance_mm && !is_simplified_as_plate(options)) {
+    RELIEVO_TRY(SimplifiedMesh simpler, simplify(made.front, simplest_front(options), progress));
+    made.front = std::move(simpler.front);
+    made.simplification_error_mm = simpler.error_mm;
+  }
+  if (!made.front.is_relief.empty()) made.front = relief_alone(made.front);
+  return made;
+}
+
+double depth_below_ground(const HeightFieldMesh& front) {
+  return front.ground_mm - span_of(front).first;
+}
+
+}  // namespace relievo

@@ -1,0 +1,28 @@
+// The front of a solid, from the heights of a relief.
+#pragma once
+
+#include "relievo/core/progress.h"
+#include "relievo/options.h"
+#include "relievo/plate/solid.h"
+#include "relievo/relief/relief.h"
+
+namespace relievo {
+
+struct FormedFront {
+  HeightFieldMesh front;
+  double height_mm = 0;                // lowest to highest point
+  double simplification_error_mm = 0;  // largest difference to the front with all points
+};
+
+// Returns the points at these heights, in millimetres, on the surface's triangles.
+HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
+
+// Returns the front in the form, with the finish and as simple as the options ask for; of outline `none` what of it is
+// relief. Errors: those of reachable_front() and simplify().
+Result<FormedFront> form_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                               Progress* progress);
+
+// Returns how far the lowest point of the front lies below the ground: 0 or more.
+double depth_below_ground(const HeightFieldMesh& front);
+
+}  // namespace relievo

@@ -1,0 +1,105 @@
+#include "relievo/make_relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/angle.h"
+#include "pipeline/body.h"
+#include "pipeline/formed_front.h"
+#include "pipeline/report.h"
+#include "relievo/relief/draft.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/surface.h"
+#include "relievo/scene.h"
+
+namespace relievo {
+namespace {
+
+// Heights of the base under the surface's points, in its units; none for a plane.
+Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOptions& options,
+                                         double mm_per_unit) {
+  if (options.base.kind == BaseKind::plane) return std::vector<double>();
+  ReliefOptions upright = options;
+  upright.form = Form::relief;
+  HeightFieldMesh front = front_in_mm(surface, std::vector<double>(surface.points.size(), 0), mm_per_unit);
+  if (options.outline == Outline::none) front.is_relief = surface.boundary.is_inside;
+  RELIEVO_TRY(const Base base, plate_base(front, plate_of(upright, 1)));
+  std::vector<double> heights;
+  for (const Vec3& p : front.points) heights.push_back(base.height(p.head<2>()) / mm_per_unit);
+  return heights;
+}
+
+Result<Relief> shape_relief(const ReliefModel& model, ReliefOptions options, Progress* progress) {
+  // A lithophane has no height to reach: its own is exact by construction.
+  if (options.form == Form::lithophane) options.height_mm.reset();
+  const double scale = mm_per_unit(model.surface(), options), height = options.height_mm.value_or(0) / scale;
+  const Shape shape = shape_of(options);
+  const Method method = options.effective_method();
+  if (!options.draft_deg) {
+    if (!options.height_mm) return model.make(shape);
+    return make_by_method(method, model, height, shape, scale, progress);
+  }
+  RELIEVO_TRY(const std::vector<double> base, base_heights(model.surface(), options, scale));
+  const DraftOptions draft{slope_at_draft(*options.draft_deg), base};
+  if (!options.height_mm) return limit_draft(model, model.make(shape), draft, progress);
+  return make_with_draft(model, {method, shape, height, scale}, draft, progress);
+}
+
+// From a model to its body, by options that have passed check().
+Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
+  const Surface& surface = model.surface();
+  RELIEVO_CHECK(begin_stage(progress, "relief", .85));
+  RELIEVO_TRY(const Relief relief, shape_relief(model, options, progress));
+  RELIEVO_CHECK(begin_stage(progress, "solid", .95));
+  RELIEVO_TRY(const FormedFront formed, form_front(surface, relief, options, progress));
+  RELIEVO_TRY(Body body, make_body(formed.front, formed.height_mm, options));
+  ReliefReport report = report_on({surface, relief, formed, body, options});
+  return MadeRelief{std::move(body.solid), std::move(report), std::move(body.flat)};
+}
+
+}  // namespace
+
+Shape shape_of(const ReliefOptions& options) {
+  Shape shape{Compression::from_alpha(options.effective_alpha(), options.effective_saturation()),
+              options.effective_detail()};
+  shape.style = default_shape(options.effective_method()).style;
+  if (options.steepest_deg) shape.max_slope = std::tan(to_radians(*options.steepest_deg));
+  shape.boundary_width = options.effective_boundary_width();
+  if (options.tone) shape.compression.curve = std::make_shared<const ToneCurve>(*options.tone);
+  return shape;
+}
+
+double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
+  return options.width_mm / Box::of(surface.points).longer_side();
+}
+
+Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {
+  RELIEVO_TRY(Surface surface, find_surface(points, view, {}, progress));
+  return ReliefModel::prepare(std::move(surface), progress, mode);
+}
+
+Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
+  RELIEVO_CHECK(check(options));
+  return make_checked(model, options, progress);
+}
+
+Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options, Progress* progress) {
+  RELIEVO_CHECK(check(options));
+  RELIEVO_TRY(const ViewSample sample, sample_for_view(scene, options.view, options.points, progress));
+  RELIEVO_TRY(const ReliefModel model, prepare(*sample.cloud, options.view, options.mode, progress));
+  RELIEVO_TRY(MadeRelief made, make_checked(model, options, progress));
+  made.report.sample = sample.notes;
+  return made;
+}
+
+Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress) {
+  return make_relief(Scene{{{{}, std::make_shared<const CloudFile>(std::move(file))}}}, options, progress);
+}
+
+Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress) {
+  return make_relief(CloudFile{std::move(cloud), {}}, options, progress);
+}
+
+}  // namespace relievo

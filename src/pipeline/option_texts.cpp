@@ -1,0 +1,243 @@
+#include "relievo/option_texts.h"
+
+#include <array>
+#include <vector>
+
+#include "relievo/core/text.h"
+
+namespace relievo {
+namespace {
+
+constexpr bool as_slider = true;
+
+double alpha_of(const ReliefOptions& options) {
+  return options.effective_alpha();
+}
+double steepest_of(const ReliefOptions& options) {
+  return options.steepest_deg.value_or(76);  // that of Shape::max_slope
+}
+double saturation_of(const ReliefOptions& options) {
+  return options.effective_saturation();
+}
+double detail_of(const ReliefOptions& options) {
+  return options.effective_detail();
+}
+double boundary_of(const ReliefOptions& options) {
+  return options.effective_boundary_width();
+}
+
+std::vector<std::string_view> all_method_names() {
+  std::vector<std::string_view> names;
+  for (const MethodInfo& info : methods) names.push_back(info.name);
+  return names;
+}
+
+std::string_view method_without_one() {
+  static const std::string text =
+      cat(name_of(Method::layered), " with a height, else ", name_of(Method::paper));
+  return text;
+}
+
+// How high the relief is, and how it is compressed.
+std::vector<ReliefField> shape_rows() {
+  return {
+      ReliefField{
+          {"width", "MM", "length of the relief's longer side; margin and rim are added to it", .1, 1e5},
+          &OptionTexts::width_mm,
+          nullptr,
+          as_slider},
+      ReliefField{{"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4,
+                   1e5, "what alpha gives"},
+                  &OptionTexts::height_mm,
+                  nullptr,
+                  as_slider},
+      ReliefField{
+          {"alpha", "A", "the paper's height coefficient, more is flatter; not together with height", 0, 1e9},
+          &OptionTexts::alpha,
+          alpha_of},
+      ReliefField{{"saturation", "B",
+                   "the paper's beta: 0 compresses all parts alike, more favours what is strongly "
+                   "curved",
+                   0, 100},
+                  &OptionTexts::saturation,
+                  saturation_of,
+                  as_slider},
+      ReliefField{{"detail", "G",
+                   "the paper's gamma, the strength of detail; with other methods, how much coarse "
+                   "shapes are attenuated",
+                   0, 1},
+                  &OptionTexts::detail,
+                  detail_of,
+                  as_slider},
+      ReliefField{{.name = "method",
+                   .unit = "NAME",
+                   .help = "method that compresses the depths",
+                   .otherwise = method_without_one(),
+                   .choices = all_method_names()},
+                  &OptionTexts::method},
+  };
+}
+
+// What limits the relief, and which side of the model it shows.
+std::vector<ReliefField> view_rows() {
+  return {
+      ReliefField{{"steepest", "DEG",
+                   "steepest slope asked of the surface, which walls at depth jumps can exceed", 1, 89},
+                  &OptionTexts::steepest_deg,
+                  steepest_of,
+                  as_slider},
+      ReliefField{{"draft", "DEG",
+                   "least angle of walls off the vertical, kept by every triangle of the front: 15 for "
+                   "coin dies",
+                   1, 80, "any"},
+                  &OptionTexts::draft_deg},
+      ReliefField{{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100},
+                  &OptionTexts::boundary_width,
+                  boundary_of,
+                  as_slider},
+      ReliefField{{.name = "tone",
+                   .unit = "X,Y;..",
+                   .help = "tone curve that replaces the saturation: share of the "
+                           "slope kept over the square root of the curvature",
+                   .otherwise = "none"},
+                  &OptionTexts::tone},
+      ReliefField{
+          {.name = "mode",
+           .unit = "MODE",
+           .help = "subspace solves for 8,000 control points or more: half the "
+                   "memory, 1 to 4 % of the height off; auto does so above 1.5 million visible points",
+           .choices = names_of(mode_choices)},
+          &OptionTexts::mode},
+      ReliefField{{.name = "view",
+                   .unit = "SIDE",
+                   .help = "side shown: front (+Z), back, left, right, top, bottom or "
+                           "the direction X,Y,Z towards the viewer"},
+                  &OptionTexts::view},
+      ReliefField{{.name = "up",
+                   .unit = "X,Y,Z",
+                   .help = "direction shown upright",
+                   .otherwise = "+Y, of top -Z, of bottom +Z"},
+                  &OptionTexts::up},
+  };
+}
+
+// What the plate is like.
+std::vector<ReliefField> plate_rows() {
+  return {
+      ReliefField{{.name = "outline",
+                   .unit = "SHAPE",
+                   .help = "outline of the plate; round has round corners, none is "
+                           "the relief alone, cut out along its silhouette",
+                   .choices = names_of(outline_choices)},
+                  &OptionTexts::outline},
+      ReliefField{{"corner", "MM", "radius of the corners of outline round", .01, 1e5},
+                  &OptionTexts::corner_mm,
+                  nullptr,
+                  as_slider},
+      ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5},
+                  &OptionTexts::margin_mm,
+                  nullptr,
+                  as_slider},
+      ReliefField{{"thickness", "MM", "smallest thickness of the plate", .01, 1e5},
+                  &OptionTexts::thickness_mm,
+                  nullptr,
+                  as_slider},
+      ReliefField{{"rim", "MM",
+                   "width of a raised edge along the outline, as coins have; in a die, of the groove that "
+                   "it fits",
+                   .01, 1e5, "none"},
+                  &OptionTexts::rim_mm},
+      ReliefField{{"rim-height", "MM", "height of the rim above the ground", .001, 1e5,
+                   "the relief's height, at most the rim's width"},
+                  &OptionTexts::rim_height_mm},
+      ReliefField{
+          {"rim-bevel", "MM", "width of the rim's slanting inner side", .001, 1e5, "0.3 of the rim's height"},
+          &OptionTexts::rim_bevel_mm},
+  };
+}
+
+// What the solid is bent to, made as and reduced to.
+std::vector<ReliefField> body_rows() {
+  return {
+      ReliefField{{.name = "base",
+                   .unit = "SHAPE",
+                   .help = "surface under the relief, with numbers in mm and degrees: "
+                           "wave:height=4,length=40 fold:angle=15,hollow cylinder:diameter=200,direction=0 "
+                           "dome:height=5; image "
+                           "is the height map that base-image names",
+                   .choices = names_of(base_choices)},
+                  &OptionTexts::base},
+      ReliefField{
+          {.name = "wrap",
+           .unit = "BODY",
+           .help = "body around which the finished plate is bent: "
+                   "cylinder:diameter=60 cylinder:turn=360 cone:turn=90,angle=8 sphere:diameter=80,inside; "
+                   "without a "
+                   "size it goes around 180 degrees, a sphere 120; height maps stay flat",
+           .choices = names_of(wrap_choices)},
+          &OptionTexts::wrap},
+      ReliefField{{"points", "N",
+                   "visible points to take from a mesh, a scene, a depth image or a cloud too large for "
+                   "memory",
+                   1000, 1e7},
+                  &OptionTexts::points},
+      ReliefField{{.name = "form",
+                   .unit = "FORM",
+                   .help = "mirror swaps left and right, die is the hollow that strikes "
+                           "or casts the relief, lithophane is thick where the model is dark",
+                   .choices = names_of(form_choices)},
+                  &OptionTexts::form},
+      ReliefField{{.name = "tool",
+                   .unit = "TOOL",
+                   .help = "report which areas a milling tool can reach: ball:DIAMETER, "
+                           "flat:DIAMETER, v:ANGLE or, with a round tip, v:ANGLE:DIAMETER",
+                   .otherwise = "none"},
+                  &OptionTexts::tool},
+      ReliefField{{.name = "finish",
+                   .unit = "KIND",
+                   .help = "reachable is the surface that the tool leaves, on a plane "
+                           "base",
+                   .choices = names_of(finish_choices)},
+                  &OptionTexts::finish},
+      ReliefField{{"tolerance", "MM", "fewer triangles, nowhere further than this from the full relief", 1e-4,
+                   100, "all triangles"},
+                  &OptionTexts::tolerance_mm},
+  };
+}
+
+}  // namespace
+
+std::span<const ReliefField> option_fields() {
+  static const std::vector<ReliefField> rows = [] {
+    std::vector<ReliefField> all;
+    for (const auto& part : {shape_rows(), view_rows(), plate_rows(), body_rows()})
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }();
+  return rows;
+}
+
+Result<ReliefOptions> parse_options(const OptionTexts& texts) {
+  ReliefOptions options;
+  static_cast<NumericOptions&>(options) = texts;
+  if (!texts.method.empty()) {
+    RELIEVO_TRY(options.method, parse_method(texts.method));
+  }
+  if (!texts.tone.empty()) {
+    RELIEVO_TRY(options.tone, parse_tone_curve(texts.tone));
+  }
+  if (!texts.tool.empty()) {
+    RELIEVO_TRY(options.tool, parse_tool(texts.tool));
+  }
+  RELIEVO_TRY(options.mode, parse_mode(texts.mode));
+  RELIEVO_TRY(options.view, parse_view(texts.view, texts.up));
+  RELIEVO_TRY(options.outline, parse_outline(texts.outline));
+  RELIEVO_TRY(options.base, parse_base(texts.base));
+  RELIEVO_TRY(options.wrap, parse_wrap(texts.wrap));
+  RELIEVO_TRY(options.form, parse_form(texts.form));
+  RELIEVO_TRY(options.finish, parse_choice("finish", texts.finish, finish_choices));
+  RELIEVO_CHECK(check(options));
+  return options;
+}
+
+}  // namespace relievo

@@ -1,0 +1,114 @@
+#include "relievo/options.h"
+
+#include "relievo/core/text.h"
+#include "relievo/option_texts.h"
+
+namespace relievo {
+namespace {
+
+Result<void> check_range(const OptionField& field, double value) {
+  if (value >= field.min && value <= field.max) return {};
+  return option_error(std::string(field.name),
+                      cat("expected a number from ", field.min, " to ", field.max, ", found ", value));
+}
+
+struct RangeCheck {
+  const ReliefOptions& options;
+  const OptionField& field;
+
+  Result<void> operator()(double NumericOptions::*member) const {
+    return check_range(field, options.*member);
+  }
+  Result<void> operator()(std::optional<double> NumericOptions::*member) const {
+    return options.*member ? check_range(field, *(options.*member)) : Result<void>();
+  }
+  Result<void> operator()(std::string OptionTexts::*) const { return {}; }
+};
+
+Result<void> check_ranges(const ReliefOptions& options) {
+  for (const ReliefField& field : option_fields())
+    RELIEVO_CHECK(std::visit(RangeCheck{options, field}, field.value));
+  return {};
+}
+
+Result<void> check_method(const ReliefOptions& options) {
+  const Method method = options.effective_method();
+  if (method != Method::paper && !options.height_mm)
+    return option_error("method", cat("expected a height with method ", name_of(method)));
+  const bool is_shaped = options.saturation || options.detail || options.steepest_deg || options.tone;
+  if (is_shaped && !has_shape(method))
+    return option_error("method", cat("expected none of saturation, detail, steepest and tone with method ",
+                                      name_of(method)));
+  return {};
+}
+
+Result<void> check_rim(const ReliefOptions& options) {
+  if (!options.rim_mm && options.rim_height_mm)
+    return option_error("rim-height", "expected a rim with it, found none");
+  if (!options.rim_mm && options.rim_bevel_mm)
+    return option_error("rim-bevel", "expected a rim with it, found none");
+  if (options.rim_mm && options.outline == Outline::none)
+    return option_error("rim", "expected an outline to lie along, found outline none");
+  if (options.rim_bevel_mm > options.rim_mm)
+    return option_error("rim-bevel", cat("expected at most the rim's width, ", *options.rim_mm, " mm, found ",
+                                         *options.rim_bevel_mm, " mm"));
+  return {};
+}
+
+// Only a plane can be milled as the tool leaves it, can be a lithophane, and can be bent around a body.
+Result<void> check_base(const ReliefOptions& options) {
+  if (options.base.kind == BaseKind::plane) return {};
+  if (options.form == Form::lithophane)
+    return option_error("base", "expected a plane for a lithophane, whose thickness is the picture");
+  if (options.finish == Finish::reachable)
+    return option_error("finish", "expected full with a base that is not a plane");
+  if (options.wrap.kind != WrapKind::none)
+    return option_error("wrap", "expected either base or wrap, found both");
+  return {};
+}
+
+Result<void> check_draft(const ReliefOptions& options) {
+  if (!options.draft_deg) return {};
+  if (options.form == Form::lithophane)
+    return option_error("draft", "expected a form other than lithophane, whose walls the light decides");
+  if (options.wrap.kind != WrapKind::none)
+    return option_error("wrap", "expected either draft or wrap, found both: no die comes off all around");
+  return {};
+}
+
+// What rules for the paper's method, and for all others.
+double by_method(const ReliefOptions& options, double paper, double others) {
+  return options.effective_method() == Method::paper ? paper : others;
+}
+
+}  // namespace
+
+Method ReliefOptions::effective_method() const {
+  return method.value_or(height_mm ? Method::layered : Method::paper);
+}
+
+double ReliefOptions::effective_saturation() const {
+  return saturation.value_or(by_method(*this, .01, 0));
+}
+
+double ReliefOptions::effective_detail() const {
+  return detail.value_or(by_method(*this, .02, .04));
+}
+
+double ReliefOptions::effective_boundary_width() const {
+  return boundary_width.value_or(effective_method() == Method::layered ? .5 : 2);
+}
+
+Result<void> check(const ReliefOptions& options) {
+  RELIEVO_CHECK(check_ranges(options));
+  if (options.height_mm && options.alpha)
+    return option_error("alpha", "expected either height or alpha, found both");
+  if (options.finish == Finish::reachable && !options.tool)
+    return option_error("finish", "expected a tool, which tells what is reachable");
+  RELIEVO_CHECK(check_draft(options));
+  RELIEVO_CHECK(check_rim(options));
+  RELIEVO_CHECK(check_base(options));
+  return check_method(options);
+}
+
+}  // namespace relievo

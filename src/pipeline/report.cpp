@@ -1,0 +1,78 @@
+#include "pipeline/report.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "relievo/plate/draft_in_file.h"
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+namespace {
+
+double lowest_visible(const Surface& surface) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Vec3& p : surface.points) lowest = std::min(lowest, p.z());
+  return lowest;
+}
+
+void report_surface(const Surface& surface, ReliefReport& report) {
+  report.input_points = surface.input_points;
+  report.visible_points = surface.visible_points;
+  report.rho = surface.rho;
+  report.diagonal = surface.diagonal;
+  report.has_estimated_normals = surface.has_estimated_normals;
+  report.has_turned_normals = surface.has_flipped_normals;
+  report.full_triangles = surface.triangulation.triangles.size();
+}
+
+void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport& report) {
+  const Compression& compression = shape.compression;
+  // As given, where it was given: from u it comes back with a rounding error.
+  const bool is_given = !options.height_mm && compression.beta > 0;
+  report.method = options.effective_method();
+  report.alpha = is_given ? options.effective_alpha() : compression.alpha();
+  if (compression.curve) report.alpha = std::numeric_limits<double>::quiet_NaN();
+  report.beta = compression.beta;
+  report.gamma = shape.gamma;
+  report.u = compression.u;
+  report.height_requested_mm = options.height_mm;
+  report.has_idle_alpha = options.alpha && compression.beta == 0;
+}
+
+void report_body(const Body& body, const FormedFront& formed, const ReliefOptions& options,
+                 ReliefReport& report) {
+  const Solid& plate = body.plate();
+  report.height_mm = formed.height_mm;
+  report.below_ground_mm = depth_below_ground(formed.front);
+  report.steepest_deg = std::atan(steepest_slope(plate)) * 180 / std::numbers::pi;
+  report.front_triangles = plate.front_triangles;
+  if (options.tolerance_mm) report.simplification_error_mm = formed.simplification_error_mm + plate.error_mm;
+  report.tool = options.tool;
+  if (options.tool) report.reach = measure_reach(plate, *options.tool);
+  if (body.wrap) report.wrap = {body.wrap->diameter_mm(), body.wrap->turn_deg(), body.wrap->mm_per_degree()};
+}
+
+// Where the scan lies in the plate.
+void report_place(const ReliefFacts& facts, ReliefReport& report) {
+  const Form form = facts.options.form;
+  const Vec3 sign(is_mirrored(form) ? -1 : 1, 1, form == Form::die ? -1 : 1);
+  report.scale = mm_per_unit(facts.surface, facts.options);
+  report.rotation = sign.asDiagonal() * facts.surface.view.R_view_model;
+  const Vec3 ground(0, 0,
+                    facts.formed.front.ground_mm - report.scale * sign.z() * lowest_visible(facts.surface));
+  report.offset = facts.body.plate().shift + ground - report.scale * report.rotation * facts.surface.centre;
+}
+
+}  // namespace
+
+ReliefReport report_on(const ReliefFacts& facts) {
+  ReliefReport report;
+  report_surface(facts.surface, report);
+  report_shape(facts.relief.shape, facts.options, report);
+  report_body(facts.body, facts.formed, facts.options, report);
+  report_place(facts, report);
+  return report;
+}
+
+}  // namespace relievo

@@ -1,0 +1,20 @@
+// Points of a solid that coincide once a file has rounded them to single precision. Dense scans contain such
+// pairs now and then.
+// Tested by solid_test.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// Returns the pairs of used points that coincide in single precision; the second has the higher index.
+std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid);
+
+// Moves the second point of each such pair by the smallest steps of single precision that separate it,
+// towards `middle_z`, so that the solid's box stays.
+void separate_coincident(Solid& solid, double middle_z);
+
+}  // namespace relievo

@@ -1,0 +1,222 @@
+#include "plate/plate_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "geometry/compact.h"
+#include "plate/deformation.h"
+#include "plate/ground_mesh.h"
+#include "plate/plate_ground.h"
+#include "relievo/core/parallel.h"
+#include "relievo/plate/simplify.h"
+
+namespace relievo {
+namespace {
+
+constexpr Colour plate_colour = {200, 200,
+                                 200};  // of the ground, walls and bottom of a coloured relief: light grey
+
+Region region_of(const HeightFieldMesh& front, const Triangle& t) {
+  const double z = front.points[t[0]].z();
+  const bool is_level = front.points[t[1]].z() == z && front.points[t[2]].z() == z;
+  return is_level ? Region::ground : Region::relief;
+}
+
+// Returns the front alone, with the lower corner of its box at `corner`.
+Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& corner) {
+  Solid solid;
+  solid.points.reserve(front.points.size() + 8);
+  // Subtracting before adding keeps the box exact.
+  for (const Vec3& p : front.points) solid.points.push_back((p - box.min) + corner);
+  solid.triangles = front.triangles;
+  for (const Triangle& t : front.triangles) solid.regions.push_back(region_of(front, t));
+  solid.colours = front.colours;
+  solid.shift = corner - box.min;
+  solid.ground_mm = front.ground_mm + solid.shift.z();
+  return solid;
+}
+
+PlateSurface flat_plate_surface(const HeightFieldMesh& front, const PlateOptions& options, double spacing) {
+  const Box box = used_box(front.points, front.triangles);
+  if (options.outline == Outline::none) return {placed_front(front, box, Vec3::Zero()), {}, spacing};
+  const PlateOutline outline = outline_of_plate(front, box, options);
+  PlateSurface surface{
+      placed_front(front, box, {outline.front_corner.x(), outline.front_corner.y(), 0}), {}, spacing};
+  surface.outline = add_ground(surface.solid, front, outline, {options.rim, spacing});
+  fill_colours(surface.solid);
+  return surface;
+}
+
+// Returns the polygon inside the rim; empty without ground.
+std::vector<Vec2> rim_polygon_of(const HeightFieldMesh& front, const PlateOptions& options) {
+  if (options.outline == Outline::none) return {};
+  return rim_inner_polygon(outline_of_plate(front, used_box(front.points, front.triangles), options),
+                           options.rim);
+}
+
+// Returns points as far out as the plate, in the front's coordinates: its outline, or without ground the
+// relief's points.
+std::vector<Vec2> extent_of(const HeightFieldMesh& front, const PlateOptions& options) {
+  std::vector<Vec2> outline;
+  if (options.outline == Outline::none) {
+    for (const Triangle& t : front.triangles)
+      for (const Index i : t) outline.push_back(front.points[i].head<2>());
+    return outline;
+  }
+  const Box box = used_box(front.points, front.triangles);
+  const PlateOutline plate = outline_of_plate(front, box, options);
+  for (const Vec2& p : plate.polygon) outline.push_back(p - plate.front_corner + box.min.head<2>());
+  return outline;
+}
+
+// The curved surface that a plate's surface is to follow, in the front's coordinates.
+struct TargetSurface {
+  Deformation deformation;
+  // Its height over the plane. For a wrap, a height field of about the same curvature: triangles that
+  // approximate one approximate the other.
+  std::function<double(const Vec2&)> height;
+  bool is_lifted = false;  // true if the surface gets that height now; a wrap bends the finished plate later
+};
+
+TargetSurface target_on(const Base& base) {
+  TargetSurface target;
+  target.is_lifted = true;
+  target.height = [&base](const Vec2& p) { return base.height(p); };
+  target.deformation.at = [&base](const Vec3& p) {
+    return Vec3(p.x(), p.y(), p.z() + base.height(p.head<2>()));
+  };
+  target.deformation.crease_between = [&base](const Vec3& p, const Vec3& q) {
+    return base.ridge_between(p.head<2>(), q.head<2>());
+  };
+  target.deformation.min_feature_mm = base.min_feature_mm();
+  return target;
+}
+
+TargetSurface target_around(const Wrap& wrap, double ground_z) {
+  TargetSurface target;
+  target.height = [wrap](const Vec2& p) { return wrap.sag(p); };
+  target.deformation.at = [wrap, ground_z](const Vec3& p) { return wrap.at(p.head<2>(), p.z() - ground_z); };
+  target.deformation.min_feature_mm = wrap.min_radius_mm();
+  return target;
+}
+
+TargetSurface moved(TargetSurface target, const Vec3& shift) {
+  target.height = [height = target.height, shift](const Vec2& p) { return height(p + shift.head<2>()); };
+  target.deformation.at = [at = target.deformation.at, shift](const Vec3& p) {
+    return Vec3(at(p + shift) - shift);
+  };
+  if (target.deformation.crease_between)
+    target.deformation.crease_between = [between = target.deformation.crease_between, shift](const Vec3& p,
+                                                                                             const Vec3& q) {
+      return between(p + shift, q + shift);
+    };
+  return target;
+}
+
+void lift(std::vector<Vec3>& points, const TargetSurface& target, double sign) {
+  parallel_for(points.size(),
+               [&](std::size_t i) { points[i].z() += sign * target.height(points[i].head<2>()); });
+}
+
+// Returns the used points and the triangles of a surface as a height field within its outline.
+HeightFieldMesh as_front(const PlateSurface& surface) {
+  HeightFieldMesh front{{}, surface.solid.triangles, surface.outline};
+  const UsedPoints used = compact(surface.solid.points.size(), front.triangles);
+  front.points = used.pick(surface.solid.points);
+  front.colours = used.pick(surface.solid.colours);
+  for (Index& i : front.hull) i = used.new_number[i];
+  return front;
+}
+
+// Simplifies a surface that has been lifted.
+Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& options) {
+  Result<SimplifiedMesh> simpler = simplify(as_front(surface), options);
+  if (!simpler) return std::unexpected(simpler.error());
+  surface.solid.points = std::move(simpler->front.points);
+  surface.solid.triangles = std::move(simpler->front.triangles);
+  surface.solid.colours = std::move(simpler->front.colours);
+  surface.solid.error_mm += simpler->error_mm;
+  surface.outline = std::move(simpler->front.hull);
+  return {};
+}
+
+// Sets the regions of simplified triangles: bevel outside the rim's inner polygon, ground where all corners
+// lie at the height of the ground, else relief.
+void find_regions(Solid& surface, std::span<const Vec2> rim_polygon, double ground_z, double tolerance_mm) {
+  surface.regions.resize(surface.triangles.size());
+  parallel_for(surface.triangles.size(), [&](std::size_t i) {
+    const Triangle& t = surface.triangles[i];
+    const auto is_low = [&](Index p) { return std::abs(surface.points[p].z() - ground_z) <= tolerance_mm; };
+    const Vec3 sum = surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]];
+    const bool is_on_rim = !is_within(sum.head<2>() / 3, rim_polygon);
+    surface.regions[i] = is_on_rim                        ? Region::bevel
+                         : std::ranges::all_of(t, is_low) ? Region::ground
+                                                          : Region::relief;
+  });
+}
+
+// Makes the flat surface follow the target, given in the surface's coordinates. It is simplified in the
+// lifted state, where the error counts, and its regions are found in the flat one, where the ground is level.
+Result<void> follow(PlateSurface& surface, const TargetSurface& target, const PlateOptions& options,
+                    std::span<const Vec2> rim_polygon) {
+  // A plate with a wrap is refined as a whole, by wrap_plate().
+  if (target.is_lifted)
+    surface.solid.error_mm = refine(surface.solid, surface.outline, target.deformation, options.tolerance_mm);
+  const bool is_simplified = options.simplify_mm > 0 && !surface.outline.empty();
+  const double ground_z = surface.solid.ground_mm;
+  if (is_simplified || target.is_lifted) lift(surface.solid.points, target, 1);
+  if (!is_simplified) return {};
+  if (auto good = simplify_surface(surface, {options.simplify_mm, options.max_slope}); !good) return good;
+  lift(surface.solid.points, target, -1);
+  find_regions(surface.solid, rim_polygon, ground_z, options.simplify_mm);
+  if (target.is_lifted) lift(surface.solid.points, target, 1);
+  return {};
+}
+
+}  // namespace
+
+Box used_box(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
+  Box box;
+  for (const Triangle& t : triangles)
+    for (const Index i : t) box.extend(points[i]);
+  return box;
+}
+
+void fill_colours(Solid& solid) {
+  if (!solid.colours.empty()) solid.colours.resize(solid.points.size(), plate_colour);
+}
+
+Result<Base> base_under(const HeightFieldMesh& front, const PlateOptions& options) {
+  if (options.base.kind == BaseKind::plane) return Base();
+  return Base::over(options.base, extent_of(front, options));
+}
+
+Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base& base,
+                                        const PlateOptions& options) {
+  const double none = std::numeric_limits<double>::infinity();
+  const bool is_wrapped = options.wrap.kind != WrapKind::none;
+  if (base.is_plane() && !is_wrapped) return flat_plate_surface(front, options, none);
+  const std::vector<Vec2> outline = extent_of(front, options);
+  TargetSurface target = target_on(base);
+  if (is_wrapped) {
+    const Result<Wrap> wrap = Wrap::around(options.wrap, outline);
+    if (!wrap) return std::unexpected(wrap.error());
+    target = target_around(*wrap, front.ground_mm);
+  }
+  const double spacing =
+      options.outline == Outline::none
+          ? none
+          : ground_spacing(target.deformation, outline, front.ground_mm, options.tolerance_mm);
+  PlateSurface surface = flat_plate_surface(front, options, spacing);
+  const std::vector<Vec2> rim_polygon = rim_polygon_of(front, options);
+  if (auto good = follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_polygon);
+      !good)
+    return std::unexpected(good.error());
+  return surface;
+}
+
+}  // namespace relievo

@@ -1,0 +1,35 @@
+// The front side of a plate, relief, ground and rim, before walls and bottom make it a body.
+// Tested by plate_base_test.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+#include "plate/plate_rings.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// An open surface whose z is not yet that of the plate.
+struct PlateSurface {
+  Solid solid;                                               // without walls and bottom
+  IndexPolygon outline;                                      // empty if the plate has no ground
+  double spacing = std::numeric_limits<double>::infinity();  // of the points on the ground
+};
+
+// Returns the box of the points that triangles use.
+Box used_box(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles);
+
+// Gives points that were added to a coloured front the plate's colour.
+void fill_colours(Solid& solid);
+
+// Returns the base under a front, in its coordinates; without ground, the front must be the relief alone.
+// Errors: those of Base::over().
+Result<Base> base_under(const HeightFieldMesh& front, const PlateOptions& options);
+
+// Returns the surface on its base; or, for a wrap, flat and with triangles that are fine enough to be bent.
+// Errors: those of Wrap::around() and simplify().
+Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base& base,
+                                        const PlateOptions& options);
+
+}  // namespace relievo

@@ -1,0 +1,104 @@
+// Finds the u at which a relief has the height asked for. The height grows with u, so all searches look for
+// the root of ln(height(u) / height) over ln u.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/root_finding.h"
+
+namespace relievo {
+
+// Every search calls height_at(ln u), which makes the relief and returns its height; the last call made the
+// relief that was found. To end a search early, as after an error, height_at() returns the height asked for.
+class HeightSearch {
+ public:
+  // `tolerance` is that of ln(height).
+  HeightSearch(double height, double tolerance) : height_(height), tolerance_(tolerance) {}
+
+  // How a secant goes on from a point: the elasticity is the change of ln height with ln u.
+  struct SecantStep {
+    double gain = 1, least = -2, most = 2;
+
+    double operator()(double excess, double elasticity) const {
+      return std::clamp(-gain * excess / elasticity, least, most);
+    }
+  };
+
+  // Where the last search of a series ended.
+  struct Track {
+    double log_u = 0, elasticity = 1;
+  };
+
+  // For one relief, from no guess: tries u = infinity, to see whether the height can be reached, then brackets
+  // it. Returns whether the height is met; if not, the last relief is the highest one.
+  template <typename F>
+  bool bracket(F&& height_at) const {
+    double excess = excess_of(height_at(std::numeric_limits<double>::infinity()));
+    const auto excess_at = [&](double log_u) { return excess = excess_of(height_at(log_u)); };
+    if (excess > tolerance_) find_root(excess_at, tolerance_);
+    return std::abs(excess) <= tolerance_;
+  }
+
+  // For a series of reliefs that change little: takes secants from where the last one was found, two calls as
+  // a rule, and brackets where six do not suffice: far jumps, and heights at or out of reach.
+  template <typename F>
+  bool track(Track& last, F&& height_at) const {
+    constexpr int most_secants = 6;
+    // Differences below it are at the noise of single precision, or near the largest height.
+    constexpr double least_elasticity = .02;
+    constexpr SecantStep step;
+    double x = last.log_u;
+    const auto excess_at = [&](double log_u) { return excess_of(height_at(x = log_u)); };
+    double excess = excess_at(x);
+    for (int round = 0; round < most_secants && std::abs(excess) > tolerance_; ++round) {
+      const double before = x, excess_before = excess;
+      excess = excess_at(x + step(excess, last.elasticity));
+      const double elasticity = (excess - excess_before) / (x - before);
+      if (x != before && elasticity > least_elasticity) last.elasticity = elasticity;
+    }
+    const auto height_of = [&](double log_u) { return height_at(x = log_u); };
+    const bool is_met = std::abs(excess) <= tolerance_ || bracket(height_of);
+    if (is_met && std::isfinite(x)) last.log_u = x;
+    return is_met;
+  }
+
+  // For reliefs that take long to make: climbs by secants from `low`, which is too low or just right, then
+  // narrows the bracket by false position and, every third time, by halves. What it finds is not lower than
+  // asked for and at most twice the tolerance higher. Returns false if the relief at `last` is too low.
+  template <typename F>
+  bool climb(double low, double last, F&& height_at) const {
+    constexpr int most_reliefs = 24;
+    // A tenth more than the secant asks for: ending a little too high saves a relief.
+    constexpr SecantStep step{1.1, .01, 1.5};
+    // Walls that the limit cuts let heights grow more slowly than u, but never not at all.
+    constexpr double least_elasticity = .05, most_elasticity = 2;
+    // So near to the end there is little to be had beyond: is the end enough?
+    constexpr double near_last = .3;
+    const auto excess_at = [&](double x) { return excess_of(height_at(x)) - tolerance_; };
+    double excess = excess_at(low), low_excess = excess, high = last, high_excess = 0, elasticity = 1;
+    bool has_high = false;
+    for (int tries = 0; std::abs(excess) > tolerance_ && tries < most_reliefs; ++tries) {
+      double x = low + step(low_excess, elasticity);
+      if (has_high) x = low + (high - low) * (tries % 3 == 2 ? .5 : low_excess / (low_excess - high_excess));
+      if (!has_high && x > last - near_last) x = last;
+      excess = excess_at(x);
+      if (excess < -tolerance_ && x == last) return false;
+      if (excess > 0) {
+        high = x, high_excess = excess, has_high = true;
+      } else {
+        elasticity = std::clamp((excess - low_excess) / (x - low), least_elasticity, most_elasticity);
+        low = x, low_excess = excess;
+      }
+    }
+    return true;
+  }
+
+ private:
+  double excess_of(double height) const { return std::log(std::max(height, 1e-300) / height_); }
+
+  double height_, tolerance_;
+};
+
+}  // namespace relievo

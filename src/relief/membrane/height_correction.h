@@ -1,0 +1,102 @@
+// The membrane: a smooth correction that compresses the heights of a layered relief to the height asked for.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "geometry/lattice.h"
+#include "relievo/relief/shape.h"
+#include "relievo/scan/surface.h"
+#include "solver/obstacle_solver.h"
+
+namespace relievo {
+
+// The limits of corrected heights, and the two forces that act on them.
+struct HeightLimits {
+  double height;                  // > 0: corrected heights lie between 0 and this
+  double pull_length;             // MembraneParams::pull_length
+  double boundary_stiffness = 1;  // (0, 1]: how hard the silhouette is tied to the base
+
+  // Returns the limits that membrane parameters stand for.
+  static HeightLimits of(double height, const MembraneParams& params);
+};
+
+// A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Of all such fields it is
+// close to the one with the least integral of
+//
+//   (bending_length lap b)^2 + w |grad b|^2 + ((z + b - h r) / pull_length)^2
+//
+// (a thin plate under tension between obstacles): r are the ranks of the depths in [0, 1], so that the last
+// term keeps in front what is in front; w are the edge weights of (9), less than 1 near depth jumps. Where
+// heights have room b is smooth, so that the relief keeps their curvature. The plate is hinged at silhouettes
+// and depth jumps, where nobody sees it bend, and tied to 0 a cell beyond the silhouette, where only
+// `boundary_stiffness` of the tension counts.
+//
+// b lives on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits leave
+// room for what the heights do between nodes. b is 0 where there are no points. Const calls may run
+// concurrently, each with a workspace of its own; results are the same bits for any number of threads.
+class HeightCorrection {
+ public:
+  // Of the longer side. docs/decisions/height-correction.md says what other lengths do.
+  static constexpr double bending_length = .028;
+
+  // Scratch memory and the field that was found, so that calls allocate nothing.
+  struct Workspace {
+    std::vector<Lattice::Corners> sums;  // per cell
+    std::vector<Lattice::Extent> rests;  // per cell
+    std::vector<float> heights;          // per node
+    solver::ObstacleSolver::Workspace sheet;
+    std::vector<Lattice::Tile> tiles;  // per node
+
+    std::size_t memory() const;
+  };
+
+  // Copies what it needs of the surface and of its jump_weights().
+  HeightCorrection(const Surface& surface, std::span<const float> jump_weights);
+
+  Workspace make_workspace() const;
+
+  // Bytes held, workspaces not counted.
+  std::size_t memory() const;
+
+  // Finds b for heights, one per point, and keeps it in the workspace. A few points may stay slightly outside
+  // the limits, because b is smooth; where heights are rougher than the limits allow, the excess is shared
+  // between both ends. For float and double.
+  template <typename Real>
+  void fit(std::span<const Real> heights, const HeightLimits& limits, Workspace& workspace) const;
+
+  // The two halves of fit(), for those who try several limits on the same heights.
+  template <typename Real>
+  void set_heights(std::span<const Real> heights, Workspace& workspace) const;
+  void solve(const HeightLimits& limits, Workspace& workspace) const;
+
+  // Returns b at a point, after fit() or solve().
+  float at(std::size_t point, const Workspace& workspace) const {
+    return lattice_.at(point, workspace.tiles);
+  }
+
+  // Heights, one per point, their w_b, and the limits to compress them to.
+  template <typename Real>
+  struct Heights {
+    std::span<Real> values;
+    std::span<const float> boundary_weight;
+    HeightLimits limits;
+  };
+
+  // Adds b to the heights, clips the few highest and lowest softly (SoftClip) and scales the result to exactly
+  // the height of the limits, base included. A height of 0 changes nothing. For float and double.
+  template <typename Real>
+  void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
+
+ private:
+  HeightCorrection(const Surface& surface, std::span<const float> jump_weights, double longer_side);
+  void set_limits(float height, float pull, Workspace& w) const;
+  Lattice::Extent rest_around(std::size_t node, const Workspace& w) const;
+
+  double side_, cell_;
+  Lattice lattice_;
+  solver::ObstacleSolver sheet_;
+  std::vector<float> ranks_;  // per node
+};
+
+}  // namespace relievo

@@ -1,0 +1,213 @@
+#include "relief/membrane/membrane_tuning.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "geometry/extent.h"
+#include "quality/plane_measures.h"
+#include "relief/height_span.h"
+#include "relievo/core/parallel.h"
+#include "relievo/quality/measures.h"
+
+namespace relievo {
+namespace {
+
+// Search range of the height share (stated for u = 0) and of the pull length. Above 0.75, thin figures score
+// worse than histogram equalisation in shading and angle, so larger shares are used only to satisfy depth
+// order. docs/decisions/membrane-tuning.md.
+constexpr double least_share = .2, usual_most_share = .75, most_share = 1, least_pull_length = .035,
+                 most_pull_length = .2;
+// Numbers of bisection steps: of the pull length, and of the share in the first, coarse search and in the
+// second. Each search starts with a calibration.
+constexpr int pull_steps = 4;
+constexpr std::array<int, 2> share_steps{3, 6};
+// Safety margin over the gradient-domain baseline. Covers the residual error of the calibration and the
+// interpolation error between knots. docs/decisions/membrane-tuning.md.
+constexpr Scores margin{.0003, .002};
+// How fast the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are compressed
+// less.
+constexpr double growth = .25;
+// The largest sampling distance, of the longer side, at which the coarsest detail of the metrics is sampled.
+constexpr double coarsest_rho = static_cast<double>(detail_scales_px.back()) / ReliefMetrics::longer_side_px;
+// Between the extremes of the range: where the search starts, and what stays where nothing can be measured.
+constexpr MembraneParams initial{.5};
+// From one knot to the next the compressed height grows by this factor at least.
+constexpr double least_height_growth = 1.1;
+
+double share_at(double u, double share_at_zero) {
+  return 1 - (1 - share_at_zero) * std::exp(-growth * u);
+}
+
+// Which of the two constraints a candidate violates.
+struct Violation {
+  bool detail, order;
+  bool any() const { return detail || order; }
+};
+
+struct LeastShare {
+  std::optional<double> share;
+  Violation bound;  // of the next smaller share
+};
+
+// Searches the parameters for one u. All shares in here are those for u = 0.
+class TuningSearch {
+ public:
+  TuningSearch(const BaselineComparison& comparison, double u)
+      : comparison_(comparison), u_(u), workspace_(comparison.correction().make_workspace()) {
+    initial_heights_ = comparison.heights(u, at_u(initial));
+    comparison.correction().set_heights(std::span<const double>(initial_heights_), workspace_);
+    drawn_ = comparison.metrics().draw(initial_heights_);
+    span_ = height_span(initial_heights_);
+  }
+
+  // Returns about the span of the heights that (9) gives at a share of 1.
+  double span() const { return span_ / (2 - at_u(initial).height_share); }
+
+  MembraneParams strongest() {
+    MembraneParams params = initial;
+    for (const int steps : share_steps) {
+      steps_ = steps;
+      const Violation violation =
+          calibrate(params, params == initial ? initial_heights_ : comparison_.heights(u_, at_u(params)));
+      params = strongest_by_estimate(violation.any() ? std::nullopt : std::optional(params));
+    }
+    return at_u(params);
+  }
+
+ private:
+  MembraneParams at_u(const MembraneParams& params) const {
+    return {share_at(u_, params.height_share), params.pull_length};
+  }
+
+  // Returns estimated scores. Heights from (9) scale approximately with (2 - share), so one solve serves all
+  // candidates.
+  Scores estimate(const MembraneParams& params) {
+    const double share = at_u(params).height_share;
+    comparison_.correction().solve(HeightLimits::of(share * span_, at_u(params)), workspace_);
+    const FastMetrics& metrics = comparison_.metrics();
+    Plane z = metrics.draw_smooth([&](Index p) { return comparison_.correction().at(p, workspace_); });
+    const auto scale = static_cast<float>((2 - share) / (2 - at_u(initial).height_share));
+    for (std::size_t i = 0; i < z.size(); ++i) z[i] = scale * (z[i] + drawn_[i]);
+    return metrics.estimate(z);
+  }
+
+  // Sets what estimates have to reach so that the estimate of these parameters has the same deficit as their
+  // full relief, which it returns.
+  Violation calibrate(const MembraneParams& params, std::vector<double> heights) {
+    const Scores deficit = comparison_.deficit(std::move(heights), at_u(params)), scores = estimate(params);
+    required_ = {scores.detail + deficit.detail + margin.detail, scores.order + deficit.order + margin.order};
+    least_shortfall_ = std::numeric_limits<double>::infinity();
+    return compare(params, scores);
+  }
+
+  Violation violation_of(const MembraneParams& params) { return compare(params, estimate(params)); }
+
+  // Compares scores with what is required, and remembers the parameters with the smallest violation.
+  Violation compare(const MembraneParams& params, const Scores& scores) {
+    const double detail = std::max(required_.detail - scores.detail, 0.0),
+                 order = std::max(required_.order - scores.order, 0.0);
+    const double shortfall = detail / margin.detail + order / margin.order;
+    if (shortfall < least_shortfall_) least_shortfall_ = shortfall, nearest_ = params;
+    return {detail > 0, order > 0};
+  }
+
+  // Returns the least share that satisfies both constraints with this pull length, if it is at most `known`,
+  // and, where detail alone needs it, at most the usual maximum.
+  LeastShare least_share_with(double pull_length, double known) {
+    double low = least_share, high = std::min(known, usual_most_share);
+    Violation violation = violation_of({high, pull_length});
+    if (violation.order && high < known) {
+      low = high, high = known;
+      violation = violation_of({high, pull_length});
+    }
+    if (violation.any()) return {{}, violation};
+    Violation bound{false, high > usual_most_share};
+    for (int i = 0; i < steps_; ++i) {
+      const double middle = (low + high) / 2;
+      violation = violation_of({middle, pull_length});
+      (violation.any() ? low : high) = middle;
+      if (violation.any()) bound = violation;
+    }
+    return {high, bound};
+  }
+
+  // Starts from the best known candidate so that hopeless ones are rejected early. A shorter pull length keeps
+  // more of the order and less of the detail. If nothing satisfies both, returns the smallest violation.
+  MembraneParams strongest_by_estimate(std::optional<MembraneParams> best) {
+    double low = least_pull_length, high = most_pull_length, length = most_pull_length;
+    for (int i = 0; i <= pull_steps; ++i) {
+      const auto [share, bound] = least_share_with(length, best ? best->height_share : most_share);
+      if (share && (!best || *share < best->height_share)) best = MembraneParams{*share, length};
+      // Where both are violated a shorter one does not help; but from the longest one can only go shorter.
+      const bool is_shorter_better = bound.order && (share || !bound.detail || i == 0);
+      if (i == 0 && !is_shorter_better) break;
+      (is_shorter_better ? high : low) = length;
+      length = std::sqrt(low * high);
+    }
+    return best.value_or(nearest_);
+  }
+
+  const BaselineComparison& comparison_;
+  double u_, span_ = 0;
+  int steps_ = 0;
+  HeightCorrection::Workspace workspace_;
+  std::vector<double> initial_heights_;  // before compression
+  Plane drawn_;                          // the same, drawn
+  Scores required_;
+  MembraneParams nearest_;
+  double least_shortfall_ = 0;
+};
+
+using Spans = std::array<double, MembraneTuning::knots.size()>;
+
+// Lowers shares so that the compressed height grows from knot to knot.
+void make_heights_grow(MembraneTuning& tuning, const Spans& spans) {
+  for (std::size_t k = spans.size() - 1; k-- > 0;) {
+    const double most = tuning.params[k + 1].height_share * spans[k + 1] / spans[k] / least_height_growth;
+    tuning.params[k].height_share = std::min(tuning.params[k].height_share, most);
+  }
+}
+
+}  // namespace
+
+MembraneTuning::MembraneTuning() {
+  for (std::size_t k = 0; k < knots.size(); ++k) params[k] = {share_at(knots[k], initial.height_share)};
+}
+
+MembraneParams MembraneTuning::at(double u) const {
+  const MembraneParams& last = params.back();
+  if (u > knots.back()) return {share_at(u - knots.back(), last.height_share), last.pull_length};
+  const double at = std::max(std::log(u / knots[0]) / std::log(knots[1] / knots[0]), 0.0);
+  const auto k = std::min(static_cast<std::size_t>(at), knots.size() - 2);
+  const double part = at - static_cast<double>(k);
+  const MembraneParams &before = params[k], &after = params[k + 1];
+  // The membrane's energy contains 1 / pull_length^2.
+  const auto pull = [](const MembraneParams& p) { return 1 / (p.pull_length * p.pull_length); };
+  return {std::lerp(before.height_share, after.height_share, part),
+          1 / std::sqrt(std::lerp(pull(before), pull(after), part))};
+}
+
+Result<MembraneTuning> tune_membrane(const TuningInput& input, const Progress* progress) {
+  MembraneTuning tuning;
+  if (input.surface.rho > coarsest_rho * longer_side_of(input.surface.points)) return tuning;
+  const BaselineComparison comparison(input);
+  if (!comparison.is_measurable()) return tuning;
+  Spans spans;
+  const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
+  const auto search_at = [&](std::size_t k) {
+    if (is_cancelled()) return;
+    TuningSearch search(comparison, MembraneTuning::knots[k]);
+    tuning.params[k] = search.strongest();
+    spans[k] = search.span();
+  };
+  parallel_for(spans.size(), search_at, 1);
+  if (is_cancelled()) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  make_heights_grow(tuning, spans);
+  return tuning;
+}
+
+}  // namespace relievo

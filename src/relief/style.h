@@ -1,0 +1,136 @@
+// The two styles of reliefs: all in which they differ stands here.
+#pragma once
+
+#include <vector>
+
+#include "relief/height_span.h"
+#include "relief/membrane/height_correction.h"
+#include "relievo/core/parallel.h"
+#include "relievo/relief/weights.h"
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+
+// Views a surface and the rest, which must outlive it.
+inline SlopeInput slope_input(const Surface& surface, std::span<const PointLayers> layers,
+                              std::span<const float> boundary_weight) {
+  return {surface.normals, surface.curvature.k, boundary_weight, surface.curvature.delta, layers};
+}
+
+// Returns what stands for rho in equation (7), which has 2 rho, for a boundary that is `width` rho wide.
+inline double boundary_rho(const Surface& surface, double width) {
+  return surface.rho * width / 2;
+}
+
+// The heights of a relief in the making.
+template <typename Real>
+struct RaisedHeights {
+  std::span<Real> z;
+  const SlopeInput& input;
+  std::vector<HeightSpan<Real>>& spans;  // scratch memory, so that frames allocate nothing
+  double height = 0;                     // of the relief, set by raise()
+
+  // Calls change(i, z) for every height, which may change it, and returns the span of the results.
+  template <typename Change>
+  HeightSpan<Real> change_all(Change change) const {
+    spans.resize((z.size() + default_grain - 1) / default_grain);
+    parallel_ranges(z.size(), default_grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) change(i, z[i]);
+      spans[begin / default_grain] = span_of_run(std::span<const Real>(z).subspan(begin, end - begin));
+    });
+    HeightSpan<Real> all;
+    for (const HeightSpan<Real>& span : spans) all.extend(span);
+    return all;
+  }
+
+  HeightSpan<Real> span() const {
+    return change_all([](std::size_t, Real&) {});
+  }
+};
+
+// A style is used in this order: slope() for every point, with w_k of weighted(); the system of heights;
+// raise(), which sets the height that the relief will have; finish(), once that is the height wanted.
+
+// Equations (5) to (7), and the paper's second equation (9): detail in proportion to the curvature.
+class PaperStyle {
+ public:
+  explicit PaperStyle(const Shape& shape) : shape_(shape) {}
+
+  // The compression whose weights w_k slope() takes.
+  Compression weighted() const { return shape_.compression; }
+
+  template <typename Real>
+  Eigen::Vector2<Real> slope(const SlopeInput& input, std::size_t i, Real w_k, Real w_b) const {
+    return compressed_slope(input.normals[i].template cast<Real>(), w_k * w_b,
+                            static_cast<Real>(shape_.max_slope));
+  }
+
+  // Adds the detail.
+  template <typename Real>
+  void raise(RaisedHeights<Real>& heights) const {
+    const Real amount = static_cast<Real>(shape_.gamma) * heights.span().size();
+    const SlopeInput& input = heights.input;
+    const HeightSpan<Real> raised = heights.change_all([&](std::size_t i, Real& z) {
+      z += amount * static_cast<Real>(input.k[i]) * static_cast<Real>(input.boundary_weight[i]);
+    });
+    heights.height = static_cast<double>(raised.size());
+  }
+
+  template <typename Real, typename Workspace>
+  void finish(const RaisedHeights<Real>&, const HeightCorrection&, Workspace&&) const {}
+
+ private:
+  const Shape& shape_;
+};
+
+// Layers of the normals in place of (5); the membrane compresses the heights afterwards.
+class LayeredStyle {
+ public:
+  explicit LayeredStyle(const Shape& shape)
+      : shape_(shape), weights_(layer_weights(shape)), scale_(saturation_scale(shape.compression)) {}
+
+  Compression weighted() const { return saturation_alone(shape_.compression); }
+
+  template <typename Real>
+  Eigen::Vector2<Real> slope(const SlopeInput& input, std::size_t i, Real w_k, Real w_b) const {
+    const Real saturation = static_cast<Real>(scale_) * w_k;
+    return layered_slope(input.layers[i], weights_, saturation * w_b, static_cast<Real>(shape_.max_slope));
+  }
+
+  // The shape's membrane has to be set.
+  template <typename Real>
+  void raise(RaisedHeights<Real>& heights) const {
+    heights.height = shape_.membrane->height_share * static_cast<double>(heights.span().size());
+  }
+
+  // Compresses the heights to the relief's height; workspace() returns what that needs.
+  template <typename Real, typename Workspace>
+  void finish(const RaisedHeights<Real>& heights, const HeightCorrection& correction,
+              Workspace&& workspace) const {
+    const HeightLimits limits = HeightLimits::of(heights.height, *shape_.membrane);
+    correction.compress_heights<Real>({heights.z, heights.input.boundary_weight, limits}, workspace());
+  }
+
+ private:
+  const Shape& shape_;
+  LayerWeights weights_;
+  double scale_;
+};
+
+// Returns f(style) for the style of the shape, which must outlive the call.
+template <typename F>
+decltype(auto) with_style(const Shape& shape, F&& f) {
+  return shape.style == Style::layered ? f(LayeredStyle(shape)) : f(PaperStyle(shape));
+}
+
+// Writes the target slope of every point, with w_k = weight(k).
+template <typename Real, typename Style, typename Weight>
+void write_slopes(const SlopeInput& input, const Style& style, const Weight& weight,
+                  std::span<Eigen::Vector2<Real>> slopes) {
+  parallel_for(slopes.size(), [&](std::size_t i) {
+    slopes[i] = style.template slope<Real>(input, i, static_cast<Real>(weight(input.k[i])),
+                                           static_cast<Real>(input.boundary_weight[i]));
+  });
+}
+
+}  // namespace relievo

@@ -1,0 +1,34 @@
+// A depth image as a grid of heights, before it is converted into points. Tested by
+// tests/scan/depth_image_test.cpp.
+#pragma once
+
+#include "relievo/scan/depth_image.h"
+#include "scan/depth_smooth.h"
+
+namespace relievo {
+
+// Heights towards the viewer, in pixels of the reduced grid, with the interval in which each one lies.
+struct DepthGrid {
+  BoundedGrid bounds;         // the intervals, about the heights
+  std::vector<float> height;  // of known places
+  int reduction = 1;
+  double noise = 0;
+  std::size_t missing = 0;
+  bool is_sensor = false;  // the steps of the values are coarser than the file's, as with depth cameras
+};
+
+// Returns the grid, reduced to about options.points places. The bounds account for the step of the values and
+// the noise. No places are joined yet.
+DepthGrid make_grid(const DepthImage& image, const DepthOptions& options);
+
+// Joins neighbouring places unless there is a depth jump between them.
+void join(DepthGrid& grid);
+
+// Removes the places on ramps, which a blurred outline causes between two surfaces. Returns how many.
+std::size_t cut_ramps(DepthGrid& grid);
+
+// Removes all places behind the largest gap in depth if they are most of the image's border and the gap
+// separates two distinct groups of depths. Returns how many.
+std::size_t remove_background(DepthGrid& grid);
+
+}  // namespace relievo

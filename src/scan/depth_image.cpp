@@ -1,0 +1,26 @@
+#include "relievo/scan/depth_image.h"
+
+#include "relievo/core/text.h"
+
+namespace relievo {
+
+Result<void> check(const DepthOptions& options) {
+  if (!(options.range >= .01 && options.range <= 10))
+    return option_error("depth-range", cat("expected a number from 0.01 to 10, found ", options.range));
+  if (!(options.points >= 1000 && options.points <= 1e7))
+    return option_error("points", cat("expected a number from 1000 to 1e+07, found ", options.points));
+  return {};
+}
+
+Result<DepthOptions> parse_depth(const DepthTexts& texts) {
+  RELIEVO_TRY(const DepthValues values, parse_choice("depth-values", texts.values, depth_value_choices));
+  RELIEVO_TRY(const Background background, parse_choice("background", texts.background, background_choices));
+  DepthOptions options;
+  options.values = values;
+  options.range = texts.range;
+  options.background = background;
+  RELIEVO_CHECK(check(options));
+  return options;
+}
+
+}  // namespace relievo

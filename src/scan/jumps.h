@@ -1,0 +1,23 @@
+// Depth jumps inside the silhouette: edges of the triangulation in the view plane that no surface spans.
+#pragma once
+
+#include <vector>
+
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+
+// Returns whether there is a depth jump between two neighbouring points: whether their depths differ by more
+// than twice what their normals explain, plus 3 rho.
+bool is_jump(const Surface& surface, Index a, Index b);
+
+// Returns for each triangle whether it is inside the relief and one of its edges is a depth jump.
+std::vector<std::uint8_t> jump_triangles(const Surface& surface);
+
+// Returns the weight of each point's edges in (9): 0.2 at a depth jump of 2 % of the longer side or more,
+// growing geometrically to 1 at a distance of 0.8 % from it. A relief without the jump cannot have the slopes
+// of both its sides; with equal weights least squares would spread this misfit as a tilt, with small ones it
+// stays at the jump.
+std::vector<float> jump_weights(const Surface& surface);
+
+}  // namespace relievo

@@ -1,0 +1,53 @@
+#include "geometry/extent.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "geometry/space_curve.h"
+#include "geometry/weld.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+TEST(Extent, LongerSideIsInTheViewPlane) {
+  EXPECT_EQ(longer_side_of(std::vector<Vec3>{{1, 2, 0}, {4, 9, 50}, {2, 3, 0}}), 7);
+  EXPECT_EQ(longer_side_of({}), 0);
+}
+
+TEST(Extent, DepthRankIsTheShareOfDeeperPoints) {
+  const std::vector<Vec3> points{{0, 0, 3}, {0, 0, -1}, {0, 0, 3}, {0, 0, 7}};
+  EXPECT_EQ(depth_ranks(points), (std::vector<double>{.25, 0, .25, .75}));
+}
+
+TEST(Weld, FindsTheFirstOfCoincidentPoints) {
+  const std::vector<Vec3> points{{1, 2, 3}, {0, 0, 0}, {1, 2, 3}, {1, 2, 4}, {0, 0, 0}, {1, 2, 3}};
+  EXPECT_EQ(first_coincident(points), (std::vector<Index>{0, 1, 0, 3, 1, 0}));
+  EXPECT_TRUE(first_coincident({}).empty());
+}
+
+std::vector<Vec3> ordered(const std::vector<Vec3>& points) {
+  std::vector<Vec3> result;
+  for (const Index i : space_curve_order(points)) result.push_back(points[i]);
+  return result;
+}
+
+TEST(SpaceCurve, DoesNotDependOnTheOrderGiven) {
+  std::vector<Vec3> points = test::sphere(500, 3).points;
+  const std::vector<Vec3> once = ordered(points);
+  std::reverse(points.begin(), points.end());
+  EXPECT_EQ(ordered(points), once);
+  EXPECT_NE(points, once);
+}
+
+// Most points of a surface have a neighbour on the curve that is near; at random it would be far away.
+TEST(SpaceCurve, KeepsNeighboursTogether) {
+  const std::vector<Vec3> points = ordered(test::sphere(4000, 1).points);
+  double sum = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).norm();
+  EXPECT_LT(sum / 4000, .2);
+}
+
+}  // namespace
+}  // namespace relievo

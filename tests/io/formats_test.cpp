@@ -1,0 +1,67 @@
+// The table of formats: the lists made from it, and that each row is reached by its own files.
+#include "io/formats.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "support/format_samples.h"
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+TEST(Formats, AreListedForHelp) {
+  const std::string list = readable_formats();
+  EXPECT_TRUE(list.starts_with("point cloud (PLY, PCD, ")) << list;
+  EXPECT_TRUE(list.contains("XYZ, PTS), mesh (PLY, glTF, ")) << list;
+  EXPECT_TRUE(list.ends_with(") or depth image (PNG, TIFF)")) << list;
+}
+
+TEST(Formats, ListTheEndingsOfAllFiles) {
+  const std::vector<std::string> endings = readable_endings();
+  for (const std::string_view expected : {".ply", ".gltf", ".csv", ".png", ".tiff"})
+    EXPECT_EQ(std::ranges::count(endings, expected), 1) << expected;
+  for (const std::string& ending : endings) {
+    EXPECT_TRUE(ending.starts_with('.')) << ending;
+    EXPECT_EQ(std::ranges::count(endings, ending), 1) << ending;
+  }
+}
+
+// Returns the name of the row that reads the file, or "none".
+std::string_view format_of(std::string_view bytes, std::string_view name) {
+  for (const io::Format& format : io::formats)
+    if (format.is_format({bytes, name})) return format.name;
+  return "none";
+}
+
+TEST(Formats, AreRecognisedByTheirContent) {
+  EXPECT_EQ(format_of("ply\n", "a"), "PLY");
+  EXPECT_EQ(format_of("plywood 1 2\n", "a"), "XYZ, PTS");
+  EXPECT_EQ(format_of(ascii_pcd(), "a"), "PCD");
+  EXPECT_EQ(format_of(las(2), "a"), "LAS");
+  EXPECT_EQ(format_of(glb(), "a"), "glTF");
+  EXPECT_EQ(format_of("COFF\n", "a"), "OFF");
+  EXPECT_EQ(format_of("solid a\n", "a"), "STL");
+  EXPECT_EQ(format_of("# made by hand\n\nvn 0 0 1\n", "a"), "OBJ");
+  EXPECT_EQ(format_of("1 2 3\n", "a"), "XYZ, PTS");
+}
+
+TEST(Formats, AreRecognisedByTheNameWhereTheContentHasNoMark) {
+  EXPECT_EQ(format_of("1 2 3\n", "a.PCD"), "PCD");
+  EXPECT_EQ(format_of("{}", "a.gltf"), "glTF");
+  EXPECT_EQ(format_of("1 2 3\n", "a.obj"), "OBJ");
+  EXPECT_EQ(format_of("1 2 3\n", "a.csv"), "XYZ, PTS");
+}
+
+TEST(Formats, LeaveForeignFilesToNobody) {
+  EXPECT_EQ(format_of("PK\x03\x04", "a.obj"), "none");
+  EXPECT_EQ(format_of("newmtl red\n", "a.mtl"), "none");
+  EXPECT_EQ(format_of("1 2 3\n", "a.ply"), "none");
+  EXPECT_EQ(io::foreign_format({"ASTM-E57", "a"}), "an E57 file");
+  EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.LAZ"}), "a LAZ file");
+  EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.xyz"}), "");
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,126 @@
+// Previews of finished bodies and live pictures of frames come from one renderer: the same body in the same
+// view, light and material gives the same pixels.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "picture/draw_body.h"
+#include "picture/plate_mesh.h"
+#include "relievo/picture/preview.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double mm_per_unit = 32;
+
+// A model, heights on it, and the plate that files are made of, with the same points.
+struct Bodies {
+  std::shared_ptr<const ReliefModel> model = std::make_shared<const ReliefModel>(
+      *ReliefModel::prepare(*find_surface(test::sphere(20000, 1), View{})));
+  std::vector<float> heights;
+  std::vector<Vec3f> normals;
+  Solid solid;
+
+  Bodies() {
+    const Surface& surface = model->surface();
+    HeightFieldMesh front{{}, surface.triangulation.triangles, surface.triangulation.hull};
+    for (const Vec3& p : surface.points) {
+      const double r = p.head<2>().norm();
+      const double z = std::max(0., .15 * (.8 - r) * (1 + std::sin(11 * p.x()) * std::cos(7 * p.y())));
+      heights.push_back(static_cast<float>(z));
+      front.points.push_back(mm_per_unit * Vec3(p.x(), p.y(), static_cast<double>(heights.back())));
+    }
+    solid = *make_plate(front, {});
+    normals = relief_normals(solid);
+    normals.resize(heights.size());
+  }
+  Shown shown() const { return {heights, normals}; }
+};
+
+const Bodies& bodies() {
+  static const Bodies made;
+  return made;
+}
+
+RenderOptions options_for(Material material, bool is_fine, double yaw_deg) {
+  RenderOptions options;
+  options.width = 330;
+  options.height = 300;
+  options.mm_per_unit = mm_per_unit;
+  options.material = material;
+  options.is_fine = is_fine;
+  options.camera.yaw_deg = yaw_deg;
+  options.camera.pitch_deg = yaw_deg / 2;
+  return options;
+}
+
+Image8 live_picture(const RenderOptions& options) {
+  Picture picture;
+  FrameRenderer(bodies().model).render(bodies().shown(), options, picture);
+  return picture.image;
+}
+
+// The finished solid, where the live picture has its plate.
+Image8 picture_of_solid(const RenderOptions& options) {
+  const SolidBody owner(bodies().solid);
+  DrawCache cache;
+  Image8 image;
+  draw_body(owner.body(), frame_transform(plate_mesh(bodies().model->surface()), options),
+            {options.material, options.light, options.has_shadows, options.is_fine}, cache, image);
+  return image;
+}
+
+std::size_t different_values(const Image8& a, const Image8& b) {
+  std::size_t count = a.pixels.size() == b.pixels.size() ? 0 : a.pixels.size();
+  for (std::size_t i = 0; i < std::min(a.pixels.size(), b.pixels.size()); ++i)
+    count += a.pixels[i] != b.pixels[i];
+  return count;
+}
+
+TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
+  for (const Material material : {Material::plaster, Material::bronze, Material::walnut})
+    for (const bool is_fine : {false, true})
+      for (const double yaw_deg : {0., 30., -55.}) {
+        const RenderOptions options = options_for(material, is_fine, yaw_deg);
+        const Image8 live = live_picture(options);
+        EXPECT_EQ(different_values(live, picture_of_solid(options)), 0U)
+            << "material " << static_cast<int>(material) << ", fine " << is_fine << ", yaw " << yaw_deg;
+        EXPECT_GT(std::ranges::count(live.pixels, 255), live.width * live.height / 5);
+      }
+}
+
+// The preview's front view, on its wall, shows what the studio shows at this size and zoom.
+TEST(OneRenderer, PreviewShowsTheLivePicture) {
+  const Image8 preview = render_preview(bodies().solid, {.longer_side_px = 300});
+  RenderOptions options = options_for(Material::plaster, true, 0);
+  options.width = preview.width / 2;
+  options.height = preview.height;
+  Picture live;
+  FrameRenderer renderer(bodies().model);
+  renderer.render(bodies().shown(), options, live);
+  const Vec3 size = Box::of(bodies().solid.points).size();
+  const double longer_mm = std::max(size.x(), size.y());
+  options.camera.zoom = .88 * 300 / longer_mm / live.pixels_per_mm;
+  renderer.render(bodies().shown(), options, live);
+  std::size_t opaque = 0, different = 0;
+  int largest = 0;
+  for (int y = 0; y < live.image.height; ++y)
+    for (int x = 0; x < live.image.width; ++x) {
+      const std::size_t i = live.image.index(x, y);
+      if (live.image.pixels[i + 3] < 255) continue;  // there the preview shows its wall
+      ++opaque;
+      for (std::size_t c = 0; c < 3; ++c)
+        if (const int by = std::abs(live.image.pixels[i + c] - preview.pixels[preview.index(x, y) + c]))
+          ++different, largest = std::max(largest, by);
+    }
+  // The zoom is not quite the preview's scale, in its last digit, so that a colour between two levels can be
+  // rounded the other way.
+  EXPECT_LE(largest, 1);
+  EXPECT_LT(different, opaque / 1000);
+  EXPECT_GT(opaque, 60000U);
+}
+
+}  // namespace
+}  // namespace relievo
