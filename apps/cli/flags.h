@@ -72,7 +72,7 @@ struct FlagAdder {
     return text_of(tool);
   }
 
-  // What --units of the command says; millimetres if it does not, or is none of its flags.
+  // Returns the unit of --units; millimetres where it is not given or the command has no such flag.
   static LengthUnit unit_of(const CLI::App& command) {
     const CLI::Option* const units = command.get_option_no_throw("--units");
     if (units == nullptr || units->count() == 0) return LengthUnit::mm;

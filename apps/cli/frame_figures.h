@@ -1,4 +1,4 @@
-// What frames take, measured; and what the paper printed.
+// Measured times and memory of frames, and those that the paper printed.
 #pragma once
 
 #include <array>

@@ -62,7 +62,7 @@ Box placed_box(const CloudFile& file, const PlacedModel& place) {
   return box;
 }
 
-// What stands where, seen from the front.
+// Prints where each model of a scene stands, seen from the front.
 Result<void> scene_info(const std::vector<std::string>& inputs) {
   const Result<SceneInput> input = read_scene(inputs, {}, {}, nullptr);
   if (!input) return std::unexpected(input.error());

@@ -164,7 +164,7 @@ Result<std::vector<OutputFile>> finished_files(const MakeOrder& order, const Sce
   return files;
 }
 
-// What was made, in a line and in the unit asked for.
+// Prints one line about what was made, in the unit asked for.
 std::string outcome(const MakeOrder& order, const MadeRelief& made) {
   const auto in_units = [&](double mm) { return std::round(mm / mm_per(order.unit) * 1e4) / 1e4; };
   const ReliefReport& report = made.report;

@@ -1,4 +1,4 @@
-// What the command line prints while it works.
+// Progress, warnings and errors as the command line prints them.
 #pragma once
 
 #include <string>

@@ -17,7 +17,7 @@ Result<std::vector<std::byte>> read_file(const std::string& path);
 // folder or a device.
 Result<void> check_writable(const std::string& path);
 
-// Whether both paths lead to the same file, which need not exist.
+// Returns whether both paths lead to the same file, which need not exist.
 bool is_same_file(const std::string& a, const std::string& b);
 
 // A finished file, not yet written.

@@ -10,7 +10,7 @@
 
 namespace relievo::app {
 
-// Where the points come from: a file, or a generated sample if `sample` is not empty.
+// The source of the points: a file, or a generated sample if `sample` is not empty.
 struct ScanSource {
   std::string sample;
   std::string path;

@@ -16,7 +16,7 @@
 namespace relievo::app {
 namespace {
 
-// What was left out of a file.
+// Returns a sentence about the points of a file that were left out.
 std::vector<std::string> remarks_on(const CloudFile& file, const std::string& path) {
   std::vector<std::string> lines;
   if (file.dropped_points > 0)

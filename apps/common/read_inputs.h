@@ -40,7 +40,7 @@ struct SceneInput {
   std::vector<std::string> remarks;
 };
 
-// Whether that is a scene file, by its ending: .json.
+// Returns whether the path is that of a scene file, which ends in .json.
 bool is_scene_file(const std::string& path);
 
 // Reads the files of those paths, one or several models, or one scene file (.json): of depth images and very

@@ -1,4 +1,4 @@
-// What the stages of a long call are called for people.
+// Names for people of the stages of a long call.
 #pragma once
 
 #include <span>

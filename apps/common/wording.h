@@ -8,7 +8,7 @@
 
 namespace relievo::app {
 
-// What is to be known of scanned points.
+// Returns sentences about scanned points that a user should know.
 struct ScanFacts {
   bool has_estimated_normals = false, has_turned_normals = false;
   std::size_t left_out = 0;  // outliers

@@ -18,7 +18,7 @@ struct CloudFile;
 struct Shape;
 struct Surface;
 
-// What was made, and how.
+// Facts about the relief that was made and the options that ruled it.
 struct ReliefReport {
   std::size_t input_points = 0, visible_points = 0;
   double rho = 0;                 // sampling distance, in the cloud's units
@@ -47,14 +47,14 @@ struct ReliefReport {
   std::optional<double> simplification_error_mm;
   std::size_t front_triangles = 0, full_triangles = 0;  // of the front, and of the full relief
 
-  // Of a wrap: the ground's diameter, how far the plate goes around, and how wide a degree is on the ground
+  // The measures of a wrap: the ground's diameter, how far the plate goes around, and how wide a degree is on the ground
   // and so in the flat plate.
   struct Wrapped {
     double diameter_mm = 0, turn_deg = 0, mm_per_degree = 0;
   };
   std::optional<Wrapped> wrap;  // offset and scale are then those of the flat plate
 
-  // What a user may want to be warned of.
+  // Facts that a user may want to be warned of.
   bool has_idle_alpha = false;         // an alpha was given, which has no effect
   bool has_estimated_normals = false;  // the points had none
   bool has_turned_normals = false;     // they pointed inwards

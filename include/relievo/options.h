@@ -1,4 +1,4 @@
-// How a relief is to be made, as values: what a program fills in, and what parse_options() makes of texts.
+// The options of a relief as typed values. A program fills them in, or parse_options() makes them of texts.
 #pragma once
 
 #include <array>
@@ -11,7 +11,6 @@
 #include "relievo/plate/tool.h"
 #include "relievo/plate/wrap.h"
 #include "relievo/relief/method.h"
-#include "relievo/relief/mode.h"
 #include "relievo/relief/tone_curve.h"
 #include "relievo/scan/view.h"
 
@@ -37,7 +36,7 @@ struct NumericOptions {
   std::optional<double> tolerance_mm;    // largest error of a mesh made simpler; without it all points stay
 };
 
-// Which surface the solid has.
+// The surface that the solid gets.
 enum class Finish {
   full,      // the relief's own
   reachable  // what the tool leaves of it

@@ -17,7 +17,7 @@ class Progress;
 struct MadeRelief;
 struct ReliefOptions;
 
-// How a model stands in a scene. It is mirrored, scaled and turned about the centre of its own box, strays
+// The place of a model in a scene. The model is mirrored, scaled and turned about the centre of its own box, strays
 // left out, and then moved.
 struct Pose {
   Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z; the axes stay; 90 about z takes x to y
@@ -28,7 +28,7 @@ struct Pose {
   bool operator==(const Pose& other) const;
 };
 
-// How a pose turns a model: a rotation, after a reflection where it is mirrored.
+// Returns the turn of a pose: a rotation, after a reflection where it is mirrored.
 Mat3 turn_of(const Pose& pose);
 
 struct SceneModel {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "relievo/core/progress.h"
-#include "relievo/relief/mode.h"
+#include "relievo/relief/method.h"
 #include "relievo/scan/view.h"
 
 namespace relievo {

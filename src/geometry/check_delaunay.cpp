@@ -128,7 +128,7 @@ std::string check_convexity(Points points, const Triangulation& it) {
   return turns == 1 ? "" : "hull: does not go round once";
 }
 
-// Of points with equal coordinates the one with the lowest number must be in a triangle, and no other.
+// Among points with equal coordinates the one with the lowest number must be in a triangle, and no other.
 std::string check_use_of_points(Points points, const Triangulation& it) {
   std::vector<bool> is_used(points.size(), false);
   for (const Triangle& corners : it.triangles) {

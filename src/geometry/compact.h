@@ -8,7 +8,7 @@
 
 namespace relievo {
 
-// Which points of a mesh its triangles use.
+// The points of a mesh that its triangles use.
 struct UsedPoints {
   std::vector<Index> points;      // the old numbers of the used points, ascending
   std::vector<Index> new_number;  // per old point its place in `points`, no_index if it is not used

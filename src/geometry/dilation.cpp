@@ -97,7 +97,7 @@ struct WindowRow {
   int x, y, away, width;
 };
 
-// How far to the sides the row holds anything that exceeds `lowest` under the shape; -1 if it does not at
+// Returns how far to the sides the row holds anything that exceeds `lowest` under the shape; -1 if it does not at
 // all.
 RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRow row, float lowest) {
   for (;;) {
@@ -109,7 +109,7 @@ RELIEVO_INLINE int reaching(const Framed& from, const Profile& profile, WindowRo
   }
 }
 
-// How many rows away from the block anything exceeds `lowest` under the shape; -1 if nothing does.
+// Returns how many rows away from the block anything exceeds `lowest` under the shape; -1 if nothing does.
 RELIEVO_INLINE int rows_reaching(const Framed& from, const Profile& profile, int x, int y, float lowest) {
   int away = profile.reach();
   while (!(profile.at(0, away) < std::numeric_limits<float>::infinity())) --away;

@@ -10,7 +10,7 @@
 
 namespace relievo {
 
-// What a triangle belongs to, which decides how it is shaded.
+// The part of the body that a triangle belongs to, which decides how it is shaded.
 enum class Part : std::uint8_t {
   nothing,
   relief,  // by the normals of its points, or flat if it is level

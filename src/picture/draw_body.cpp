@@ -10,7 +10,7 @@
 namespace relievo {
 namespace {
 
-// Of fine pictures, in both directions: with 3 x 3 samples steps along slanting edges are not seen any more.
+// Samples per pixel of fine pictures, in both directions: with 3 x 3 of them steps along slanting edges are not seen any more.
 constexpr int fine_samples = 3;
 constexpr int most_samples = fine_samples * fine_samples;
 

@@ -16,7 +16,7 @@ struct DrawParams {
   bool is_fine = false;  // more samples per pixel and finer shadows
 };
 
-// What lasts between pictures of the same body, if it is a height field.
+// Results that stay valid between pictures of the same body, if it is a height field.
 struct DrawCache {
   CachedVisibility front, quick_light, fine_light;
 };

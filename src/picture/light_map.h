@@ -1,4 +1,4 @@
-// How much light reaches each place of a front: shadows that the relief casts on itself.
+// The share of light that reaches each place of a front: shadows that the relief casts on itself.
 #pragma once
 
 #include "plate/height_field.h"

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int largest_side = 8192;
 
-// Of the heights that a profile is read from: finer than a display shows it.
+// The longer side, in pixels, of the heights that a profile is read from: finer than a display shows it.
 constexpr int profile_px = 1400;
 
 std::vector<float> depths_of(const Surface& surface) {

@@ -1,4 +1,4 @@
-// Where the points of a body lie in a picture.
+// The map from the points of a body to their places in a picture.
 #pragma once
 
 #include <algorithm>

@@ -48,17 +48,23 @@ float sharpen(float x, int doublings) {
   return x;
 }
 
+// Metal mirrors the lamp in small glints, the (2^doublings)th power of a cosine, and a window beside the lamp in
+// broad, soft-edged patches that open at this cosine. The shine is a mixture of the metal's colour and white.
+constexpr int glint_doublings = 4;
+constexpr float window_right = -.25F, window_up = .1F, window_front = .55F;
+constexpr float window_edge = .55F;
+constexpr float whiteness_of_shine = .35F;
+constexpr float sky_on_metal = .10F;
+
 // The properties by which metals differ.
 struct Metal {
-  Vec3f colour, tarnish;  // where it is open, and in hollows
-  float diffuse, window;  // strengths
-  float glint;
-  int glint_doublings;  // more is a smaller glint
+  Vec3f colour, tarnish;         // where it is open, and in hollows
+  float diffuse, window, glint;  // strengths
 };
 
 const Metal& metal_of(Material material) {
-  static const Metal silver{{.93F, .93F, .92F}, {.20F, .20F, .22F}, .62F, .42F, .50F, 4};
-  static const Metal bronze{{.80F, .52F, .26F}, {.13F, .10F, .06F}, .66F, .36F, .42F, 4};
+  static const Metal silver{{.93F, .93F, .92F}, {.20F, .20F, .22F}, .62F, .42F, .50F};
+  static const Metal bronze{{.80F, .52F, .26F}, {.13F, .10F, .06F}, .66F, .36F, .42F};
   return material == Material::silver ? silver : bronze;
 }
 
@@ -90,7 +96,7 @@ Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
       halfway_((to_lamp + to_viewer).stableNormalized()),
       exposure_(
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
-      to_window_(Vec3f(to_lamp.x() - .25F, to_lamp.y() + .1F, .55F).normalized()) {}
+      to_window_(Vec3f(to_lamp.x() + window_right, to_lamp.y() + window_up, window_front).normalized()) {}
 
 // The light that a place gets, by where it faces and by what hides lamp and sky from it.
 Light Shader::facing(const Lit& lit) const {
@@ -117,16 +123,18 @@ Vec3f Shader::colour(const Lit& lit) const {
 Vec3f Shader::metal(const Lit& lit) const {
   const Metal& m = metal_of(material_);
   const Light light = facing(lit);
-  const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), m.glint_doublings) * lit.light.lamp;
-  const float window = smooth_step(.55F, 1.F, lit.normal.dot(to_window_)) * lit.light.sky;
+  const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), glint_doublings) * lit.light.lamp;
+  const float window = smooth_step(window_edge, 1.F, lit.normal.dot(to_window_)) * lit.light.sky;
   const Vec3f body = mix(m.tarnish, m.colour, lit.light.sky * lit.light.sky);
-  const Vec3f shine = mix(m.colour, Vec3f::Ones(), .35F);
-  return body * (m.diffuse * exposure_ * light.lamp + .10F * light.sky + m.window * window * light.lamp) +
+  const Vec3f shine = mix(m.colour, Vec3f::Ones(), whiteness_of_shine);
+  return body * (m.diffuse * exposure_ * light.lamp + sky_on_metal * light.sky +
+                 m.window * window * light.lamp) +
          shine * (m.glint * glint * glint);
 }
 
-// Grain runs upright and bends a little; as growth rings lie slantwise in the board, carving deeper moves
-// them aside.
+// The grain runs upright and bends a little; as growth rings lie slantwise in the board, carving deeper moves
+// them aside. Lengths are in millimetres: rings are 3.3 mm apart, bend over some 30 and 80 mm, and the noise of
+// fibres and pores is ten to twenty times as long as wide. All were chosen by eye.
 Vec3f Shader::wood(const Lit& lit) const {
   const float x = lit.place.x() + 1.6F * lit.place.z(), y = lit.place.y();
   const float bend = 4 * smooth_noise(x * .03F + 7, y * .012F) + .5F * smooth_noise(x * .11F, y * .03F);
@@ -135,7 +143,7 @@ Vec3f Shader::wood(const Lit& lit) const {
   const float fibre = smooth_noise(x * 6.F, y * .35F), pore = smooth_noise(x * 11.F, y * .9F + 40);
   const Vec3f grain = mix(early_wood, late_wood, .6F * late + .4F * fibre) * (pore > .86F ? .85F : 1.F);
   const Light light = facing(lit);
-  const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), 4) * lit.light.lamp;
+  const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), glint_doublings) * lit.light.lamp;
   return grain * (exposure_ * light.lamp + .28F * light.sky) + varnish * (.05F * glint);
 }
 

@@ -1,4 +1,4 @@
-// Which point of a body each pixel shows.
+// The point of a body that each pixel shows.
 #pragma once
 
 #include <optional>

@@ -14,7 +14,7 @@ namespace {
 constexpr double bending_share = .25;  // of a tolerance, what a curved base may take
 constexpr double rim_bevel = .3;       // of the rim's height: 17 degrees from upright, so dies come off
 
-// Of the steepest slope, what simpler fronts keep: between that of limit_draft() and 1, which is left for
+// The share of the steepest slope that simpler fronts keep: between that of limit_draft() and 1, which is left for
 // rounding.
 constexpr double front_share = .9995;
 constexpr double most_held_mm = 1e-5;  // what enforce_draft_in_float() moves points by, as a rule

@@ -38,7 +38,7 @@ std::string_view method_without_one() {
   return text;
 }
 
-// How high the relief is, and how it is compressed.
+// Parses the options of the relief's height and compression.
 std::vector<ReliefField> shape_rows() {
   return {
       ReliefField{
@@ -78,7 +78,7 @@ std::vector<ReliefField> shape_rows() {
   };
 }
 
-// What limits the relief, and which side of the model it shows.
+// Parses the options of the relief's limits and of the side of the model it shows.
 std::vector<ReliefField> view_rows() {
   return {
       ReliefField{{"steepest", "DEG",
@@ -121,7 +121,7 @@ std::vector<ReliefField> view_rows() {
   };
 }
 
-// What the plate is like.
+// Parses the options of the plate.
 std::vector<ReliefField> plate_rows() {
   return {
       ReliefField{{.name = "outline",
@@ -156,7 +156,7 @@ std::vector<ReliefField> plate_rows() {
   };
 }
 
-// What the solid is bent to, made as and reduced to.
+// Parses the options by which the solid is bent, formed and made simpler.
 std::vector<ReliefField> body_rows() {
   return {
       ReliefField{{.name = "base",

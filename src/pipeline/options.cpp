@@ -76,7 +76,7 @@ Result<void> check_draft(const ReliefOptions& options) {
   return {};
 }
 
-// What rules for the paper's method, and for all others.
+// Returns the default that rules: the paper's for its method, another one for all others.
 double by_method(const ReliefOptions& options, double paper, double others) {
   return options.effective_method() == Method::paper ? paper : others;
 }

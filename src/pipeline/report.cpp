@@ -28,7 +28,7 @@ void report_surface(const Surface& surface, ReliefReport& report) {
 
 void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport& report) {
   const Compression& compression = shape.compression;
-  // As given, where it was given: from u it comes back with a rounding error.
+  // A given alpha is reported as it was given: computed from u it would have a rounding error.
   const bool is_given = !options.height_mm && compression.beta > 0;
   report.method = options.effective_method();
   report.alpha = is_given ? options.effective_alpha() : compression.alpha();
@@ -53,7 +53,7 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
   if (body.wrap) report.wrap = {body.wrap->diameter_mm(), body.wrap->turn_deg(), body.wrap->mm_per_degree()};
 }
 
-// Where the scan lies in the plate.
+// Fills in the place of the scan in the plate.
 void report_place(const ReliefFacts& facts, ReliefReport& report) {
   const Form form = facts.options.form;
   const Vec3 sign(is_mirrored(form) ? -1 : 1, 1, form == Form::die ? -1 : 1);

@@ -123,7 +123,7 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
   return parts;
 }
 
-// What the points that face the viewer cover, in layers where they lie behind each other.
+// The cells that points facing the viewer cover, in layers where they lie behind each other.
 double shown_area(const PlacedCloud& cloud) {
   double sum = 0;
   for (std::size_t i = 0; i < cloud.viewed.size(); ++i) {

@@ -7,7 +7,7 @@
 namespace relievo {
 namespace {
 
-// What the callers and the session's thread share.
+// The state that the callers and the session's thread share.
 struct Shared {
   std::optional<Preparation> waiting;
   std::shared_ptr<Progress> progress;  // of the preparation that runs

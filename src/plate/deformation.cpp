@@ -15,7 +15,7 @@ constexpr double shortest_mm = 4e-3;  // a few steps of single precision at 10 m
 constexpr int most_refinements = 60;  // each halves edges, so no edge of a plate needs more than about 30
 constexpr std::size_t edges_per_task = 512;
 
-// Where a triangle is to be split.
+// The place where a triangle is to be split.
 struct Split {
   // Per edge, the share of the way from its lower to its higher index; 0 if the edge is not split.
   std::array<double, 3> shares = {};

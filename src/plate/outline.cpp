@@ -155,7 +155,7 @@ std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
   return around(points, centre, is_pointed ? pointed : flat, margin);
 }
 
-// How each outline is made, and what the rest of the plate asks of it. `none` has no row.
+// One row per outline: how it is made, and what the rest of the plate asks of it. `none` has no row.
 struct OutlineShape {
   Outline outline;
   std::vector<Vec2> (*around)(Points points, const OutlineOptions& options);

@@ -63,7 +63,7 @@ void fill_beside(HeightField& field, float height) {
     if (field.is_beside.pixels[i] != 0) field.z.pixels[i] = height;
 }
 
-// What the tool leaves above a front, sampled over its box and as far beyond as the tool reaches.
+// The heights that the tool leaves above a front, sampled over its box and as far beyond as the tool reaches.
 class Leavings {
  public:
   Leavings(const HeightFieldMesh& front, const Tool& tool) {
@@ -102,7 +102,7 @@ class Leavings {
 
   Vec2 to_samples(const Vec3& point) const { return field_.to_pixels(point); }
 
-  // Whether a sample shows the front.
+  // Returns whether a sample shows the front.
   bool is_front(int x, int y) const { return field_.is_beside.at(x, y) == 0; }
 
   // The front at a sample.

@@ -11,7 +11,7 @@ namespace relievo {
 
 using Plane = std::vector<float>;  // one value per pixel, row-major, first row at the top
 
-// Which triangle covers each pixel's centre, and the weights of its corners there. It depends on where the
+// The triangle that covers each pixel's centre, and the weights of its corners there. It depends on where the
 // points are in the plane alone, so that pictures of many reliefs of one surface are drawn with it.
 class PictureGrid {
  public:

@@ -17,7 +17,7 @@ class HeightSearch {
   // `tolerance` is that of ln(height).
   HeightSearch(double height, double tolerance) : height_(height), tolerance_(tolerance) {}
 
-  // How a secant goes on from a point: the elasticity is the change of ln height with ln u.
+  // The start of a secant at a point: the elasticity is the change of ln height with ln u.
   struct SecantStep {
     double gain = 1, least = -2, most = 2;
 
@@ -26,7 +26,7 @@ class HeightSearch {
     }
   };
 
-  // Where the last search of a series ended.
+  // The result of the last search of a series.
   struct Track {
     double log_u = 0, elasticity = 1;
   };

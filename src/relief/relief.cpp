@@ -192,7 +192,7 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
               cat("expected a height that can be reached, at most ", relief.height * unit_mm,
                   " mm for this view and width, found ", height * unit_mm, " mm")});
   maker.finish(relief);
-  // What the search leaves, a part in 10^5 at most, is scaled away.
+  // The search ends within a part in 10^5 of the height; scaling makes it exact.
   for (double& z : relief.heights) z *= height / relief.height;
   relief.height = height;
   return relief;

@@ -99,7 +99,7 @@ class Visibility {
     return found;
   }
 
-  // Of points that nearly coincide in the view plane only the one nearest to the viewer is kept: the
+  // Among points that nearly coincide in the view plane only the one nearest to the viewer is kept: the
   // triangulation in the plane uses only one of coincident points, and coordinates rounded to single
   // precision in a file must stay distinct.
   std::vector<Index> without_coincident(std::vector<Index> visible) const {

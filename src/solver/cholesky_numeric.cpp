@@ -46,7 +46,7 @@ class Multifrontal {
   std::vector<Index> failed_;         // per task, the column whose pivot failed
 };
 
-// Whether the entry is stored at `column` of the task, see TaskMatrix.
+// Returns whether the entry is stored at `column` of the task, see TaskMatrix.
 bool is_kept(const Task& task, Index column, Index other) {
   return other > column || other < task.first_column;
 }

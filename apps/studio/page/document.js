@@ -3,7 +3,7 @@
 
 import {defaultOf} from "./about.js";
 
-// Where the page begins otherwise than the engine would.
+// The options whose first value in the page differs from the engine's default.
 const START = {height: 4, method: "layered", mode: "auto", tone: "", up: ""};
 
 // The options that the page changes besides.

@@ -17,7 +17,7 @@ struct Image {
   bool empty() const { return pixels.empty(); }
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
 
-  // Where the pixel's first value lies in `pixels`.
+  // Returns the position of the pixel's first value in `pixels`.
   std::size_t index(int x, int y) const {
     return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
            static_cast<std::size_t>(channels);

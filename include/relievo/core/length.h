@@ -4,10 +4,9 @@
 #include <string_view>
 
 #include "relievo/core/error.h"
+#include "relievo/core/types.h"
 
 namespace relievo {
-
-enum class LengthUnit { mm, inch };
 
 inline constexpr double mm_per_inch = 25.4;
 

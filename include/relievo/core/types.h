@@ -23,6 +23,9 @@ inline constexpr Index no_index = ~Index{0};
 // Three vertices, counter-clockwise as seen from +Z; those of a solid as seen from outside.
 using Triangle = std::array<Index, 3>;
 
+// The unit of coordinates and lengths; core/length.h reads and names it.
+enum class LengthUnit { mm, inch };
+
 // Red, green, blue.
 using Colour = std::array<std::uint8_t, 3>;
 

@@ -1,4 +1,4 @@
-// What a body in a picture is made of, and where its light comes from.
+// The material of a body in a picture, and the direction of its light.
 #pragma once
 
 #include "relievo/core/types.h"

@@ -43,7 +43,7 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
-// What a point of the surface looks like: one entry per point.
+// The shading of a surface's points: one entry per point.
 struct Shown {
   std::span<const float> heights;                  // in the model's units, above the ground
   std::span<const Vec3f> normals;                  // unit length

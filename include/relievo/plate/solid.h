@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "relievo/core/error.h"
-#include "relievo/core/length.h"
 #include "relievo/core/types.h"
 #include "relievo/plate/base.h"
 #include "relievo/plate/outline.h"
@@ -34,7 +33,7 @@ struct HeightFieldMesh {
 // A raised edge along the outline, as coins and plaques have. Each length is 0 or at least 0.001.
 struct RimOptions {
   double width_mm = 0;  // from the outline to the ground within; 0 for no rim
-  // Of its flat top above the ground. A negative height makes a groove, which the rim becomes in a die; the
+  // Height of its flat top above the ground. A negative height makes a groove, which the rim becomes in a die; the
   // plate then continues outside the groove by the rim's width.
   double height_mm = 1;
   double bevel_mm = .3;  // the part of the width that the slanting inner side takes; at most all of it

@@ -1,12 +1,13 @@
-// What a milling tool can reach of a front: reported, pictured, or made.
+// Milling tools, and the part of a front that they can reach: reported, pictured, or made.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "relievo/core/error.h"
 #include "relievo/core/image.h"
-#include "relievo/core/length.h"
+#include "relievo/core/types.h"
 
 namespace relievo {
 

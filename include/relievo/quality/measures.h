@@ -1,4 +1,4 @@
-// How much of its model a relief shows: objective measures and the guards that belong to them.
+// Objective measures of how much of its model a relief shows, and the guards that belong to them.
 // docs/quality.md defines each and gives its source.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The methods that a relief can be made with, by name. To add a baseline: declare it in baselines.h, write it in
+// The methods that a relief can be made with, by name, and from how many points. To add a baseline: declare it in baselines.h, write it in
 // src/relief/baselines/, and give it a row in the table below.
 #pragma once
 
@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "relievo/core/choice.h"
 #include "relievo/core/error.h"
 
 namespace relievo {
@@ -63,5 +64,20 @@ Shape default_shape(Method method);
 // of all points and the model has none.
 Result<Relief> make_by_method(Method method, const ReliefModel& model, double height, const Shape& shape,
                               double unit_mm, Progress* progress = nullptr);
+
+// From how many points the heights of a relief are found.
+enum class Mode {
+  exact,     // from all visible points
+  subspace,  // from a few thousand control points: see SubspaceModel
+  automatic  // exact, unless there are more visible points than `most_exact_points`
+};
+
+inline constexpr std::array<Choice<Mode>, 3> mode_choices{
+    {{"exact", Mode::exact}, {"subspace", Mode::subspace}, {"auto", Mode::automatic}}};
+
+// Returns the mode of that name. Errors: kind option for any other, naming mode.
+inline Result<Mode> parse_mode(std::string_view name) {
+  return parse_choice("mode", name, mode_choices);
+}
 
 }  // namespace relievo

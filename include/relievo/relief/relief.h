@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "relievo/core/progress.h"
-#include "relievo/relief/mode.h"
+#include "relievo/relief/method.h"
 #include "relievo/relief/shape.h"
 
 namespace relievo {

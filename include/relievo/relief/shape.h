@@ -48,7 +48,7 @@ struct Shape {
   double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
   double boundary_width = 2;  // of (7), in rho, > 0: a wider one softens the rim
   Style style = Style::paper;
-  // Of the layered style alone; if not set, the model's own: ReliefModel::membrane_at().
+  // Only the layered style has it; if not set, the model's own: ReliefModel::membrane_at().
   std::optional<MembraneParams> membrane = {};
 
   bool operator==(const Shape&) const = default;

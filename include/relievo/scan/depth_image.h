@@ -27,7 +27,7 @@ struct DepthCamera {
   double fx = 0, fy = 0, cx = 0, cy = 0;
 };
 
-// What the values of a depth image are.
+// The meaning of a depth image's values.
 enum class DepthValues {
   depth,   // grows away from the viewer, 0 is missing
   height,  // grows towards the viewer
@@ -57,7 +57,7 @@ struct DepthOptions {
 // Checks ranges. Errors: kind option, naming the option.
 Result<void> check(const DepthOptions& options);
 
-// What users type of it.
+// The options that users type, as texts and numbers.
 struct DepthTexts {
   std::string values = "depth";
   double range = DepthOptions{}.range;

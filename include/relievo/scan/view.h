@@ -1,11 +1,15 @@
 // The view (stage 2): the side of the model that becomes the relief.
 #pragma once
 
+#include <array>
 #include <string_view>
 
-#include "relievo/scan/cloud.h"
+#include "relievo/core/error.h"
+#include "relievo/core/types.h"
 
 namespace relievo {
+
+struct Cloud;
 
 // A direction of view. R_view_model maps the model's frame to the view's, in which x points to the right, y
 // up and z towards the viewer, who looks along -z: p_view = R_view_model p_model.
@@ -31,7 +35,7 @@ View view_from_euler(double theta_x, double theta_y);
 // model's frame.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// How much relief a side of the model shows: the sum of the differences between the normals of neighbouring
+// The amount of relief that a side of the model shows: the sum of the differences between the normals of neighbouring
 // cells of a coarse image, without those across depth jumps.
 struct ViewGuess {
   std::string_view name;

@@ -15,7 +15,7 @@ struct VisibleOptions {
   double disc_radius = 2;
   // A point is visible if it lies behind the front by at most this, in local spacings / n_z.
   double depth_tolerance = 2;
-  // Of points closer to each other than this in the view plane, in rho, only the one nearest to the viewer is
+  // Among points closer to each other than this in the view plane, in rho, only the one nearest to the viewer is
   // kept.
   double coincidence_distance = 0.01;
   // Hole fill points are at least this far from the nearest visible point in the view plane, in rho.

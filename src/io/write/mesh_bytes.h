@@ -1,4 +1,4 @@
-// What the writers of meshes share: numbers as little-endian bytes.
+// Numbers as little-endian bytes, for all writers of meshes.
 #pragma once
 
 #include <bit>

@@ -37,7 +37,7 @@ struct HeightLimits {
 // concurrently, each with a workspace of its own; results are the same bits for any number of threads.
 class HeightCorrection {
  public:
-  // Of the longer side. docs/decisions/height-correction.md says what other lengths do.
+  // In shares of the longer side. docs/decisions/height-correction.md says what other lengths do.
   static constexpr double bending_length = .028;
 
   // Scratch memory and the field that was found, so that calls allocate nothing.

@@ -28,7 +28,7 @@ constexpr std::array<int, 2> share_steps{3, 6};
 // Safety margin over the gradient-domain baseline. Covers the residual error of the calibration and the
 // interpolation error between knots. docs/decisions/membrane-tuning.md.
 constexpr Scores margin{.0003, .002};
-// How fast the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are compressed
+// The rate at which the share grows with u: 1 - share falls by e^(-growth u), so that high reliefs are compressed
 // less.
 constexpr double growth = .25;
 // The largest sampling distance, of the longer side, at which the coarsest detail of the metrics is sampled.
@@ -42,7 +42,7 @@ double share_at(double u, double share_at_zero) {
   return 1 - (1 - share_at_zero) * std::exp(-growth * u);
 }
 
-// Which of the two constraints a candidate violates.
+// The constraints that a candidate violates.
 struct Violation {
   bool detail, order;
   bool any() const { return detail || order; }
