@@ -84,7 +84,16 @@ struct FrameMaker::Packed {
     frame.times.detail_s += mapping.seconds();
   }
 
-  RaisedHeights<float> heights_of(Frame& frame) { return {frame.heights, input, spans, frame.height}; }
+  // Calls f(heights, style) for the frame's heights and keeps the span that they have then.
+  template <typename F>
+  void change_heights(Frame& frame, F&& f) {
+    const Stopwatch watch;
+    RaisedHeights<float> heights{frame.heights, input, spans, {frame.lowest, frame.highest}, frame.height};
+    with_style(frame.options.shape, [&](const auto& style) { f(heights, style); });
+    frame.lowest = heights.span.lowest;
+    frame.highest = heights.span.highest;
+    frame.times.detail_s += watch.seconds();
+  }
 
   // Makes the relief of that shape but for what its style does last; frame.height is already the final one.
   void raise(const Shape& shape, Frame& frame) {
@@ -94,11 +103,10 @@ struct FrameMaker::Packed {
     else
       solve_subspace(*model.subspace(), frame);
     ++frame.times.solves;
-    const Stopwatch watch;
-    RaisedHeights<float> heights = heights_of(frame);
-    with_style(frame.options.shape, [&](const auto& style) { style.raise(heights); });
-    frame.height = heights.height;
-    frame.times.detail_s += watch.seconds();
+    change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
+      style.raise(heights);
+      frame.height = heights.height;
+    });
   }
 
   // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().
@@ -112,12 +120,12 @@ struct FrameMaker::Packed {
   }
 
   void finish(Frame& frame) {
-    const Stopwatch watch;
     const auto own_workspace = [&]() -> HeightCorrection::Workspace& { return correction_workspace; };
-    with_style(frame.options.shape, [&](const auto& style) {
-      style.finish(heights_of(frame), model.correction(), own_workspace);
+    change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
+      style.finish(heights, model.correction(), own_workspace);
+      if (const std::vector<float>* base = frame.options.base.get())
+        heights.span = heights.change_all([&](std::size_t i, float& z) { z += (*base)[i]; });
     });
-    frame.times.detail_s += watch.seconds();
   }
 };
 
@@ -139,12 +147,6 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   packed_->finish(frame);
 
   const Stopwatch watch;
-  const std::vector<float>* const base = options.base.get();
-  const HeightSpan<float> span = packed_->heights_of(frame).change_all([&](std::size_t i, float& z) {
-    if (base) z += (*base)[i];
-  });
-  frame.lowest = span.lowest;
-  frame.highest = span.highest;
   packed_->normal_matrix.normals(frame.heights, frame.normals);
   frame.times.normals_s = watch.seconds();
 }

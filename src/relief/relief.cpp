@@ -146,14 +146,14 @@ class ReliefModel::Maker {
   }
 
   void finish(Relief& relief) {
-    const RaisedHeights<double> heights{relief.heights, input_, spans_, relief.height};
+    RaisedHeights<double> heights{relief.heights, input_, spans_, {}, relief.height};
     HeightCorrection::Workspace workspace;
     const auto make_workspace = [&]() -> HeightCorrection::Workspace& {
       return workspace = model_.correction().make_workspace();
     };
     with_style(relief.shape,
                [&](const auto& style) { style.finish(heights, model_.correction(), make_workspace); });
-    relief.height = height_span(relief.heights);
+    relief.height = heights.height;
   }
 
  private:

@@ -28,7 +28,8 @@ struct RaisedHeights {
   std::span<Real> z;
   const SlopeInput& input;
   std::vector<HeightSpan<Real>>& spans;  // scratch memory, so that frames allocate nothing
-  double height = 0;                     // of the relief, set by raise()
+  HeightSpan<Real> span = {};            // of z, set by raise() and finish()
+  double height = 0;                     // of the relief, set by raise() and finish()
 
   // Calls change(i, z) for every height, which may change it, and returns the span of the results.
   template <typename Change>
@@ -43,7 +44,8 @@ struct RaisedHeights {
     return all;
   }
 
-  HeightSpan<Real> span() const {
+  // Returns the span of the heights as they are.
+  HeightSpan<Real> measured() const {
     return change_all([](std::size_t, Real&) {});
   }
 };
@@ -68,16 +70,16 @@ class PaperStyle {
   // Adds the detail.
   template <typename Real>
   void raise(RaisedHeights<Real>& heights) const {
-    const Real amount = static_cast<Real>(shape_.gamma) * heights.span().size();
+    const Real amount = static_cast<Real>(shape_.gamma) * heights.measured().size();
     const SlopeInput& input = heights.input;
-    const HeightSpan<Real> raised = heights.change_all([&](std::size_t i, Real& z) {
+    heights.span = heights.change_all([&](std::size_t i, Real& z) {
       z += amount * static_cast<Real>(input.k[i]) * static_cast<Real>(input.boundary_weight[i]);
     });
-    heights.height = static_cast<double>(raised.size());
+    heights.height = static_cast<double>(heights.span.size());
   }
 
   template <typename Real, typename Workspace>
-  void finish(const RaisedHeights<Real>&, const HeightCorrection&, Workspace&&) const {}
+  void finish(RaisedHeights<Real>&, const HeightCorrection&, Workspace&&) const {}
 
  private:
   const Shape& shape_;
@@ -100,15 +102,17 @@ class LayeredStyle {
   // The shape's membrane has to be set.
   template <typename Real>
   void raise(RaisedHeights<Real>& heights) const {
-    heights.height = shape_.membrane->height_share * static_cast<double>(heights.span().size());
+    heights.span = heights.measured();
+    heights.height = shape_.membrane->height_share * static_cast<double>(heights.span.size());
   }
 
   // Compresses the heights to the relief's height; workspace() returns what that needs.
   template <typename Real, typename Workspace>
-  void finish(const RaisedHeights<Real>& heights, const HeightCorrection& correction,
-              Workspace&& workspace) const {
+  void finish(RaisedHeights<Real>& heights, const HeightCorrection& correction, Workspace&& workspace) const {
     const HeightLimits limits = HeightLimits::of(heights.height, *shape_.membrane);
     correction.compress_heights<Real>({heights.z, heights.input.boundary_weight, limits}, workspace());
+    heights.span = heights.measured();
+    heights.height = static_cast<double>(heights.span.size());
   }
 
  private:

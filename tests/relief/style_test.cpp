@@ -21,7 +21,7 @@ std::vector<Real> with_detail(double gamma) {
   RaisedHeights<Real> heights{z, input, spans};
   const Shape shape{{}, gamma};
   PaperStyle(shape).raise(heights);
-  EXPECT_EQ(heights.height, static_cast<double>(heights.span().size()));
+  EXPECT_EQ(heights.height, static_cast<double>(heights.measured().size()));
   return z;
 }
 
