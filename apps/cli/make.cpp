@@ -266,6 +266,10 @@ void add_make(CLI::App& program, Result<void>& result) {
   add_number(command, "--heightmap-size", arguments->heightmap_px, CLI::Range(16, 16384),
              "its longer side in pixels [16 to 16384]");
   add_flags(command, arguments->relief);
+  const auto refuse = [](const std::string&) {
+    throw CLI::ValidationError("--surface", "expected --finish, its new name");
+  };
+  command.add_option_function<std::string>("--surface", refuse)->group("");
   add_input_flags(command, arguments->in);
   add_number(command, "--threads", arguments->threads, CLI::Range(0, 256), "0 for all [0 to 256]");
   command.add_flag("--quiet", arguments->is_quiet, "print errors only");

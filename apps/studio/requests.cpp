@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <string>
 
 #include "common/stage_names.h"
@@ -185,20 +184,6 @@ Json to_json(const PictureAnswer& answer) {
           {"detail_ms", answer.times.detail_s * 1e3},
           {"normals_ms", answer.times.normals_s * 1e3},
           {"drawing_ms", answer.drawing_s * 1e3}};
-}
-
-Json defaults_by_method() {
-  Json json = Json::object();
-  for (const Method method : {Method::layered, Method::paper}) {
-    ReliefOptions options;
-    options.method = method;
-    const double steepest_deg = std::atan(Shape{}.max_slope) * 180 / std::numbers::pi;
-    json[std::string(name_of(method))] = {{"saturation", options.effective_saturation()},
-                                          {"detail", options.effective_detail()},
-                                          {"boundary", options.effective_boundary_width()},
-                                          {"steepest", std::round(steepest_deg)}};
-  }
-  return json;
 }
 
 Json view_list() {

@@ -22,9 +22,6 @@ nlohmann::json to_json(const ModelFacts& facts);
 // Returns what is sent along with a picture's pixels.
 nlohmann::json to_json(const PictureAnswer& answer);
 
-// Returns, by method, the values that rule where an option is not given, for reliefs of a given height.
-nlohmann::json defaults_by_method();
-
 // Returns the six sides: name, direction towards the viewer, direction shown upright.
 nlohmann::json view_list();
 

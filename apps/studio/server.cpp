@@ -190,7 +190,6 @@ struct Server::State {
     return {{"version", version},
             {"options", option_list()},
             {"endings", readable_endings()},
-            {"defaults", defaults_by_method()},
             {"views", view_list()},
             {"materials", material_list()},
             {"stages", stage_list()},

@@ -1,6 +1,8 @@
 // PCD 0.7 and its forerunners: ascii, binary, and binary_compressed (LZF, one field after the other).
 #include "io/pcd.h"
 
+#include <lzf.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -227,32 +229,11 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   return cloud;
 }
 
-// LZF: literal runs, and copies of up to 264 bytes from up to 8 kB back. Returns false for bytes that are
-// none.
+// Fills `out`. Returns false unless that takes all bytes of `in`; the library needs some to read and to write.
 bool unpack_lzf(std::string_view in, std::vector<char>& out) {
-  std::size_t at = 0, filled = 0;
-  const auto next = [&] { return static_cast<unsigned char>(in[at++]); };
-  while (at < in.size()) {
-    const std::size_t control = next();
-    if (control < 32) {
-      const std::size_t run = control + 1;
-      if (in.size() - at < run || out.size() - filled < run) return false;
-      std::memcpy(out.data() + filled, in.data() + at, run);
-      at += run, filled += run;
-      continue;
-    }
-    std::size_t length = control >> 5;
-    if (length == 7) {
-      if (at == in.size()) return false;
-      length += next();
-    }
-    if (at == in.size()) return false;
-    const std::size_t back = ((control & 31) << 8) + next() + 1;
-    length += 2;
-    if (back > filled || out.size() - filled < length) return false;
-    for (std::size_t i = 0; i < length; ++i, ++filled) out[filled] = out[filled - back];
-  }
-  return filled == out.size();
+  if (in.empty() || out.empty()) return in.size() == out.size();
+  const auto in_size = static_cast<unsigned>(in.size()), out_size = static_cast<unsigned>(out.size());
+  return lzf_decompress(in.data(), in_size, out.data(), out_size) == out_size;
 }
 
 Result<Cloud> read_compressed(const Source& source, const PcdHeader& header) {

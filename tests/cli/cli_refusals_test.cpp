@@ -91,6 +91,7 @@ TEST_F(CliRefusals, RefusesMisuse) {
   expect_refusal("make torus.ply -o t.stl --height 3 --alpha 2", "--alpha");
   expect_refusal("make torus.ply -o t.stl --thickness abc", "--thickness");
   expect_refusal("make torus.ply -o t.stl --view sideways", "sideways");
+  expect_refusal("make torus.ply -o t.stl --surface reachable", "--surface: expected --finish");
   expect_refusal("make torus.ply -o t.xyz", "t.xyz");
   expect_refusal("make torus.ply -o t.stl --preview t.jpg", "t.jpg");
   expect_refusal("sample nothing -o s.ply", "shell");

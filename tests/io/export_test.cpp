@@ -31,6 +31,7 @@ std::map<std::string, std::string> unzip(const std::vector<std::byte>& bytes) {
                       local = number(at + 42, 4);
     const std::string name(reinterpret_cast<const char*>(bytes.data() + at + 46), length);
     EXPECT_EQ(number(local, 4), 0x04034B50U);
+    EXPECT_EQ(number(local + 10, 4), 0x210000U) << "midnight of the first day";
     EXPECT_EQ(number(local + 14, 4), number(at + 16, 4));
     std::string content(size, '\0');
     z_stream stream{};

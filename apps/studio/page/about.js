@@ -17,8 +17,12 @@ async function ask() {
 
 export const about = await ask();
 
-// Returns {name, unit, help, min, max, default} of an option; min and max of numbers only.
+// Returns {name, unit, help, min, max, choices, default} of an option; min and max of numbers only, choices of
+// enumerations only.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 
 // Returns the value that rules with a method where the option is not given; null if it has none.
-export const defaultOf = (name, method) => about.defaults[method][name] ?? optionOf(name).default ?? null;
+export function defaultOf(name, method) {
+  const value = optionOf(name).default ?? null;
+  return value?.[method] ?? value; // an object where methods differ
+}

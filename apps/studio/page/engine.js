@@ -2,7 +2,7 @@
 // can take its place.
 //
 // An Engine has
-//   about()                     -> version, options, defaults, views, materials, stages, curve, samples, recent,
+//   about()                     -> version, options, formats, views, materials, stages, curve, samples, recent,
 //                                  status, state (as keepState() stored it)
 //   follow(onStatus, onLost)       calls back with each new status; onLost when the engine has gone
 //   open(input, view)              starts to read and prepare; upload(file) -> input for a file of the browser

@@ -1,19 +1,10 @@
 // The dialog that exports files of the finished relief, as downloads of the browser.
 
-import {optionOf} from "./about.js";
+import {about, optionOf} from "./about.js";
 import {$, download, fileSize, make} from "./controls.js";
+import {fillChoices} from "./fields.js";
 
-const FORMATS = [
-  {id: "stl", name: "STL", ending: ".stl", use: "printing and milling, in millimetres"},
-  {id: "3mf", name: "3MF", ending: ".3mf", use: "printing, with units"},
-  {id: "ply", name: "PLY", ending: ".ply", use: "the same, with shared corners"},
-  {id: "obj", name: "OBJ", ending: ".obj", use: "as text, for 3D programs"},
-  {id: "heightmap", name: "Height map", ending: "-heights.png", use: "16-bit PNG for CNC and engraving"},
-  {id: "tiff", name: "Heights in mm", ending: "-heights.tif", use: "32-bit TIFF"},
-  {id: "preview", name: "Picture", ending: ".png", use: "front and oblique view"},
-];
-
-// Estimates the bytes of each file; exact for STL.
+// Estimates the bytes of the files whose size is known beforehand; exact for STL.
 function sizes(facts, options, pixels) {
   const sides = options.outline === "none" ? 2 : 1; // its bottom is as fine as its front
   const triangles = sides * (facts.triangles + facts.hull + 14), points = sides * (facts.points + 8);
@@ -26,10 +17,11 @@ function sizes(facts, options, pixels) {
   };
 }
 
-// Returns the word before the size. How much smaller a simplified mesh is depends on the relief.
-const sizeWord = (id, {tolerance, outline = "rectangle"}) => {
-  if (tolerance && ["stl", "3mf", "ply", "obj"].includes(id)) return "less than ";
-  return id === "stl" && outline === "rectangle" ? "" : "about ";
+// Returns the size in words, if it is known. How much smaller a simplified mesh is depends on the relief.
+const sizeText = ({name, type}, bytes, {tolerance, outline = "rectangle"}) => {
+  if (bytes === undefined) return "";
+  if (tolerance && !type.startsWith("image/")) return `less than ${fileSize(bytes)}`;
+  return (name === "stl" && outline === "rectangle" ? "" : "about ") + fileSize(bytes);
 };
 
 export class ExportDialog {
@@ -37,9 +29,10 @@ export class ExportDialog {
   constructor(engine, current, change) {
     Object.assign(this, {engine, current, change});
     this.dialog = $("#export-dialog");
-    $("#formats").append(...FORMATS.map(({id, name, use}) => make("label", {},
-      make("input", {type: "radio", name: "format", value: id, checked: id === "stl"}),
-      make("span", {}, name, make("small", {}, use)), make("span", {class: "muted", id: `size-${id}`}))));
+    $("#formats").append(...about.formats.map(({name, label, use}, i) => make("label", {},
+      make("input", {type: "radio", name: "format", value: name, checked: i === 0}),
+      make("span", {}, label, make("small", {}, use)), make("span", {class: "muted", id: `size-${name}`}))));
+    fillChoices("form");
     this.dialog.oninput = () => this.show();
     $("#form").onchange = () => this.choose();
     for (const name of ["tolerance", "draft"]) {
@@ -53,7 +46,7 @@ export class ExportDialog {
   }
 
   get format() {
-    return FORMATS.find(({id}) => id === $("#formats :checked").value);
+    return about.formats.find(({name}) => name === $("#formats :checked").value);
   }
 
   choose() {
@@ -82,8 +75,9 @@ export class ExportDialog {
       ? `${x} × ${y} × ${depth} mm, relief ${height.toFixed(2)} mm high`
       : `Relief ${x} × ${y} mm and ${height.toFixed(2)} mm high, plate ${depth} mm in all`;
     const all = sizes(facts, options, this.pixels);
-    for (const {id} of FORMATS) $(`#size-${id}`).textContent = `${sizeWord(id, options)}${fileSize(all[id])}`;
-    $("#pixels-row").hidden = !["heightmap", "tiff"].includes(this.format.id);
+    for (const format of about.formats)
+      $(`#size-${format.name}`).textContent = sizeText(format, all[format.name], options);
+    $("#pixels-row").hidden = !["heightmap", "tiff"].includes(this.format.name);
   }
 
   get pixels() {
@@ -91,11 +85,11 @@ export class ExportDialog {
   }
 
   async go() {
-    const {options, name} = this.current(), {id, ending} = this.format, button = $("#export-go");
+    const {options, name} = this.current(), {name: format, ending} = this.format, button = $("#export-go");
     button.disabled = true;
     $("#export-note").textContent = "Making the file …";
     try {
-      download(await this.engine.exportFile({options, format: id, pixels: this.pixels}), name + ending);
+      download(await this.engine.exportFile({options, format, pixels: this.pixels}), name + ending);
       this.dialog.close("export");
     } catch (error) {
       $("#export-note").textContent = error.message;

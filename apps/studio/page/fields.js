@@ -1,7 +1,7 @@
-// The sliders: options of the engine, each with a label, a place, and the range that a hand needs.
+// The sliders: options of the engine, each with a label, a place, and the range that a hand needs. And the lists.
 
 import {optionOf} from "./about.js";
-import {spread} from "./controls.js";
+import {$, make, spread} from "./controls.js";
 
 // `hand` is what the slider spans. A number may be typed within the whole range of the option.
 const SLIDERS = {
@@ -29,3 +29,10 @@ export const FIELDS = Object.fromEntries(Object.entries(SLIDERS).map(([name, sli
   const {unit, help, min, max} = optionOf(name);
   return [name, {...slider, ...UNITS[unit], min, max, help: sentence(help)}];
 }));
+
+// Fills the list of an option with the words that may stand there; the option's help explains them.
+export function fillChoices(name) {
+  const {choices, help} = optionOf(name), list = $(`#${name}`);
+  list.append(...choices.map((choice) => make("option", {value: choice}, sentence(choice))));
+  list.parentElement.title = sentence(help);
+}

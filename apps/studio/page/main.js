@@ -5,7 +5,7 @@ import {$, Slider, clamp, download, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./document.js";
 import {ExportDialog} from "./export.js";
-import {FIELDS} from "./fields.js";
+import {FIELDS, fillChoices} from "./fields.js";
 import {takeArrowKeys, takeDrops, takeKeys} from "./inputs.js";
 import {engineBack, engineLost, toast} from "./messages.js";
 import {showProgress} from "./progress.js";
@@ -273,6 +273,7 @@ const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "tr
 // ------------------------------------------------------------------------------------------------------- wiring
 
 function buildTools() {
+  fillChoices("outline");
   $("#materials").append(...about.materials.map(({id, name}) => make("button", {
     role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
   })));

@@ -198,10 +198,10 @@ test("shapes the tone curve with presets and keys", {skip}, async () => {
 });
 
 test("has sliders, defaults and units of the engine's options", {skip}, async () => {
-  const {fields, first, options, defaults} = await page.evaluate(async () => {
+  const {fields, first, options} = await page.evaluate(async () => {
     const from = (name) => import(new URL(name, location));
     const [{FIELDS}, {FIRST}, {about}] = await Promise.all([from("fields.js"), from("document.js"), from("about.js")]);
-    return {fields: FIELDS, first: FIRST.options, options: about.options, defaults: about.defaults.layered};
+    return {fields: FIELDS, first: FIRST.options, options: about.options};
   });
   const option = (name) => options.find((o) => o.name === name) ?? assert.fail(`there is no option ${name}`);
   for (const [name, {label, hand, unit, decimals}] of Object.entries(fields)) {
@@ -214,8 +214,33 @@ test("has sliders, defaults and units of the engine's options", {skip}, async ()
     assert.deepEqual([await number.getAttribute("min"), await number.getAttribute("max")], [`${min}`, `${max}`], name);
   }
   for (const name of Object.keys(first)) option(name);
-  for (const [name, value] of Object.entries(defaults)) assert.equal(first[name], value, name);
-  for (const name of ["width", "corner", "margin", "thickness"]) assert.equal(first[name], option(name).default, name);
+  for (const name of Object.keys(fields)) {
+    const {default: value} = option(name);
+    if (name !== "height") assert.equal(first[name], value.layered ?? value, name);
+  }
+});
+
+test("offers every outline, form and format of the engine, added ones too", {skip}, async () => {
+  const added = await page.context().newPage();
+  await added.route("**/api/about", async (route) => {
+    const response = await route.fetch(), json = await response.json();
+    for (const {name, choices} of json.options) if (["outline", "form"].includes(name)) choices.push("added");
+    json.formats.push({name: "added", label: "Added", use: "tests", ending: ".added", type: "model/added"});
+    await route.fulfill({response, json});
+  });
+  await added.goto(engine.address);
+  await added.getByText(/points.*height/).waitFor();
+  await added.getByRole("button", {name: "Export", exact: true}).click();
+  const {options, formats} = JSON.parse((await engine.get("api/about")).body);
+  for (const name of ["outline", "form"]) {
+    const values = await added.locator(`#${name} option`).evaluateAll((all) => all.map(({value}) => value));
+    assert.deepEqual(values, [...options.find((o) => o.name === name).choices, "added"]);
+  }
+  const shown = await added.locator("#formats label").allInnerTexts();
+  assert.equal(shown.length, formats.length + 1);
+  for (const [i, {label, use}] of [...formats, {label: "Added", use: "tests"}].entries())
+    assert.ok(shown[i].startsWith(label) && shown[i].includes(use), shown[i]);
+  await added.close();
 });
 
 // The curve that is on the page, as shares from 0 to 1.

@@ -24,7 +24,7 @@ std::vector<std::byte> write_obj(const Solid& solid);
 // Returns the solid as 3MF (core specification 1.3): one object with the solid's unit and coordinates, in
 // single precision. `metadata` becomes the model's metadata, keys being names that the specification knows
 // (Title, Description, Designer, Copyright, Application ...). The same solid gives the same bytes: no dates.
-// Empty if the file would exceed 4 GB. The solid must pass check_solid().
+// Empty if memory does not suffice. The solid must pass check_solid().
 std::vector<std::byte> write_3mf(const Solid& solid,
                                  std::span<const std::pair<std::string, std::string>> metadata = {});
 
