@@ -48,33 +48,23 @@ struct MakeOrder {
 // ---------------------------------------------------------------------------------------------- arguments
 
 // Each output has a place of its own that can be written to.
-Result<void> check_places(const MakeArguments& arguments) {
+Result<void> check_outputs(const MakeArguments& arguments) {
+  using Endings = std::vector<std::string_view>;
   std::vector<std::string> taken = arguments.inputs;
   taken.push_back(arguments.base_image);
-  for (const std::string& path :
-       {arguments.output, arguments.preview, arguments.heightmap, arguments.tool_picture, arguments.report}) {
+  RELIEVO_CHECK(check_output(arguments.output, solid_endings(), taken));
+  taken.push_back(arguments.output);
+  for (const auto& [path, endings] : {std::pair<std::string, Endings>{arguments.preview, {".png"}},
+                                      {arguments.heightmap, {".png", ".tif", ".tiff"}},
+                                      {arguments.tool_picture, {".png"}},
+                                      {arguments.report, {}}}) {
     if (path.empty()) continue;
-    RELIEVO_CHECK(check_writable(path));
-    for (const std::string& other : taken)
-      if (is_same_file(path, other))
-        return option_error(path, "expected different files for input and outputs");
+    RELIEVO_CHECK(check_output(path, endings, taken));
     taken.push_back(path);
   }
-  return {};
-}
-
-Result<void> check_outputs(const MakeArguments& arguments) {
-  if (!find_solid_format(ending_of(arguments.output)))
-    return option_error(arguments.output, cat("expected a file ending in ", solid_endings()));
-  for (const std::string& picture : {arguments.preview, arguments.tool_picture})
-    if (!picture.empty() && ending_of(picture) != "png")
-      return option_error(picture, "expected a file ending in .png");
   if (!arguments.tool_picture.empty() && arguments.relief.tool.empty())
     return option_error("tool-picture", "expected a tool, which it shows");
-  const std::string map = ending_of(arguments.heightmap);
-  if (!arguments.heightmap.empty() && map != "png" && map != "tif" && map != "tiff")
-    return option_error(arguments.heightmap, "expected a file ending in .png or .tif");
-  return check_places(arguments);
+  return {};
 }
 
 // Reads the height map of a base of kind image.
@@ -141,11 +131,6 @@ Result<std::vector<std::byte>> solid_file(const MakeOrder& order, const Solid& s
   return write(other);
 }
 
-std::vector<std::byte> text_bytes(const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
 Result<std::vector<OutputFile>> finished_files(const MakeOrder& order, const Scene& scene,
                                                const MadeRelief& made, Progress& progress) {
   const MakeArguments& to = order.files;
@@ -160,7 +145,7 @@ Result<std::vector<OutputFile>> finished_files(const MakeOrder& order, const Sce
   progress.finish();
   if (!to.report.empty())
     files.push_back(
-        {to.report, text_bytes(make_report({made, scene, order.relief.view, order.unit, progress}))});
+        {to.report, bytes_of(make_report({made, scene, order.relief.view, order.unit, progress}))});
   return files;
 }
 
@@ -237,7 +222,7 @@ void add_input(CLI::App& command, MakeArguments& arguments) {
 }
 
 void add_files(CLI::App& command, MakeArguments& arguments) {
-  command.add_option("-o,--output", arguments.output, cat("the solid: ", solid_endings()))
+  command.add_option("-o,--output", arguments.output, cat("the solid: ", either(solid_endings())))
       ->required()
       ->type_name("OUT");
   for (const TextFlag& flag : outputs)

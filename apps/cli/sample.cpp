@@ -17,9 +17,7 @@ struct SampleArguments {
 };
 
 Result<void> sample(const SampleArguments& arguments) {
-  if (ending_of(arguments.output) != "ply")
-    return std::unexpected(Error{ErrorKind::option, arguments.output, {}, "expected a file ending in .ply"});
-  if (auto ok = check_writable(arguments.output); !ok) return ok;
+  RELIEVO_CHECK(check_output(arguments.output, {".ply"}));
   const Result<Cloud> cloud = make_sample(arguments.name, arguments.options);
   if (!cloud) return std::unexpected(cloud.error());
   const OutputFile file{arguments.output, write_ply(*cloud, cat("relievo sample ", arguments.name))};

@@ -4,7 +4,6 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
-#include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 #include "relievo/io/write.h"
@@ -49,11 +48,11 @@ const FileFormat* find_solid_format(std::string_view ending) {
   return format && format->write_solid ? format : nullptr;
 }
 
-std::string solid_endings() {
+std::vector<std::string_view> solid_endings() {
   std::vector<std::string_view> endings;
   for (const FileFormat& format : formats)
     if (format.write_solid) endings.push_back(format.ending);
-  return either(endings);
+  return endings;
 }
 
 nlohmann::json format_list() {

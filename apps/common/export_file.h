@@ -29,8 +29,8 @@ const FileFormat* find_format(std::string_view name);
 // Returns the format of solids whose files end so, "stl"; null if there is none.
 const FileFormat* find_solid_format(std::string_view ending);
 
-// Returns the endings of solids, for people: ".stl, .3mf, .ply or .obj".
-std::string solid_endings();
+// Returns the endings of solids: ".stl" and others.
+std::vector<std::string_view> solid_endings();
 
 // Returns a list of objects with name, label, use, ending and type.
 nlohmann::json format_list();

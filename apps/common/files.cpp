@@ -16,6 +16,9 @@
 #include <list>
 #include <utility>
 
+#include "relievo/core/choice.h"
+#include "relievo/core/text.h"
+
 namespace relievo::app {
 namespace {
 
@@ -127,6 +130,30 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
+// Whether both paths lead to the same file, which need not exist.
+bool is_same_file(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  const auto full = [](const std::string& path) {
+    std::error_code none;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+  };
+  return full(a) == full(b);
+}
+
+Result<void> check_writable(const std::string& path) {
+  std::error_code ignored;
+  const std::string folder = folder_of(path);
+  if (std::filesystem::is_directory(path, ignored))
+    return std::unexpected(Error{ErrorKind::output, path, {}, "expected a file name, found a folder"});
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+    return std::unexpected(Error{ErrorKind::output, path, {}, "expected a file, found a device or a pipe"});
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    return system_error(ErrorKind::output, path,
+                        "expected a folder that can be written to, '" + folder + "'");
+  return {};
+}
+
 }  // namespace
 
 Result<std::vector<std::byte>> read_file(const std::string& path) {
@@ -152,17 +179,13 @@ Result<std::vector<std::byte>> read_file(const std::string& path) {
   return bytes;
 }
 
-Result<void> check_writable(const std::string& path) {
-  std::error_code ignored;
-  const std::string folder = folder_of(path);
-  if (std::filesystem::is_directory(path, ignored))
-    return std::unexpected(Error{ErrorKind::output, path, {}, "expected a file name, found a folder"});
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    return std::unexpected(Error{ErrorKind::output, path, {}, "expected a file, found a device or a pipe"});
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    return system_error(ErrorKind::output, path,
-                        "expected a folder that can be written to, '" + folder + "'");
-  return {};
+Result<void> check_output(const std::string& path, const std::vector<std::string_view>& endings,
+                          std::span<const std::string> taken) {
+  if (!endings.empty() && std::ranges::find(endings, cat(".", ending_of(path))) == endings.end())
+    return option_error(path, cat("expected a file ending in ", either(endings)));
+  if (std::ranges::any_of(taken, [&](const std::string& other) { return is_same_file(path, other); }))
+    return option_error(path, "expected different files for input and outputs");
+  return check_writable(path);
 }
 
 Result<void> write_files(std::span<const OutputFile> files) {
@@ -185,14 +208,9 @@ void remove_temporary_files_on_signals() {
   }
 }
 
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(a, b, ignored)) return true;
-  const auto full = [](const std::string& path) {
-    std::error_code none;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
-  };
-  return full(a) == full(b);
+std::vector<std::byte> bytes_of(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
 }
 
 std::string ending_of(const std::string& path) {

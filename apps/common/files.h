@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "relievo/core/error.h"
@@ -13,12 +14,11 @@ namespace relievo::app {
 // Returns the bytes of a file. Errors: kind input, telling why it cannot be read.
 Result<std::vector<std::byte>> read_file(const std::string& path);
 
-// Fails if a file of that path could not be written later: folder missing or read-only, or the path is a
-// folder or a device.
-Result<void> check_writable(const std::string& path);
-
-// Returns whether both paths lead to the same file, which need not exist.
-bool is_same_file(const std::string& a, const std::string& b);
+// Checks the path of an output before the work for it begins. Errors: kind option if it has none of the endings,
+// given as ".stl" (any will do if there are none), or leads to one of the files in `taken`; kind output if no file
+// could be written there: folder missing or read-only, or the path is a folder or a device.
+Result<void> check_output(const std::string& path, const std::vector<std::string_view>& endings,
+                          std::span<const std::string> taken = {});
 
 // A finished file, not yet written.
 struct OutputFile {
@@ -34,7 +34,10 @@ Result<void> write_files(std::span<const OutputFile> files);
 // From now on Ctrl-C and other signals that end the program remove its temporary files first.
 void remove_temporary_files_on_signals();
 
-// The path's ending in lower case, without the dot.
+// Returns the text as the content of a file.
+std::vector<std::byte> bytes_of(std::string_view text);
+
+// Returns the path's ending in lower case, without the dot.
 std::string ending_of(const std::string& path);
 
 }  // namespace relievo::app

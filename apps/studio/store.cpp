@@ -51,8 +51,7 @@ Result<void> Store::write(const std::string& name, std::string_view text) const 
   const fs::path path = fs::path(folder_) / name;
   fs::create_directories(path.parent_path(), ignored);
   fs::permissions(folder_, fs::perms::owner_all, ignored);
-  const auto bytes = std::as_bytes(std::span(text));
-  const OutputFile file{path.string(), {bytes.begin(), bytes.end()}};
+  const OutputFile file{path.string(), bytes_of(text)};
   return write_files({&file, 1});
 }
 

@@ -1,4 +1,4 @@
-// The renderer of all pictures of bodies: previews, live pictures and contact sheets.
+// The renderer of all pictures of bodies: previews, live pictures and comparisons.
 #pragma once
 
 #include "picture/body.h"

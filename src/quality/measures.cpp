@@ -1,7 +1,6 @@
 #include "relievo/quality/measures.h"
 #include "core/angle.h"
 #include "core/quantile.h"
-#include "relievo/core/image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,15 +36,6 @@ Plane product(const Plane& a, const Plane& b) {
   Plane out(a.size());
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] * b[i];
   return out;
-}
-
-Image8 to_grey(const Plane& light, int width) {
-  Image8 image{width, width > 0 ? static_cast<int>(light.size()) / width : 0, 1,
-               std::vector<std::uint8_t>(light.size())};
-  for (std::size_t i = 0; i < light.size(); ++i)
-    image.pixels[i] =
-        static_cast<std::uint8_t>(std::pow(std::clamp(light[i], 0.F, 1.F), 1 / 2.2F) * 255 + .5F);
-  return image;
 }
 
 }  // namespace
@@ -196,15 +186,6 @@ Measures ReliefMetrics::measure(std::span<const double> heights) const {
   m.order = order_kept(z, reference_->depth, reference_->measured, order_pairs);
   reference_->guard(z, n, heights, m);
   return m;
-}
-
-Image8 ReliefMetrics::shade(std::span<const double> heights, const Vec3f& light) const {
-  const NormalPicture n = normals_of(reference_->heights_in_pixels(heights), reference_->width());
-  return to_grey(lambert(n, light.normalized()), reference_->width());
-}
-
-Image8 ReliefMetrics::shade_model(const Vec3f& light) const {
-  return to_grey(lambert(reference_->normals, light.normalized()), reference_->width());
 }
 
 }  // namespace relievo

@@ -129,6 +129,13 @@ struct FrameMaker::Packed {
   }
 };
 
+std::vector<Vec3f> vertex_normals(const Surface& surface, std::span<const float> heights) {
+  std::vector<Vec3f> normals(heights.size());
+  vertex_normal_matrix(in_plane(surface.points), surface.triangulation, surface.boundary)
+      .normals(heights, normals);
+  return normals;
+}
+
 FrameMaker::FrameMaker(const ReliefModel& model) : packed_(std::make_unique<Packed>(model)) {}
 FrameMaker::FrameMaker(FrameMaker&&) noexcept = default;
 FrameMaker::~FrameMaker() = default;

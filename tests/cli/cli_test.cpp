@@ -38,6 +38,12 @@ std::string line_of(const std::string& listing, const std::string& label) {
   return line.substr(line.find_first_not_of(' ', label.size()));
 }
 
+int count(const std::string& text, std::string_view part) {
+  int found = 0;
+  for (std::size_t at = 0; (at = text.find(part, at)) != std::string::npos; at += part.size()) ++found;
+  return found;
+}
+
 // The torus is 2.8 units wide and seen along its axis: 50 mm of relief and twice 5 mm of margin, 3 mm of relief on 3 mm.
 TEST_F(Cli, MakesEverythingAskedFor) {
   const Outcome outcome =
@@ -230,15 +236,20 @@ TEST_F(Cli, MakesReliefsByEveryMethod) {
 }
 
 TEST_F(Cli, ComparesMethods) {
+  fs::copy_file(folder_ / "torus.ply", folder_ / "a&b <torus>.ply");
   const Outcome outcome =
-      run("compare torus.ply -o s.png --height 0.02,0.05 --methods layered,linear --json");
+      run("compare 'a&b <torus>.ply' -o page.html --height 0.02,0.05 --methods layered,linear --json");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("\"shading\""), std::string::npos);
-  EXPECT_EQ(read_all(folder_ / "s.png").substr(1, 3), "PNG");
+  const std::string page = read_all(folder_ / "page.html");
+  EXPECT_NE(page.find("<title>Reliefs of a&amp;b &lt;torus>.ply</title>"), std::string::npos);
+  EXPECT_EQ(count(page, "<tr>"), 1 + 2);                                   // the heights below the heading
+  EXPECT_EQ(count(page, "src=\"data:image/png;base64,iVBORw0KG"), 1 + 4);  // the model and the reliefs
+  EXPECT_EQ(count(page, "alt=\"Relief by linear, 5 % high\""), 1);
   EXPECT_NE(run("compare torus.ply --height 0.05").out.find("gradient"), std::string::npos);
-  expect_refusal("compare torus.ply -o c.png --methods carving", "carving");
-  expect_refusal("compare torus.ply -o c.jpg", "c.jpg");
-  expect_refusal("compare torus.ply -o c.png --height 0", "--height");
+  expect_refusal("compare torus.ply -o c.html --methods carving", "carving");
+  expect_refusal("compare torus.ply -o c.png", "c.png: expected a file ending in .html");
+  expect_refusal("compare torus.ply -o c.html --height 0", "--height");
 }
 
 TEST_F(Cli, HelpTellsRangesAndDefaults) {

@@ -66,14 +66,15 @@ Image<T> pattern(int width, int height, int channels) {
 }
 
 TEST(WritePng, KeepsEveryPixelOfColourAndGrey) {
-  for (const int channels : {1, 3}) {
+  for (const auto& [channels, type] :
+       {std::pair{1, PNG_COLOR_TYPE_GRAY}, {3, PNG_COLOR_TYPE_RGB}, {4, PNG_COLOR_TYPE_RGBA}}) {
     for (const int width : {1, 2, 17, 300}) {
       const Image8 image = pattern<std::uint8_t>(width, 23, channels);
       const Decoded decoded = decode(write_png(image));
       EXPECT_EQ(decoded.width, width);
       EXPECT_EQ(decoded.height, 23);
       EXPECT_EQ(decoded.bits, 8);
-      EXPECT_EQ(decoded.colour_type, channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY);
+      EXPECT_EQ(decoded.colour_type, type);
       ASSERT_EQ(decoded.samples.size(), image.pixels.size());
       EXPECT_EQ(std::memcmp(decoded.samples.data(), image.pixels.data(), image.pixels.size()), 0);
     }

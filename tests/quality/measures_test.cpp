@@ -199,17 +199,5 @@ TEST(Measures, HaveTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.order, three.order);
 }
 
-TEST(Measures, ShadeTheModelAsTheReliefThatEqualsIt) {
-  const ReliefMetrics judge(bumpy());
-  const Image8 model = judge.shade_model({-1, 1, 1}), relief = judge.shade(depths(bumpy()), {-1, 1, 1});
-  ASSERT_EQ(model.pixels.size(), relief.pixels.size());
-  EXPECT_EQ(std::max(model.width, model.height),
-            ReliefMetrics::longer_side_px + 2 * ReliefMetrics::margin_px);
-  double difference = 0;
-  for (std::size_t i = 0; i < model.pixels.size(); ++i)
-    difference += std::abs(model.pixels[i] - relief.pixels[i]);
-  EXPECT_LT(difference / static_cast<double>(model.pixels.size()), 4);
-}
-
 }  // namespace
 }  // namespace relievo

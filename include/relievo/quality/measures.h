@@ -7,7 +7,6 @@
 #include <memory>
 #include <span>
 
-#include "relievo/core/image.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo {
@@ -34,9 +33,9 @@ struct Measures {
 class ReliefMetrics {
  public:
   static constexpr int longer_side_px = 512;
-  static constexpr int margin_px = 8;  // of background around it, in the pictures
+  static constexpr int margin_px = 8;  // of background around it
 
-  // Copies what it needs. The pictures have no pixels if the surface has no area.
+  // Copies what it needs. No pixels are measured if the surface has no area.
   explicit ReliefMetrics(const Surface& surface);
   ReliefMetrics(ReliefMetrics&&) noexcept;
   ~ReliefMetrics();
@@ -44,11 +43,6 @@ class ReliefMetrics {
   // Measures heights above the base, one per point of the surface. All zeros if no pixel is far enough from
   // silhouette and jumps; correlations with something constant are 0.
   Measures measure(std::span<const double> heights) const;
-
-  // Return the Lambert shading of a relief and of the model as grey levels. The light need not be a unit vector; the
-  // background is level.
-  Image8 shade(std::span<const double> heights, const Vec3f& light) const;
-  Image8 shade_model(const Vec3f& light) const;
 
   // Returns the number of pixels that are measured.
   std::size_t pixels() const;

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "relievo/core/types.h"
@@ -37,6 +38,9 @@ struct Frame {
       true;  // false if a locked height is out of reach: then the relief is as high as can be
   FrameTimes times;
 };
+
+// Returns the normals that a frame of the surface with these heights, one per point, has (stage 13).
+std::vector<Vec3f> vertex_normals(const Surface& surface, std::span<const float> heights);
 
 // Makes frames of one model. Not for concurrent use. Allocates nothing per frame once a frame has its size.
 class FrameMaker {

@@ -41,9 +41,12 @@ void append(png_structp png, png_bytep data, png_size_t size) {
   if (is_full) png_error(png, "out of memory");
 }
 
+int colour_type(int channels) {
+  return channels == 1 ? PNG_COLOR_TYPE_GRAY : channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_RGBA;
+}
+
 void write_header(png_structp png, png_infop info, const Job& job) {
-  png_set_IHDR(png, info, job.width, job.height, job.bit_depth,
-               job.channels == 3 ? PNG_COLOR_TYPE_RGB : PNG_COLOR_TYPE_GRAY, PNG_INTERLACE_NONE,
+  png_set_IHDR(png, info, job.width, job.height, job.bit_depth, colour_type(job.channels), PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   if (job.pixels_per_metre > 0)
     png_set_pHYs(png, info, job.pixels_per_metre, job.pixels_per_metre, PNG_RESOLUTION_METER);
@@ -79,10 +82,9 @@ std::vector<std::byte> encode(Job job) {
 
 template <typename T>
 bool has_pixels(const Image<T>& image) {
-  return image.width > 0 && image.height > 0 && (image.channels == 1 || image.channels == 3) &&
-         image.pixels.size() == static_cast<std::size_t>(image.width) *
-                                    static_cast<std::size_t>(image.height) *
-                                    static_cast<std::size_t>(image.channels);
+  const bool is_known = image.channels == 1 || image.channels == 3 || image.channels == 4;
+  return is_known && image.width > 0 && image.height > 0 &&
+         image.pixels.size() == image.index(0, image.height);
 }
 
 template <typename T>

@@ -1,0 +1,32 @@
+// The page of `compare`: pictures of a model and of reliefs of it, with their measures.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "relievo/core/image.h"
+#include "relievo/quality/measures.h"
+#include "relievo/relief/method.h"
+
+namespace relievo::app::cli {
+
+struct ComparedRelief {
+  Method method;
+  double height = 0;  // of the width
+  Measures measures;
+  Image8 picture;  // empty unless a page is wanted, as is the model's
+};
+
+struct Comparison {
+  std::string scan;  // as the user named it
+  std::vector<Method> methods;
+  std::size_t visible_points = 0, measured_pixels = 0;
+  Image8 model;
+  std::vector<ComparedRelief> reliefs = {};  // by height, then in the order of the methods
+  std::vector<std::string> remarks = {};
+};
+
+// Returns one HTML file with a row for each height and a column for each method. It refers to no other file.
+std::string comparison_page(const Comparison& comparison);
+
+}  // namespace relievo::app::cli
