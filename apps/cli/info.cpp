@@ -45,12 +45,12 @@ Result<void> depth_info(std::span<const std::byte> bytes, const std::string& inp
   if (!image) return std::unexpected(image.error());
   std::size_t missing = 0;
   float low = std::numeric_limits<float>::infinity(), high = -low;
-  for (const float v : image->values) {
+  for (const float v : image->values.pixels) {
     missing += !std::isfinite(v) || v == 0;
     if (std::isfinite(v) && v != 0) low = std::min(low, v), high = std::max(high, v);
   }
   print_line("format", cat(image->format, ", taken as a depth image"));
-  print_line("pixels", cat(image->width, " x ", image->height));
+  print_line("pixels", cat(image->values.width, " x ", image->values.height));
   print_line("values", low <= high ? cat(low, " to ", high) : "none");
   print_line("missing", cat(missing, " (0 or not finite)"));
   return {};

@@ -77,7 +77,7 @@ Result<void> take_base_image(const std::string& path, BaseOptions& base) {
                         cat("expected base image with it, found ", name_in(base_choices, base.kind)));
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
   RELIEVO_TRY(DepthImage image, read_depth_image(bytes, path));
-  base.image = std::make_shared<const HeightGrid>(image.width, image.height, std::move(image.values));
+  base.image = std::make_shared<const Image<float>>(std::move(image.values));
   return {};
 }
 

@@ -43,7 +43,8 @@ Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
 }
 
 std::string remark_on(const DepthImage& image, const DepthCloud& made) {
-  std::string line = cat(image.width, " x ", image.height, " depths, ", made.missing, " missing");
+  std::string line =
+      cat(image.values.width, " x ", image.values.height, " depths, ", made.missing, " missing");
   if (made.background > 0) line += cat(", ", made.background, " points of background taken out");
   if (made.cut > 0) line += cat(", ", made.cut, " on ramps cut");
   return line + cat(", smoothed within ", made.noise, " pixels");

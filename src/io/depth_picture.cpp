@@ -25,9 +25,10 @@ Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::strin
   if (format == io::picture_formats.end())
     return source.error({}, "expected a PNG or TIFF picture of depths, found another file");
   Result<DepthImage> image = format->read(source);
-  if (image && (image->width < 4 || image->height < 4))
-    return source.error({},
-                        cat("expected at least 4 x 4 pixels, found ", image->width, " x ", image->height));
+  if (!image) return image;
+  const auto [width, height] = std::pair(image->values.width, image->values.height);
+  if (width < 4 || height < 4)
+    return source.error({}, cat("expected at least 4 x 4 pixels, found ", width, " x ", height));
   return image;
 }
 

@@ -94,14 +94,10 @@ class Reader {
 
   // Fails if the channels differ: then the picture is a photograph, or depths were painted in colours.
   Result<DepthImage> as_depths(const std::vector<png_byte>& bytes) const {
-    DepthImage image{static_cast<int>(job_.width),
-                     static_cast<int>(job_.height),
-                     {},
-                     1,
-                     "PNG, " + std::to_string(job_.bits) + " bits"};
+    DepthImage image{{}, 1, "PNG, " + std::to_string(job_.bits) + " bits"};
+    image.values.resize(static_cast<int>(job_.width), static_cast<int>(job_.height));
     const std::size_t value_size = static_cast<std::size_t>(job_.bits / 8);
     const auto channels = static_cast<std::size_t>(job_.channels);
-    image.values.resize(std::size_t{job_.width} * job_.height);
     for (std::size_t i = 0; i < image.values.size(); ++i) {
       const png_byte* pixel = bytes.data() + i * channels * value_size;
       for (std::size_t c = 1; c < channels; ++c)

@@ -49,7 +49,8 @@ bool read_lines(TIFF* tiff, const Layout& layout, NumberType type, DepthImage& i
   if (line.size() < layout.width * size_in_bytes(type)) return false;
   for (std::uint32_t r = 0; r < layout.height; ++r) {
     if (TIFFReadScanline(tiff, line.data(), r) != 1) return false;
-    decode_run(type, line.data(), layout.width, image.values.data() + std::size_t{r} * layout.width);
+    decode_run(type, line.data(), layout.width,
+               image.values.pixels.data() + image.values.index(0, static_cast<int>(r)));
   }
   return true;
 }
@@ -67,7 +68,7 @@ bool read_tiles(TIFF* tiff, const Layout& layout, NumberType type, DepthImage& i
       const std::uint32_t columns = std::min(layout.tile_width, layout.width - x);
       for (std::uint32_t r = 0; r < std::min(layout.tile_height, layout.height - y); ++r)
         decode_run(type, tile.data() + r * row, columns,
-                   image.values.data() + std::size_t{y + r} * layout.width + x);
+                   &image.values.at(static_cast<int>(x), static_cast<int>(y + r)));
     }
   return true;
 }
@@ -100,9 +101,9 @@ Result<DepthImage> read_depth_tiff(const Source& source) {
   if (!type)
     return source.error({}, "expected 8 or 16 bits or float32, found " + std::to_string(layout.bits) +
                                 " bits of another kind");
-  DepthImage image{static_cast<int>(layout.width), static_cast<int>(layout.height),
-                   std::vector<float>(pixels), *type == NumberType::float32 ? 0.0 : 1.0,
-                   "TIFF, " + std::to_string(layout.bits) + " bits"};
+  DepthImage image{
+      {}, *type == NumberType::float32 ? 0.0 : 1.0, "TIFF, " + std::to_string(layout.bits) + " bits"};
+  image.values.resize(static_cast<int>(layout.width), static_cast<int>(layout.height));
   const bool is_read = TIFFIsTiled(file.handle()) ? read_tiles(file.handle(), layout, *type, image)
                                                   : read_lines(file.handle(), layout, *type, image);
   if (!is_read) return broken();

@@ -131,14 +131,13 @@ Result<void> Base::lay_image(const BaseOptions& options, const Vec2& size) {
                         cat("expected a height image of at least 2 x 2 finite values, found ", found));
   };
   if (!options.image) return wrong("none");
-  const HeightGrid& grid = *options.image;
-  if (grid.width < 2 || grid.height < 2 ||
-      grid.values.size() != static_cast<std::size_t>(grid.width) * static_cast<std::size_t>(grid.height))
+  const Image<float>& image = *options.image;
+  if (image.width < 2 || image.height < 2 || image.size() != image.index(0, image.height))
     return wrong("a smaller one");
-  if (!std::ranges::all_of(grid.values, [](float z) { return std::isfinite(z); }))
+  if (!std::ranges::all_of(image.pixels, [](float z) { return std::isfinite(z); }))
     return wrong("others: fill its holes");
-  image_ = std::make_shared<const Image>(options.image, size,
-                                         options.height_mm.value_or(.1 * std::max(size.x(), size.y())));
+  image_ = std::make_shared<const ImageSurface>(
+      options.image, size, options.height_mm.value_or(.1 * std::max(size.x(), size.y())));
   min_feature_mm_ = image_->pixel_mm();
   return {};
 }

@@ -19,16 +19,17 @@ Weights weights_at(double t) {
 
 }  // namespace
 
-Base::Image::Image(std::shared_ptr<const HeightGrid> grid, const Vec2& plate_mm, double height_mm)
+Base::ImageSurface::ImageSurface(std::shared_ptr<const Image<float>> grid, const Vec2& plate_mm,
+                                 double height_mm)
     : grid_(std::move(grid)) {
   pixel_mm_ = std::max(plate_mm.x() / grid_->width, plate_mm.y() / grid_->height);
-  const auto [lowest, highest] = std::ranges::minmax(grid_->values);
+  const auto [lowest, highest] = std::ranges::minmax(grid_->pixels);
   const double span = static_cast<double>(highest) - static_cast<double>(lowest);
   mm_per_value_ = span > 0 ? height_mm / span : 0;
   middle_ = value(Vec2::Zero());
 }
 
-double Base::Image::value(const Vec2& from_middle) const {
+double Base::ImageSurface::value(const Vec2& from_middle) const {
   const double x = from_middle.x() / pixel_mm_ + (grid_->width - 1) / 2.0,
                y = (grid_->height - 1) / 2.0 - from_middle.y() / pixel_mm_;
   const int column = static_cast<int>(std::floor(std::clamp(x, -2.0, grid_->width + 2.0))),
@@ -41,17 +42,14 @@ double Base::Image::value(const Vec2& from_middle) const {
     double line = 0;
     for (int i = 0; i < 4; ++i) {
       const int c = std::clamp(column + i - 1, 0, grid_->width - 1);
-      line +=
-          across[i] * static_cast<double>(
-                          grid_->values[static_cast<std::size_t>(r) * static_cast<std::size_t>(grid_->width) +
-                                        static_cast<std::size_t>(c)]);
+      line += across[i] * static_cast<double>(grid_->at(c, r));
     }
     total += down[j] * line;
   }
   return total;
 }
 
-double Base::Image::height(const Vec2& from_middle) const {
+double Base::ImageSurface::height(const Vec2& from_middle) const {
   return mm_per_value_ * (value(from_middle) - middle_);
 }
 

@@ -8,11 +8,11 @@ namespace relievo {
 
 // The cubic B-spline whose control points are the map's values: it is smooth, stays between the values around
 // a place, and so levels the steps that rounding left. Beyond the border the outermost values continue.
-class Base::Image {
+class Base::ImageSurface {
  public:
   // Centres the map on a plate of that size and scales it until it covers the plate; its highest value lies
   // `height_mm` above its lowest.
-  Image(std::shared_ptr<const HeightGrid> grid, const Vec2& plate_mm, double height_mm);
+  ImageSurface(std::shared_ptr<const Image<float>> grid, const Vec2& plate_mm, double height_mm);
 
   double pixel_mm() const { return pixel_mm_; }
   double height(const Vec2& from_middle) const;
@@ -21,7 +21,7 @@ class Base::Image {
   // Returns the spline at a place, in the map's unit.
   double value(const Vec2& from_middle) const;
 
-  std::shared_ptr<const HeightGrid> grid_;
+  std::shared_ptr<const Image<float>> grid_;
   double pixel_mm_ = 1, mm_per_value_ = 0;
   double middle_ = 0;  // the value in the plate's middle
 };

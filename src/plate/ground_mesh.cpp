@@ -42,49 +42,43 @@ class Lattice {
   Lattice(std::span<const Vec2> polygon, double spacing) : spacing_(spacing), row_(spacing * std::sqrt(.75)) {
     const Box box = Box::of(polygon);
     min_ = box.min.head<2>();
-    columns_ = 2 + static_cast<int>(box.size().x() / spacing_);
-    rows_ = 1 + static_cast<int>(box.size().y() / row_);
-    is_free_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 1);
+    is_free_ = filled_image(2 + static_cast<int>(box.size().x() / spacing_),
+                            1 + static_cast<int>(box.size().y() / row_), std::uint8_t{1});
   }
 
   // Removes the points within a circle, or less than a third of the spacing outside it.
   void clear(const Vec2& centre, double radius) {
     const double wide = radius + spacing_ / 3;
     const int first = row_of(centre.y() - wide), last = row_of(centre.y() + wide) + 1;
-    for (int row = std::max(0, first); row <= std::min(rows_ - 1, last); ++row) {
+    for (int row = std::max(0, first); row <= std::min(is_free_.height - 1, last); ++row) {
       const double start = min_.x() + shift(row);
       const int left = static_cast<int>(std::max(0., std::floor((centre.x() - wide - start) / spacing_))),
                 right = static_cast<int>(
-                    std::min(columns_ - 1., std::ceil((centre.x() + wide - start) / spacing_)));
+                    std::min(is_free_.width - 1., std::ceil((centre.x() + wide - start) / spacing_)));
       for (int column = left; column <= right; ++column)
-        if ((place(column, row) - centre).squaredNorm() < wide * wide) is_free_[at(column, row)] = 0;
+        if ((place(column, row) - centre).squaredNorm() < wide * wide) is_free_.at(column, row) = 0;
     }
   }
 
   // Returns the remaining points that lie inside the polygon, at least half the spacing from its sides.
   std::vector<Vec2> points_within(std::span<const Vec2> polygon) const {
     std::vector<Vec2> points;
-    for (int row = 0; row < rows_; ++row)
-      for (int column = 0; column < columns_; ++column)
-        if (is_free_[at(column, row)] && is_within(place(column, row), polygon, spacing_ / 2))
+    for (int row = 0; row < is_free_.height; ++row)
+      for (int column = 0; column < is_free_.width; ++column)
+        if (is_free_.at(column, row) && is_within(place(column, row), polygon, spacing_ / 2))
           points.push_back(place(column, row));
     return points;
   }
 
  private:
   int row_of(double y) const {
-    return static_cast<int>(std::clamp(std::floor((y - min_.y()) / row_), -2., rows_ + 2.));
+    return static_cast<int>(std::clamp(std::floor((y - min_.y()) / row_), -2., is_free_.height + 2.));
   }
   double shift(int row) const { return row % 2 == 0 ? 0 : spacing_ / 2; }
   Vec2 place(int column, int row) const { return min_ + Vec2(column * spacing_ + shift(row), row * row_); }
-  std::size_t at(int column, int row) const {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-           static_cast<std::size_t>(column);
-  }
   double spacing_, row_;
   Vec2 min_;
-  int columns_ = 0, rows_ = 0;
-  std::vector<std::uint8_t> is_free_;
+  Image8 is_free_;
 };
 
 struct Circle {

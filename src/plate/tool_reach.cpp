@@ -139,31 +139,28 @@ class AtHull {
 };
 
 // The samples that a point of the front lies in or next to.
-std::vector<std::uint8_t> near_points(const Leavings& leavings, const std::vector<Vec3>& points) {
-  const auto width = static_cast<std::size_t>(leavings.width());
-  std::vector<std::uint8_t> is_near(width * static_cast<std::size_t>(leavings.height()));
+Image8 near_points(const Leavings& leavings, const std::vector<Vec3>& points) {
+  Image8 is_near = filled_image(leavings.width(), leavings.height(), std::uint8_t{0});
   for (const Vec3& p : points) {
     const Vec2 place = leavings.to_samples(p);
     const int column = static_cast<int>(place.x()), row = static_cast<int>(place.y());
-    for (int y = std::max(row - 1, 0); y <= std::min(row + 1, leavings.height() - 1); ++y)
-      for (int x = std::max(column - 1, 0); x <= std::min(column + 1, leavings.width() - 1); ++x)
-        is_near[static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)] = 1;
+    for (int y = row - 1; y <= row + 1; ++y)
+      for (int x = column - 1; x <= column + 1; ++x)
+        if (is_near.contains(x, y)) is_near.at(x, y) = 1;
   }
   return is_near;
 }
 
 // Points of what the tool leaves, and around there, where the front has none: few where it is level.
 std::vector<Vec3> points_left(const Leavings& leavings, const HeightFieldMesh& front) {
-  const std::vector<std::uint8_t> is_near = near_points(leavings, front.points);
+  const Image8 is_near = near_points(leavings, front.points);
   const AtHull at_hull(front);
   constexpr int stride = 3;  // a quarter of the radius of a tool that samples_for() can follow
   constexpr float least_mm = 1e-3F;
   std::vector<Vec3> points;
   for (int y = stride; y + stride < leavings.height(); y += stride)
     for (int x = stride; x + stride < leavings.width(); x += stride) {
-      const auto i = static_cast<std::size_t>(y) * static_cast<std::size_t>(leavings.width()) +
-                     static_cast<std::size_t>(x);
-      if (!leavings.is_front(x, y) || is_near[i] != 0) continue;
+      if (!leavings.is_front(x, y) || is_near.at(x, y) != 0) continue;
       float most = 0;
       for (const int dy : {-stride, 0, stride})
         for (const int dx : {-stride, 0, stride}) most = std::max(most, leavings.at(x + dx, y + dy));

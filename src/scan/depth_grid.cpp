@@ -25,9 +25,9 @@ class HeightScale {
  public:
   HeightScale(const DepthImage& image, const DepthOptions& options) : kind_(options.values) {
     double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const float v : image.values)
+    for (const float v : image.values.pixels)
       if (is_known(v)) low = std::min(low, double{v}), high = std::max(high, double{v});
-    const int longer = std::max(image.width, image.height);
+    const int longer = std::max(image.values.width, image.values.height);
     is_log_ = options.camera.has_value() || kind_ == DepthValues::inverse;
     floor_ = kind_ == DepthValues::inverse ? std::max(farthest_inverse * high, 1e-30) : 1e-30;
     // The camera of an estimator's image is not known. Most have a field of view of about 50 degrees, for
@@ -60,7 +60,7 @@ class ValueSteps {
   explicit ValueSteps(const DepthImage& image) : least_(image.step / 2) {
     if (image.step == 0) return;
     std::map<float, std::size_t> counts;
-    for (const float v : image.values)
+    for (const float v : image.values.pixels)
       if (std::isfinite(v)) ++counts[v];
     for (const auto& [value, count] : counts)
       if (count >= 3) values_.push_back(value);
@@ -185,7 +185,7 @@ std::optional<Block> mean_of(std::vector<Block>& pixels, std::size_t all) {
 }
 
 int reduction_for(const DepthImage& image, double points) {
-  const double pixels = static_cast<double>(image.width) * image.height;
+  const double pixels = static_cast<double>(image.values.width) * image.values.height;
   return std::max(1, static_cast<int>(std::lround(std::sqrt(pixels / points))));
 }
 
@@ -198,19 +198,18 @@ DepthGrid make_grid(const DepthImage& image, const DepthOptions& options) {
   DepthGrid grid;
   grid.reduction = k;
   BoundedGrid& b = grid.bounds;
-  b.width = image.width / k, b.height = image.height / k;
+  b.width = image.values.width / k, b.height = image.values.height / k;
   const std::size_t n = b.at(0, b.height);
   for (auto* values : {&b.low, &b.high, &grid.height}) values->assign(n, 0);
   for (auto* flags : {&b.is_known, &b.joins_right, &b.joins_down}) flags->assign(n, 0);
-  for (const float v : image.values) grid.missing += !scale.is_known(v);
+  for (const float v : image.values.pixels) grid.missing += !scale.is_known(v);
   std::vector<Block> pixels;
   for (int r = 0; r < b.height; ++r)
     for (int c = 0; c < b.width; ++c) {
       pixels.clear();
       for (int y = r * k; y < (r + 1) * k; ++y)
         for (int x = c * k; x < (c + 1) * k; ++x) {
-          const float v = image.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
-                                       static_cast<std::size_t>(x)];
+          const float v = image.values.at(x, y);
           if (!scale.is_known(v)) continue;
           const double off = steps.uncertainty(v), one = scale.height(double{v} - off),
                        other = scale.height(double{v} + off);

@@ -38,8 +38,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span bytes(reinterpret_cast<const std::byte*>(data + 1), size - 1);
   if (!check_answer(read_cloud(bytes, name), name).empty()) std::abort();
   const auto image = read_depth_image(bytes, name);
-  const bool has_all = !image || image->values.size() == static_cast<std::size_t>(image->width) *
-                                                             static_cast<std::size_t>(image->height);
+  const bool has_all = !image || image->values.size() == image->values.index(0, image->values.height);
   if (!has_all) std::abort();
   Bytes source(bytes);
   (void)stream_front(source, name, *parse_view("front"), 1000);

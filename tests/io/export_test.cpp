@@ -104,10 +104,10 @@ TEST(WriteTiff, KeepsEveryHeight) {
   const auto image = read_depth_image(bytes, "h.tif");
   ASSERT_TRUE(image) << image.error().message();
   EXPECT_EQ(image->format, "TIFF, 32 bits");
-  EXPECT_EQ(image->width, 200);
-  EXPECT_EQ(image->height, 200);
-  EXPECT_EQ(image->values, heights.image.pixels);
-  EXPECT_NEAR(*std::max_element(image->values.begin(), image->values.end()), 2.5, .05);
+  EXPECT_EQ(image->values.width, 200);
+  EXPECT_EQ(image->values.height, 200);
+  EXPECT_EQ(image->values.pixels, heights.image.pixels);
+  EXPECT_NEAR(std::ranges::max(image->values.pixels), 2.5, .05);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   EXPECT_NE(text.find("heights in mm, mm_per_pixel=0.1,"), std::string::npos);
 }

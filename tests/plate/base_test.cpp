@@ -14,20 +14,20 @@ const std::vector<Vec2> plate = {
     {-40, -20}, {60, -20}, {60, 40}, {-40, 40}};  // 100 x 60, its middle at 10, 10
 const Vec2 middle(10, 10);
 
-std::shared_ptr<const HeightGrid> ramp_image() {
-  HeightGrid grid{100, 60, std::vector<float>(6000)};
-  for (std::size_t i = 0; i < 6000; ++i) grid.values[i] = static_cast<float>(i % 100) / 99;
-  return std::make_shared<const HeightGrid>(std::move(grid));
+std::shared_ptr<const Image<float>> ramp_image() {
+  Image<float> grid = filled_image(100, 60, 0.F);
+  for (std::size_t i = 0; i < 6000; ++i) grid[i] = static_cast<float>(i % 100) / 99;
+  return std::make_shared<const Image<float>>(std::move(grid));
 }
 
-std::shared_ptr<const HeightGrid> hilly_image() {
-  HeightGrid grid{50, 40, std::vector<float>(2000)};
+std::shared_ptr<const Image<float>> hilly_image() {
+  Image<float> grid = filled_image(50, 40, 0.F);
   for (std::size_t i = 0; i < 2000; ++i)
-    grid.values[i] = std::sin(.3F * static_cast<float>(i % 50)) * std::cos(.2F * static_cast<float>(i / 50));
-  return std::make_shared<const HeightGrid>(std::move(grid));
+    grid[i] = std::sin(.3F * static_cast<float>(i % 50)) * std::cos(.2F * static_cast<float>(i / 50));
+  return std::make_shared<const Image<float>>(std::move(grid));
 }
 
-Base over(std::string_view text, std::shared_ptr<const HeightGrid> image = nullptr) {
+Base over(std::string_view text, std::shared_ptr<const Image<float>> image = nullptr) {
   auto options = parse_base(text);
   EXPECT_TRUE(options) << (options ? "" : options.error().message());
   options->image = std::move(image);
@@ -118,11 +118,11 @@ TEST(Base, IsZeroInTheMiddleAndNoHigherThanAsked) {
 }
 
 TEST(Base, AnImageOfStepsHasNone) {
-  HeightGrid grid{200, 120, std::vector<float>(24000)};
+  Image<float> grid = filled_image(200, 120, 0.F);
   for (std::size_t i = 0; i < 24000; ++i)  // a ramp in steps of ten pixels, 5 mm
-    grid.values[i] = static_cast<float>(i % 200 / 10);
+    grid[i] = static_cast<float>(i % 200 / 10);
   BaseOptions options = *parse_base("image:height=19");
-  options.image = std::make_shared<const HeightGrid>(grid);
+  options.image = std::make_shared<const Image<float>>(grid);
   const Base base = *Base::over(options, plate);
   const auto slope = [&](double x) { return (base.height({x + .01, 0}) - base.height({x, 0})) / .01; };
   for (double x = -30; x < 50; x += .01) EXPECT_LT(std::abs(slope(x + .01) - slope(x)), .1);
@@ -144,9 +144,9 @@ TEST(Base, RefusesWhatCannotBe) {
                            "dome:diameter=110", "dome:height=300", "fold:height=400", "image"})
     EXPECT_TRUE(complaint(text).starts_with("base: expected ")) << text << ": " << complaint(text);
   BaseOptions options = *parse_base("image");
-  HeightGrid holey = *hilly_image();
-  holey.values[7] = std::nanf("");
-  options.image = std::make_shared<const HeightGrid>(holey);
+  Image<float> holey = *hilly_image();
+  holey[7] = std::nanf("");
+  options.image = std::make_shared<const Image<float>>(holey);
   EXPECT_FALSE(Base::over(options, plate));
 }
 

@@ -50,10 +50,10 @@ HeightFieldMesh scattered_hill() {
 
 PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectangle, double rim = 0) {
   PlateOptions options{2, 1.5, outline, 3, {rim, .8, .4}, *parse_base(shape)};
-  HeightGrid grid{40, 30, std::vector<float>(1200)};
+  Image<float> grid = filled_image(40, 30, 0.F);
   for (std::size_t i = 0; i < 1200; ++i)
-    grid.values[i] = std::sin(.2F * static_cast<float>(i % 40)) + std::cos(.15F * static_cast<float>(i / 40));
-  options.base.image = std::make_shared<const HeightGrid>(grid);
+    grid[i] = std::sin(.2F * static_cast<float>(i % 40)) + std::cos(.15F * static_cast<float>(i / 40));
+  options.base.image = std::make_shared<const Image<float>>(grid);
   return options;
 }
 

@@ -17,9 +17,9 @@ constexpr int width = 240, height = 180;
 // Values of a function of the pixel.
 template <typename F>
 DepthImage image_of(F&& value, double step) {
-  DepthImage image{width, height, {}, step, "test"};
+  DepthImage image{{width, height, 1, {}}, step, "test"};
   for (int r = 0; r < height; ++r)
-    for (int c = 0; c < width; ++c) image.values.push_back(static_cast<float>(value(c, r)));
+    for (int c = 0; c < width; ++c) image.values.pixels.push_back(static_cast<float>(value(c, r)));
   return image;
 }
 
@@ -116,7 +116,7 @@ TEST(DepthCloud, StaysWithinTheStepEverywhere) {
   const DepthImage image = image_of([&](int c, int r) { return std::round(100 * hills(c, r)); }, 1);
   const auto made = depth_cloud(image, as_heights());
   ASSERT_TRUE(made);
-  const auto [low, high] = std::ranges::minmax(image.values);
+  const auto [low, high] = std::ranges::minmax(image.values.pixels);
   const double step = .5 * width / double{high - low};
   for (const Vec3& p : made->cloud.points)
     EXPECT_NEAR(p.z() / step, double{image.values[pixel_of(p)]}, .5001);

@@ -7,19 +7,13 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "relievo/core/choice.h"
 #include "relievo/core/error.h"
+#include "relievo/core/image.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
-
-// Heights in any unit, row-major, first row at the top.
-struct HeightGrid {
-  int width = 0, height = 0;
-  std::vector<float> values;
-};
 
 enum class BaseKind {
   plane,
@@ -49,8 +43,8 @@ struct BaseOptions {
   double direction_deg = 90;  // of the straight lines, counter-clockwise from the x axis; 90 is upright
   bool is_hollow = false;     // turned over: a valley, a trough, a bowl
   bool is_mirrored = false;   // left and right swapped
-  std::shared_ptr<const HeightGrid>
-      image;  // image: its heights; height_mm is then a tenth of the plate by default
+  // image: its heights in any unit; height_mm is then a tenth of the plate by default
+  std::shared_ptr<const Image<float>> image;
 };
 
 // Returns the base of a text like "wave", "wave:height=3,length=40" or "dome:diameter=90,hollow". Errors:
@@ -82,7 +76,7 @@ class Base {
   std::optional<double> ridge_between(const Vec2& a, const Vec2& b) const;
 
  private:
-  class Image;
+  class ImageSurface;
 
   Vec2 from_middle(const Vec2& place) const;
   double profile(const Vec2& p) const;  // the height of a base that is not hollow
@@ -97,7 +91,7 @@ class Base {
   double wave_number_ = 0;
   double sign_ = 1, mirror_ = 1;
   double min_feature_mm_ = std::numeric_limits<double>::infinity();
-  std::shared_ptr<const Image> image_;
+  std::shared_ptr<const ImageSurface> image_;
 };
 
 }  // namespace relievo

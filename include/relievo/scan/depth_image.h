@@ -8,18 +8,18 @@
 #include <vector>
 
 #include "relievo/core/choice.h"
+#include "relievo/core/image.h"
 #include "relievo/core/option_field.h"
 #include "relievo/core/progress.h"
 #include "relievo/scan/cloud.h"
 
 namespace relievo {
 
-// Values as in the file, row by row, the first row at the top; NaN where there is no value.
+// Depths as a file has them.
 struct DepthImage {
-  int width = 0, height = 0;
-  std::vector<float> values;
-  double step = 0;     // difference between possible values: 1 for whole numbers, 0 for fractions
-  std::string format;  // for people: "PNG, 16 bits"
+  Image<float> values;  // NaN where there is no value
+  double step = 0;      // difference between possible values: 1 for whole numbers, 0 for fractions
+  std::string format;   // for people: "PNG, 16 bits"
 };
 
 // A pinhole camera, in pixels.
