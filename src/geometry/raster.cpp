@@ -129,7 +129,7 @@ void Rasterizer::draw_triangle(Index t, Rows rows, RowBand& band) const {
   const DepthPlane plane = plane_through(scene_.points[i], scene_.points[j], scene_.points[k]);
   for (int row = rows.begin; row < rows.end; ++row) {
     const Columns columns = columns_inside(edges, scene_.width);
-    Fragment* const fragments = band.fragments.data() + std::ptrdiff_t{row - band.first_row} * scene_.width;
+    Fragment* const fragments = &band.fragments.at(0, row - band.first_row);
     const double z0 = plane.value + (row + 0.5) * plane.per_row + 0.5 * plane.per_column;
     for (int column = columns.begin; column < columns.end; ++column) {
       const double z = std::clamp(z0 + column * plane.per_column, plane.lowest, plane.highest);
@@ -141,15 +141,12 @@ void Rasterizer::draw_triangle(Index t, Rows rows, RowBand& band) const {
 }
 
 RowBand Rasterizer::draw(std::size_t b) const {
-  RowBand band;
-  band.first_row = static_cast<int>(b) * band_rows_;
-  band.rows = std::min(band_rows_, scene_.height - band.first_row);
-  band.fragments.resize(static_cast<std::size_t>(band.rows) * static_cast<std::size_t>(scene_.width));
+  const int first = static_cast<int>(b) * band_rows_, end = std::min(first + band_rows_, scene_.height);
+  RowBand band{first, filled_image(scene_.width, end - first, Fragment{})};
   for (std::size_t at = first_[b]; at < first_[b + 1]; ++at) {
     const Index t = triangles_[at];
     const Rows rows = rows_of(scene_.triangles[t]);
-    draw_triangle(t, {std::max(rows.begin, band.first_row), std::min(rows.end, band.first_row + band.rows)},
-                  band);
+    draw_triangle(t, {std::max(rows.begin, first), std::min(rows.end, end)}, band);
   }
   return band;
 }

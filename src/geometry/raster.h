@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "relievo/core/image.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
@@ -24,10 +25,10 @@ struct Fragment {
   Index triangle = no_index;  // no_index: nothing
 };
 
-// Some full rows of the picture, row-major.
+// Some full rows of the picture.
 struct RowBand {
-  int first_row = 0, rows = 0;
-  std::vector<Fragment> fragments;
+  int first_row = 0;
+  Image<Fragment> fragments;
 };
 
 // Triangles sorted into bands of rows, which can be drawn in any order and concurrently. The coverage test is

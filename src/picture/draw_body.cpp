@@ -99,11 +99,10 @@ struct SeenTriangle {
 
 // The triangles that the n x n samples of a pixel show, each once: colours are computed for triangles, not for
 // samples.
-int find_seen(const RowBand& band, int width, int column, int row, int n,
-              std::array<SeenTriangle, most_samples>& seen) {
+int find_seen(const RowBand& band, int column, int row, int n, std::array<SeenTriangle, most_samples>& seen) {
   int count = 0;
   for (int y = row * n; y < row * n + n; ++y) {
-    const Fragment* const fragments = band.fragments.data() + std::ptrdiff_t{y - band.first_row} * width;
+    const Fragment* const fragments = &band.fragments.at(0, y - band.first_row);
     for (int x = column * n; x < column * n + n; ++x) {
       const Index t = fragments[x].triangle;
       if (t == no_index) continue;
@@ -126,12 +125,12 @@ void draw_triangles(const DrawnBody& body, const RasterInput& input, const Paint
   const auto draw_band = [&](std::size_t b) {
     const RowBand band = rasterizer.draw(b);
     std::array<SeenTriangle, most_samples> seen;
-    for (int row = band.first_row / n; row < (band.first_row + band.rows) / n; ++row) {
+    for (int row = band.first_row / n; row < (band.first_row + band.fragments.height) / n; ++row) {
       std::uint8_t* rgba = &picture.at(0, row);
       for (int column = 0; column < picture.width; ++column, rgba += 4) {
         Vec3f sum = Vec3f::Zero();
         int covered = 0;
-        const int count = find_seen(band, input.width, column, row, n, seen);
+        const int count = find_seen(band, column, row, n, seen);
         for (int i = 0; i < count; ++i) {
           const auto samples = static_cast<float>(seen[i].samples);
           const Vec3f place = seen[i].places / samples;

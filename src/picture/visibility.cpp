@@ -46,8 +46,8 @@ void draw_visibility(const DrawnBody& body, const RasterInput& input, Visibility
   const Rasterizer rasterizer(input, 16);
   const auto draw_band = [&](std::size_t b) {
     const RowBand band = rasterizer.draw(b);
-    const Fragment* fragment = band.fragments.data();
-    for (int y = band.first_row; y < band.first_row + band.rows; ++y)
+    const Fragment* fragment = band.fragments.pixels.data();
+    for (int y = band.first_row; y < band.first_row + band.fragments.height; ++y)
       for (int x = 0; x < input.width; ++x, ++fragment)
         buffer.at(x, y) =
             fragment->triangle == no_index

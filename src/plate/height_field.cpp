@@ -58,9 +58,9 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   const auto draw_band = [&](std::size_t b) {
     const RowBand band = rasterizer.draw(b);
     const auto first = static_cast<std::ptrdiff_t>(field.z.index(0, band.first_row));
-    std::ranges::transform(band.fragments, field.z.pixels.begin() + first,
+    std::ranges::transform(band.fragments.pixels, field.z.pixels.begin() + first,
                            [](const Fragment& fragment) { return std::max(0.F, fragment.z); });
-    std::ranges::transform(band.fragments, field.is_beside.pixels.begin() + first,
+    std::ranges::transform(band.fragments.pixels, field.is_beside.pixels.begin() + first,
                            [](const Fragment& fragment) { return fragment.triangle == no_index; });
   };
   parallel_for(rasterizer.bands(), draw_band, 1);

@@ -12,19 +12,18 @@ constexpr int radius_px = 6;
 // A tenth of the pairs of ReliefMetrics: the order is then within 0.005 of the exact one.
 constexpr std::size_t fewer_pairs = 20000;
 
-Measured half_measured(const ModelPicture& picture) {
+PixelMask half_measured(const ModelPicture& picture) {
   const auto row = static_cast<std::size_t>(picture.width());
-  const int width = picture.width() / 2, height = picture.grid.height() / 2;
-  std::vector<std::uint8_t> measured(static_cast<std::size_t>(width * height));
+  Image8 measured = filled_image(picture.width() / 2, picture.grid.height() / 2, std::uint8_t{0});
   each_half(picture.grid, [&](std::size_t i, std::size_t first) {
-    const std::uint8_t* m = &picture.measured.is_measured[first];
+    const std::uint8_t* m = &picture.measured.mask[first];
     measured[i] = m[0] && m[1] && m[row] && m[row + 1];
   });
-  return {width, std::move(measured)};
+  return PixelMask(std::move(measured));
 }
 
-Plane smoothed_curvature(const NormalPicture& n, const MeasuredGaussian& smoothing, const Measured& where) {
-  Plane sum = divergence(n.x, n.y, where);
+Image<float> smoothed_curvature(const NormalMap& n, const MaskedGaussian& smoothing, const PixelMask& where) {
+  Image<float> sum = divergence(n.x, n.y, where);
   smoothing.apply(sum, where);
   return sum;
 }
@@ -37,13 +36,13 @@ FastMetrics::FastMetrics(const Surface& surface)
       smoothing_(sigma_px, radius_px, where_),
       exact_smoothing_(detail_gaussian(detail_scales_px.back(), picture_.measured)),
       depth_(halved(picture_.depth)) {
-  const NormalPicture& n = picture_.normals;
+  const NormalMap& n = picture_.normals;
   curvature_ = smoothed_curvature({halved(n.x), halved(n.y), {}}, smoothing_, where_);
   exact_curvature_ = smoothed_curvature(n, exact_smoothing_, picture_.measured);
 }
 
-Plane FastMetrics::halved(const Plane& fine) const {
-  Plane half(where_.is_measured.size());
+Image<float> FastMetrics::halved(const Image<float>& fine) const {
+  Image<float> half = filled_image(where_.mask.width, where_.mask.height, 0.F);
   const auto row = static_cast<std::size_t>(picture_.width());
   each_half(picture_.grid, [&](std::size_t i, std::size_t first) {
     const float* v = &fine[first];
@@ -53,21 +52,21 @@ Plane FastMetrics::halved(const Plane& fine) const {
 }
 
 // Heights are in pixels twice as wide.
-Plane FastMetrics::draw(std::span<const double> heights) const {
-  Plane half = halved(picture_.heights_in_pixels(heights));
-  for (float& z : half) z /= 2;
+Image<float> FastMetrics::draw(std::span<const double> heights) const {
+  Image<float> half = halved(picture_.heights_in_pixels(heights));
+  for (float& z : half.pixels) z /= 2;
   return half;
 }
 
-Scores FastMetrics::estimate(const Plane& z) const {
-  const Plane curvature = smoothed_curvature(normals_of(z, where_.width), smoothing_, where_);
+Scores FastMetrics::estimate(const Image<float>& z) const {
+  const Image<float> curvature = smoothed_curvature(normals_of(z), smoothing_, where_);
   return {correlation(curvature, curvature_, where_), order_kept(z, depth_, where_, fewer_pairs)};
 }
 
 Scores FastMetrics::exact_scores(std::span<const double> heights) const {
-  const Plane z = picture_.heights_in_pixels(heights);
-  const Measured& measured = picture_.measured;
-  const Plane curvature = smoothed_curvature(normals_of(z, picture_.width()), exact_smoothing_, measured);
+  const Image<float> z = picture_.heights_in_pixels(heights);
+  const PixelMask& measured = picture_.measured;
+  const Image<float> curvature = smoothed_curvature(normals_of(z), exact_smoothing_, measured);
   return {correlation(curvature, exact_curvature_, measured),
           order_kept(z, picture_.depth, measured, order_pairs)};
 }

@@ -4,15 +4,15 @@
 
 #include <span>
 
+#include "quality/image_measures.h"
 #include "quality/model_picture.h"
-#include "quality/plane_measures.h"
 
 namespace relievo {
 
 // Calls f(pixel, first) for every pixel of a picture of half the width, row by row; `first` is the upper left
 // of the four pixels that it is made of.
 template <typename F>
-void each_half(const PictureGrid& grid, F&& f) {
+void each_half(const BarycentricMap& grid, F&& f) {
   const int width = grid.width() / 2;
   for (int y = 0; y < grid.height() / 2; ++y)
     for (int x = 0; x < width; ++x)
@@ -33,32 +33,32 @@ class FastMetrics {
   std::size_t pixels() const { return where_.pixels.size(); }
 
   // Draws heights, one per point, in pixels.
-  Plane draw(std::span<const double> heights) const;
+  Image<float> draw(std::span<const double> heights) const;
 
   // Does the same in a quarter of the time for heights without fine detail: height(i) is that of point i.
   template <typename F>
-  Plane draw_smooth(F&& height) const;
+  Image<float> draw_smooth(F&& height) const;
 
   // Estimates the scores of drawn heights, from curvature smoothed by 2 pixels and from fewer pairs.
-  Scores estimate(const Plane& z) const;
+  Scores estimate(const Image<float>& z) const;
 
   // Returns the scores that ReliefMetrics gives heights, one per point. Takes ten times as long.
   Scores exact_scores(std::span<const double> heights) const;
 
  private:
-  Plane halved(const Plane& fine) const;
+  Image<float> halved(const Image<float>& fine) const;
 
   ModelPicture picture_;  // at the full resolution of ReliefMetrics
-  Measured where_;
-  MeasuredGaussian smoothing_, exact_smoothing_;
-  Plane depth_, curvature_, exact_curvature_;  // of the model
+  PixelMask where_;
+  MaskedGaussian smoothing_, exact_smoothing_;
+  Image<float> depth_, curvature_, exact_curvature_;  // of the model
 };
 
 // Samples two of the four pixels, on a diagonal. Heights are in pixels twice as wide.
 template <typename F>
-Plane FastMetrics::draw_smooth(F&& height) const {
-  Plane half(where_.is_measured.size());
-  const PictureGrid& grid = picture_.grid;
+Image<float> FastMetrics::draw_smooth(F&& height) const {
+  Image<float> half = filled_image(where_.mask.width, where_.mask.height, 0.F);
+  const BarycentricMap& grid = picture_.grid;
   const auto across = static_cast<std::size_t>(grid.width()) + 1;
   const auto scale = static_cast<float>(1 / (4 * grid.units_per_pixel()));
   each_half(grid, [&](std::size_t i, std::size_t first) {

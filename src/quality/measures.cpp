@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "quality/image_measures.h"
 #include "quality/model_picture.h"
-#include "quality/plane_measures.h"
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
 
@@ -25,15 +25,15 @@ Vec3f light_direction(int i) {
       .cast<float>();
 }
 
-Plane lambert(const NormalPicture& n, const Vec3f& light) {
-  Plane out(n.x.size());
+Image<float> lambert(const NormalMap& n, const Vec3f& light) {
+  Image<float> out = filled_image(n.x.width, n.x.height, 0.F);
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = std::max(0.F, n.x[i] * light.x() + n.y[i] * light.y() + n.z[i] * light.z());
   return out;
 }
 
-Plane product(const Plane& a, const Plane& b) {
-  Plane out(a.size());
+Image<float> product(const Image<float>& a, const Image<float>& b) {
+  Image<float> out = filled_image(a.width, a.height, 0.F);
   for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] * b[i];
   return out;
 }
@@ -43,7 +43,7 @@ Plane product(const Plane& a, const Plane& b) {
 struct ReliefMetrics::Reference : ModelPicture {
   // The shading under a light, with its local mean and variance, which SSIM needs.
   struct Shading {
-    Plane mean, variance, light;
+    Image<float> mean, variance, light;
   };
   struct Edge {
     Index a, b;
@@ -55,8 +55,8 @@ struct ReliefMetrics::Reference : ModelPicture {
   };
 
   std::vector<Shading> shadings;
-  std::vector<MeasuredGaussian> smoothing;  // per scale of the detail
-  std::array<Plane, 3> curvature;           // smoothed
+  std::vector<MaskedGaussian> smoothing;  // per scale of the detail
+  std::array<Image<float>, 3> curvature;  // smoothed
   Steps steps;
   GaussianFilter window{1.5, safe_distance_px};
 
@@ -82,13 +82,13 @@ struct ReliefMetrics::Reference : ModelPicture {
       }
   }
 
-  Shading shading_of(const NormalPicture& n, int light) const {
+  Shading shading_of(const NormalMap& n, int light) const {
     Shading s;
     s.light = lambert(n, light_direction(light));
     s.mean = s.light;
-    window.apply(s.mean, width());
+    window.apply(s.mean);
     s.variance = product(s.light, s.light);
-    window.apply(s.variance, width());
+    window.apply(s.variance);
     for (std::size_t i = 0; i < s.variance.size(); ++i) s.variance[i] -= s.mean[i] * s.mean[i];
     return s;
   }
@@ -96,8 +96,8 @@ struct ReliefMetrics::Reference : ModelPicture {
   // Returns the structural similarity of Wang, Bovik, Sheikh, Simoncelli 2004, with their constants and window.
   double similarity(const Shading& a, const Shading& b) const {
     constexpr double c1 = .01 * .01, c2 = .03 * .03;
-    Plane ab = product(a.light, b.light);
-    window.apply(ab, width());
+    Image<float> ab = product(a.light, b.light);
+    window.apply(ab);
     double sum = 0;
     for (const Index i : measured.pixels) {
       const double ma = static_cast<double>(a.mean[i]), mb = static_cast<double>(b.mean[i]);
@@ -108,7 +108,7 @@ struct ReliefMetrics::Reference : ModelPicture {
     return sum / static_cast<double>(measured.pixels.size());
   }
 
-  double shading(const NormalPicture& n) const {
+  double shading(const NormalMap& n) const {
     std::array<double, lights> parts{};
     parallel_for(
         lights,
@@ -118,7 +118,7 @@ struct ReliefMetrics::Reference : ModelPicture {
     return sum / lights;
   }
 
-  double angle_deg(const NormalPicture& n) const {
+  double angle_deg(const NormalMap& n) const {
     double sum = 0;
     for (const Index i : measured.pixels) {
       const double cosine =
@@ -128,8 +128,8 @@ struct ReliefMetrics::Reference : ModelPicture {
     return to_degrees(sum / static_cast<double>(measured.pixels.size()));
   }
 
-  std::array<Plane, 3> smoothed_curvature(const NormalPicture& n) const {
-    std::array<Plane, 3> smoothed;
+  std::array<Image<float>, 3> smoothed_curvature(const NormalMap& n) const {
+    std::array<Image<float>, 3> smoothed;
     smoothed.fill(divergence(n.x, n.y, measured));
     parallel_for(
         smoothed.size(), [&](std::size_t s) { smoothing[s].apply(smoothed[s], measured); }, 1);
@@ -137,7 +137,7 @@ struct ReliefMetrics::Reference : ModelPicture {
   }
 
   // Fills in the measures of the pixels that the others leave out.
-  void guard(const Plane& z, const NormalPicture& n, std::span<const double> heights, Measures& m) const {
+  void guard(const Image<float>& z, const NormalMap& n, std::span<const double> heights, Measures& m) const {
     const double height_px = m.height / grid.units_per_pixel();
     const float steep = static_cast<float>(std::cos(to_radians(80)));
     std::vector<float> inside;
@@ -176,11 +176,11 @@ Measures ReliefMetrics::measure(std::span<const double> heights) const {
   const auto [low, high] = std::ranges::minmax(heights);
   m.height = std::max(high, 0.0) - std::min(low, 0.0);
   if (!(m.height > 0)) return m;
-  const Plane z = reference_->heights_in_pixels(heights);
-  const NormalPicture n = normals_of(z, reference_->width());
+  const Image<float> z = reference_->heights_in_pixels(heights);
+  const NormalMap n = normals_of(z);
   m.shading = reference_->shading(n);
   m.angle_deg = reference_->angle_deg(n);
-  const std::array<Plane, 3> curvature = reference_->smoothed_curvature(n);
+  const std::array<Image<float>, 3> curvature = reference_->smoothed_curvature(n);
   for (std::size_t s = 0; s < curvature.size(); ++s)
     m.detail[s] = correlation(curvature[s], reference_->curvature[s], reference_->measured);
   m.order = order_kept(z, reference_->depth, reference_->measured, order_pairs);

@@ -16,27 +16,26 @@ ModelPicture::ModelPicture(const Surface& surface, int longer_side_px, int margi
 
 void ModelPicture::classify(const Surface& surface) {
   const std::vector<std::uint8_t> is_jumping = jump_triangles(surface);
-  std::vector<std::uint8_t> is_outside(grid.pixels()), is_broken(grid.pixels());
+  Image8 is_outside = filled_image(grid.width(), grid.height(), std::uint8_t{0}), is_broken = is_outside;
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
     const Index t = grid.triangle(i);
     is_outside[i] = t == no_index || !surface.boundary.is_inside[t];
     is_broken[i] = is_outside[i] || is_jumping[t];
   }
   is_inside.resize(grid.pixels());
-  const std::vector<std::uint8_t> is_unsafe = widened(is_broken, width(), safe_distance_px);
-  std::vector<std::uint8_t> is_measured(grid.pixels());
+  const Image8 is_unsafe = dilated(is_broken, safe_distance_px);
+  Image8 is_measured = is_unsafe;
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
     is_inside[i] = !is_outside[i];
     is_measured[i] = !is_unsafe[i];
   }
-  measured = Measured(width(), std::move(is_measured));
+  measured = PixelMask(std::move(is_measured));
 }
 
 void ModelPicture::draw(const Surface& surface) {
-  const std::size_t n = grid.pixels();
-  normals = {Plane(n), Plane(n), Plane(n)};
-  depth.resize(n);
-  parallel_for(n, [&](std::size_t i) {
+  depth = filled_image(grid.width(), grid.height(), 0.F);
+  normals = {depth, depth, depth};
+  parallel_for(depth.size(), [&](std::size_t i) {
     depth[i] = grid.at(
         i, [&](Index p) { return static_cast<float>(surface.points[p].z()); }, 0);
     Vec3f normal = Vec3f::UnitZ();
@@ -49,8 +48,8 @@ void ModelPicture::draw(const Surface& surface) {
   });
 }
 
-Plane ModelPicture::heights_in_pixels(std::span<const double> heights) const {
-  Plane z(grid.pixels());
+Image<float> ModelPicture::heights_in_pixels(std::span<const double> heights) const {
+  Image<float> z = filled_image(grid.width(), grid.height(), 0.F);
   const double scale = 1 / grid.units_per_pixel();
   parallel_for(z.size(), [&](std::size_t i) {
     z[i] = grid.at(
@@ -59,9 +58,10 @@ Plane ModelPicture::heights_in_pixels(std::span<const double> heights) const {
   return z;
 }
 
-NormalPicture normals_of(const Plane& z, int width) {
-  NormalPicture n{Plane(z.size(), 0.F), Plane(z.size(), 0.F), Plane(z.size(), 1.F)};
-  const auto w = static_cast<std::size_t>(width);
+NormalMap normals_of(const Image<float>& z) {
+  const Image<float> level = filled_image(z.width, z.height, 0.F);
+  NormalMap n{level, level, filled_image(z.width, z.height, 1.F)};
+  const auto w = static_cast<std::size_t>(z.width);
   for (std::size_t row = w; row + w < z.size(); row += w)
     for (std::size_t i = row + 1; i + 1 < row + w; ++i) {
       const float dx = (z[i + 1] - z[i - 1]) / 2, dy = (z[i - w] - z[i + w]) / 2;

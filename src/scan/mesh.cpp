@@ -92,8 +92,8 @@ std::size_t covered_pixels(const RasterInput& scene) {
       raster.bands(),
       [&](std::size_t b) {
         const RowBand band = raster.draw(b);
-        covered[b] = static_cast<std::size_t>(
-            std::ranges::count_if(band.fragments, [](const Fragment& s) { return s.triangle != no_index; }));
+        covered[b] = static_cast<std::size_t>(std::ranges::count_if(
+            band.fragments.pixels, [](const Fragment& s) { return s.triangle != no_index; }));
       },
       1);
   std::size_t sum = 0;
@@ -154,48 +154,41 @@ class Sampler {
   // Draws the mesh and keeps the visible triangles along the middle lines of the pixels' rows and columns;
   // the outline is searched for along these only.
   void draw() {
-    const auto size = [](int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); };
-    along_rows_.assign(size(rows_, columns_ * fine), no_index);
-    along_columns_.assign(size(rows_ * fine, columns_), no_index);
+    along_rows_ = filled_image(columns_ * fine, rows_, no_index);
+    along_columns_ = filled_image(columns_, rows_ * fine, no_index);
     const Rasterizer raster(scene_, rows_per_band);
     const auto keep = [&](std::size_t b) {
       const RowBand band = raster.draw(b);
-      for (int r = 0; r < band.rows; ++r) {
+      for (int r = 0; r < band.fragments.height; ++r) {
         const int row = band.first_row + r;
-        const Fragment* const fragments = band.fragments.data() + size(r, scene_.width);
         for (int c = middle; c < scene_.width; c += fine)
-          along_columns_[size(row, columns_) + static_cast<std::size_t>(c / fine)] = fragments[c].triangle;
+          along_columns_.at(c / fine, row) = band.fragments.at(c, r).triangle;
         if (row % fine != middle) continue;
         for (int c = 0; c < scene_.width; ++c)
-          along_rows_[size(row / fine, columns_ * fine) + static_cast<std::size_t>(c)] =
-              fragments[c].triangle;
+          along_rows_.at(c, row / fine) = band.fragments.at(c, r).triangle;
       }
     };
     parallel_for(raster.bands(), keep, 1);
   }
 
   Index in_row(int row, int fine_column) const {
-    if (row >= rows_ || fine_column >= columns_ * fine) return no_index;
-    return along_rows_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_ * fine) +
-                       static_cast<std::size_t>(fine_column)];
+    return along_rows_.contains(fine_column, row) ? along_rows_.at(fine_column, row) : no_index;
   }
   Index in_column(int fine_row, int column) const {
-    if (fine_row >= rows_ * fine || column >= columns_) return no_index;
-    return along_columns_[static_cast<std::size_t>(fine_row) * static_cast<std::size_t>(columns_) +
-                          static_cast<std::size_t>(column)];
+    return along_columns_.contains(column, fine_row) ? along_columns_.at(column, fine_row) : no_index;
   }
 
   void sample_row(int row, Cloud& to) const {
     for (int column = -1; column < columns_; ++column) {
       const int x = column * fine + middle, y = row * fine + middle;
       if (column >= 0) add(in_row(row, x), x, y, to);
-      const auto across = [&](int step) { return x + step < 0 ? no_index : in_row(row, x + step); };
+      const auto across = [&](int step) { return in_row(row, x + step); };
       add_outline(across, [&](Index t, int step) { add(t, x + step, y, to); });
       if (column < 0) continue;
       const auto down = [&](int step) { return in_column(y + step, column); };
       add_outline(down, [&](Index t, int step) { add(t, x, y + step, to); });
       if (row > 0) continue;
-      const auto up = [&](int step) { return y - step < 0 ? no_index : in_column(y - step, column); };
+      const auto up = [&](int step) { return in_column(y - step, column); };
       add_outline(up, [&](Index t, int step) { add(t, x, y - step, to); });
     }
   }
@@ -242,7 +235,7 @@ class Sampler {
   double fine_pixel_;
   RasterInput scene_;
   int columns_, rows_;  // of the pixels
-  std::vector<Index> along_rows_, along_columns_;
+  Image<Index> along_rows_, along_columns_;
 };
 
 // Transforms a cloud from the view's frame to the model's.

@@ -54,7 +54,7 @@ std::vector<Fragment> draw_all(const RasterInput& scene, int band_rows) {
     const RowBand band = raster.draw(b);
     EXPECT_EQ(static_cast<std::size_t>(band.first_row) * static_cast<std::size_t>(scene.width),
               fragments.size());
-    fragments.insert(fragments.end(), band.fragments.begin(), band.fragments.end());
+    fragments.insert(fragments.end(), band.fragments.pixels.begin(), band.fragments.pixels.end());
   }
   return fragments;
 }

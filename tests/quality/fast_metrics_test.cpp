@@ -42,7 +42,7 @@ TEST(FastMetrics, EstimatesWhatReliefMetricsMeasures) {
               .05 * static_cast<double>(fast.pixels()));
   for (const std::vector<double>& heights : reliefs(surface)) {
     const Measures whole = metrics.measure(heights);
-    const Plane z = fast.draw(heights);
+    const Image<float> z = fast.draw(heights);
     EXPECT_NEAR(fast.estimate(z).detail, whole.detail[2], .0005 + .08 * (1 - whole.detail[2]));
     EXPECT_NEAR(fast.estimate(z).order, whole.order, .008);
   }
@@ -64,8 +64,8 @@ TEST(FastMetrics, DrawsSmoothHeightsAlike) {
   const FastMetrics fast(surface);
   std::vector<double> heights;
   for (const Vec3& p : surface.points) heights.push_back(.1 * std::sin(3 * p.x()) + .05 * p.y() * p.y());
-  const Plane a = fast.draw(heights),
-              b = fast.draw_smooth([&](Index i) { return static_cast<float>(heights[i]); });
+  const Image<float> a = fast.draw(heights),
+                     b = fast.draw_smooth([&](Index i) { return static_cast<float>(heights[i]); });
   ASSERT_EQ(a.size(), b.size());
   // In pixels; but at silhouettes, where some of the four lie outside.
   std::size_t unlike = 0, inside = 0;
@@ -76,7 +76,7 @@ TEST(FastMetrics, DrawsSmoothHeightsAlike) {
 TEST(FastMetrics, KnowsALevelReliefShowsNothing) {
   const Surface surface = figure();
   const FastMetrics fast(surface);
-  const Plane level = fast.draw(std::vector<double>(surface.points.size()));
+  const Image<float> level = fast.draw(std::vector<double>(surface.points.size()));
   EXPECT_EQ(fast.estimate(level).detail, 0);
   EXPECT_EQ(fast.estimate(level).order, 0);
 }

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "quality/picture.h"
+#include "quality/barycentric_map.h"
 #include "relief/baselines/scaled.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/baselines.h"
@@ -13,9 +13,8 @@ namespace {
 
 // The depths as a picture: the histogram bin and the weight of each pixel. The background weighs nothing.
 struct DepthPicture {
-  int width = 0, height = 0;
-  std::vector<int> bin;
-  Plane weight;
+  Image<int> bin;
+  Image<float> weight;
 };
 
 struct Depths {
@@ -32,9 +31,10 @@ struct Depths {
   }
 };
 
-DepthPicture draw(const Surface& surface, const PictureGrid& grid, const Depths& depths,
+DepthPicture draw(const Surface& surface, const BarycentricMap& grid, const Depths& depths,
                   const EqualiseOptions& options) {
-  DepthPicture picture{grid.width(), grid.height(), std::vector<int>(grid.pixels()), Plane(grid.pixels())};
+  DepthPicture picture{filled_image(grid.width(), grid.height(), 0),
+                       filled_image(grid.width(), grid.height(), 0.F)};
   const double a = options.gradient_gain;
   parallel_for(grid.pixels(), [&](std::size_t i) {
     const Index t = grid.triangle(i);
@@ -54,11 +54,9 @@ using Histogram = std::vector<double>;
 Histogram histogram_around(const DepthPicture& picture, int column, int row, int window, int bins) {
   Histogram counts(static_cast<std::size_t>(bins));
   const int half = window / 2;
-  for (int y = std::max(0, row - half); y < std::min(picture.height, row + half); ++y)
-    for (int x = std::max(0, column - half); x < std::min(picture.width, column + half); ++x) {
-      const int i = y * picture.width + x;
-      counts[static_cast<std::size_t>(picture.bin[i])] += static_cast<double>(picture.weight[i]);
-    }
+  for (int y = std::max(0, row - half); y < std::min(picture.bin.height, row + half); ++y)
+    for (int x = std::max(0, column - half); x < std::min(picture.bin.width, column + half); ++x)
+      counts[static_cast<std::size_t>(picture.bin.at(x, y))] += static_cast<double>(picture.weight.at(x, y));
   return counts;
 }
 
@@ -79,12 +77,12 @@ class Lattice {
  public:
   Lattice(const DepthPicture& picture, int window, const EqualiseOptions& options)
       : step_(std::max(1, window / 4)),
-        columns_(picture.width / step_ + 2),
-        curves_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(picture.height / step_ + 2)) {
+        curves_(filled_image(picture.bin.width / step_ + 2, picture.bin.height / step_ + 2, Histogram())) {
     parallel_for(
         curves_.size(),
         [&](std::size_t node) {
-          const int column = static_cast<int>(node) % columns_, row = static_cast<int>(node) / columns_;
+          const int column = static_cast<int>(node) % curves_.width,
+                    row = static_cast<int>(node) / curves_.width;
           curves_[node] = histogram_around(picture, column * step_, row * step_, window, options.bins);
           equalise(curves_[node], options.clip);
         },
@@ -102,21 +100,21 @@ class Lattice {
 
  private:
   double value(int column, int row, double depth) const {
-    const Histogram& curve = curves_[static_cast<std::size_t>(row * columns_ + column)];
+    const Histogram& curve = curves_.at(column, row);
     const auto bin = static_cast<std::size_t>(depth);
     const double from = bin > 0 ? curve[bin - 1] : 0;
     return from + (depth - static_cast<double>(bin)) * (curve[bin] - from);
   }
 
-  int step_, columns_;
-  std::vector<Histogram> curves_;
+  int step_;
+  Image<Histogram> curves_;
 };
 
 }  // namespace
 
 Relief equalised_relief(const Surface& surface, double height, const EqualiseOptions& options) {
   std::vector<double> z(surface.points.size(), 0.0);
-  const PictureGrid grid(surface.points, surface.triangulation, options.picture_px, 0);
+  const BarycentricMap grid(surface.points, surface.triangulation, options.picture_px, 0);
   if (grid.pixels() == 0) return scaled_relief(std::move(z), surface, height);
   const Depths depths(surface, options.bins);
   const DepthPicture picture = draw(surface, grid, depths, options);

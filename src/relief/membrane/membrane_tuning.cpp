@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/extent.h"
-#include "quality/plane_measures.h"
+#include "quality/image_measures.h"
 #include "relief/height_span.h"
 #include "relievo/core/parallel.h"
 #include "relievo/quality/measures.h"
@@ -89,7 +89,7 @@ class TuningSearch {
     const double share = at_u(params).height_share;
     comparison_.correction().solve(HeightLimits::of(share * span_, at_u(params)), workspace_);
     const FastMetrics& metrics = comparison_.metrics();
-    Plane z = metrics.draw_smooth([&](Index p) { return comparison_.correction().at(p, workspace_); });
+    Image<float> z = metrics.draw_smooth([&](Index p) { return comparison_.correction().at(p, workspace_); });
     const auto scale = static_cast<float>((2 - share) / (2 - at_u(initial).height_share));
     for (std::size_t i = 0; i < z.size(); ++i) z[i] = scale * (z[i] + drawn_[i]);
     return metrics.estimate(z);
@@ -156,7 +156,7 @@ class TuningSearch {
   int steps_ = 0;
   HeightCorrection::Workspace workspace_;
   std::vector<double> initial_heights_;  // before compression
-  Plane drawn_;                          // the same, drawn
+  Image<float> drawn_;                   // the same, drawn
   Scores required_;
   MembraneParams nearest_;
   double least_shortfall_ = 0;

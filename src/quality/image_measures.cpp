@@ -1,4 +1,4 @@
-#include "quality/plane_measures.h"
+#include "quality/image_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,31 +6,30 @@
 #include "core/random.h"
 
 namespace relievo {
-namespace {}  // namespace
-
-Measured::Measured(int w, std::vector<std::uint8_t> measured) : width(w), is_measured(std::move(measured)) {
-  for (Index i = 0; i < is_measured.size(); ++i)
-    if (is_measured[i]) pixels.push_back(i);
+PixelMask::PixelMask(Image8 image) : mask(std::move(image)) {
+  for (Index i = 0; i < mask.size(); ++i)
+    if (mask[i]) pixels.push_back(i);
 }
 
-Plane divergence(const Plane& x, const Plane& y, const Measured& where) {
-  Plane sum(x.size(), 0.F);
-  const auto w = static_cast<std::size_t>(where.width);
+Image<float> divergence(const Image<float>& x, const Image<float>& y, const PixelMask& where) {
+  Image<float> sum = filled_image(x.width, x.height, 0.F);
+  const auto w = static_cast<std::size_t>(x.width);
   for (const Index i : where.pixels) sum[i] = (x[i + 1] - x[i - 1] + y[i - w] - y[i + w]) / 2;
   return sum;
 }
 
-MeasuredGaussian::MeasuredGaussian(double sigma, int radius, const Measured& where)
-    : filter_(sigma, radius), weight_(where.is_measured.begin(), where.is_measured.end()) {
-  if (!weight_.empty()) filter_.apply(weight_, where.width);
+MaskedGaussian::MaskedGaussian(double sigma, int radius, const PixelMask& where)
+    : filter_(sigma, radius), weight_(filled_image(where.mask.width, where.mask.height, 0.F)) {
+  for (const Index i : where.pixels) weight_[i] = 1;
+  filter_.apply(weight_);
 }
 
-void MeasuredGaussian::apply(Plane& plane, const Measured& where) const {
-  if (!plane.empty()) filter_.apply(plane, where.width);
-  for (const Index i : where.pixels) plane[i] /= weight_[i];
+void MaskedGaussian::apply(Image<float>& image, const PixelMask& where) const {
+  filter_.apply(image);
+  for (const Index i : where.pixels) image[i] /= weight_[i];
 }
 
-double correlation(const Plane& a, const Plane& b, const Measured& where) {
+double correlation(const Image<float>& a, const Image<float>& b, const PixelMask& where) {
   double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
   for (const Index i : where.pixels) ma += static_cast<double>(a[i]), mb += static_cast<double>(b[i]);
   const auto n = static_cast<double>(where.pixels.size());
@@ -42,7 +41,8 @@ double correlation(const Plane& a, const Plane& b, const Measured& where) {
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
-double order_kept(const Plane& z, const Plane& depth, const Measured& where, std::size_t pairs) {
+double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where,
+                  std::size_t pairs) {
   const std::vector<Index>& at = where.pixels;
   if (at.empty()) return 0;
   const auto [low, high] = std::ranges::minmax_element(at, {}, [&](Index i) { return depth[i]; });

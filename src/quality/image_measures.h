@@ -1,0 +1,54 @@
+// Measures of how much of its model a relief keeps, on images.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "quality/image_filters.h"
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// Some pixels of an image: those that are measured.
+struct PixelMask {
+  Image8 mask;                // never in the first and last row and column
+  std::vector<Index> pixels;  // their indices
+
+  PixelMask() = default;
+  explicit PixelMask(Image8 image);
+};
+
+// Returns div (x, y) at measured pixels, whatever their neighbours are, 0 elsewhere. y points up, rows run down.
+Image<float> divergence(const Image<float>& x, const Image<float>& y, const PixelMask& where);
+
+// Gaussian blur over measured pixels alone (normalised convolution).
+class MaskedGaussian {
+ public:
+  MaskedGaussian(double sigma, int radius, const PixelMask& where);
+  // Values at other pixels must be 0 before, and are undefined afterwards.
+  void apply(Image<float>& image, const PixelMask& where) const;
+
+ private:
+  GaussianFilter filter_;
+  Image<float> weight_;  // the part of the kernel that lies on measured pixels
+};
+
+// Parameters of ReliefMetrics: the standard deviations of the detail, in pixels, and the number of random pairs of
+// the order.
+inline constexpr std::array<int, 3> detail_scales_px{1, 2, 4};
+inline constexpr std::size_t order_pairs = 200000;
+
+// Returns the blur of the curvature for the detail at a scale.
+inline MaskedGaussian detail_gaussian(int scale_px, const PixelMask& where) {
+  return {static_cast<double>(scale_px), 3 * scale_px, where};
+}
+
+// Returns the correlation of values at measured pixels; 0 if all values of an image are equal.
+double correlation(const Image<float>& a, const Image<float>& b, const PixelMask& where);
+
+// Returns the share of random pairs of measured pixels, the same ones every time and further apart in depth
+// than 1 % of the depth range, whose order the heights z keep; 0 if there are none.
+double order_kept(const Image<float>& z, const Image<float>& depth, const PixelMask& where,
+                  std::size_t pairs);
+
+}  // namespace relievo
