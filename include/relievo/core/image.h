@@ -15,9 +15,12 @@ struct Image {
   std::vector<T> pixels;
 
   bool empty() const { return pixels.empty(); }
+
+  // The values in their order: row by row, the channels of a pixel side by side.
   std::size_t size() const { return pixels.size(); }
   T& operator[](std::size_t i) { return pixels[i]; }
   const T& operator[](std::size_t i) const { return pixels[i]; }
+
   bool contains(int x, int y) const { return x >= 0 && y >= 0 && x < width && y < height; }
 
   // Returns the position of the pixel's first value in `pixels`.
