@@ -1,6 +1,7 @@
 #include <utility>
 
 #include "plate/coincident_points.h"
+#include "relievo/core/length.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {

@@ -1,6 +1,4 @@
 #include "relievo/plate/tool.h"
-#include "core/angle.h"
-#include "relievo/core/image.h"
 
 #include <algorithm>
 #include <charconv>
@@ -9,8 +7,11 @@
 #include <optional>
 #include <string>
 
+#include "core/angle.h"
 #include "geometry/dilation.h"
 #include "plate/height_field.h"
+#include "relievo/core/image.h"
+#include "relievo/core/length.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 

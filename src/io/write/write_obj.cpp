@@ -2,6 +2,7 @@
 #include <charconv>
 
 #include "io/write/mesh_bytes.h"
+#include "relievo/core/length.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 #include "relievo/io/write.h"

@@ -1,5 +1,6 @@
 // Binary little-endian PLY with float vertices and triangles.
 #include "io/write/mesh_bytes.h"
+#include "relievo/core/length.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"

@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 
 #include "io/write/mesh_bytes.h"
+#include "relievo/core/length.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
