@@ -40,7 +40,7 @@ struct RaisedHeights {
       spans[begin / default_grain] = span_of_run(std::span<const Real>(z).subspan(begin, end - begin));
     });
     HeightSpan<Real> all;
-    for (const HeightSpan<Real>& span : spans) all.extend(span);
+    for (const HeightSpan<Real>& run : spans) all.extend(run);
     return all;
   }
 
