@@ -215,8 +215,7 @@ void add_input(CLI::App& command, MakeArguments& arguments) {
   command
       .add_option(
           "input", arguments.inputs,
-          "point cloud (PLY, PCD, LAS, XYZ, PTS), mesh (PLY, STL, OBJ, OFF, GLB) or depth image (PNG, "
-          "TIFF); several of them side by side; a scene (JSON) or a studio's project")
+          cat(readable_formats(), "; several of them side by side; a scene (JSON) or a studio's project"))
       ->required()
       ->type_name("INPUT");
 }

@@ -8,7 +8,7 @@ namespace relievo::app {
 namespace {
 
 std::string left_out(std::size_t points) {
-  return cat("left out ", points, " points far from all others");
+  return cat("left out ", points, " points far outside the model");
 }
 
 std::string text_of(const SampleNote& note) {

@@ -51,9 +51,9 @@ bool LoadedScan::is_one_file() const {
 // Keeps normals as long as every model has some, and colours likewise.
 void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double share, Cloud& all) {
   const bool is_mesh = !file.mesh.empty();
-  const std::vector<Index> strays = is_mesh ? std::vector<Index>() : outliers(file.cloud);
-  left_out_ += strays.size();
-  const Cloud near = share_of(erase_points(file.cloud, strays), share);
+  const std::vector<Index> outlying = is_mesh ? std::vector<Index>() : outliers(file.cloud);
+  left_out_ += outlying.size();
+  const Cloud near = share_of(erase_points(file.cloud, outlying), share);
   const bool is_first = all.size() == 0;
   const bool has_normals = near.has_normals() && (is_first || all.has_normals());
   const bool has_colours = near.has_colours() && (is_first || all.has_colours());

@@ -21,7 +21,7 @@ class LoadedScan {
   // outliers; of meshes their corners. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
-  // Returns the number of outliers: points of clouds that lie far from all others.
+  // Returns the number of outliers: points of clouds that lie far outside.
   std::size_t left_out() const { return left_out_; }
 
   // Returns the points that the relief of that view is made of. Errors: those of sample_for_view().

@@ -28,10 +28,9 @@ struct ReliefReport {
   double beta = 0, gamma = 0;
   double u = 0;  // alpha^-beta, see Compression
   std::optional<double> height_requested_mm;
-  double height_mm = 0;  // reached, lowest to highest point of the front, above its base
-  double below_ground_mm =
-      0;                    // of it, how deep the lowest point lies below the flat ground, which may be all
-  double steepest_deg = 0;  // of the front's triangles, as files hold them
+  double height_mm = 0;        // reached, lowest to highest point of the front, above its base
+  double below_ground_mm = 0;  // the part of height_mm that lies below the flat ground, in a die all of it
+  double steepest_deg = 0;     // of the front's triangles, as files hold them
 
   // Millimetres of the solid = scale * rotation * p + offset, for a point p of the cloud: exact in x and y;
   // in z the model keeps its depth and its lowest visible point lies on the ground, of a curved base on that
@@ -78,11 +77,11 @@ Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode = M
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
-// The same, bit for bit, for what a file holds: of a mesh the points that the viewer sees, without outliers. scene.h
-// has the same for several files. Errors: also those of sample_for_view() and prepare().
+// Samples the points of a file for the view, prepares them, and returns the same as the function above. scene.h has
+// this for several files. Errors: also those of sample_for_view() and prepare().
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);
 
-// The same for a cloud.
+// Does the same for a cloud.
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress = nullptr);
 
 // Returns the shape that the options ask for; where they give a height, its starting point.

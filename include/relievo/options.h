@@ -46,7 +46,7 @@ inline constexpr std::array<Choice<Finish>, 2> finish_choices{
     {{"full", Finish::full}, {"reachable", Finish::reachable}}};
 
 struct ReliefOptions : NumericOptions {
-  std::optional<Method> method;   // ours with a height, else the paper's
+  std::optional<Method> method;   // layered with a height, else the paper's
   std::optional<ToneCurve> tone;  // in place of (6) and the saturation
   Mode mode = Mode::exact;
   View view;

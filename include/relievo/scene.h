@@ -17,7 +17,7 @@ class Progress;
 struct MadeRelief;
 struct ReliefOptions;
 
-// The place of a model in a scene. The model is mirrored, scaled and turned about the centre of its own box, strays
+// The place of a model in a scene. The model is mirrored, scaled and turned about the centre of its own box, outliers
 // left out, and then moved.
 struct Pose {
   Vec3 rotate_deg = Vec3::Zero();      // about x, then y, then z; the axes stay; 90 about z takes x to y
@@ -51,23 +51,28 @@ struct PlacedModel {
   Vec3 operator()(const Vec3& p) const { return scale * (turn * p) + offset; }
 };
 
-// Returns where each model stands. With a `translate` anywhere, where the poses say: files that share one
-// frame fit together. Without, the models are arranged as the view shows them: side by side from left to
-// right, on one ground line, their middles equally deep, a gap of 8 % of their height between them. The
-// first, which keeps its size and, unless it is turned, its place, decides how high: the others become as
-// high, but those more than one and a half times as wide as that, only so wide. Their `scale` is on top of
-// this: 0.5 is half as high as the others. One model alone stays where it is. Errors: kind option for a
-// scene without models, for a scale not in [1e-6, 1e6], for angles and places that are not finite.
+// Returns where each model stands.
+// - If any pose has a `translate`, where the poses say: files that share one frame fit together.
+// - One model alone stays where it is.
+// - Otherwise the models are arranged as the view shows them: side by side from left to right, on one ground line,
+//   their middles equally deep, a gap of 8 % of their height between them. The first keeps its size and, unless it
+//   is turned, its place. The others become as high as the first, but at most one and a half times as wide as that
+//   height. Their `scale` is on top of this: 0.5 is half as high as the others.
+// Errors: kind option for a scene without models, for a scale not in [1e-6, 1e6], for angles and places that are
+// not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
-// Returns the points of all models as they stand, in the scene's frame. Meshes are seen together, hidden
-// parts left out, with about as many points as wanted; clouds come whole, without outliers. All have about one
-// sampling distance: that of the finest cloud, or the one at which the viewer sees about as many points as
-// wanted, if that is wider or the scene has meshes. Finer clouds are thinned to it; clouds that are much coarser,
-// of which only what the viewer sees is taken, get points in between. Normals are estimated, or turned, for each
-// model by itself. If any model has colours, the others are white. A single model that is not moved gives what
-// its file has. Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal
-// ones, naming the model; kind cancelled.
+// Returns the points of all models as they stand, in the scene's frame.
+// - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds come
+//   whole, without outliers.
+// - All models get about one sampling distance: that of the finest cloud, or the one at which as many points as
+//   wanted are visible, if that is wider or the scene has meshes. Finer clouds are thinned to it. Of much coarser
+//   ones only what the viewer sees is taken, with points in between.
+// - Normals are estimated, or turned, for each model by itself.
+// - If any model has colours, the others are white.
+// - A single model that is not moved gives what its file has.
+// Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones, naming
+// the model; kind cancelled.
 Result<ViewSample> sample_for_view(const Scene& scene, const View& view, double points,
                                    Progress* progress = nullptr);
 

@@ -13,7 +13,7 @@ struct Cloud;
 // A step that changed a model's points.
 struct SampleNote {
   enum class Kind {
-    outliers,           // `points` far from all others were left out
+    outliers,           // `points` far from the middle were left out
     estimated_normals,  // the model has none
     turned_normals,     // the model's point inwards
     mesh,               // `points` were taken from a mesh of `of` triangles

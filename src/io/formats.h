@@ -23,7 +23,22 @@ bool is_stl(const Source& source);
 bool is_obj(const Source& source);
 bool is_text(const Source& source);
 
-// Return the content of a file, with as many points as the file has. Errors: kind input.
+// Return the content of a file, with as many points as the file has. Errors: kind input. What is read:
+//
+// - PLY: ascii, binary little and big endian; x y z, nx ny nz and red green blue of any numeric type, in any
+//   order, among any other properties and elements. Of the elements after the vertices, `face` and
+//   `tristrips` are read. Each ascii row begins on a new line.
+// - OBJ: v, vn and f. The normal of a vertex is the mean of those that faces name for it; or, if no face
+//   names any, that of the vn in the same place of the file.
+// - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
+// - OFF, with normals (NOFF) and colours (COFF).
+// - glTF 2.0, .glb or .gltf with embedded buffers: the triangles of the scene, transformed by its nodes.
+// - PCD: ascii, binary and binary_compressed; x y z, normal_x normal_y normal_z and rgb.
+// - LAS 1.0 to 1.4, not compressed, with colours.
+// - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
+//   first; three columns that are unit vectors in nine of ten rows are normals. Allowed are a first line with
+//   the number of points (more may follow, but not fewer), comments (#, //) and a line of column names, which
+//   then decide. Other columns may contain anything. Numbers have a decimal point, never a comma.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_las(const Source& source);

@@ -25,7 +25,7 @@ struct Canvas {
   Image<Vec3f> normals;  // sums
 };
 
-// Calls f(pixel, depth there) for the pixels of rows [first, last) that the dot's disc covers.
+// Calls f(pixel, depth there) for the pixels of rows [first, last) that the dot's square covers.
 template <typename F>
 void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&& f) {
   const int top = std::max(first, static_cast<int>(std::floor(dot.place.y() - radius + .5F)));

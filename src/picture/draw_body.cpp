@@ -28,7 +28,7 @@ int light_map_px(const ScreenTransform& transform, bool is_fine) {
 // stands out, and lean towards the viewer: plain walls in the dark would look like holes.
 constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
-constexpr float wall_height = .55F;  // as light through them is, about the middle between thin and thick
+constexpr float wall_height = .55F;  // porcelain walls let light through as a plate of about mean thickness
 
 // The colour of places on a body.
 class Painter {

@@ -9,14 +9,14 @@
 namespace relievo {
 namespace {
 
-// Radii within which hollows are darkened, as shares of the front's longer side: one for folds and letters,
-// one for a figure before its ground.
-constexpr int hollow_shares[] = {120, 30};
+// Radii within which hollows are darkened are the front's longer side divided by these: one for folds and
+// letters, one for a figure before its ground.
+constexpr int hollow_divisors[] = {120, 30};
 
 // Sky that is left in the deepest hollow: black ones would look like holes.
 constexpr float darkest_hollow = .2F;
 
-// A hollow is as dark as 1/e of the way to that where it lies this share of the radius below its mean
+// A hollow keeps 1/e of the sky that can be hidden where it lies this share of the radius below its mean
 // surroundings: about 24 degrees, the slope of a clear fold.
 constexpr float hollow_depth = 1 / 2.2F;
 
@@ -118,7 +118,7 @@ LightMap::LightMap(const HeightField& field, const Vec3f& to_lamp)
   pixels_per_mm_ = static_cast<float>(1 / field.mm_per_pixel);
   origin_ = (field.to_pixels(Vec3::Zero()) - Vec2::Constant(0.5)).cast<float>();
   const int longer_side_px = std::max(light_.width, light_.height);
-  for (const int share : hollow_shares) hide_sky(field, std::max(1, longer_side_px / share), light_);
+  for (const int divisor : hollow_divisors) hide_sky(field, std::max(1, longer_side_px / divisor), light_);
   hide_lamp(field, to_lamp, light_);
   light_edge(field, light_);
 }

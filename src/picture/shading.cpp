@@ -14,8 +14,8 @@ constexpr float lamp_strength = .77F, sky_strength = .23F;
 // keep their form.
 constexpr float sky_away_x = .35F, sky_away_y = .2F, sky_up = .9F;
 
-// A raking lamp is turned up, as a photographer would do it. At this cosine of the angle between lamp and
-// plate, that of a lamp as far to the left and above as in front, it is as bright as it is.
+// A raking lamp is turned up, as a photographer would do it. At this cosine of the angle between lamp and normal,
+// that of a lamp as far to the left and above as in front, the exposure is 1.
 constexpr float usual_lamp_z = .577F;
 constexpr float least_exposure = .9F, most_exposure = 1.5F;
 

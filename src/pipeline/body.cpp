@@ -14,8 +14,8 @@ namespace {
 constexpr double bending_share = .25;  // of a tolerance, what a curved base may take
 constexpr double rim_bevel = .3;       // of the rim's height: 17 degrees from upright, so dies come off
 
-// The share of the steepest slope that simpler fronts keep: between that of limit_draft() and 1, which is left for
-// rounding.
+// The share of the steepest slope that simpler fronts keep. It is more than the 0.999 that limit_draft() keeps, so that
+// simplification has some room, and less than 1, which leaves some for rounding.
 constexpr double front_share = .9995;
 constexpr double most_held_mm = 1e-5;  // what enforce_draft_in_float() moves points by, as a rule
 constexpr double rounded_up = 1.002;   // bevels of curved rims are polygons, whose sides are steeper

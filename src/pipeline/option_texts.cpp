@@ -38,7 +38,7 @@ std::string_view method_without_one() {
   return text;
 }
 
-// Parses the options of the relief's height and compression.
+// Returns the rows of the relief's height and compression.
 std::vector<ReliefField> shape_rows() {
   return {
       ReliefField{
@@ -47,7 +47,7 @@ std::vector<ReliefField> shape_rows() {
           nullptr,
           as_slider},
       ReliefField{{"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4,
-                   1e5, "what alpha gives"},
+                   1e5, "what alpha gives, 2.4 for a lithophane"},
                   &OptionTexts::height_mm,
                   nullptr,
                   as_slider},
@@ -63,7 +63,7 @@ std::vector<ReliefField> shape_rows() {
                   saturation_of,
                   as_slider},
       ReliefField{{"detail", "G",
-                   "the paper's gamma, the strength of detail; with other methods, how much coarse "
+                   "the paper's gamma, the strength of detail; with method layered, how much coarse "
                    "shapes are attenuated",
                    0, 1},
                   &OptionTexts::detail,
@@ -78,7 +78,7 @@ std::vector<ReliefField> shape_rows() {
   };
 }
 
-// Parses the options of the relief's limits and of the side of the model it shows.
+// Returns the rows of the relief's limits and of the side of the model it shows.
 std::vector<ReliefField> view_rows() {
   return {
       ReliefField{{"steepest", "DEG",
@@ -104,7 +104,7 @@ std::vector<ReliefField> view_rows() {
       ReliefField{
           {.name = "mode",
            .unit = "MODE",
-           .help = "subspace solves for 8,000 control points or more: half the "
+           .help = "subspace solves for about 8,000 control points: half the "
                    "memory, 1 to 4 % of the height off; auto does so above 1.5 million visible points",
            .choices = names_of(mode_choices)},
           &OptionTexts::mode},
@@ -121,7 +121,7 @@ std::vector<ReliefField> view_rows() {
   };
 }
 
-// Parses the options of the plate.
+// Returns the rows of the plate.
 std::vector<ReliefField> plate_rows() {
   return {
       ReliefField{{.name = "outline",
@@ -156,7 +156,7 @@ std::vector<ReliefField> plate_rows() {
   };
 }
 
-// Parses the options by which the solid is bent, formed and made simpler.
+// Returns the rows by which the solid is bent, formed and made simpler.
 std::vector<ReliefField> body_rows() {
   return {
       ReliefField{{.name = "base",

@@ -33,16 +33,16 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
-// Calls f for each point that counts: of a mesh those in triangles, of a cloud those that are no strays.
+// Calls f for each point that counts: of a mesh those in triangles, of a cloud those that are no outliers.
 template <typename F>
 void each_point(const CloudFile& file, F&& f) {
   for (const Triangle& triangle : file.mesh.triangles)
     for (const Index corner : triangle) f(file.mesh.points[corner]);
   if (!file.mesh.empty()) return;
-  const std::vector<Index> strays = outliers(file.cloud);
-  auto next = strays.begin();
+  const std::vector<Index> outlying = outliers(file.cloud);
+  auto next = outlying.begin();
   for (Index i = 0; i < file.cloud.size(); ++i) {
-    if (next != strays.end() && *next == i)
+    if (next != outlying.end() && *next == i)
       ++next;
     else
       f(file.cloud.points[i]);

@@ -78,10 +78,10 @@ Mesh placed_mesh(const SceneModel& model, const PlacedModel& place) {
 
 PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, const View& view, Parts& parts) {
   PlacedCloud placed{model.name, model.file->cloud, {}, {}};
-  if (const std::vector<Index> strays = outliers(placed.cloud); !strays.empty()) {
-    placed.cloud = erase_points(placed.cloud, strays);
-    parts.left_out += strays.size();
-    parts.notes.push_back({SampleNote::Kind::outliers, model.name, strays.size()});
+  if (const std::vector<Index> outlying = outliers(placed.cloud); !outlying.empty()) {
+    placed.cloud = erase_points(placed.cloud, outlying);
+    parts.left_out += outlying.size();
+    parts.notes.push_back({SampleNote::Kind::outliers, model.name, outlying.size()});
   }
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);
@@ -89,7 +89,7 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
   placed.viewed = in_view(placed.cloud, view);
   placed.spacing = measure_spacing(placed.viewed);
   const OriginalNormals were = orient_normals(placed.viewed, placed.spacing, placed.cloud);
-  if (were == OriginalNormals::outward) return placed;
+  if (were == OriginalNormals::usable) return placed;
   parts.notes.push_back({were == OriginalNormals::missing ? SampleNote::Kind::estimated_normals
                                                           : SampleNote::Kind::turned_normals,
                          model.name});

@@ -34,8 +34,7 @@ Result<void> check_numbers(const BaseOptions& options) {
   return {};
 }
 
-// Returns the unit vector at right angles to straight lines of that direction; exact if they are upright or
-// level.
+// Returns the unit vector at right angles to straight lines of that direction; exact at 90 and 180 degrees.
 Vec2 across(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();

@@ -37,9 +37,10 @@ bool is_fine_within(const Deformation& deformation, std::span<const Vec2> polygo
 }
 
 // A lattice of points in staggered rows, whose triangles are equilateral.
-class Lattice {
+class StaggeredLattice {
  public:
-  Lattice(std::span<const Vec2> polygon, double spacing) : spacing_(spacing), row_(spacing * std::sqrt(.75)) {
+  StaggeredLattice(std::span<const Vec2> polygon, double spacing)
+      : spacing_(spacing), row_(spacing * std::sqrt(.75)) {
     const Box box = Box::of(polygon);
     min_ = box.min.head<2>();
     is_free_ = filled_image(2 + static_cast<int>(box.size().x() / spacing_),
@@ -219,7 +220,7 @@ std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing) {
 void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing) {
   std::vector<Vec2> points;
   for (const Index i : polygon) points.emplace_back(solid.points[i].head<2>());
-  const std::vector<Vec2> inner = Lattice(points, spacing).points_within(points);
+  const std::vector<Vec2> inner = StaggeredLattice(points, spacing).points_within(points);
   const auto first = static_cast<Index>(solid.points.size());
   const double z = solid.points[polygon[0]].z();
   for (const Vec2& p : inner) solid.points.emplace_back(p.x(), p.y(), z);
@@ -230,13 +231,13 @@ void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing) {
     solid.triangles.push_back({to_solid(a), to_solid(c), to_solid(b)});
 }
 
-IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_polygon,
+IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_inner,
                          double spacing) {
   const Vec2 shift = (placed.points[front.hull[0]] - front.points[front.hull[0]]).head<2>();
   std::vector<Vec2> ground;
-  for (const Vec2& p : rim_polygon) ground.push_back(p - shift);
+  for (const Vec2& p : rim_inner) ground.push_back(p - shift);
   const std::vector<Triangle> relief = relief_of(placed);
-  Lattice lattice(ground, spacing);
+  StaggeredLattice lattice(ground, spacing);
   for (const auto& [a, b, c] : relief) {
     const Circle circle =
         circle_around(front.points[a].head<2>(), front.points[b].head<2>(), front.points[c].head<2>());
@@ -245,17 +246,17 @@ IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<
   const std::vector<Vec2> inner = lattice.points_within(ground);
   ground.insert(ground.end(), inner.begin(), inner.end());
 
-  auto cover = covered(front, relief, triangulated(front, ground), rim_polygon.size());
+  auto cover = covered(front, relief, triangulated(front, ground), rim_inner.size());
   if (!cover) return {};
   placed.triangles = std::move(cover->triangles);
   placed.regions.assign(placed.triangles.size(), Region::ground);
   std::fill_n(placed.regions.begin(), cover->relief, Region::relief);
   IndexPolygon polygon;
-  for (std::size_t i = 0; i < rim_polygon.size(); ++i)
+  for (std::size_t i = 0; i < rim_inner.size(); ++i)
     polygon.push_back(static_cast<Index>(front.points.size() + i));
   const double ground_z = placed.points[front.hull[0]].z();
   for (std::size_t i = 0; i < ground.size(); ++i) {
-    const Vec2 place = i < rim_polygon.size() ? rim_polygon[i] : Vec2(ground[i] + shift);
+    const Vec2 place = i < rim_inner.size() ? rim_inner[i] : Vec2(ground[i] + shift);
     placed.points.emplace_back(place.x(), place.y(), ground_z);
   }
   return polygon;

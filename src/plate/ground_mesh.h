@@ -26,12 +26,12 @@ std::vector<Vec2> subdivided(std::span<const Vec2> polygon, double spacing);
 // Fills the convex polygon with flat triangles that face down, through points `spacing` apart.
 void fill_below(Solid& solid, const IndexPolygon& polygon, double spacing);
 
-// Adds the corners of the convex polygon `rim_polygon` to the placed front, and points between it and the
+// Adds the corners of the convex polygon `rim_inner` to the placed front, and points between it and the
 // relief, `spacing` apart, at the height of the ground, and triangulates all within the polygon. The relief's
 // triangles stay unless points on one circle leave a choice that does not fit; the rest becomes ground.
 // `front` is the same front before it was placed. Returns the polygon's points; none, with nothing changed,
 // if the relief's triangles are not a Delaunay triangulation.
-IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_polygon,
+IndexPolygon fill_ground(Solid& placed, const HeightFieldMesh& front, std::span<const Vec2> rim_inner,
                          double spacing);
 
 }  // namespace relievo

@@ -56,13 +56,13 @@ std::vector<Vec2> rim_inner_polygon(const PlateOutline& outline, const RimOption
 
 IndexPolygon add_ground(Solid& solid, const HeightFieldMesh& front, const PlateOutline& outline,
                         const GroundOptions& options) {
-  IndexPolygon hull = front.hull;
-  const double ground_z = solid.points[hull[0]].z(), spacing = options.spacing;
+  IndexPolygon ring = front.hull;
+  const double ground_z = solid.points[ring[0]].z(), spacing = options.spacing;
   std::vector<RimProfilePoint> profile = rim_profile(options.rim);
   if (std::isfinite(spacing)) {
-    const std::vector<Vec2> rim_polygon = subdivided(rim_inner_polygon(outline, options.rim), spacing);
-    if (IndexPolygon filled = fill_ground(solid, front, rim_polygon, spacing); !filled.empty()) {
-      hull = std::move(filled);
+    const std::vector<Vec2> rim_inner = subdivided(rim_inner_polygon(outline, options.rim), spacing);
+    if (IndexPolygon filled = fill_ground(solid, front, rim_inner, spacing); !filled.empty()) {
+      ring = std::move(filled);
       profile.pop_back();
     }
   }
@@ -70,13 +70,13 @@ IndexPolygon add_ground(Solid& solid, const HeightFieldMesh& front, const PlateO
   for (const RimProfilePoint& point : profile | std::views::reverse) {
     const std::vector<Vec2> polygon = subdivided(inset(outline.polygon, point.inward_mm), spacing);
     IndexPolygon outer = add_polygon(solid, polygon, ground_z + point.height_mm);
-    add_ring(solid, std::move(hull), outer);
+    add_ring(solid, std::move(ring), outer);
     const bool is_level = point.height_mm == height;
     solid.regions.resize(solid.triangles.size(), is_level ? Region::ground : Region::bevel);
     height = point.height_mm;
-    hull = std::move(outer);
+    ring = std::move(outer);
   }
-  return hull;
+  return ring;
 }
 
 }  // namespace relievo

@@ -52,7 +52,7 @@ PlateSurface flat_plate_surface(const HeightFieldMesh& front, const PlateOptions
 }
 
 // Returns the polygon inside the rim; empty without ground.
-std::vector<Vec2> rim_polygon_of(const HeightFieldMesh& front, const PlateOptions& options) {
+std::vector<Vec2> rim_inner_of(const HeightFieldMesh& front, const PlateOptions& options) {
   if (options.outline == Outline::none) return {};
   return rim_inner_polygon(outline_of_plate(front, used_box(front.points, front.triangles), options),
                            options.rim);
@@ -146,13 +146,13 @@ Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& opti
 
 // Sets the regions of simplified triangles: bevel outside the rim's inner polygon, ground where all corners
 // lie at the height of the ground, else relief.
-void find_regions(Solid& surface, std::span<const Vec2> rim_polygon, double ground_z, double tolerance_mm) {
+void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground_z, double tolerance_mm) {
   surface.regions.resize(surface.triangles.size());
   parallel_for(surface.triangles.size(), [&](std::size_t i) {
     const Triangle& t = surface.triangles[i];
     const auto is_low = [&](Index p) { return std::abs(surface.points[p].z() - ground_z) <= tolerance_mm; };
     const Vec3 sum = surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]];
-    const bool is_on_rim = !is_within(sum.head<2>() / 3, rim_polygon);
+    const bool is_on_rim = !is_within(sum.head<2>() / 3, rim_inner);
     surface.regions[i] = is_on_rim                        ? Region::bevel
                          : std::ranges::all_of(t, is_low) ? Region::ground
                                                           : Region::relief;
@@ -162,7 +162,7 @@ void find_regions(Solid& surface, std::span<const Vec2> rim_polygon, double grou
 // Makes the flat surface follow the target, given in the surface's coordinates. It is simplified in the
 // lifted state, where the error counts, and its regions are found in the flat one, where the ground is level.
 Result<void> follow(PlateSurface& surface, const TargetSurface& target, const PlateOptions& options,
-                    std::span<const Vec2> rim_polygon) {
+                    std::span<const Vec2> rim_inner) {
   // A plate with a wrap is refined as a whole, by wrap_plate().
   if (target.is_lifted)
     surface.solid.error_mm = refine(surface.solid, surface.outline, target.deformation, options.tolerance_mm);
@@ -172,7 +172,7 @@ Result<void> follow(PlateSurface& surface, const TargetSurface& target, const Pl
   if (!is_simplified) return {};
   if (auto good = simplify_surface(surface, {options.simplify_mm, options.max_slope}); !good) return good;
   lift(surface.solid.points, target, -1);
-  find_regions(surface.solid, rim_polygon, ground_z, options.simplify_mm);
+  find_regions(surface.solid, rim_inner, ground_z, options.simplify_mm);
   if (target.is_lifted) lift(surface.solid.points, target, 1);
   return {};
 }
@@ -212,9 +212,8 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
           ? none
           : ground_spacing(target.deformation, outline, front.ground_mm, options.tolerance_mm);
   PlateSurface surface = flat_plate_surface(front, options, spacing);
-  const std::vector<Vec2> rim_polygon = rim_polygon_of(front, options);
-  if (auto good = follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_polygon);
-      !good)
+  const std::vector<Vec2> rim_inner = rim_inner_of(front, options);
+  if (auto good = follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_inner); !good)
     return std::unexpected(good.error());
   return surface;
 }

@@ -40,7 +40,8 @@ Result<void> check_room(const Solid& plate, const Wrap& wrap) {
 
 // Checks that the two sides that meet after a full turn are straight and equal.
 Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
-  const bool is_straight = wrap.across().x() == 0 || wrap.across().y() == 0;
+  // Rounding leaves a cosine of 6e-17 at 180 degrees.
+  const bool is_straight = wrap.across().cwiseAbs().minCoeff() < 1e-12;
   if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
   return plate_error(ErrorKind::option, "wrap",
                      "expected outline rectangle, no rim and an upright or level axis for a full turn");

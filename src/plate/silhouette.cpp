@@ -77,7 +77,7 @@ double area_of(const HeightFieldMesh& front, const Triangle& t) {
 }
 
 // Removes the connected pieces that are smaller than smallest_piece of the whole.
-void drop_specks(const HeightFieldMesh& front, std::vector<Triangle>& triangles) {
+void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& triangles) {
   DisjointSets pieces(front.points.size());
   for (const auto& [a, b, c] : triangles) pieces.join(a, b), pieces.join(b, c);
   std::vector<double> area(front.points.size(), 0);
@@ -100,9 +100,9 @@ HeightFieldMesh with_used_points(const HeightFieldMesh& front, std::vector<Trian
   return alone;
 }
 
-// The side of the silhouette on which a point of the original front lies; points of a simplified front may be
-// new.
-enum class Kind : std::uint8_t { ground, relief, boundary, unknown };
+// The side of the silhouette on which a point of a simplified front lies: that of the point of the original front
+// that it is.
+enum class Kind : std::uint8_t { ground, relief, boundary };
 
 std::vector<Kind> kinds_of(const HeightFieldMesh& front, std::span<const BoundaryEdge> boundary) {
   std::vector<Kind> kinds(front.points.size(), Kind::ground);
@@ -154,12 +154,13 @@ std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const Heig
   std::vector<std::uint8_t> is_relief(simpler.triangles.size());
   parallel_for(is_relief.size(), [&](std::size_t t) {
     const Triangle& corners = simpler.triangles[t];
-    bool has[4] = {};
-    for (const Index i : corners)
-      has[static_cast<std::size_t>(original[i] == no_index ? Kind::unknown : kinds[original[i]])] = true;
+    const auto has = [&](Kind kind) {
+      return std::ranges::any_of(
+          corners, [&](Index i) { return original[i] != no_index && kinds[original[i]] == kind; });
+    };
     // A triangle with a point on one side of the silhouette only lies on that side.
-    if (has[0] != has[1]) {
-      is_relief[t] = has[1];
+    if (has(Kind::ground) != has(Kind::relief)) {
+      is_relief[t] = has(Kind::relief);
       return;
     }
     const Vec3 sum = simpler.points[corners[0]] + simpler.points[corners[1]] + simpler.points[corners[2]];
@@ -171,7 +172,7 @@ std::vector<std::uint8_t> relief_within(const HeightFieldMesh& front, const Heig
 HeightFieldMesh relief_alone(const HeightFieldMesh& front) {
   std::vector<Triangle> triangles = relief_triangles(front);
   cut_pinches(triangles, front.points.size());
-  drop_specks(front, triangles);
+  drop_small_pieces(front, triangles);
   return with_used_points(front, std::move(triangles));
 }
 

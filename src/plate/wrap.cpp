@@ -45,7 +45,7 @@ Result<void> check_numbers(const WrapOptions& options) {
   return {};
 }
 
-// Returns the unit vector at right angles to the axis, to its right; exact if the axis is upright or level.
+// Returns the unit vector at right angles to the axis, to its right; exact at 90 and 0 degrees.
 Vec2 across_of(double direction_deg) {
   const double turn = std::remainder(direction_deg - 90, 360);
   if (turn == 0) return Vec2::UnitX();

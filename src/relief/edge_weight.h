@@ -1,5 +1,5 @@
 // The weight of an edge in equation (9). Whoever changes it changes it here: height_equations() sums up the
-// halves, and TriangleSlopes limits its triangles by the same bound.
+// halves, and TriangleSlopes limits its triangles by half the bound.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace relievo {
 
-// Cotangents of nearly flat angles are cut here: a stiffer edge would be lost in single precision.
+// Edges opposite to very small angles are cut here: stiffer ones would drown the others in single precision.
 inline constexpr float largest_edge_weight = 1e3F;
 // Cocircular points give weights of 0; a trace of stiffness keeps the matrix positive definite whatever the
 // points are.

@@ -39,7 +39,7 @@ struct FrameMaker::Packed {
   const Surface& surface = model.surface();
   SlicedEllMatrix normal_matrix =
       vertex_normal_matrix(in_plane(surface.points), surface.triangulation, surface.boundary,
-                           model.system() ? &model.system()->edges() : nullptr);
+                           model.system() ? &model.system()->divergence_matrix() : nullptr);
   SolverWorkspace workspace = make_workspace(model);
   HeightCorrection::Workspace correction_workspace = model.correction().make_workspace();
   std::vector<Vec2f> slopes{model.system() ? surface.points.size() : 0};
@@ -81,7 +81,7 @@ struct FrameMaker::Packed {
     frame.times.heights_s += watch.seconds();
     const Stopwatch mapping;
     subspace.carry(boundary_weight, own, frame.heights);
-    frame.times.detail_s += mapping.seconds();
+    frame.times.after_solve_s += mapping.seconds();
   }
 
   // Calls f(heights, style) for the frame's heights and keeps the span that they have then.
@@ -92,7 +92,7 @@ struct FrameMaker::Packed {
     with_style(frame.options.shape, [&](const auto& style) { f(heights, style); });
     frame.lowest = heights.span.lowest;
     frame.highest = heights.span.highest;
-    frame.times.detail_s += watch.seconds();
+    frame.times.after_solve_s += watch.seconds();
   }
 
   // Makes the relief of that shape but for what its style does last; frame.height is already the final one.

@@ -43,8 +43,8 @@ std::vector<Vec2> gradient_slopes(const Surface& surface, const GradientOptions&
   std::vector<Vec2f> field(surface.points.size());
   parallel_for(field.size(), [&](std::size_t i) {
     const Vec2 g = slope_of(surface.normals[i]);
-    field[i] = g.norm() > options.silhouette ? Vec2f(Vec2f::Zero())
-                                             : attenuated(g, options.attenuation).cast<float>();
+    field[i] = g.norm() > options.steepest_kept ? Vec2f(Vec2f::Zero())
+                                                : attenuated(g, options.attenuation).cast<float>();
   });
   if (options.band_weights.size() > 1) weigh_bands(field, surface, options);
   std::vector<Vec2> slopes(field.size());

@@ -8,15 +8,15 @@
 namespace relievo {
 namespace {
 
-struct HalfEdge {
+struct WeightedEdge {
   Index from, to;
   float weight;
 };
 
 // Equation (9): the terms, one per triangle and edge, in both directions. An edge of two triangles has two.
-std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulation& mesh,
-                                 const Boundary& boundary) {
-  std::vector<HalfEdge> edges;
+std::vector<WeightedEdge> edge_terms(std::span<const Vec2> points, const Triangulation& mesh,
+                                     const Boundary& boundary) {
+  std::vector<WeightedEdge> edges;
   edges.reserve(mesh.triangles.size() * 6);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     if (!boundary.is_inside[t]) continue;
@@ -34,14 +34,14 @@ std::vector<HalfEdge> half_edges(std::span<const Vec2> points, const Triangulati
 // The edges of point i are edges[begin[i]] up to edges[begin[i + 1]], in ascending order of the other points.
 struct Adjacency {
   std::vector<Index> begin;
-  std::vector<HalfEdge> edges;
+  std::vector<WeightedEdge> edges;
 };
 
 // Equation (9): adds up the two terms of each edge and bounds its weight. Edges at depth jumps then count for
 // the mean of `weights`, one per point, of their ends: see jump_weights().
-Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points, std::span<const float> weights) {
-  auto [begin, sorted] = grouped<HalfEdge, std::size_t>(points, [&](auto&& add) {
-    for (const HalfEdge& e : all) add(e.from, e);
+Adjacency gather(const std::vector<WeightedEdge>& all, std::size_t points, std::span<const float> weights) {
+  auto [begin, sorted] = grouped<WeightedEdge, std::size_t>(points, [&](auto&& add) {
+    for (const WeightedEdge& e : all) add(e.from, e);
   });
 
   Adjacency result;
@@ -51,7 +51,7 @@ Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points, std::span
     result.begin.push_back(static_cast<Index>(result.edges.size()));
     const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i]);
     const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]);
-    std::stable_sort(first, last, [](const HalfEdge& a, const HalfEdge& b) { return a.to < b.to; });
+    std::stable_sort(first, last, [](const WeightedEdge& a, const WeightedEdge& b) { return a.to < b.to; });
     for (auto e = first; e != last; ++e) {
       if (e != first && e->to == result.edges.back().to)
         result.edges.back().weight += e->weight;
@@ -60,7 +60,7 @@ Adjacency gather(const std::vector<HalfEdge>& all, std::size_t points, std::span
     }
   }
   result.begin.push_back(static_cast<Index>(result.edges.size()));
-  for (HalfEdge& e : result.edges) {
+  for (WeightedEdge& e : result.edges) {
     e.weight = edge_weight(e.weight);
     if (!weights.empty()) e.weight *= (weights[e.from] + weights[e.to]) / 2;
   }
@@ -77,7 +77,7 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
     const Index i = free_points[f];
     double diagonal = 0;
     for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
-      const HalfEdge& edge = adjacency.edges[e];
+      const WeightedEdge& edge = adjacency.edges[e];
       const auto weight = static_cast<double>(edge.weight);
       diagonal += weight;
       const Index other = unknown[edge.to];
@@ -122,7 +122,7 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
     unknown[i] = static_cast<Index>(equations.free_points.size());
     equations.free_points.push_back(i);
   }
-  const Adjacency adjacency = gather(half_edges(points, triangulation, boundary), points.size(), weights);
+  const Adjacency adjacency = gather(edge_terms(points, triangulation, boundary), points.size(), weights);
   equations.A = laplacian(adjacency, unknown, equations.free_points);
   add_coefficients(points, adjacency, unknown, equations);
   return equations;

@@ -6,7 +6,7 @@
 namespace relievo {
 namespace {
 
-// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds, 30 to
+// The penalty parameter and the over-relaxation of the splitting: with these, scans took the fewest rounds, 20 to
 // 60.
 constexpr float penalty = 10, relaxation = 1.7F;
 // Given slopes are shortened to so many limits, because walls at depth jumps, which may be arbitrarily steep,
@@ -16,7 +16,7 @@ constexpr float steepest_given = 2;
 // The splitting stops when at most 1 in 5,000 triangles exceeds the limit by more than 0.4 %; limit_slopes() fixes
 // these locally.
 constexpr float good_excess = 1.004F;
-constexpr std::size_t good_share = 5000;
+constexpr std::size_t good_divisor = 5000;
 
 }  // namespace
 
@@ -82,7 +82,7 @@ bool NearestDraft::is_good() const {
         return count;
       },
       std::plus<>());
-  return steep <= triangles_.size() / good_share;
+  return steep <= triangles_.size() / good_divisor;
 }
 
 void NearestDraft::end(std::span<double> heights) const {

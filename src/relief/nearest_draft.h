@@ -22,7 +22,7 @@ class NearestDraft {
   NearestDraft(const Surface& surface, const HeightSystem& system, std::span<const double> base,
                double max_slope);
 
-  // Changes the heights to those of the nearest relief. A few triangles stay steeper, as a rule by a per cent at
+  // Changes the heights to those of the nearest relief. A few triangles stay steeper, as a rule by 0.4 % at
   // most. Ends early when is_cancelled() returns true; the heights are then meaningless.
   template <typename F>
   void apply(std::span<double> heights, F&& is_cancelled) {

@@ -85,7 +85,7 @@ class PaperStyle {
   const Shape& shape_;
 };
 
-// Layers of the normals in place of (5); the membrane compresses the heights afterwards.
+// Layers of the normals in place of (5); HeightCorrection compresses the heights afterwards.
 class LayeredStyle {
  public:
   explicit LayeredStyle(const Shape& shape)

@@ -54,14 +54,14 @@ class BoundaryFinder {
     for (Index t = 0; t < is_inside.size(); ++t)
       for (const Index other : mesh_.neighbours[t])
         if (other != no_index && !is_inside[t] && !is_inside[other]) sets.join(t, other);
-    std::vector<std::uint8_t> is_hole(is_inside.size(), 0);
+    std::vector<std::uint8_t> stays_outside(is_inside.size(), 0);
     for (Index t = 0; t < is_inside.size(); ++t) {
       const auto& around = mesh_.neighbours[t];
       const bool is_open = std::find(around.begin(), around.end(), no_index) != around.end();
-      if (!is_inside[t] && (is_open || radius_[t] > smallest_hole)) is_hole[sets.find(t)] = 1;
+      if (!is_inside[t] && (is_open || radius_[t] > smallest_hole)) stays_outside[sets.find(t)] = 1;
     }
     for (Index t = 0; t < is_inside.size(); ++t)
-      if (!is_inside[t]) is_inside[t] = !is_hole[sets.find(t)];
+      if (!is_inside[t]) is_inside[t] = !stays_outside[sets.find(t)];
   }
 
   std::span<const Vec2> points_;

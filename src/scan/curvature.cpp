@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// The radius, in h, within which neighbours count. There fit_weight() is closest to exp(-d^2 / h^2).
+// The radius, in h, within which neighbours count. At this radius fit_weight() is closest to exp(-d^2 / h^2).
 constexpr double support = 1.7;
 
 struct Neighbour {

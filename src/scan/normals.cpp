@@ -51,8 +51,7 @@ void turn_to_viewer(Cloud& viewed) {
     if (n.z() < 0) n = -n;
 }
 
-void turn_to_viewer(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
-  turn_to_viewer(viewed);
+void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen) {
   constexpr float seen_well = .5F;  // n_z of 60 degrees; at steeper points the estimated sign is not reliable
   // Points whose sign is final, in the order in which they became so; also the queue of a breadth-first
   // search.

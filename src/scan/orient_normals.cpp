@@ -21,10 +21,10 @@ OriginalNormals orient_normals(Cloud& viewed, const Spacing& spacing, const Clou
   if (!viewed.has_normals()) {
     estimate_normals(viewed);
     turn_to_viewer(viewed);
-    turn_to_viewer(viewed, spacing, visible_points(viewed, spacing));
+    spread_normal_signs(viewed, spacing, visible_points(viewed, spacing));
     return OriginalNormals::missing;
   }
-  if (all_face_viewer(viewed) || !normals_point_inward(cloud)) return OriginalNormals::outward;
+  if (all_face_viewer(viewed) || !normals_point_inward(cloud)) return OriginalNormals::usable;
   flip_normals(viewed);
   return OriginalNormals::inward;
 }

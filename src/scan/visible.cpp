@@ -18,9 +18,8 @@ constexpr double least_spacing = .25, largest_spacing = 4;
 // Neighbours further apart than this, in local spacings, are not connected. A disc of this radius holds 9 pi
 // = 28 points.
 constexpr double connection_length = 3;
-// At most this fraction of the visible points counts as a fragment, or a cloud of few points would be nothing
-// else.
-constexpr std::size_t fragment_share = 8;
+// A fragment has at most the visible points divided by this, or a cloud of few points would be nothing else.
+constexpr std::size_t fragment_divisor = 8;
 constexpr double least_facing = .1;  // limits the tolerance along the view where a surface is seen edge on
 // Hole fill points come from well sampled surfaces only, and are this far apart, in rho.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
@@ -92,7 +91,7 @@ class Visibility {
         if (j != no_index && is_visible[j] && (cloud_.points[i] - cloud_.points[j]).norm() < radius)
           sets.join(i, j);
     }
-    const std::size_t least = std::min(options_.smallest_fragment, visible.size() / fragment_share);
+    const std::size_t least = std::min(options_.smallest_fragment, visible.size() / fragment_divisor);
     bool found = false;
     for (const Index i : visible)
       if (sets.size_of(i) < least) is_fragment_[i] = found = true;

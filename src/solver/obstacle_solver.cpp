@@ -10,7 +10,7 @@ namespace {
 
 // Sweeps per level, from fine to coarse. Coarse levels resolve the long waves, which converge slowly, but a
 // sweep there costs a quarter of one on the next finer level: the four take about as long as 14 fine sweeps.
-// That is enough: an exact solution measures the same in the finished reliefs (docs/decisions/height-correction.md).
+// That is enough: see docs/decisions/height-correction.md.
 constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
 // Successive over-relaxation converges for factors in (0, 2). The best one grows towards 2 with the number of
 // nodes per side; 1.6 suits the short waves that are left to the finer levels.

@@ -221,7 +221,8 @@ TEST_F(Cli, GeneratesSamplesThatItCanRead) {
 
 TEST_F(Cli, MakesReliefsByEveryMethod) {
   std::set<std::string> different;
-  for (const std::string method : {"layered", "paper", "linear", "equalise", "gradient", "detail"}) {
+  for (const MethodInfo& info : methods) {
+    const std::string method(info.name);
     const Outcome outcome = run("make torus.ply -o t.stl --height 2 --method " + method + " --report r.json");
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const nlohmann::json report = json_in(folder_ / "r.json");

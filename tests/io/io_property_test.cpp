@@ -161,8 +161,8 @@ TEST(TextProperty, EverySeparatorGivesTheSamePoints) {
   }));
 }
 
-// Small valid files of every format, to be broken.
-std::vector<std::pair<std::string, std::string>> valid_files() {
+// Small valid files of every format, to be broken: format_samples(), and those of PLY.
+std::vector<FileSample> valid_files() {
   const PlyTable strips{"strips", {{"int", "i", "uchar"}, {"short", "s"}}, {{2, 0, 1, 7}, {0, 9}}};
   const PlyTable vertex{
       "vertex",
@@ -181,26 +181,11 @@ std::vector<std::pair<std::string, std::string>> valid_files() {
                           {{0, 0, 0, 255, 0, 0}, {1, 0, 0, 0, 1, 0}, {0, 1, 0, 0, 0, 65535}}};
   const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}}, {{3, 0, 1, 2}, {3, 2, 1, 0}}};
   const PlyTable triangle_strips{"tristrips", {{"short", "vertex_indices", "int"}}, {{5, 0, 1, 2, -1, 0}}};
-  std::vector<std::pair<std::string, std::string>> all = {
-      {"scan.obj", "# hand\nv 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2//2 -1//-1\n"},
-      {"scan.xyz", "1 2 3 0 0 1\n4 5 6 0 0.6 0.8\n# end\n7 8 9 1 0 0\n"},
-      {"scan.pts", "3\r\n1 2 3 9 255 0 0\r\n4 5 6 9 0 255 0\r\n7 8 nan 9 0 0 255\r\n"},
-      {"scan.csv", "nx,ny,nz,x,y,z\n0,0,1,1,2,3\n0,1,0,4,5,6\n"},
-      {"scan.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n"},
-      {"scan.stl", binary_stl()},
-      {"scan.stl", ascii_stl()},
-      {"scan.off", off()},
-      {"scan.glb", glb()},
-      {"scan.gltf", embedded_gltf()},
-      {"scan.pcd", ascii_pcd()},
-      {"scan.pcd", binary_pcd()},
-      {"scan.pcd", compressed_pcd()},
-      {"scan.las", las(2)},
-      {"scan.las", las(4)}};
+  std::vector<FileSample> all = format_samples();
   for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little_endian, PlyEncoding::big_endian}) {
-    all.emplace_back("scan.ply", encode_ply({strips, vertex, strips}, encoding));
-    all.emplace_back("scan.ply", encode_ply({coloured, faces, triangle_strips}, encoding));
-    all.emplace_back("scan.ply", encode_ply({lists}, encoding));
+    all.push_back({"scan.ply", encode_ply({strips, vertex, strips}, encoding)});
+    all.push_back({"scan.ply", encode_ply({coloured, faces, triangle_strips}, encoding)});
+    all.push_back({"scan.ply", encode_ply({lists}, encoding)});
   }
   return all;
 }

@@ -167,7 +167,9 @@ TEST(WrapPlate, AFlatPlateBecomesAShellOfEvenThickness) {
 }
 
 TEST(WrapPlate, AFullTurnIsARing) {
-  for (const char* body : {"cylinder:turn=360", "cylinder:turn=360,direction=0", "cone:turn=360,angle=5"}) {
+  for (const char* body :
+       {"cylinder:turn=360", "cylinder:turn=360,direction=0", "cylinder:turn=360,direction=180",
+        "cylinder:turn=360,direction=270", "cone:turn=360,angle=5"}) {
     const PlateOptions options = plate_around(body);
     const Solid plate = flat_plate(options), ring = wrapped(options);
     EXPECT_EQ(check_solid(ring), "") << body;

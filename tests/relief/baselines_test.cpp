@@ -80,7 +80,7 @@ TEST(Attenuated, IsTheLogarithmAlongTheGradient) {
 // Weyrich et al.: the attenuated gradients integrated, then scaled.
 TEST(Gradient, IntegratesAttenuatedGradients) {
   const ReliefModel model = model_of(test::sphere(20000, 1));
-  const GradientOptions options{.attenuation = 3, .silhouette = 50, .band_weights = {1}};
+  const GradientOptions options{.attenuation = 3, .steepest_kept = 50, .band_weights = {1}};
   const Relief relief = gradient_relief(model, .1, options);
   std::vector<Vec2> slopes;
   for (const Vec3f& n : model.surface().normals) {
@@ -97,10 +97,10 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
 
 TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
   const ReliefModel model = model_of(roof(.5));
-  const GradientOptions options{.attenuation = 5, .silhouette = 100, .band_weights = {1}};
+  const GradientOptions options{.attenuation = 5, .steepest_kept = 100, .band_weights = {1}};
   const Relief attenuated_roof = gradient_relief(model, .1, options);
   const Relief plain_roof =
-      gradient_relief(model, .1, {.attenuation = 1e-9, .silhouette = 100, .band_weights = {1}});
+      gradient_relief(model, .1, {.attenuation = 1e-9, .steepest_kept = 100, .band_weights = {1}});
   for (std::size_t i = 0; i < plain_roof.heights.size(); ++i)
     ASSERT_NEAR(attenuated_roof.heights[i], plain_roof.heights[i], 1e-6);
 }
@@ -117,9 +117,11 @@ TEST(Gradient, EqualBandWeightsChangeNothing) {
 
 TEST(Gradient, RemovesSilhouettes) {
   const ReliefModel model = model_of(roof(3));
-  EXPECT_EQ(gradient_relief(model, .1, {.attenuation = 5, .silhouette = 2.9, .band_weights = {1}}).height, 0);
-  EXPECT_NEAR(gradient_relief(model, .1, {.attenuation = 5, .silhouette = 3.1, .band_weights = {1}}).height,
-              .1, 1e-12);
+  EXPECT_EQ(gradient_relief(model, .1, {.attenuation = 5, .steepest_kept = 2.9, .band_weights = {1}}).height,
+            0);
+  EXPECT_NEAR(
+      gradient_relief(model, .1, {.attenuation = 5, .steepest_kept = 3.1, .band_weights = {1}}).height, .1,
+      1e-12);
 }
 
 TEST(Gradient, LosesTheJumpBetweenTwoSheets) {
@@ -213,8 +215,9 @@ TEST(Method, NamesLeadBack) {
     EXPECT_EQ(name_of(info.method), info.name);
   }
   EXPECT_EQ(parse_method("ours"), Method::layered);
-  EXPECT_EQ(parse_method("carving").error().message(),
-            "method: expected one of layered, paper, linear, equalise, gradient or detail, found 'carving'");
+  const std::string message = parse_method("carving").error().message();
+  EXPECT_TRUE(message.starts_with("method: expected one of layered, paper, linear, ")) << message;
+  EXPECT_TRUE(message.ends_with(", found 'carving'")) << message;
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(TurnToViewer, GoesOnRoundAnEdge) {
   estimate_normals(cloud);
   turn_to_viewer(cloud);
   const Spacing spacing = measure_spacing(cloud);
-  turn_to_viewer(cloud, spacing, visible_points(cloud, spacing));
+  spread_normal_signs(cloud, spacing, visible_points(cloud, spacing));
   std::size_t wrong = 0, counted = 0;
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     ++counted;

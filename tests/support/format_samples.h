@@ -1,4 +1,4 @@
-// Makes small valid files of the binary formats, independently of the readers; tests change and damage them.
+// Makes small valid files of every format, independently of the readers; tests change and damage them.
 #pragma once
 
 #include <cstdint>
@@ -196,6 +196,29 @@ inline std::string las(int minor = 2) {
     file += row;
   }
   return file;
+}
+
+struct FileSample {
+  std::string name, bytes;
+};
+
+// One file or more of every format but PLY, which has an encoder of its own. A new format gets its row here.
+inline std::vector<FileSample> format_samples() {
+  return {{"scan.obj", "# hand\nv 0 0 0\nv 1 0 0\nv 0 1 \\\n0\nvn 0 0 1\nvn 0 1 0\nf 1/1/1 2//2 -1//-1\n"},
+          {"scan.xyz", "1 2 3 0 0 1\n4 5 6 0 0.6 0.8\n# end\n7 8 9 1 0 0\n"},
+          {"scan.pts", "3\r\n1 2 3 9 255 0 0\r\n4 5 6 9 0 255 0\r\n7 8 nan 9 0 0 255\r\n"},
+          {"scan.csv", "nx,ny,nz,x,y,z\n0,0,1,1,2,3\n0,1,0,4,5,6\n"},
+          {"scan.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\n"},
+          {"scan.stl", binary_stl()},
+          {"scan.stl", ascii_stl()},
+          {"scan.off", off()},
+          {"scan.glb", glb()},
+          {"scan.gltf", embedded_gltf()},
+          {"scan.pcd", ascii_pcd()},
+          {"scan.pcd", binary_pcd()},
+          {"scan.pcd", compressed_pcd()},
+          {"scan.las", las(2)},
+          {"scan.las", las(4)}};
 }
 
 }  // namespace relievo

@@ -21,22 +21,8 @@ std::string readable_formats();
 std::vector<std::string> readable_endings();
 
 // Returns the points in `bytes`, and the triangles if it has any. The format is recognised by the content,
-// then by the ending of `name`; anything else is read as text of numbers. Errors name `name`, too.
-//
-// - PLY: ascii, binary little and big endian; x y z, nx ny nz and red green blue of any numeric type, in any
-//   order, among any other properties and elements. Of the elements after the vertices, `face` and
-//   `tristrips` are read. Each ascii row begins on a new line.
-// - OBJ: v, vn and f. The normal of a vertex is the mean of those that faces name for it; or, if no face
-//   names any, that of the vn in the same place of the file.
-// - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
-// - OFF, with normals (NOFF) and colours (COFF).
-// - glTF 2.0, .glb or .gltf with embedded buffers: the triangles of the scene, transformed by its nodes.
-// - PCD: ascii, binary and binary_compressed; x y z, normal_x normal_y normal_z and rgb.
-// - LAS 1.0 to 1.4, not compressed, with colours.
-// - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
-//   first; three columns that are unit vectors in nine of ten rows are normals. Allowed are a first line with
-//   the number of points (more may follow, but not fewer), comments (#, //) and a line of column names, which
-//   then decide. Other columns may contain anything. Numbers have a decimal point, never a comma.
+// then by the ending of `name`; anything else is read as text of numbers. src/io/formats.h says what is read of
+// each format. Errors name `name`, too.
 //
 // Polygons become triangle fans, which is right for convex ones.
 //

@@ -14,10 +14,10 @@ struct PreviewOptions {
 };
 
 // Returns the body as seen from the front and, beside it, obliquely, on a neutral ground (3 channels). Each of
-// the two is what FrameRenderer draws of the same body as a fine picture of this size: the same lamp and sky,
-// soft cast shadows and darkened hollows, to the pixel. The light belongs to the plate, so both views show the
-// same shading. Level triangles are shaded flat. No pixels for an empty solid or a side not in [1, 5461].
-// About 0.4 s for 700k triangles on two cores.
+// the two is what FrameRenderer draws of the same body as a fine picture of this size and zoom, up to one grey
+// level of rounding: the same lamp and sky, soft cast shadows and darkened hollows. The light belongs to the
+// plate, so both views show the same shading. Level triangles are shaded flat. No pixels for an empty solid or
+// a side not in [1, 5461]. About 0.4 s for 700k triangles on two cores.
 Image8 render_preview(const Solid& solid, const PreviewOptions& options);
 
 }  // namespace relievo

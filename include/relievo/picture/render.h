@@ -16,8 +16,9 @@
 namespace relievo {
 
 struct Picture {
-  Image8 image;              // 4 channels
-  double pixels_per_mm = 1;  // of the plate's plane, seen from the front
+  Image8 image;  // 4 channels
+  // Of the plate's plane, seen from the front; CloudRenderer writes pixels per unit of the scan.
+  double pixels_per_mm = 1;
 };
 
 // Turned first about the upright axis of the picture, then about the level one; without turns it is the view
@@ -79,7 +80,7 @@ class FrameRenderer {
   std::unique_ptr<State> state_;
 };
 
-// Draws a cloud from any side, for choosing a view: its points as discs, as wide as they lie apart.
+// Draws a cloud from any side, for choosing a view: its points as squares, somewhat wider than they lie apart.
 class CloudRenderer {
  public:
   // Copies at most `most_points` of the cloud's points; estimates normals if there are none.

@@ -10,8 +10,8 @@ namespace relievo {
 double steepest_slope(const Solid& solid);
 
 // Moves points of the solid's front up or down, as far as rounding to single precision requires, until none
-// of its triangles is steeper than the limit in a file; returns the largest move in mm, usually a few
-// micrometres. The ground, the highest and the lowest points stay. Errors: kind geometry, with the solid
+// of its triangles is steeper than the limit in a file; returns the largest move in mm, usually
+// below 1e-5. The ground, the highest and the lowest points stay. Errors: kind geometry, with the solid
 // unchanged, if no such moves are found: because the front was steeper before, or because rounding made
 // triangles too steep that moves cannot mend, between fixed points or points a few steps of single precision
 // apart.

@@ -1,5 +1,5 @@
 // Baselines: other people's methods, to compare with. Each follows its paper and runs on the same visible points,
-// normals and height system as ours, with the parameters that served it best on our scans (docs/quality.md).
+// normals and height system as layered reliefs, with the parameters that served it best on our scans (docs/quality.md).
 #pragma once
 
 #include "relievo/relief/gradient_slopes.h"

@@ -22,17 +22,17 @@ struct FrameOptions {
 };
 
 struct FrameTimes {
-  double heights_s = 0;  // t1: weights, slopes, right-hand side, solve; all rounds of a locked height
-  double detail_s = 0;   // t2: detail or membrane; the mapping from control points
-  double normals_s = 0;  // t3: normals
-  int solves = 0;        // 1, or as many as a locked height took
+  double heights_s = 0;      // t1: weights, slopes, right-hand side, solve; all rounds of a locked height
+  double after_solve_s = 0;  // t2: detail or height correction; the mapping from control points
+  double normals_s = 0;      // t3: normals
+  int solves = 0;            // 1, or as many as a locked height took
 };
 
 struct Frame {
-  FrameOptions options;           // what it was made with, including the u and the membrane that were found
+  FrameOptions options;  // what it was made with, including the u and the membrane parameters that were found
   std::vector<float> heights;     // per point of the surface, in the cloud's units, base included
   std::vector<Vec3f> normals;     // unit length: the mean of the triangles around the point, by their areas
-  double height = 0;              // highest minus lowest, base plane included, base shape not
+  double height = 0;              // highest minus lowest; 0 counts as a height, the base's shape is not added
   float lowest = 0, highest = 0;  // of `heights`, base plane and base shape included
   bool is_height_met =
       true;  // false if a locked height is out of reach: then the relief is as high as can be

@@ -1,5 +1,5 @@
-// The slopes of gradient-domain compression: a baseline, and what the membrane is tuned against. After Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief
-// from 3D scenes, 2007.
+// The slopes of gradient-domain compression: a baseline, and what the height correction is tuned against. After
+// Weyrich, Deng, Barnes, Rusinkiewicz and Finkelstein, Digital bas-relief from 3D scenes, 2007.
 #pragma once
 
 #include <vector>
@@ -11,8 +11,8 @@ namespace relievo {
 struct Surface;
 
 struct GradientOptions {
-  double attenuation = 5;  // a, > 0
-  double silhouette = 10;  // gradients steeper than this are removed
+  double attenuation = 5;     // a, > 0
+  double steepest_kept = 10;  // gradients steeper than this are removed
   // Weights of the bands, from the finest. A band is the difference between blurs by two Gaussians, each twice as
   // wide as the one before; the last band is the rest.
   std::vector<double> band_weights{1, 1, .8, .6};

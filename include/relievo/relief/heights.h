@@ -42,7 +42,7 @@ class HeightSystem {
 
   // Returns the matrix of the right-hand side: entries between neighbours and from every point to itself. Other
   // matrices over the same points reuse its pattern.
-  const SlicedEllMatrix& edges() const { return *edges_; }
+  const SlicedEllMatrix& divergence_matrix() const { return *edges_; }
 
   // Writes the height of every point above the base to `heights`; boundary points get 0. Exact: the residual
   // is at the level of rounding.
@@ -59,7 +59,7 @@ class HeightSystem {
   HeightSystem(solver::Cholesky factor, SlicedEllMatrix edges);
 
   solver::Cholesky factor_;
-  // Pull: half the weight times the step from the other point; 0 at boundary points.
+  // Coefficients of the right-hand side: half the weight times the step from the other point; 0 at boundary points.
   std::unique_ptr<const SlicedEllMatrix> edges_;
 };
 

@@ -42,13 +42,13 @@ struct PointLayers {
 std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals);
 
 // The share of each layer that a relief keeps: w_k = 1 - exp(-u), equation (6), per layer, times
-// (2 - height_share), which compensates for the contrast that the membrane removes.
+// (2 - height_share), which compensates for the contrast that the height correction removes.
 struct LayerWeights {
   float fine = 0, middle = 0, coarse = 0, broad = 0;
   float height_share = 1;  // MembraneParams::height_share
 
-  // Returns the weights at u in [0, infinity]. `detail` >= 0 attenuates the coarser layers, the coarse one by
-  // exp(-20 detail) and the broad one by exp(-55 detail); 0 treats all alike. `height_share` in [0, 1].
+  // Returns the weights at u in [0, infinity]. `detail` >= 0 lowers the u of the coarser layers, by factors of
+  // exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all alike. `height_share` in [0, 1].
   static LayerWeights of(double u, double detail, double height_share);
 };
 
@@ -65,7 +65,7 @@ inline Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
 }
 
 // Returns the target slope of a point whose weighted layers sum to (x, y): (x, y) / sqrt(1 - t^2 (x^2 + y^2))
-// with t the height share, which anticipates the tilt that the membrane leaves. At t = 1 that is the slope of
+// with t the height share, which anticipates the tilt that the height correction leaves. At t = 1 that is the slope of
 // the normal with this x and y; near 0, where surfaces end up almost level, it is (x, y) itself. x and y are
 // multiplied by `weight` first; the slope is shortened to at most `max_slope`.
 template <typename Real>

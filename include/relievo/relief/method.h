@@ -1,5 +1,5 @@
-// The methods that a relief can be made with, by name, and from how many points. To add a baseline: declare it in baselines.h, write it in
-// src/relief/baselines/, and give it a row in the table below.
+// The methods that a relief can be made with, by name, and from how many points. To add a baseline, give it an
+// enumerator, a declaration and a row here, and write it in src/relief/baselines/.
 #pragma once
 
 #include <array>
@@ -19,10 +19,11 @@ struct Shape;
 enum class Method { layered, paper, linear, equalise, gradient, base_detail };
 
 // Makes a relief by a published method that we compare with: of exactly the height asked for, > 0, with boundary
-// points on the base; flat where the surface gives it nothing to scale. Its `shape` has no meaning.
+// points on the base; flat where the surface gives it nothing to scale. Relief::shape of the result has no meaning.
 using Baseline = Relief(const ReliefModel& model, double height);
 
-Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relief;  // see baselines.h
+// baselines.h has those with options.
+Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relief;
 
 struct MethodInfo {
   Method method;
@@ -33,17 +34,18 @@ struct MethodInfo {
   bool needs_all_points = false;  // and so has no subspace mode
 };
 
-inline constexpr std::array<MethodInfo, 6> methods{{
-    {Method::layered, "layered", "normals compressed layer by layer, heights by a membrane"},
-    {Method::paper, "paper", "normal space compression as in the paper"},
-    {Method::linear, "linear", "depths scaled", linear_relief},
-    {Method::equalise, "equalise", "adaptive histogram equalisation of the depths (Sun et al. 2009)",
-     equalised_relief},
-    {Method::gradient, "gradient", "gradient-domain compression (Weyrich et al. 2007)", gradient_relief,
-     true},
-    {Method::base_detail, "detail", "linear base with amplified detail (Ji et al. 2014)",
-     base_and_detail_relief, true},
-}};
+inline constexpr std::array methods{
+    MethodInfo{Method::layered, "layered",
+               "normals compressed layer by layer, heights by a smooth correction"},
+    MethodInfo{Method::paper, "paper", "normal space compression as in the paper"},
+    MethodInfo{Method::linear, "linear", "depths scaled", linear_relief},
+    MethodInfo{Method::equalise, "equalise",
+               "adaptive histogram equalisation of the depths (Sun et al. 2009)", equalised_relief},
+    MethodInfo{Method::gradient, "gradient", "gradient-domain compression (Weyrich et al. 2007)",
+               gradient_relief, true},
+    MethodInfo{Method::base_detail, "detail", "linear base with amplified detail (Ji et al. 2014)",
+               base_and_detail_relief, true},
+};
 
 // Returns the method of that name; `ours` is the former name of `layered`. Errors: kind option for any other,
 // naming `option`.

@@ -21,21 +21,22 @@ struct Surface;
 
 struct Relief {
   std::vector<double> heights;  // per point of the surface, above the base, in its units
-  double height = 0;            // h: highest minus lowest, base and detail included
+  double height = 0;            // h: highest minus lowest, detail included; 0 counts as a height
   Shape shape;                  // what it was made with
 };
 
-// Most visible points of Mode::automatic that are not reduced: their frames take about 40 ms on two cores.
+// Above this number of visible points Mode::automatic means subspace: exact frames would take more than 40 ms on two
+// cores.
 inline constexpr std::size_t most_exact_points = 1'500'000;
 
 // Resolves `automatic` by the number of points; returns any other mode unchanged.
 Mode resolve_mode(Mode mode, const Surface& surface);
 
-// A surface with its factored system, and with the membrane that compresses layered reliefs. Movable. Const
+// A surface with its factored system, and with the height correction that compresses layered reliefs. Movable. Const
 // calls may run concurrently.
 class ReliefModel {
  public:
-  // Takes the surface, splits its normals into layers, factors its system and tunes the membrane; in subspace
+  // Takes the surface, splits its normals into layers, factors its system and tunes the height correction; in subspace
   // mode it goes on to the system of the control points. Errors: see HeightSystem::build(); kind cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
 
@@ -55,7 +56,7 @@ class ReliefModel {
   // Returns what compresses layered heights.
   const HeightCorrection& correction() const;
 
-  // Returns the parameters of the membrane at u in [0, infinity], for shapes that set none. They are tuned to
+  // Returns the parameters of the height correction at u in [0, infinity], for shapes that set none. They are tuned to
   // this surface: the strongest compression that keeps detail and depth order at least as good as
   // gradient-domain compression does, where that is possible.
   MembraneParams membrane_at(double u) const;

@@ -11,10 +11,10 @@ class ToneCurve;
 
 enum class Style {
   paper,   // equations (5) to (7), and detail added to the heights
-  layered  // ours: normals compressed layer by layer, fine ones least; heights compressed by the membrane
+  layered  // normals compressed layer by layer, fine ones least; heights compressed by HeightCorrection
 };
 
-// Parameters of the membrane, which compresses layered heights: see HeightCorrection.
+// Parameters of HeightCorrection, which compresses layered heights.
 struct MembraneParams {
   double height_share =
       1;  // height of the relief, as a share of the height that (9) gives its slopes, (0, 1]

@@ -20,13 +20,13 @@ struct SubspaceOptions {
   double max_slope = 4;               // of the reference heights, see Shape
 };
 
-// Returns z0, the heights of all points that (9) gives for w_k = 1. `system` is that of all points.
+// Returns z_ref, the heights of all points that (9) gives for w_k = 1. `system` is that of all points.
 std::vector<double> reference_heights(const Surface& surface, const HeightSystem& system, double max_slope);
 
-// Control points with their factored system, and the way from their heights to those of all points: z = r z0
-// + d. z0 are the reference heights, (9) with w_k = 1. The compression ratio r is that of compressed and
-// reference heights, z_c / z0_c, both solved on the control points; the offset d is what a smooth ratio
-// leaves of z_c, above all where z0 passes 0. Multilevel B-splines carry both to all points.
+// Control points with their factored system, and the way from their heights to those of all points: z =
+// ratio z_ref + offset. z_ref are the reference heights, (9) with w_k = 1. The ratio is that of compressed and
+// reference heights, both solved on the control points; the offset is what a smooth ratio leaves of the
+// compressed ones, above all where z_ref passes 0. Multilevel B-splines carry both to all points.
 //
 // Reliefs are within about 1 % (root mean square, of the height) of the exact ones, layered ones within 1 to
 // 4 %, low ones most: docs/decisions/subspace.md. Const calls may run concurrently, each with a workspace of
@@ -108,7 +108,7 @@ class SubspaceModel {
   std::vector<RatioTerm> ratio_terms_;
   MultilevelSpline ratio_spline_, offset_spline_;
   std::vector<SplinePlace> places_;
-  std::vector<float> reference_;  // z0 of all points
+  std::vector<float> reference_;  // z_ref of all points
 };
 
 }  // namespace relievo

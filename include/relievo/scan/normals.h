@@ -16,10 +16,10 @@ void estimate_normals(Cloud& cloud, std::size_t neighbours = 16);
 // Reverses the normals of a cloud in view coordinates that face away from the viewer, so that z >= 0.
 void turn_to_viewer(Cloud& viewed);
 
-// Gives all normals of a cloud in view coordinates consistent signs. The visible points, `seen`, whose
-// normals are within 60 degrees of the viewer's direction are turned to the viewer. From these the signs
-// spread from neighbour to neighbour, so that the surface continues around edges instead of folding back.
-void turn_to_viewer(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen);
+// Gives the normals that turn_to_viewer() left consistent signs. Visible points, `seen`, whose normals are
+// within 60 degrees of the viewer's direction keep theirs. From these the signs spread from neighbour to
+// neighbour, so that the surface continues around edges instead of folding back.
+void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const Index> seen);
 
 // Returns whether the normals point into the model: whether of the points that are in front, seen from each
 // of the six sides along the axes, on average less than a third face the viewer. For a cloud that was scanned

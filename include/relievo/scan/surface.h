@@ -36,7 +36,7 @@ struct Surface {
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 
-  // Returns the bytes held.
+  // Returns the bytes held, colours not counted.
   std::size_t memory() const;
 };
 

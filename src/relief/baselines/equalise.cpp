@@ -73,9 +73,9 @@ void equalise(Histogram& counts, double clip) {
 }
 
 // Equalising curves for the windows around the nodes of a lattice, interpolated between nodes.
-class Lattice {
+class CurveLattice {
  public:
-  Lattice(const DepthPicture& picture, int window, const EqualiseOptions& options)
+  CurveLattice(const DepthPicture& picture, int window, const EqualiseOptions& options)
       : step_(std::max(1, window / 4)),
         curves_(filled_image(picture.bin.width / step_ + 2, picture.bin.height / step_ + 2, Histogram())) {
     parallel_for(
@@ -119,7 +119,7 @@ Relief equalised_relief(const Surface& surface, double height, const EqualiseOpt
   const Depths depths(surface, options.bins);
   const DepthPicture picture = draw(surface, grid, depths, options);
   for (int level = 0; level < options.windows; ++level) {
-    const Lattice lattice(picture, std::max(4, options.largest_window_px >> level), options);
+    const CurveLattice lattice(picture, std::max(4, options.largest_window_px >> level), options);
     parallel_for(z.size(), [&](std::size_t i) {
       z[i] += lattice.at(grid.to_pixels(surface.points[i]), depths.place(surface.points[i].z()));
     });

@@ -62,7 +62,7 @@ std::vector<std::uint8_t> is_at_jump(const Surface& surface, const Lattice& latt
   return marks;
 }
 
-// Returns the tension per node: the harmonic mean of the edge weights used in (9). More tension would smear the
+// Returns the tension per node: the harmonic mean of the jump weights used in (9). More tension would smear the
 // misfit, which (9) concentrates at depth jumps.
 std::vector<float> tension_of(std::span<const float> weights, const Lattice& lattice) {
   std::vector<float> compliance(weights.size()), tension(lattice.nodes());

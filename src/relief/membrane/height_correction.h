@@ -1,4 +1,5 @@
-// The membrane: a smooth correction that compresses the heights of a layered relief to the height asked for.
+// The height correction: a smooth field that compresses the heights of a layered relief to the height asked for.
+// Other names in the code call it the membrane.
 #pragma once
 
 #include <span>
@@ -15,22 +16,14 @@ namespace relievo {
 struct HeightLimits {
   double height;                  // > 0: corrected heights lie between 0 and this
   double pull_length;             // MembraneParams::pull_length
-  double boundary_stiffness = 1;  // (0, 1]: how hard the silhouette is tied to the base
+  double boundary_stiffness = 1;  // (0, 1]: share of the tension across the silhouette that counts
 
   // Returns the limits that membrane parameters stand for.
   static HeightLimits of(double height, const MembraneParams& params);
 };
 
 // A field b that is added to the heights z of equation (9), so that 0 <= z + b <= h. Of all such fields it is
-// close to the one with the least integral of
-//
-//   (bending_length lap b)^2 + w |grad b|^2 + ((z + b - h r) / pull_length)^2
-//
-// (a thin plate under tension between obstacles): r are the ranks of the depths in [0, 1], so that the last
-// term keeps in front what is in front; w are the edge weights of (9), less than 1 near depth jumps. Where
-// heights have room b is smooth, so that the relief keeps their curvature. The plate is hinged at silhouettes
-// and depth jumps, where nobody sees it bend, and tied to 0 a cell beyond the silhouette, where only
-// `boundary_stiffness` of the tension counts.
+// close to the one with the least energy, which docs/method.md gives under "The height correction".
 //
 // b lives on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits leave
 // room for what the heights do between nodes. b is 0 where there are no points. Const calls may run

@@ -13,12 +13,12 @@
 namespace relievo {
 
 // A monotone curve over heights: the identity between two limits, each with a share of `clipped_share` of the
-// points beyond it, and at the base, 0; beyond the limits its slope falls from 1 to `least_slope` at the
-// extremes.
+// points beyond it. The limits never cross 0, the base. Beyond them the slope falls from 1 to `least_slope` at
+// the extremes.
 template <typename Real>
 class SoftClip {
  public:
-  // docs/quality.md, "Our method", step 4, has the reason.
+  // docs/method.md, "The height correction", has the reason.
   static constexpr double clipped_share = .002, least_slope = .12;
 
   explicit SoftClip(std::span<const Real> heights) {

@@ -164,16 +164,16 @@ void SubspaceModel::set_reference(double max_slope, std::span<const float> bound
   control_reference_ = workspace.storage_->heights;
   const auto [lowest, highest] = std::minmax_element(control_reference_.begin(), control_reference_.end());
   const float faint = 1e-3F * (*highest - *lowest);
-  for (const float z0 : control_reference_) {
-    const float sum = std::max(z0 * z0 + faint * faint, std::numeric_limits<float>::min());
-    ratio_terms_.push_back({z0 / sum, faint * faint / sum});
+  for (const float z_ref : control_reference_) {
+    const float sum = std::max(z_ref * z_ref + faint * faint, std::numeric_limits<float>::min());
+    ratio_terms_.push_back({z_ref / sum, faint * faint / sum});
   }
 }
 
 // With weights z0_c^2 the fit of the ratio r minimises z_c - r z0_c.
 void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec2> points) {
   std::vector<float> weights;
-  for (const float z0 : control_reference_) weights.push_back(z0 * z0);
+  for (const float z_ref : control_reference_) weights.push_back(z_ref * z_ref);
   SplineOptions options = spline_options(points, control_.radius);
   options.last_fitted = last_ratio_level;
   ratio_spline_ = MultilevelSpline(sites, weights, options);
@@ -188,9 +188,9 @@ void SubspaceModel::set_splines(std::span<const Vec2> sites, std::span<const Vec
 void SubspaceModel::fit(Workspace::Storage& storage) const {
   double compressed = 0, reference = 0;
   for (std::size_t c = 0; c < storage.heights.size(); ++c) {
-    const auto z0 = static_cast<double>(control_reference_[c]);
-    compressed += z0 * static_cast<double>(storage.heights[c]);
-    reference += z0 * z0;
+    const auto z_ref = static_cast<double>(control_reference_[c]);
+    compressed += z_ref * static_cast<double>(storage.heights[c]);
+    reference += z_ref * z_ref;
   }
   const auto overall = static_cast<float>(reference > 0 ? compressed / reference : 0);
   for (std::size_t c = 0; c < storage.heights.size(); ++c) {
