@@ -21,8 +21,10 @@ int main(int argc, char** argv) {
   CLI::App program{"Relievo turns a 3D scan into a bas-relief.", "relievo"};
   program.set_version_flag("--version", std::string("relievo ") + relievo::version);
   program.require_subcommand(1);
-  program.failure_message([](const CLI::App*, const CLI::Error& error) {
-    return std::string("relievo: ") + error.what() + "; see relievo --help\n";
+  program.failure_message([](const CLI::App* app, const CLI::Error& error) {
+    const auto commands = app->get_subcommands();  // those that the user named
+    const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+    return std::string("relievo: ") + error.what() + "; see relievo " + command + "--help\n";
   });
   relievo::Result<void> result;
   relievo::app::cli::add_make(program, result);

@@ -155,10 +155,11 @@ std::string outcome(const MakeOrder& order, const MadeRelief& made) {
   const ReliefReport& report = made.report;
   const Vec3 size = size_mm(made.solid);
   const std::string_view unit = name_of(order.unit);
+  const double below_ground = in_units(report.below_ground_mm);
   return cat(order.files.output, ": ", report.visible_points, " of ", report.input_points, " points, height ",
-             in_units(report.height_mm), " ", unit, " (", in_units(report.below_ground_mm),
-             " of it below the ground), body ", in_units(size.x()), " x ", in_units(size.y()), " x ",
-             in_units(size.z()), " ", unit);
+             in_units(report.height_mm), " ", unit,
+             below_ground > 0 ? cat(" (", below_ground, " of it below the ground)") : "", ", body ",
+             in_units(size.x()), " x ", in_units(size.y()), " x ", in_units(size.z()), " ", unit);
 }
 
 // Every file in memory, and the lines to say about them.

@@ -91,7 +91,7 @@ std::string help_text(const OptionField& field) {
 Json option_list() {
   Json list = Json::array();
   for (const ReliefField& field : option_fields()) {
-    Json entry{{"name", field.name}, {"unit", field.unit}, {"help", field.help}, {"slider", field.is_slider}};
+    Json entry{{"name", field.name}, {"unit", field.unit}, {"help", field.help}};
     if (is_number(field)) entry.update({{"min", field.min}, {"max", field.max}});
     if (!field.choices.empty()) entry["choices"] = field.choices;
     if (const Json value = default_of(field); !value.is_null()) entry["default"] = value;

@@ -34,7 +34,6 @@ struct ReliefField : OptionField {
 
   Value value;
   double (*effective)(const ReliefOptions&) = nullptr;  // what rules without a value, where methods differ
-  bool is_slider = false;                               // shown live by the studio
 };
 
 // Returns all rows, in the order of the help.

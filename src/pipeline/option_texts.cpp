@@ -8,8 +8,6 @@
 namespace relievo {
 namespace {
 
-constexpr bool as_slider = true;
-
 double alpha_of(const ReliefOptions& options) {
   return options.effective_alpha();
 }
@@ -43,14 +41,10 @@ std::vector<ReliefField> shape_rows() {
   return {
       ReliefField{
           {"width", "MM", "length of the relief's longer side; margin and rim are added to it", .1, 1e5},
-          &OptionTexts::width_mm,
-          nullptr,
-          as_slider},
+          &OptionTexts::width_mm},
       ReliefField{{"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4,
                    1e5, "what alpha gives, 2.4 for a lithophane"},
-                  &OptionTexts::height_mm,
-                  nullptr,
-                  as_slider},
+                  &OptionTexts::height_mm},
       ReliefField{
           {"alpha", "A", "the paper's height coefficient, more is flatter; not together with height", 0, 1e9},
           &OptionTexts::alpha,
@@ -60,15 +54,13 @@ std::vector<ReliefField> shape_rows() {
                    "curved",
                    0, 100},
                   &OptionTexts::saturation,
-                  saturation_of,
-                  as_slider},
+                  saturation_of},
       ReliefField{{"detail", "G",
                    "the paper's gamma, the strength of detail; with method layered, how much coarse "
                    "shapes are attenuated",
                    0, 1},
                   &OptionTexts::detail,
-                  detail_of,
-                  as_slider},
+                  detail_of},
       ReliefField{{.name = "method",
                    .unit = "NAME",
                    .help = "method that compresses the depths",
@@ -84,8 +76,7 @@ std::vector<ReliefField> view_rows() {
       ReliefField{{"steepest", "DEG",
                    "steepest slope asked of the surface, which walls at depth jumps can exceed", 1, 89},
                   &OptionTexts::steepest_deg,
-                  steepest_of,
-                  as_slider},
+                  steepest_of},
       ReliefField{{"draft", "DEG",
                    "least angle of walls off the vertical, kept by every triangle of the front: 15 for "
                    "coin dies",
@@ -93,8 +84,7 @@ std::vector<ReliefField> view_rows() {
                   &OptionTexts::draft_deg},
       ReliefField{{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100},
                   &OptionTexts::boundary_width,
-                  boundary_of,
-                  as_slider},
+                  boundary_of},
       ReliefField{{.name = "tone",
                    .unit = "X,Y;..",
                    .help = "tone curve that replaces the saturation: share of the "
@@ -131,17 +121,10 @@ std::vector<ReliefField> plate_rows() {
                    .choices = names_of(outline_choices)},
                   &OptionTexts::outline},
       ReliefField{{"corner", "MM", "radius of the corners of outline round", .01, 1e5},
-                  &OptionTexts::corner_mm,
-                  nullptr,
-                  as_slider},
-      ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5},
-                  &OptionTexts::margin_mm,
-                  nullptr,
-                  as_slider},
+                  &OptionTexts::corner_mm},
+      ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5}, &OptionTexts::margin_mm},
       ReliefField{{"thickness", "MM", "smallest thickness of the plate", .01, 1e5},
-                  &OptionTexts::thickness_mm,
-                  nullptr,
-                  as_slider},
+                  &OptionTexts::thickness_mm},
       ReliefField{{"rim", "MM",
                    "width of a raised edge along the outline, as coins have; in a die, of the groove that "
                    "it fits",

@@ -1,5 +1,5 @@
-// The weight of an edge in equation (9). Whoever changes it changes it here: height_equations() sums up the
-// halves, and TriangleSlopes limits its triangles by half the bound.
+// The weight of an edge in equation (9): height_equations() sums up the halves, and TriangleSlopes reduces its
+// triangles by needle_share(). Whoever changes the weight changes it here and in tests/relief/heights_test.cpp.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +25,13 @@ inline double half_edge_weight(const Vec2& apex, const Vec2& a, const Vec2& b) {
 // Returns the weight of an edge whose triangles add up to `sum`.
 inline float edge_weight(float sum) {
   return std::clamp(sum, least_edge_weight, largest_edge_weight);
+}
+
+// Returns by how much edge_weight() reduces a triangle of which `stiffest` is the largest half weight, in [0, 1]:
+// an edge is the sum of two halves, so that a triangle has half of the bound.
+inline double needle_share(double stiffest) {
+  constexpr double largest_half = largest_edge_weight / 2;
+  return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
 }
 
 }  // namespace relievo

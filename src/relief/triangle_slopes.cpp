@@ -11,16 +11,13 @@
 namespace relievo {
 namespace {
 
-// The system of heights bounds the sum of two half weights, and a triangle must not weigh more here than there.
-constexpr double largest_half_weight = largest_edge_weight / 2;
-
 // Returns the weight of a triangle: its area, reduced for needles as (9) reduces their edges.
 double weight_of(const std::array<Vec2, 3>& p) {
   const double area = cross(p[1] - p[0], p[2] - p[0]) / 2;
   double stiffest = 0;
   for (std::size_t i = 0; i < 3; ++i)
     stiffest = std::max(stiffest, half_edge_weight(p[i], p[(i + 1) % 3], p[(i + 2) % 3]));
-  return area * std::min(1.0, largest_half_weight / std::max(stiffest, 1e-300));
+  return area * needle_share(stiffest);
 }
 
 }  // namespace

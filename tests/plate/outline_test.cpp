@@ -17,10 +17,6 @@
 namespace relievo {
 namespace {
 
-const std::vector<std::pair<std::string, Outline>> all_outlines = {
-    {"rectangle", Outline::rectangle}, {"round", Outline::round},     {"circle", Outline::circle},
-    {"ellipse", Outline::ellipse},     {"hexagon", Outline::hexagon}, {"none", Outline::none}};
-
 double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -50,7 +46,7 @@ std::vector<Vec2> lump() {
 }
 
 TEST(OutlineAround, IsConvexAndKeepsTheMarginButNoMore) {
-  for (const auto& [name, outline] : all_outlines) {
+  for (const auto& [name, outline] : outline_choices) {
     if (outline == Outline::none) continue;
     const std::vector<Vec2> polygon = outline_around(lump(), {outline, 12, 3});
     const std::size_t n = polygon.size();
@@ -100,7 +96,7 @@ TEST(MakePlate, EveryOutlineIsWatertightWithItsClosedFormVolume) {
   const std::vector<Vec2> polygon = test::ellipse(37, 20, 12);
   const HeightFieldMesh pyramid = test::pyramid_front(polygon, 6);
   const double relief = test::polygon_area(polygon) * 6 / 3;
-  for (const auto& [name, outline] : all_outlines) {
+  for (const auto& [name, outline] : outline_choices) {
     const auto solid = make_plate(pyramid, {2, 1.5, outline, 8});
     ASSERT_TRUE(solid) << name << solid.error().message();
     EXPECT_EQ(check_solid(*solid), "") << name;
@@ -206,7 +202,7 @@ ReliefOptions options_for(Outline outline, Form form, bool is_simpler) {
 }
 
 TEST(Outlines, AreWatertightInEveryFormAndSimplified) {
-  for (const auto& [name, outline] : all_outlines)
+  for (const auto& [name, outline] : outline_choices)
     for (const auto& [form_name, form] : form_choices)
       for (const bool is_simpler : {false, true}) {
         const auto made = make_relief(model(), options_for(outline, form, is_simpler));
@@ -250,7 +246,7 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
 // The transform of the report puts each visible point over its place in the solid, however it is cut out.
 TEST(Outlines, TheReportTellsWhereTheScanLies) {
   const Surface& surface = model().surface();
-  for (const auto& [name, outline] : all_outlines) {
+  for (const auto& [name, outline] : outline_choices) {
     if (outline == Outline::none) continue;
     const auto made = make_relief(model(), options_for(outline, Form::relief, false));
     const ReliefReport& r = made->report;
@@ -264,17 +260,16 @@ TEST(Outlines, TheReportTellsWhereTheScanLies) {
 
 TEST(Outlines, OnlyTheRectangleIsTheBoxOfItsPoints) {
   const std::vector<Vec2> points = {{0, 0}, {4, 1}, {3, 3}};
-  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
-                                Outline::hexagon, Outline::none}) {
+  for (const auto& [name, outline] : outline_choices) {
     const std::vector<Vec2> polygon = outline_around(points, {outline, 1, 2});
-    EXPECT_EQ(is_box(outline), polygon.size() == 4) << static_cast<int>(outline);
+    EXPECT_EQ(is_box(outline), polygon.size() == 4) << name;
   }
 }
 
 TEST(Outlines, AreToldByTheirNames) {
-  for (const auto& [name, outline] : all_outlines) EXPECT_EQ(*parse_outline(name), outline);
+  for (const auto& [name, outline] : outline_choices) EXPECT_EQ(*parse_outline(name), outline);
   EXPECT_EQ(parse_outline("star").error().message(),
-            "outline: expected one of rectangle, round, circle, ellipse, hexagon or none, found 'star'");
+            "outline: expected one of " + either(names_of(outline_choices)) + ", found 'star'");
 }
 
 }  // namespace

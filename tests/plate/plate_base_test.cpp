@@ -15,8 +15,6 @@
 namespace relievo {
 namespace {
 
-constexpr Outline outlines[] = {Outline::rectangle, Outline::round,   Outline::circle,
-                                Outline::ellipse,   Outline::hexagon, Outline::none};
 constexpr const char* shapes[] = {"plane",           "fold", "wave:direction=30", "cylinder", "dome",
                                   "cylinder:hollow", "image"};
 
@@ -185,11 +183,11 @@ TEST(PlateBase, ASteepDomeOverEmptyGroundIsRoundEverywhere) {
 
 TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
   const HeightFieldMesh front = hill(), scattered = scattered_hill();
-  for (const Outline outline : outlines)
+  for (const auto& [outline_name, outline] : outline_choices)
     for (const char* shape : shapes)
       for (const double rim : {0., 1.5}) {
         if (outline == Outline::none && rim > 0) continue;
-        const std::string name = std::to_string(static_cast<int>(outline)) + " " + shape;
+        const std::string name = std::string(outline_name) + " " + shape;
         EXPECT_EQ(check_solid(plate(front, plate_on(shape, outline, rim))), "") << name;
         if (outline == Outline::none) continue;
         const Solid solid = plate(scattered, plate_on(shape, outline, rim));

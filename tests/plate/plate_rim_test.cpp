@@ -11,9 +11,6 @@ namespace {
 
 using test::depth_in;
 
-constexpr Outline outlines[] = {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
-                                Outline::hexagon};
-
 HeightFieldMesh hill() {
   return test::pyramid_front(test::ellipse(31, 20, 12, .3), 3);
 }
@@ -55,10 +52,11 @@ TEST(Rim, OfACircleHasItsClosedFormVolume) {
 }
 
 TEST(Rim, IsWatertightAndAsHighAsItsDistanceFromTheOutlineAsks) {
-  for (const Outline outline : outlines)
+  for (const auto& [name, outline] : outline_choices)
     for (const RimOptions& rim : {RimOptions{3, 1, .5}, {3, 4, 3}, {.5, .2, .1}, {6, 1, 1}}) {
+      if (outline == Outline::none) continue;
       const Solid solid = plate(hill(), {1, 2, outline, 5, rim});
-      ASSERT_EQ(check_solid(solid), "") << static_cast<int>(outline);
+      ASSERT_EQ(check_solid(solid), "") << name;
       const std::vector<Vec2> edge = outline_of(solid);
       for (std::size_t i = hill().points.size(); i < solid.points.size(); ++i) {
         const Vec3& p = solid.points[i];
@@ -75,13 +73,14 @@ TEST(Rim, IsWatertightAndAsHighAsItsDistanceFromTheOutlineAsks) {
 }
 
 TEST(Rim, InADieIsTheGrooveThatItFits) {
-  for (const Outline outline : outlines) {
+  for (const auto& [name, outline] : outline_choices) {
+    if (outline == Outline::none) continue;
     const RimOptions rim{2, .8, .3};
     const Solid coin = plate(hill(), {1, 2, outline, 5, rim});
     HeightFieldMesh hollow = hill();
     for (Vec3& p : hollow.points) p.z() = -p.z();
     const Solid die = plate(hollow, {1, 2, outline, 5, {2, -.8, .3}});
-    ASSERT_EQ(check_solid(die), "");
+    ASSERT_EQ(check_solid(die), "") << name;
     EXPECT_EQ(box_of(die).max.z(), 5);
     // Places in the coin's plane, the first point of the front the same.
     const Vec3 shift = die.points[0] - coin.points[0];

@@ -343,9 +343,8 @@ TEST(WriteStl, AdmeshFindsNothingToRepair) {
   if (!test::has_admesh()) GTEST_SKIP() << "admesh is not installed";
   const HeightFieldMesh pyramid = pyramid_front(ellipse(101, 30, 20, 0.3), 3);
   EXPECT_EQ(test::complaint_of_admesh(bumpy_plate()), "");
-  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::circle, Outline::ellipse,
-                                Outline::hexagon, Outline::none})
-    EXPECT_EQ(test::complaint_of_admesh(plate(pyramid, {1, 1, outline})), "");
+  for (const auto& [name, outline] : outline_choices)
+    EXPECT_EQ(test::complaint_of_admesh(plate(pyramid, {1, 1, outline})), "") << name;
 }
 
 TEST(InUnit, ScalesAndSeparates) {

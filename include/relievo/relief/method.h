@@ -28,23 +28,24 @@ Baseline linear_relief, equalised_relief, gradient_relief, base_and_detail_relie
 struct MethodInfo {
   Method method;
   std::string_view name;  // as typed
-  std::string_view help;  // one line
   // Makes the relief of a baseline; null for methods that shape a relief by Shape.
   Baseline* make = nullptr;
   bool needs_all_points = false;  // and so has no subspace mode
 };
 
 inline constexpr std::array methods{
-    MethodInfo{Method::layered, "layered",
-               "normals compressed layer by layer, heights by a smooth correction"},
-    MethodInfo{Method::paper, "paper", "normal space compression as in the paper"},
-    MethodInfo{Method::linear, "linear", "depths scaled", linear_relief},
-    MethodInfo{Method::equalise, "equalise",
-               "adaptive histogram equalisation of the depths (Sun et al. 2009)", equalised_relief},
-    MethodInfo{Method::gradient, "gradient", "gradient-domain compression (Weyrich et al. 2007)",
-               gradient_relief, true},
-    MethodInfo{Method::base_detail, "detail", "linear base with amplified detail (Ji et al. 2014)",
-               base_and_detail_relief, true},
+    // Normals compressed layer by layer, heights by a smooth correction.
+    MethodInfo{Method::layered, "layered"},
+    // Normal space compression as in the paper.
+    MethodInfo{Method::paper, "paper"},
+    // Depths, scaled.
+    MethodInfo{Method::linear, "linear", linear_relief},
+    // Adaptive histogram equalisation of the depths (Sun et al. 2009).
+    MethodInfo{Method::equalise, "equalise", equalised_relief},
+    // Gradient-domain compression (Weyrich et al. 2007).
+    MethodInfo{Method::gradient, "gradient", gradient_relief, true},
+    // A linear base with amplified detail (Ji et al. 2014).
+    MethodInfo{Method::base_detail, "detail", base_and_detail_relief, true},
 };
 
 // Returns the method of that name; `ours` is the former name of `layered`. Errors: kind option for any other,
