@@ -1,4 +1,4 @@
-// What nearly every source includes, compiled once for a target instead of once for each source.
+// These headers are included by nearly every source; they are compiled once for a target instead of for each source.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -35,7 +35,7 @@ struct PictureAnswer {
   std::uint64_t scene = 0;  // number of what the picture shows besides the relief: plate, camera, light ...
   double drawing_s = 0;
 
-  // Of reliefs only:
+  // The rest tells how a relief was made; a picture of the model itself leaves it at its defaults.
   Compression compression;  // that was found
   double height_mm = 0;
   bool is_height_met = true;

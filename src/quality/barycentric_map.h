@@ -1,4 +1,4 @@
-// Where the points of a surface lie on the pixels of an image.
+// A map from the pixels of an image to the triangles of a surface that cover them.
 #pragma once
 
 #include <span>

@@ -86,8 +86,8 @@ class Limiter {
     return {};
   }
 
-  // Where the least squares end far from the limit, as with walls a hundred times too steep, heights are lowered
-  // before limit_slopes() tries again.
+  // The least squares can end far from the limit, as with walls a hundred times too steep. Heights are then lowered
+  // before limit_slopes() tries again, this often at most.
   static constexpr int most_tries = 40;
 
   const ReliefModel* model_;

@@ -42,7 +42,7 @@ TEST(Divergence, IsThatOfALinearField) {
   for (Index i = 0; i < sum.size(); ++i) ASSERT_NEAR(sum[i], where.mask[i] ? .5 : 0, 1e-4) << i;
 }
 
-// What lies in the hole and at the rim does not count.
+// Values in the hole and at the rim do not count.
 TEST(MaskedGaussian, KeepsAConstant) {
   const PixelMask where = measured(2, true);
   Image<float> values = image([&](int x, int y) { return where.mask.at(x, y); });

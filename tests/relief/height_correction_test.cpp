@@ -197,8 +197,7 @@ TEST(HeightCorrection, PullsHarderWithAShorterLength) {
   EXPECT_LT(last, .02);
 }
 
-// Where the nearer sheet ends there is a jump: what pulls it to the front bends the membrane there, and
-// hardly anywhere else.
+// The nearer sheet ends at a jump. A pull on the sheet bends the membrane there, and hardly anywhere else.
 TEST(HeightCorrection, IsHingedAtJumps) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);

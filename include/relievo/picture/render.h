@@ -17,7 +17,7 @@ namespace relievo {
 
 struct Picture {
   Image8 image;  // 4 channels
-  // Of the plate's plane, seen from the front; CloudRenderer writes pixels per unit of the scan.
+  // The scale of the plate's plane, seen from the front; CloudRenderer writes pixels per unit of the scan.
   double pixels_per_mm = 1;
 };
 

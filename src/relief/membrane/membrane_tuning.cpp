@@ -142,7 +142,7 @@ class TuningSearch {
     for (int i = 0; i <= pull_steps; ++i) {
       const auto [share, bound] = least_share_with(length, best ? best->height_share : most_share);
       if (share && (!best || *share < best->height_share)) best = MembraneParams{*share, length};
-      // Where both are violated a shorter one does not help; but from the longest one can only go shorter.
+      // If both are violated, a shorter length does not help; but from the longest one can only go shorter.
       const bool is_shorter_better = bound.order && (share || !bound.detail || i == 0);
       if (i == 0 && !is_shorter_better) break;
       (is_shorter_better ? high : low) = length;
