@@ -2,7 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
@@ -17,38 +20,46 @@ namespace fs = std::filesystem;
 
 using test::has_shared, test::missing_scan, test::shared_bytes, test::shared_data;
 
-std::vector<fs::path> readable_scans() {
-  std::vector<fs::path> scans;
+// The scans' paths within the folder; "none" where it holds no scan, so that a test is there to say what was skipped.
+std::vector<std::string> scan_names() {
+  std::vector<std::string> names;
   for (const fs::path& folder : {shared_data(), shared_data() / "original"})
     if (fs::is_directory(folder))
       for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         for (const char* ending : {".ply", ".obj", ".xyz", ".pts", ".stl", ".pcd"})
-          if (entry.path().extension() == ending) scans.push_back(entry.path());
-  std::sort(scans.begin(), scans.end());
-  return scans;
+          if (entry.path().extension() == ending) names.push_back(fs::relative(entry.path(), shared_data()).string());
+  std::sort(names.begin(), names.end());
+  if (names.empty()) names.push_back("none");
+  return names;
 }
 
-TEST(Data, EveryScanBecomesASolidOfTheHeightAsked) {
-  const std::vector<fs::path> scans = readable_scans();
-  if (scans.empty()) GTEST_SKIP() << missing_scan("*.ply");
-  for (const fs::path& path : scans) {
-    SCOPED_TRACE(path.filename().string());
-    const Result<CloudFile> file = read_cloud(shared_bytes(path), path.filename().string());
-    ASSERT_TRUE(file) << file.error().message();
-    ReliefOptions options;
-    options.height_mm = 2.5;
-    if (path.filename() == "lion_takanawa_raw.ply" || path.filename() == "lionscan1.xyz") {
-      options.view = *parse_view("0,-1,0", "0,0,1");
-    }
-    if (path.extension() == ".stl") options.view = *parse_view("top");
-    const Result<MadeRelief> made = make_relief(*file, options);
-    ASSERT_TRUE(made) << made.error().message();
-    EXPECT_EQ(check_solid(made->solid), "");
-    EXPECT_NEAR(made->report.height_mm, 2.5, 2.5e-3);
-    EXPECT_GT(made->report.visible_points, .2 * static_cast<double>(file->cloud.size()));
-    if (!file->mesh.empty()) {
-      EXPECT_NEAR(static_cast<double>(made->report.visible_points), options.points, .1 * options.points);
-    }
+std::string test_name(const testing::TestParamInfo<std::string>& info) {
+  std::string name = info.param;
+  std::replace_if(name.begin(), name.end(), [](unsigned char letter) { return !std::isalnum(letter); }, '_');
+  return name;
+}
+
+class RealScan : public testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Data, RealScan, testing::ValuesIn(scan_names()), test_name);
+
+TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
+  const fs::path path = GetParam();
+  if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");
+  const Result<CloudFile> file = read_cloud(shared_bytes(path), path.filename().string());
+  ASSERT_TRUE(file) << file.error().message();
+  ReliefOptions options;
+  options.height_mm = 2.5;
+  if (path.filename() == "lion_takanawa_raw.ply" || path.filename() == "lionscan1.xyz")
+    options.view = *parse_view("0,-1,0", "0,0,1");
+  if (path.extension() == ".stl") options.view = *parse_view("top");
+  const Result<MadeRelief> made = make_relief(*file, options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
+  EXPECT_NEAR(made->report.height_mm, 2.5, 2.5e-3);
+  EXPECT_GT(made->report.visible_points, .2 * static_cast<double>(file->cloud.size()));
+  if (!file->mesh.empty()) {
+    EXPECT_NEAR(static_cast<double>(made->report.visible_points), options.points, .1 * options.points);
   }
 }
 
