@@ -1,5 +1,5 @@
-// How preparation, frames and memory grow with the number of visible points, on one generated shape scanned
-// ever more densely, with the exponent that fits best: growth [LARGEST, in thousands of visible points]
+// Measures preparation, frames and memory on one generated shape that is scanned ever more densely, and the exponent of
+// their growth with the number of visible points. Usage: growth [LARGEST, in thousands of visible points]
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>

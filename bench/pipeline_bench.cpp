@@ -16,7 +16,7 @@
 namespace relievo {
 namespace {
 
-// What each stage needs of those before it, made once per size.
+// The input of each stage, made once per size by the stages before it.
 struct Prepared {
   Cloud cloud;
   Spacing spacing;

@@ -100,6 +100,12 @@ struct Comparer {
   }
 };
 
+// CLI11's own message would not say that heights are fractions here, as those of the other commands are lengths.
+std::string height_error(const std::string& text) {
+  if (CLI::Range(1e-4, 1.0)(text).empty()) return {};
+  return cat("expected fractions of the width, 0.0001 to 1, found ", text);
+}
+
 Result<Comparison> compare_all(const CompareArguments& arguments, const std::vector<Method>& chosen,
                                Progress& progress) {
   RELIEVO_TRY(const SampledView seen, read_sample(arguments.scene, &progress));
@@ -135,6 +141,7 @@ void print_table(const Comparison& comparison) {
                 m.detail[1], m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step,
                 m.rim_step);
   }
+  std::printf("\nLarger is better for shading, detail, order and used, smaller for the others.\n");
 }
 
 void print_json(const Comparison& comparison) {
@@ -192,7 +199,7 @@ void add_compare(CLI::App& program, Result<void>& result) {
       .add_option("--height", arguments->heights,
                   "heights, as fractions of the width [0.0001 to 1]; default 0.0125,0.025,0.05")
       ->delimiter(',')
-      ->check(CLI::Range(1e-4, 1.0).description(""))
+      ->check(CLI::Validator(height_error, ""))
       ->type_name("FRACTION,...");
   command.add_option("--methods", arguments->methods, cat("of ", method_names(), "; default all"))
       ->delimiter(',')

@@ -130,7 +130,7 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder.string();
 }
 
-// Whether both paths lead to the same file, which need not exist.
+// Returns whether both paths lead to the same file, which need not exist.
 bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   if (std::filesystem::equivalent(a, b, ignored)) return true;

@@ -46,7 +46,7 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   std::string line =
       cat(image.values.width, " x ", image.values.height, " depths, ", made.missing, " missing");
   if (made.background > 0) line += cat(", ", made.background, " points of background taken out");
-  if (made.cut > 0) line += cat(", ", made.cut, " on ramps cut");
+  if (made.cut > 0) line += cat(", ", made.cut, " blurred across depth jumps taken out");
   return line + cat(", smoothed within ", made.noise, " pixels");
 }
 

@@ -189,6 +189,7 @@ struct Server::State {
     const Json state = Json::parse(store.state(), nullptr, false);
     return {{"version", version},
             {"options", option_list()},
+            {"readable", readable_formats()},
             {"endings", readable_endings()},
             {"views", view_list()},
             {"materials", material_list()},

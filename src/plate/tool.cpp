@@ -123,7 +123,7 @@ Image<float> close_by_tool(const Image<float>& heights, double step_mm, const To
   });
   // Tool positions reach beyond the picture on all sides.
   Image<float> hanging = dilate(heights, profile, reach);
-  // Where the tool stands on nothing, it leaves nothing.
+  // Outside the picture there is no height, and the tool leaves none.
   for (float& z : hanging.pixels) z = z > nowhere ? -z : nowhere;
   const Image<float> left = dilate(hanging, profile, -reach);
   Image<float> closed = heights;

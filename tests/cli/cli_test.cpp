@@ -250,7 +250,8 @@ TEST_F(Cli, ComparesMethods) {
   EXPECT_NE(run("compare torus.ply --height 0.05").out.find("gradient"), std::string::npos);
   expect_refusal("compare torus.ply -o c.html --methods carving", "carving");
   expect_refusal("compare torus.ply -o c.png", "c.png: expected a file ending in .html");
-  expect_refusal("compare torus.ply -o c.html --height 0", "--height");
+  expect_refusal("compare torus.ply -o c.html --height 4",
+                 "--height: expected fractions of the width, 0.0001 to 1, found 4");
 }
 
 TEST_F(Cli, HelpTellsRangesAndDefaults) {

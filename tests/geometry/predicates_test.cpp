@@ -57,7 +57,7 @@ int exact_incircle(const Quad& q) {
   return incircle_oracle(q, BigInteger::scaled).sign();
 }
 
-// What plain doubles say: a test on hard cases shows first that they are hard.
+// The signs in plain doubles. A test on hard cases first shows with them that the cases are hard.
 int naive_orient2d(const Vec2& a, const Vec2& b, const Vec2& c) {
   return sign(orient2d_oracle(a, b, c, [](double x) { return x; }));
 }

@@ -11,7 +11,7 @@
 namespace relievo {
 namespace {
 
-// What libpng reads; an error in it ends the test program.
+// A picture as libpng reads it; an error there ends the test program.
 struct Decoded {
   int width = 0, height = 0, bits = 0, colour_type = 0;
   std::vector<std::byte> samples;  // as stored: 16-bit samples big-endian

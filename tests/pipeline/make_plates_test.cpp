@@ -34,7 +34,7 @@ ReliefOptions coin_options() {
   return options;
 }
 
-// Of the highest corner of the plate's edge, above the ground.
+// Returns the height of the highest corner of the plate's edge above the ground.
 double rim_height(const MadeRelief& relief) {
   const Solid& solid = relief.solid;
   const Box box = box_of(solid);

@@ -1,4 +1,4 @@
-// What is seen of a scene, and the relief of it.
+// The points of a scene that are visible, and the relief made of them.
 #include "relievo/io/write.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"

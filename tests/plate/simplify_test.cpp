@@ -80,7 +80,7 @@ TEST(Simplify, TheErrorToldIsReached) {
   const auto flat = simplify(peak, 1.5);
   ASSERT_TRUE(flat) << flat.error().message();
   EXPECT_EQ(flat->front.triangles.size(), 4U);  // corners and the peak, which stays
-  // Where the original is down already, half a cell from the peak along the other diagonal, it is at 3/4.
+  // Half a cell from the peak along the other diagonal, the original has height 0 and the simplified one 3/4.
   EXPECT_NEAR(flat->error_mm, .75, 1e-12);
 }
 

@@ -187,7 +187,7 @@ Solid plate_with_step(double height) {
 // The walls rise 3 mm over half a millimetre, all around 20 x 20 mm of a plate of 50 x 30.
 TEST(MeasureReach, OfABallAtTheFootOfWalls) {
   const ToolReach reach = measure_reach(plate_with_step(3), ball);
-  // Of radius 1, it touches the ground so far from the foot, and hangs so high above it.
+  // The ball of radius 1 touches the ground at the distance `from_foot` and stays `above_foot` above the foot.
   const double from_foot = std::tan(std::atan(6) / 2), above_foot = 1 - std::sqrt(1 - from_foot * from_foot);
   EXPECT_NEAR(reach.largest_residual_mm, above_foot, 6 * reach.mm_per_sample / 2);
   const double on_ground = from_foot - std::sqrt(2 * .01), on_wall = from_foot * std::cos(std::atan(6));

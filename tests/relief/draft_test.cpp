@@ -60,7 +60,7 @@ Slope slope_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {-normal.head<2>() / normal.z(), normal.z() / 2};
 }
 
-// Of the relief's triangles.
+// Returns the slopes of the triangles that belong to the relief.
 std::vector<Slope> slopes_of(const ReliefModel& model, const std::vector<double>& heights) {
   const Surface& surface = model.surface();
   std::vector<Slope> slopes;
@@ -132,8 +132,8 @@ TEST(Draft, APyramidOnAllOfTheBase) {
   EXPECT_LT(largest_difference(limited, wanted), .02);
 }
 
-// Of a least-squares problem under convex limits z is the solution if and only if, for every y that keeps the
-// limits, the sum of area (slope of z - slope given) . (slope of y - slope of z) is not negative.
+// z solves a least-squares problem under convex limits if and only if, for every y that keeps the limits, the sum of
+// area (slope of z - slope given) . (slope of y - slope of z) is not negative.
 TEST(Draft, NoOtherReliefUnderTheLimitIsNearer) {
   const ReliefModel model = model_of(test::sheet(3000, 1, 0));
   const Relief given = relief_of(model, [](double x, double y) {

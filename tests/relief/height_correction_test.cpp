@@ -124,7 +124,7 @@ TEST(HeightCorrection, KeepsHeightsBetweenTheBaseAndTheirHeight) {
   }
 }
 
-// Where points are few, cells are wider; without a point near them they are bridged.
+// Few points make cells wider, and cells without a point nearby are bridged.
 TEST(HeightCorrection, DoesNotDependOnHowManyPointsThereAre) {
   const auto mean = [](std::size_t points) {
     const Surface surface = bumpy(points);
@@ -147,7 +147,7 @@ TEST(HeightCorrection, IsProportionalToHeights) {
   for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(twice[i], 2 * z[i], 1e-6);
 }
 
-// What is finer than its cells it leaves alone: it adds the same to ripples as to none.
+// Ripples finer than the cells do not change the correction.
 TEST(HeightCorrection, KeepsFineDetail) {
   const Surface surface = bumpy();
   const std::vector<double> plain = depths(surface);
@@ -162,7 +162,7 @@ TEST(HeightCorrection, KeepsFineDetail) {
   EXPECT_NEAR(product / square, 1, .03);
 }
 
-// Of two equal sheets, one behind the other, the nearer comes to lie higher.
+// The nearer of two equal sheets, one behind the other, comes to lie higher.
 TEST(HeightCorrection, PullsToTheFrontWhatIsInFront) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
   const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);

@@ -72,7 +72,7 @@ TEST(HeightSearch, ClimbsToWhatIsNotTooLow) {
   }
 }
 
-// As after an error: whoever makes the reliefs returns the height asked for.
+// A caller whose relief failed returns the height asked for, to end the search.
 TEST(HeightSearch, EndsEarlyWhenItIsGivenTheHeight) {
   for (const int failing : {1, 2, 3}) {
     int calls = 0;

@@ -47,7 +47,7 @@ Vec2f sum(const PointLayers& l) {
   return Vec2f(l.fine) + Vec2f(l.middle) + Vec2f(l.coarse) + Vec2f(l.broad);
 }
 
-// What rounding leaves of the sum of four layers.
+// The largest error of the sum of four layers after rounding.
 constexpr float rounding = 4 * LayerXy::unit;
 
 TEST(LayerXy, KeepsWhatItIsGivenToAPart) {

@@ -14,7 +14,7 @@ struct Statistics {
   double mean = 0, deviation = 0;
 };
 
-// Of the estimate minus the truth at the points for which `is_counted`.
+// Returns mean and deviation of the estimate minus the truth over the points for which `is_counted` is true.
 template <typename Truth, typename IsCounted>
 Statistics errors(const Cloud& cloud, Truth truth, IsCounted is_counted, const CurvatureOptions& options) {
   std::vector<Index> queries;

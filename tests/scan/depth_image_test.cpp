@@ -51,7 +51,7 @@ struct Errors {
   double height = 0, angle_deg = 0;  // root mean square; mean
 };
 
-// Of a cloud against the hills.
+// Returns how far the cloud and its normals are from the hills.
 Errors errors_of(const Cloud& cloud, double scale) {
   Errors sum;
   double shift = 0;
@@ -88,7 +88,7 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
   const double scale = .5 * width / high, step = .5 * width / 255;  // in pixels
   const Errors smooth = errors_of(made->cloud, scale);
 
-  // What the steps alone give: the same normals' formula without smoothing.
+  // Without smoothing, the same formula for normals gives those of the steps.
   Cloud raw = made->cloud;
   const auto value = [&](int c, int r) {
     c = std::clamp(c, 0, width - 1), r = std::clamp(r, 0, height - 1);
@@ -207,7 +207,7 @@ TEST(DepthCloud, RampsOfABlurredOutlineAreCut) {
       between += share > .15 && share < .85;
     }
     EXPECT_LT(between, 40U) << blur;
-    // What is left is flat: nothing of the ramp is in the normals.
+    // The remaining points are flat: the normals show nothing of the ramp.
     std::size_t steep = 0;
     for (const Vec3f& n : made->cloud.normals) steep += n.z() < .7F;
     EXPECT_LT(steep, 60U) << blur;

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Where the view puts the model's axis `axis`: the column of the rotation.
+// Returns the direction in the view of the model's axis `axis`, which is a column of the rotation.
 Vec3 seen(std::string_view view, const Vec3& axis, std::string_view up = {}) {
   return parse_view(view, up)->R_view_model * axis;
 }

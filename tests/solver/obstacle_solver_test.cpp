@@ -33,7 +33,7 @@ Stiffness yielding(float bending, std::size_t column, float hinge, float tension
   return all;
 }
 
-// What draws a bump up on the left and down on the right.
+// A load that pulls the left half up and the right half down, with ripples.
 float load(std::size_t n) {
   const double x = static_cast<double>(n % width) / width, y = static_cast<double>(n / width) / height;
   return static_cast<float>(.02 * std::sin(6.283 * x) * std::sin(3.1416 * y) + .004 * std::sin(40 * x * y));
@@ -160,7 +160,7 @@ TEST(ObstacleSolver, BendsAtAHinge) {
   EXPECT_GT(bend(n), 5 * bend(n + 4));
 }
 
-// Where it is hinged and tension is low, it is all but torn: what pulls on one side leaves the other alone.
+// A hinge with low tension separates the two sides: a load on one hardly moves the other.
 TEST(ObstacleSolver, KeepsApartWhatYields) {
   const auto step_at_middle = [](float tension) {
     constexpr std::size_t middle = width / 2;

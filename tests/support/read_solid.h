@@ -35,7 +35,7 @@ struct ReadSolid {
     return sixfold / 6;
   }
 
-  // Whether each edge is run through as often in one direction as in the other.
+  // Returns whether each edge occurs as often in one direction as in the other.
   bool is_closed() const {
     using Corner = std::array<float, 3>;
     const auto corner = [](const Vec3f& p) { return Corner{p.x(), p.y(), p.z()}; };

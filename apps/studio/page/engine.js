@@ -2,8 +2,8 @@
 // can take its place.
 //
 // An Engine has
-//   about()                     -> version, options, formats, views, materials, stages, curve, samples, recent,
-//                                  status, state (as keepState() stored it)
+//   about()                     -> version, options, readable, endings, formats, views, materials, stages, curve,
+//                                  samples, recent, status, state (as keepState() stored it)
 //   follow(onStatus, onLost)       calls back with each new status; onLost when the engine has gone
 //   open(input, view)              starts to read and prepare; upload(file) -> input for a file of the browser
 //   chooseView(view), cancel()     view is {view, up}, as the command line has them

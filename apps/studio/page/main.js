@@ -366,6 +366,7 @@ async function start() {
   wire();
   setTool("light");
   try {
+    $("#readable").textContent = about.readable;
     $("#file").accept = [...about.endings, ".relievo"].join();
     fillStart();
     await resume(about);

@@ -220,16 +220,18 @@ test("has sliders, defaults and units of the engine's options", {skip}, async ()
   }
 });
 
-test("offers every outline, form and format of the engine, added ones too", {skip}, async () => {
+test("names what it reads and offers every outline, form and format of the engine, added ones too", {skip}, async () => {
   const added = await page.context().newPage();
   await added.route("**/api/about", async (route) => {
     const response = await route.fetch(), json = await response.json();
     for (const {name, choices} of json.options) if (["outline", "form"].includes(name)) choices.push("added");
     json.formats.push({name: "added", label: "Added", use: "tests", ending: ".added", type: "model/added"});
+    json.readable = "point cloud (ADDED)";
     await route.fulfill({response, json});
   });
   await added.goto(engine.address);
   await added.getByText(/points.*height/).waitFor();
+  assert.equal(await added.locator("#readable").textContent(), "point cloud (ADDED)");
   await added.getByRole("button", {name: "Export", exact: true}).click();
   const {options, formats} = JSON.parse((await engine.get("api/about")).body);
   for (const name of ["outline", "form"]) {
