@@ -27,7 +27,8 @@ std::vector<std::string> scan_names() {
     if (fs::is_directory(folder))
       for (const fs::directory_entry& entry : fs::directory_iterator(folder))
         for (const char* ending : {".ply", ".obj", ".xyz", ".pts", ".stl", ".pcd"})
-          if (entry.path().extension() == ending) names.push_back(fs::relative(entry.path(), shared_data()).string());
+          if (entry.path().extension() == ending)
+            names.push_back(fs::relative(entry.path(), shared_data()).string());
   std::sort(names.begin(), names.end());
   if (names.empty()) names.push_back("none");
   return names;
@@ -35,7 +36,8 @@ std::vector<std::string> scan_names() {
 
 std::string test_name(const testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
-  std::replace_if(name.begin(), name.end(), [](unsigned char letter) { return !std::isalnum(letter); }, '_');
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char letter) { return !std::isalnum(letter); }, '_');
   return name;
 }
 
