@@ -7,6 +7,7 @@
 #include "plate/plate_checks.h"
 #include "plate/plate_surface.h"
 #include "plate/silhouette.h"
+#include "plate/thin_triangles.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {
@@ -66,6 +67,7 @@ void close_body(Solid& solid) {
 // Adds walls and bottom.
 Solid closed(PlateSurface surface, const PlateOptions& options) {
   raise(surface.solid, options.thickness_mm);
+  surface.solid.error_mm += flip_thin_triangles(surface.solid);
   const double highest = used_box(surface.solid.points, surface.solid.triangles).max.z();
   if (options.outline == Outline::none)
     close_body(surface.solid);

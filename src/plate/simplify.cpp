@@ -165,6 +165,14 @@ class Approximation {
   Triangulation mesh_;
 };
 
+std::vector<Triangle> triangles_above_ground(const HeightFieldMesh& front) {
+  const double ground = front.points[front.hull[0]].z();
+  std::vector<Triangle> above;
+  for (const Triangle& t : front.triangles)
+    if (std::ranges::any_of(t, [&](Index i) { return front.points[i].z() != ground; })) above.push_back(t);
+  return above;
+}
+
 class Simplifier {
  public:
   Simplifier(const HeightFieldMesh& front, const SimplifyOptions& options)
@@ -177,10 +185,11 @@ class Simplifier {
       if (auto go = begin_stage(progress, "simplify", .95); !go) return std::unexpected(go.error());
       const Approximation now(chosen_);
       if (now.mesh().triangles.empty()) break;
-      const auto worst = find_worst(now);
-      if (!worst) break;
-      if (worst->empty()) return finished(now);
-      for (const Candidate& c : *worst) choose(c);
+      const std::size_t before = chosen_.size();
+      const std::vector<Candidate> worst = find_worst(now);
+      if (worst.empty()) return finished(now);
+      for (const Candidate& c : worst) choose(c);
+      if (chosen_.size() == before) break;
     }
     return std::unexpected(
         Error{ErrorKind::geometry, "front", {}, "expected triangles that cover their hull, found others"});
@@ -198,8 +207,9 @@ class Simplifier {
     return {triangle, error, i, front_.points[i], front_.colours.empty() ? Colour{} : front_.colours[i]};
   }
 
-  // Starts with the corners of the hull, the relief's boundary if it is to be kept, and the extreme heights:
-  // errors are largest at extremes, and the plate's thickness and height must not change.
+  // Starts with the corners of the hull, the boundary of the relief and of flat ground, and the extreme heights:
+  // errors are largest at extremes, and the plate's thickness and height must not change. With the ground's boundary
+  // its edges are Delaunay, too, so that flat ground stays flat.
   void choose_corners() {
     const auto& hull = front_.hull;
     for (std::size_t i = 0; i < hull.size(); ++i) {
@@ -208,8 +218,9 @@ class Simplifier {
       if (orient2d(before.head<2>(), here.head<2>(), after.head<2>()) == 0) continue;
       choose(at_point(0, 0, hull[i]));
     }
-    if (!front_.is_relief.empty())
-      for (const auto& [a, b] : boundary_edges(relief_triangles(front_))) choose(at_point(0, 0, a));
+    for (const auto& [a, b] : boundary_edges(relief_triangles(front_)))
+      if (!front_.is_relief.empty()) choose(at_point(0, 0, a));
+    for (const auto& [a, b] : boundary_edges(triangles_above_ground(front_))) choose(at_point(0, 0, a));
     const auto [lowest, highest] =
         std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });
     const double ground = front_.points[hull[0]].z();
@@ -217,21 +228,23 @@ class Simplifier {
       if (extreme->z() != ground) choose(at_point(0, 0, static_cast<Index>(extreme - front_.points.begin())));
   }
 
-  // Returns the place with the largest error of each triangle that exceeds its tolerance; nothing if a point
-  // lies in no triangle. Sets error_ to the largest error of all.
-  std::optional<std::vector<Candidate>> find_worst(const Approximation& now) {
+  // Returns the place with the largest error of each triangle that exceeds its tolerance; or, if there are any, the
+  // points outside all triangles, which rounding leaves beyond a hull. Sets error_ to the largest error of all.
+  std::vector<Candidate> find_worst(const Approximation& now) {
     containing_.resize(front_.points.size());
     slopes_sq_ = now.slopes_sq();
     const std::size_t blocks = (front_.points.size() + edges_per_block - 1) / edges_per_block,
                       edge_blocks = (edges_.size() + edges_per_block - 1) / edges_per_block;
     std::vector<std::vector<Candidate>> found(blocks + edge_blocks);
     std::vector<double> errors(blocks + edge_blocks, 0);
-    std::vector<std::uint8_t> is_lost(blocks, 0);
+    std::vector<std::vector<Candidate>> outside(blocks);
     parallel_ranges(front_.points.size(), edges_per_block, [&](std::size_t begin, std::size_t end) {
       const std::size_t block = begin / edges_per_block;
-      is_lost[block] = !measure_points(now, begin, end, found[block], errors[block]);
+      outside[block] = measure_points(now, begin, end, found[block], errors[block]);
     });
-    if (std::ranges::any_of(is_lost, [](std::uint8_t lost) { return lost != 0; })) return std::nullopt;
+    std::vector<Candidate> beyond_hull;
+    for (const auto& part : outside) beyond_hull.insert(beyond_hull.end(), part.begin(), part.end());
+    if (!beyond_hull.empty()) return beyond_hull;
     parallel_ranges(edges_.size(), edges_per_block, [&](std::size_t begin, std::size_t end) {
       const std::size_t block = blocks + begin / edges_per_block;
       measure_edges(now, begin, end, found[block], errors[block]);
@@ -269,21 +282,26 @@ class Simplifier {
     return out;
   }
 
-  bool measure_points(const Approximation& now, std::size_t begin, std::size_t end,
-                      std::vector<Candidate>& found, double& worst) {
+  // Returns the points that lie outside all triangles.
+  std::vector<Candidate> measure_points(const Approximation& now, std::size_t begin, std::size_t end,
+                                        std::vector<Candidate>& found, double& worst) {
+    std::vector<Candidate> outside;
     Index t = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const Vec3& p = front_.points[i];
-      t = now.find(p.head<2>(), t);
-      if (t == no_index) return false;
-      containing_[i] = t;
+      const Index here = now.find(p.head<2>(), t);
+      if (here == no_index) {
+        outside.push_back(at_point(0, 0, static_cast<Index>(i)));
+        continue;
+      }
+      containing_[i] = t = here;
       const double error = std::abs(now.height(t, p.head<2>()) - p.z());
       worst = std::max(worst, error);
       const Index off =
           triangle_beyond({t, error > least_allowed() ? now.across(p.head<2>(), t) : no_index}, error);
       if (off != no_index) found.push_back(at_point(off, error, static_cast<Index>(i)));
     }
-    return true;
+    return outside;
   }
 
   // The difference of two piecewise flat surfaces is extreme at the corners of their overlay: at the

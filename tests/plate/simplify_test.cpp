@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <array>
+#include <cmath>
+
 #include "relievo/geometry/triangulation.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"
@@ -55,6 +58,31 @@ TEST(Simplify, FlatGroundBecomesTwoTriangles) {
   EXPECT_EQ(simpler->error_mm, 0);
 }
 
+// A hull's points that rounding moved off its sides are outside the triangles of the others.
+TEST(Simplify, TakesAHullThatIsStraightUpToRounding) {
+  const auto simpler =
+      simplify(test::turned_grid_front(60, .5, [](double x, double y) { return waves(9 * x, 9 * y); }), .1);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  EXPECT_LE(simpler->error_mm, .1);
+}
+
+TEST(Simplify, FlatGroundStaysFlat) {
+  const auto dome = [](double x, double y) { return std::max(0., 1 - std::hypot(x - 30, y - 20) / 9); };
+  const HeightFieldMesh full = scattered_front(8000, dome);
+  const auto simpler = simplify(full, .05);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  EXPECT_LT(simpler->front.triangles.size(), full.triangles.size() / 4);
+  test::Random random(3);
+  int level = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec2 place(random.uniform(0, 60), random.uniform(0, 40));
+    if (height_at(full, place) != 0) continue;
+    EXPECT_EQ(height_at(simpler->front, place), 0) << place.transpose();
+    ++level;
+  }
+  EXPECT_GT(level, 1000);
+}
+
 TEST(Simplify, StaysWithinTheToleranceEverywhere) {
   const HeightFieldMesh full = scattered_front(3000, waves);
   for (const double tolerance : {.3, .05, .01}) {
@@ -73,15 +101,35 @@ TEST(Simplify, StaysWithinTheToleranceEverywhere) {
   }
 }
 
-TEST(Simplify, TheErrorToldIsReached) {
-  // One narrow peak that the tolerance allows to widen to the whole square.
-  const HeightFieldMesh peak =
-      grid_front({4, 4, 4, 4}, [](double x, double y) { return x == 2 && y == 2 ? 1 : 0; });
-  const auto flat = simplify(peak, 1.5);
-  ASSERT_TRUE(flat) << flat.error().message();
-  EXPECT_EQ(flat->front.triangles.size(), 4U);  // corners and the peak, which stays
-  // Half a cell from the peak along the other diagonal, the original has height 0 and the simplified one 3/4.
-  EXPECT_NEAR(flat->error_mm, .75, 1e-12);
+// Returns the edges of the triangles, each once or twice.
+std::vector<std::array<Vec2, 2>> edges_of(const HeightFieldMesh& front) {
+  std::vector<std::array<Vec2, 2>> edges;
+  for (const Triangle& t : front.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      edges.push_back({front.points[t[i]].head<2>(), front.points[t[(i + 1) % 3]].head<2>()});
+  return edges;
+}
+
+// The difference of two piecewise flat surfaces is largest at a point or where two edges cross: all are tried.
+TEST(Simplify, TheErrorToldIsTheLargestDifference) {
+  const HeightFieldMesh full = scattered_front(80, waves);
+  const auto simpler = simplify(full, .4);
+  ASSERT_TRUE(simpler) << simpler.error().message();
+  double largest = 0;
+  const auto compare = [&](const Vec2& place) {
+    const double error = std::abs(height_at(full, place) - height_at(simpler->front, place));
+    if (error > largest) largest = error;  // not for NaN, outside by rounding
+  };
+  for (const Vec3& p : full.points) compare(p.head<2>());
+  for (const auto& [a, b] : edges_of(full))
+    for (const auto& [c, d] : edges_of(simpler->front)) {
+      const Vec2 u = b - a, v = d - c, w = c - a;
+      const double area = u.x() * v.y() - u.y() * v.x(), share = (w.x() * v.y() - w.y() * v.x()) / area,
+                   other = (w.x() * u.y() - w.y() * u.x()) / area;
+      if (share > 0 && share < 1 && other > 0 && other < 1) compare(a + share * u);
+    }
+  EXPECT_GT(largest, .1);
+  EXPECT_NEAR(simpler->error_mm, largest, 1e-9);
 }
 
 TEST(Simplify, ATinyToleranceKeepsTheSurface) {

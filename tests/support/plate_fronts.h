@@ -1,11 +1,13 @@
 // Makes fronts of plates whose shape is known in closed form, and measures their outlines.
 #pragma once
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numbers>
 
+#include "relievo/geometry/triangulation.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo::test {
@@ -80,6 +82,26 @@ inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double
     polygon.emplace_back(radius_x * std::cos(angle), radius_y * std::sin(angle));
   }
   return polygon;
+}
+
+// Returns the Delaunay triangulation of a square grid of points with flat sides and heights z(x, y) within them, turned by
+// an angle, so that rounding leaves its sides almost straight: the case of a mesh that is sampled on a grid.
+inline HeightFieldMesh turned_grid_front(int cells, double angle,
+                                         const std::function<double(double, double)>& z) {
+  HeightFieldMesh front;
+  std::vector<Vec2> plane;
+  for (int j = 0; j <= cells; ++j) {
+    for (int i = 0; i <= cells; ++i) {
+      const Vec2 p = Eigen::Rotation2Dd(angle) * Vec2(.1 * i, .1 * j);
+      const bool is_rim = i == 0 || j == 0 || i == cells || j == cells;
+      front.points.emplace_back(p.x(), p.y(), is_rim ? 0 : z(.1 * i, .1 * j));
+      plane.push_back(p);
+    }
+  }
+  Triangulation mesh = delaunay(plane);
+  front.triangles = std::move(mesh.triangles);
+  front.hull = std::move(mesh.hull);
+  return front;
 }
 
 inline double polygon_area(const std::vector<Vec2>& polygon) {

@@ -1,0 +1,61 @@
+#include "plate/thin_triangles.h"
+
+#include <gtest/gtest.h>
+
+#include "support/plate_fronts.h"
+#include "support/self_intersections.h"
+
+namespace relievo {
+namespace {
+
+Solid surface_of(std::vector<Vec3> points, std::vector<Triangle> triangles) {
+  Solid solid{std::move(points), std::move(triangles)};
+  solid.regions.resize(solid.triangles.size(), Region::ground);
+  return solid;
+}
+
+TEST(ThinTriangles, AreFlipped) {
+  // c lies a billionth above the edge ab, d below it.
+  Solid solid = surface_of({{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1.0001}, {1, -1, 1}}, {{0, 1, 2}, {1, 0, 3}});
+  EXPECT_NEAR(flip_thin_triangles(solid), 1e-4, 1e-12);
+  EXPECT_EQ(solid.triangles, (std::vector<Triangle>{{0, 3, 2}, {3, 1, 2}}));
+}
+
+TEST(ThinTriangles, StayIfTheSurfaceWouldMoveFar) {
+  const std::vector<Triangle> triangles{{0, 1, 2}, {1, 0, 3}};
+  Solid solid = surface_of({{0, 0, 1}, {2, 0, 1}, {1, 1e-6, 3}, {1, -1, 1}}, triangles);
+  EXPECT_EQ(flip_thin_triangles(solid), 0);
+  EXPECT_EQ(solid.triangles, triangles);
+}
+
+TEST(ThinTriangles, AreFlippedEvenThenIfRoundingTurnsThemOver) {
+  Solid solid = surface_of({{0, 0, 1}, {2, 3, 1}, {1, 1.5 + 1e-12, 3}, {1, -1, 1}}, {{0, 1, 2}, {1, 0, 3}});
+  EXPECT_NEAR(flip_thin_triangles(solid), 2, 1e-9);
+}
+
+TEST(ThinTriangles, OfAChainOfPointsOnOneLineAreAllFlipped) {
+  std::vector<Vec3> points{{0, 0, 0}, {10, 0, 0}, {5, -5, 0}};
+  std::vector<Triangle> triangles{{0, 2, 1}};
+  for (Index i = 0; i < 9; ++i) {
+    points.emplace_back(9 - i, 1e-10 * (i + 1) * (9 - i), 0);
+    triangles.push_back({0, i == 0 ? 1 : i + 2, i + 3});
+  }
+  Solid solid = surface_of(points, triangles);
+  EXPECT_EQ(flip_thin_triangles(solid), 0);
+  for (const auto& [a, b, c] : solid.triangles)
+    EXPECT_TRUE(a == 2 || b == 2 || c == 2) << a << " " << b << " " << c;
+}
+
+// The plate's ring begins at the hull's points, which are almost on one line.
+TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
+  const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
+  for (const double angle : {0., .1, .3, .7}) {
+    const auto solid = make_plate(test::turned_grid_front(40, angle, bumps), {});
+    ASSERT_TRUE(solid) << solid.error().message();
+    EXPECT_EQ(check_solid(*solid), "");
+    EXPECT_EQ(test::self_intersections(*solid), "") << angle;
+  }
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,188 @@
+// Finds the pairs of triangles in which a body cuts or touches itself, in exact arithmetic on the single-precision
+// coordinates that files store.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "relievo/core/text.h"
+#include "relievo/plate/solid.h"
+#include "support/big_integer.h"
+
+namespace relievo::test {
+
+using Corners = std::array<Vec3, 3>;
+
+// Returns the sign of the determinant of b - a, c - a and d - a: 1 if d lies to the left of the triangle abc, seen as
+// counter-clockwise from there.
+inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const auto determinant = [&](auto number) {
+    using Number = decltype(number(0.0));
+    std::array<std::array<Number, 3>, 3> rows;
+    for (int k = 0; k < 3; ++k)
+      rows[0][k] = number(b[k]) - number(a[k]), rows[1][k] = number(c[k]) - number(a[k]),
+      rows[2][k] = number(d[k]) - number(a[k]);
+    const auto& [u, v, w] = rows;
+    return u[0] * (v[1] * w[2] - v[2] * w[1]) + u[1] * (v[2] * w[0] - v[0] * w[2]) +
+           u[2] * (v[0] * w[1] - v[1] * w[0]);
+  };
+  for (int k = 0; k < 3; ++k)
+    if (a[k] == b[k] && a[k] == c[k] && a[k] == d[k]) return 0;
+  const double value = determinant([](double x) { return x; });
+  const double size = std::max({(b - a).lpNorm<Eigen::Infinity>(), (c - a).lpNorm<Eigen::Infinity>(),
+                                (d - a).lpNorm<Eigen::Infinity>()});
+  // Each of the six products has a relative error below 1e-15, and none exceeds the cube of the largest entry.
+  if (std::abs(value) > 1e-14 * size * size * size) return value > 0 ? 1 : -1;
+  return determinant(BigInteger::scaled).sign();
+}
+
+inline int orient2d(const Vec3& a, const Vec3& b, const Vec3& c, int drop) {
+  // A point beyond the plane of projection turns the determinant of three dimensions into that of two.
+  Vec3 p = a, q = b, r = c, above = a;
+  p[drop] = q[drop] = r[drop] = 0;
+  above[drop] = 1;
+  return orient3d(p, q, r, above);
+}
+
+// Returns whether the triangles' interiors, in one plane, have a place in common.
+inline bool overlap_in_plane(const Corners& s, const Corners& t) {
+  int drop = 0;
+  while (orient2d(s[0], s[1], s[2], drop) == 0) ++drop;
+  const auto is_apart = [&](const Corners& from, const Corners& other) {
+    const int turn = orient2d(from[0], from[1], from[2], drop);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto is_beyond = [&](const Vec3& p) {
+        return turn * orient2d(from[i], from[(i + 1) % 3], p, drop) <= 0;
+      };
+      if (std::ranges::all_of(other, is_beyond)) return true;
+    }
+    return false;
+  };
+  return !is_apart(s, t) && !is_apart(t, s);
+}
+
+// Returns whether the segment pq meets the triangle, whose boundary counts, but does not lie in its plane.
+inline bool meets(const Vec3& p, const Vec3& q, const Corners& t) {
+  if (orient3d(t[0], t[1], t[2], p) == orient3d(t[0], t[1], t[2], q)) return false;
+  int least = 1, most = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int side = orient3d(p, q, t[i], t[(i + 1) % 3]);
+    least = std::min(least, side), most = std::max(most, side);
+  }
+  return least >= 0 || most <= 0;
+}
+
+// Returns whether an edge of s meets t. Edges that end in a common corner do so by right; if they go on into t, the edge
+// opposite the corner, in s or in t, meets the other triangle, too.
+inline bool edge_meets(const Corners& s, const Corners& t) {
+  const auto is_common = [&](const Vec3& p) { return std::ranges::find(t, p) != t.end(); };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &p = s[i], &q = s[(i + 1) % 3];
+    if (!is_common(p) && !is_common(q) && meets(p, q, t)) return true;
+  }
+  return false;
+}
+
+inline bool is_flat(const Corners& t) {
+  for (int drop = 0; drop < 3; ++drop)
+    if (orient2d(t[0], t[1], t[2], drop) != 0) return false;
+  return true;
+}
+
+// Returns whether two triangles with areas share more than common corners or a common edge.
+inline bool intersect(const Corners& s, const Corners& t) {
+  if (std::ranges::all_of(t, [&](const Vec3& p) { return orient3d(s[0], s[1], s[2], p) == 0; }))
+    return overlap_in_plane(s, t);
+  return edge_meets(s, t) || edge_meets(t, s);
+}
+
+// A triangle with its box.
+struct BoundedTriangle {
+  Corners corners;
+  Vec3 min, max;
+  std::size_t index;
+
+  bool overlaps(const Vec3& low, const Vec3& high) const {
+    return (min.array() <= high.array()).all() && (low.array() <= max.array()).all();
+  }
+};
+
+// A binary tree of boxes over triangles, halved along the longer side of each box; it sorts the triangles.
+class BoxTree {
+ public:
+  explicit BoxTree(std::span<BoundedTriangle> triangles) : triangles_(triangles) {
+    boxes_.resize(2 * triangles.size());
+    if (!triangles.empty()) build(0, triangles.size());
+  }
+
+  // Calls f(j) for each triangle j whose box overlaps that of the i-th, and with j > i.
+  template <typename F>
+  void for_overlapping(std::size_t i, F&& f) const {
+    visit(0, triangles_.size(), i, f);
+  }
+
+ private:
+  // The box of a range of triangles is stored at twice its middle, which no other range has.
+  static std::size_t slot(std::size_t begin, std::size_t end) { return begin + end; }
+
+  void build(std::size_t begin, std::size_t end) {
+    Box box;
+    for (std::size_t i = begin; i < end; ++i) box.extend(triangles_[i].min), box.extend(triangles_[i].max);
+    boxes_[slot(begin, end)] = box;
+    if (end - begin <= 1) return;
+    Eigen::Index axis = 0;
+    box.size().maxCoeff(&axis);
+    const std::size_t middle = (begin + end) / 2;
+    const auto at = [&](std::size_t i) { return triangles_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(begin), at(middle), at(end), [&](const BoundedTriangle& s, const BoundedTriangle& t) {
+      return s.min[axis] + s.max[axis] < t.min[axis] + t.max[axis];
+    });
+    build(begin, middle), build(middle, end);
+  }
+
+  template <typename F>
+  void visit(std::size_t begin, std::size_t end, std::size_t i, F& f) const {
+    const Box& box = boxes_[slot(begin, end)];
+    if (end <= i + 1 || !triangles_[i].overlaps(box.min, box.max)) return;
+    if (end - begin == 1) return f(begin);
+    const std::size_t middle = (begin + end) / 2;
+    visit(begin, middle, i, f), visit(middle, end, i, f);
+  }
+
+  std::span<BoundedTriangle> triangles_;
+  std::vector<Box> boxes_;
+};
+
+// Returns what is wrong with the body as files store it, or an empty string: the number of triangles without an area, and
+// of pairs of triangles that share more than a corner or an edge, with one of them as an example.
+inline std::string self_intersections(const Solid& solid) {
+  std::vector<BoundedTriangle> triangles;
+  std::size_t flat = 0, pairs = 0;
+  std::string example;
+  // The floats are stored first, because g++ 12 drops the rounding of double(float(x)) when it vectorises.
+  std::vector<Vec3f> stored;
+  for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
+  for (std::size_t i = 0; i < solid.triangles.size(); ++i) {
+    const auto at = [&](Index p) { return Vec3(stored[p].cast<double>()); };
+    const auto& [a, b, c] = solid.triangles[i];
+    const Corners t{at(a), at(b), at(c)};
+    if (is_flat(t)) {
+      if (flat++ == 0) example += cat("; triangle ", i);
+      continue;
+    }
+    triangles.push_back({t, t[0].cwiseMin(t[1]).cwiseMin(t[2]), t[0].cwiseMax(t[1]).cwiseMax(t[2]), i});
+  }
+  const BoxTree tree(triangles);
+  for (std::size_t i = 0; i < triangles.size(); ++i)
+    tree.for_overlapping(i, [&](std::size_t j) {
+      if (intersect(triangles[i].corners, triangles[j].corners) && pairs++ == 0)
+        example += cat("; triangles ", triangles[i].index, " and ", triangles[j].index);
+    });
+  return flat + pairs == 0 ? "" : cat(flat, " without an area, ", pairs, " pairs intersect", example);
+}
+
+}  // namespace relievo::test
