@@ -64,7 +64,8 @@ bool is_mirrored(Form form) {
 }
 
 bool is_simplified_as_plate(const ReliefOptions& options) {
-  return options.tolerance_mm && is_curved(options) && options.outline != Outline::none;
+  const bool is_made_whole = is_curved(options) || options.finish == Finish::reachable;
+  return options.tolerance_mm && is_made_whole && options.outline != Outline::none;
 }
 
 SimplifyOptions simplest_front(const ReliefOptions& options) {
@@ -79,6 +80,7 @@ PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
   PlateOptions plate{options.margin_mm, options.thickness_mm,           options.outline,
                      options.corner_mm, formed_rim(options, relief_mm), formed_base(options),
                      options.wrap};
+  if (options.finish == Finish::reachable) plate.tool = options.tool;
   if (!options.tolerance_mm) return plate;
   plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
   if (!is_simplified_as_plate(options)) return plate;

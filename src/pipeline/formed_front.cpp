@@ -22,11 +22,6 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
   return {lowest, highest};
 }
 
-double height_of(const HeightFieldMesh& front) {
-  const auto [lowest, highest] = span_of(front);
-  return highest - lowest;
-}
-
 // The front with all its points, in the form asked for.
 FormedFront full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
   const double scale = mm_per_unit(surface, options);
@@ -60,10 +55,6 @@ HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& h
 Result<FormedFront> form_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                Progress* progress) {
   FormedFront made = full_front(surface, relief, options);
-  if (options.finish == Finish::reachable) {
-    RELIEVO_TRY(made.front, reachable_front(made.front, *options.tool));
-    made.height_mm = height_of(made.front);  // what is narrow and deep is filled
-  }
   if (options.tolerance_mm && !is_simplified_as_plate(options)) {
     RELIEVO_TRY(SimplifiedMesh simpler, simplify(made.front, simplest_front(options), progress));
     made.front = std::move(simpler.front);

@@ -18,7 +18,7 @@ struct FormedFront {
 HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
 
 // Returns the front in the form, with the finish and as simple as the options ask for; of outline `none` what of it is
-// relief. Errors: those of reachable_front() and simplify().
+// relief. Errors: those of simplify().
 Result<FormedFront> form_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
                                Progress* progress);
 

@@ -50,30 +50,36 @@ PlateOutline outline_of_plate(const HeightFieldMesh& front, const Box& box, cons
   return outline;
 }
 
+std::vector<RimEdge> rim_edges(const PlateOutline& outline, const RimOptions& rim) {
+  std::vector<RimEdge> edges;
+  for (const RimProfilePoint& point : rim_profile(rim) | std::views::reverse)
+    edges.push_back({inset(outline.polygon, point.inward_mm), point.height_mm});
+  return edges;
+}
+
 std::vector<Vec2> rim_inner_polygon(const PlateOutline& outline, const RimOptions& rim) {
-  return inset(outline.polygon, rim_profile(rim).back().inward_mm);
+  return rim_edges(outline, rim).front().polygon;
 }
 
 IndexPolygon add_ground(Solid& solid, const HeightFieldMesh& front, const PlateOutline& outline,
                         const GroundOptions& options) {
   IndexPolygon ring = front.hull;
   const double ground_z = solid.points[ring[0]].z(), spacing = options.spacing;
-  std::vector<RimProfilePoint> profile = rim_profile(options.rim);
+  std::vector<RimEdge> edges = rim_edges(outline, options.rim);
   if (std::isfinite(spacing)) {
-    const std::vector<Vec2> rim_inner = subdivided(rim_inner_polygon(outline, options.rim), spacing);
+    const std::vector<Vec2> rim_inner = subdivided(edges.front().polygon, spacing);
     if (IndexPolygon filled = fill_ground(solid, front, rim_inner, spacing); !filled.empty()) {
       ring = std::move(filled);
-      profile.pop_back();
+      edges.erase(edges.begin());
     }
   }
   double height = 0;
-  for (const RimProfilePoint& point : profile | std::views::reverse) {
-    const std::vector<Vec2> polygon = subdivided(inset(outline.polygon, point.inward_mm), spacing);
-    IndexPolygon outer = add_polygon(solid, polygon, ground_z + point.height_mm);
+  for (const RimEdge& edge : edges) {
+    IndexPolygon outer = add_polygon(solid, subdivided(edge.polygon, spacing), ground_z + edge.height_mm);
     add_ring(solid, std::move(ring), outer);
-    const bool is_level = point.height_mm == height;
+    const bool is_level = edge.height_mm == height;
     solid.regions.resize(solid.triangles.size(), is_level ? Region::ground : Region::bevel);
-    height = point.height_mm;
+    height = edge.height_mm;
     ring = std::move(outer);
   }
   return ring;

@@ -18,6 +18,15 @@ struct PlateOutline {
 
 PlateOutline outline_of_plate(const HeightFieldMesh& front, const Box& box, const PlateOptions& options);
 
+// An edge of the rim, or the outline.
+struct RimEdge {
+  std::vector<Vec2> polygon;
+  double height_mm = 0;  // above the ground
+};
+
+// Returns the rim's edges from the inner one to the outline; the outline alone if there is no rim.
+std::vector<RimEdge> rim_edges(const PlateOutline& outline, const RimOptions& rim);
+
 // Returns the polygon inside the rim; the outline itself if there is no rim.
 std::vector<Vec2> rim_inner_polygon(const PlateOutline& outline, const RimOptions& rim);
 

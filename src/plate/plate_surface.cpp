@@ -11,14 +11,12 @@
 #include "plate/deformation.h"
 #include "plate/ground_mesh.h"
 #include "plate/plate_ground.h"
+#include "plate/reachable_surface.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/simplify.h"
 
 namespace relievo {
 namespace {
-
-constexpr Colour plate_colour = {200, 200,
-                                 200};  // of the ground, walls and bottom of a coloured relief: light grey
 
 Region region_of(const HeightFieldMesh& front, const Triangle& t) {
   const double z = front.points[t[0]].z();
@@ -40,14 +38,36 @@ Solid placed_front(const HeightFieldMesh& front, const Box& box, const Vec3& cor
   return solid;
 }
 
+// Sets the regions of new triangles: bevel outside the rim's inner polygon, ground where all corners
+// lie at the height of the ground, else relief.
+void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground_z, double tolerance_mm) {
+  surface.regions.resize(surface.triangles.size());
+  parallel_for(surface.triangles.size(), [&](std::size_t i) {
+    const Triangle& t = surface.triangles[i];
+    const auto is_low = [&](Index p) { return std::abs(surface.points[p].z() - ground_z) <= tolerance_mm; };
+    const Vec3 sum = surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]];
+    const bool is_on_rim = !is_within(sum.head<2>() / 3, rim_inner);
+    surface.regions[i] = is_on_rim                        ? Region::bevel
+                         : std::ranges::all_of(t, is_low) ? Region::ground
+                                                          : Region::relief;
+  });
+}
+
 PlateSurface flat_plate_surface(const HeightFieldMesh& front, const PlateOptions& options, double spacing) {
   const Box box = used_box(front.points, front.triangles);
-  if (options.outline == Outline::none) return {placed_front(front, box, Vec3::Zero()), {}, spacing};
+  if (options.outline == Outline::none) {
+    PlateSurface surface{placed_front(front, box, Vec3::Zero()), {}, spacing};
+    if (options.tool) make_reachable(surface, *options.tool, {});
+    return surface;
+  }
   const PlateOutline outline = outline_of_plate(front, box, options);
   PlateSurface surface{
       placed_front(front, box, {outline.front_corner.x(), outline.front_corner.y(), 0}), {}, spacing};
   surface.outline = add_ground(surface.solid, front, outline, {options.rim, spacing});
   fill_colours(surface.solid);
+  if (!options.tool) return surface;
+  make_reachable(surface, *options.tool, rim_edges(outline, options.rim));
+  find_regions(surface.solid, rim_inner_polygon(outline, options.rim), surface.solid.ground_mm, 1e-6);
   return surface;
 }
 
@@ -144,19 +164,14 @@ Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& opti
   return {};
 }
 
-// Sets the regions of simplified triangles: bevel outside the rim's inner polygon, ground where all corners
-// lie at the height of the ground, else relief.
-void find_regions(Solid& surface, std::span<const Vec2> rim_inner, double ground_z, double tolerance_mm) {
-  surface.regions.resize(surface.triangles.size());
-  parallel_for(surface.triangles.size(), [&](std::size_t i) {
-    const Triangle& t = surface.triangles[i];
-    const auto is_low = [&](Index p) { return std::abs(surface.points[p].z() - ground_z) <= tolerance_mm; };
-    const Vec3 sum = surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]];
-    const bool is_on_rim = !is_within(sum.head<2>() / 3, rim_inner);
-    surface.regions[i] = is_on_rim                        ? Region::bevel
-                         : std::ranges::all_of(t, is_low) ? Region::ground
-                                                          : Region::relief;
-  });
+// Simplifies a plane surface, if that is asked for.
+Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
+                           std::span<const Vec2> rim_inner) {
+  if (options.simplify_mm == 0 || surface.outline.empty()) return {};
+  const double ground_z = surface.solid.ground_mm;
+  RELIEVO_CHECK(simplify_surface(surface, {options.simplify_mm, options.max_slope}));
+  find_regions(surface.solid, rim_inner, ground_z, options.simplify_mm);
+  return {};
 }
 
 // Makes the flat surface follow the target, given in the surface's coordinates. It is simplified in the
@@ -199,7 +214,11 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
                                         const PlateOptions& options) {
   const double none = std::numeric_limits<double>::infinity();
   const bool is_wrapped = options.wrap.kind != WrapKind::none;
-  if (base.is_plane() && !is_wrapped) return flat_plate_surface(front, options, none);
+  if (base.is_plane() && !is_wrapped) {
+    PlateSurface surface = flat_plate_surface(front, options, none);
+    RELIEVO_CHECK(simplify_flat(surface, options, rim_inner_of(front, options)));
+    return surface;
+  }
   const std::vector<Vec2> outline = extent_of(front, options);
   TargetSurface target = target_on(base);
   if (is_wrapped) {

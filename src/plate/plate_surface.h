@@ -20,6 +20,9 @@ struct PlateSurface {
 // Returns the box of the points that triangles use.
 Box used_box(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles);
 
+inline constexpr Colour plate_colour = {200, 200,
+                                        200};  // of ground, walls and bottom of a coloured relief: light grey
+
 // Gives points that were added to a coloured front the plate's colour.
 void fill_colours(Solid& solid);
 

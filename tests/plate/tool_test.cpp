@@ -211,27 +211,6 @@ TEST(MeasureReach, BesideAPlateThereIsNoObstacle) {
   EXPECT_TRUE(std::isnan(reach.residual_mm.pixels[0]));
 }
 
-TEST(ReachableFront, IsReachedAndNowhereLower) {
-  HeightFieldMesh front = test::grid_front(
-      {40, 20, 160, 80}, [&](double x, double y) { return x > 10 && x < 30 && y > 5 && y < 15 ? 3 : 0.; });
-  const Solid before = make_plate(front, {}).value();
-  const HeightFieldMesh reachable = reachable_front(front, ball).value();
-  for (std::size_t i = 0; i < front.points.size(); ++i)
-    ASSERT_GE(reachable.points[i].z(), front.points[i].z());
-  const Solid after = make_plate(reachable, {}).value();
-  EXPECT_EQ(check_solid(after), "");
-  const ToolReach was = measure_reach(before, ball), is = measure_reach(after, ball);
-  EXPECT_GT(was.largest_residual_mm, .6);
-  EXPECT_LT(is.largest_residual_mm, 12 * is.mm_per_sample);  // walls of slope 12, between samples
-  EXPECT_LT(1 - is.reached_share, .25 * (1 - was.reached_share));
-}
-
-TEST(ReachableFront, OfWhatIsReachedIsTheSame) {
-  const HeightFieldMesh front = test::flat_front({20, 10, 4, 2});
-  EXPECT_EQ(reachable_front(front, ball)->points, front.points);
-  EXPECT_EQ(reachable_front({}, ball).error().kind, ErrorKind::geometry);
-}
-
 TEST(RenderReach, ShowsInRedWhatIsLeft) {
   const auto reds = [](const Image8& image) {
     int count = 0;

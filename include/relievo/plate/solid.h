@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "relievo/core/types.h"
 #include "relievo/plate/base.h"
 #include "relievo/plate/outline.h"
+#include "relievo/plate/tool.h"
 #include "relievo/plate/wrap.h"
 
 namespace relievo {
@@ -48,9 +50,10 @@ struct PlateOptions {
   BaseOptions base = {};
   WrapOptions wrap = {};      // the body that wrap_plate() will bend the plate around; needs a plane base
   double tolerance_mm = .01;  // largest distance of triangles from a curved base or wrap, >= 0.0001
-  // Curved plates with ground: the tolerance of simplify() for the whole front; 0 keeps all triangles.
+  // The tolerance of simplify() for the whole front, ground included; 0, or a plate without ground, keeps all triangles.
   double simplify_mm = 0;
   double max_slope = std::numeric_limits<double>::infinity();  // of the simplified triangles, see simplify()
+  std::optional<Tool> tool = {};  // makes the front, on a plane base, as this tool leaves it
 };
 
 // The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.

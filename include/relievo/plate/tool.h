@@ -11,7 +11,6 @@
 
 namespace relievo {
 
-struct HeightFieldMesh;
 struct Solid;
 
 // The tip of a tool that turns about the z axis and cuts downwards. Diameters are those of the cut, in mm.
@@ -54,12 +53,5 @@ struct ToolReach {
 
 // Returns what the tool reaches of a solid's front. No samples and all of it for an empty front.
 ToolReach measure_reach(const Solid& solid, const Tool& tool);
-
-// Returns the front as the tool leaves it: points lifted to where it reaches, and points added, a quarter of
-// its radius apart, where it leaves something; those are grey where there are colours. The hull stays, and
-// points next to it are lifted no further than they are from it. The triangles are Delaunay's. A front that
-// tells what is relief gets no new points. Heights between points, as those between samples, are
-// interpolated. Errors: kind geometry for a front without triangles or hull.
-Result<HeightFieldMesh> reachable_front(const HeightFieldMesh& front, const Tool& tool);
 
 }  // namespace relievo

@@ -1,0 +1,209 @@
+#include "plate/reachable_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "plate/ground_mesh.h"
+#include "plate/height_field.h"
+#include "plate/tool_samples.h"
+#include "relievo/core/image.h"
+#include "relievo/core/parallel.h"
+#include "relievo/geometry/triangulation.h"
+
+namespace relievo {
+namespace {
+
+constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+// Samples between points of the tool's shape, where it is gentle and where it is steep: a quarter of the radius of a tool
+// that samples_for() can follow, or a twelfth.
+constexpr int gentle_stride = 3, steep_stride = 1;
+constexpr float steep_slope = .5F;
+constexpr double least_left_mm = 1e-3;  // less than that counts as reached
+constexpr double most_lift_mm = .01;    // of a point that stays
+
+// The heights that the tool leaves over a surface, and the surface's own.
+class ToolHeights {
+ public:
+  ToolHeights(const Solid& surface, const Tool& tool) {
+    Solid front = surface;
+    front.front_triangles = front.triangles.size();
+    const Box box = used_box(front.points, front.triangles);
+    field_ = draw_height_field(front, samples_for(tool, box.longer_side()));
+    for (std::size_t i = 0; i < field_.z.pixels.size(); ++i)
+      if (field_.is_beside.pixels[i] != 0) field_.z.pixels[i] = nothing;
+    closed_ = close_by_tool(field_.z, field_.mm_per_pixel, tool);
+  }
+
+  int width() const { return closed_.width; }
+  int height() const { return closed_.height; }
+  double mm_per_sample() const { return field_.mm_per_pixel; }
+  bool is_front(int x, int y) const { return closed_.contains(x, y) && !std::isnan(closed_.at(x, y)); }
+  float left(int x, int y) const { return is_front(x, y) ? closed_.at(x, y) - field_.z.at(x, y) : 0; }
+  Vec2 to_samples(const Vec3& point) const { return field_.to_pixels(point); }
+
+  // Returns the place of a sample at the height that the tool leaves.
+  Vec3 place(int x, int y) const {
+    const Vec2 middle = field_.box.centre().head<2>(),
+               place = middle + field_.mm_per_pixel * Vec2(x + .5 - width() / 2.0, height() / 2.0 - y - .5);
+    return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(closed_.at(x, y))};
+  }
+
+  // Returns the height that the tool leaves between samples; that of the point itself beside all samples.
+  double at(const Vec3& point) const {
+    const Vec2 place = to_samples(point) - Vec2(.5, .5);
+    const int x = static_cast<int>(std::floor(place.x())), y = static_cast<int>(std::floor(place.y()));
+    const double right = place.x() - x, down = place.y() - y;
+    double sum = 0, weights = 0;
+    for (const auto& [dx, dy, weight] :
+         {Corner{0, 0, (1 - right) * (1 - down)}, Corner{1, 0, right * (1 - down)},
+          Corner{0, 1, (1 - right) * down}, Corner{1, 1, right * down}}) {
+      if (!is_front(x + dx, y + dy)) continue;
+      sum += weight * static_cast<double>(closed_.at(x + dx, y + dy));
+      weights += weight;
+    }
+    return weights > 0 ? field_.box.min.z() + sum / weights : point.z();
+  }
+
+  // Returns the steepest rise from a sample to one beside it.
+  float slope(int x, int y) const {
+    float most = 0;
+    for (const auto& [dx, dy] : {std::pair(1, 0), {-1, 0}, {0, 1}, {0, -1}})
+      if (is_front(x + dx, y + dy))
+        most = std::max(most, std::abs(closed_.at(x + dx, y + dy) - closed_.at(x, y)));
+    return most / static_cast<float>(field_.mm_per_pixel);
+  }
+
+  // Returns whether the tool leaves anything at a sample or near it.
+  bool leaves_near(int x, int y, int distance) const {
+    for (const int dy : {-distance, 0, distance})
+      for (const int dx : {-distance, 0, distance})
+        if (static_cast<double>(left(x + dx, y + dy)) > least_left_mm) return true;
+    return false;
+  }
+
+ private:
+  struct Corner {
+    int dx, dy;
+    double weight;
+  };
+
+  HeightField field_;
+  Image<float> closed_;
+};
+
+// The points of the new surface, and their marks in the samples.
+class PointSet {
+ public:
+  PointSet(const ToolHeights& heights, const Solid& old)
+      : heights_(heights),
+        old_(old),
+        is_taken_(filled_image(heights.width(), heights.height(), std::uint8_t{0})) {}
+
+  std::vector<Vec3> points;
+  std::vector<Colour> colours;
+
+  void add(const Vec3& point, const Colour& colour) {
+    points.push_back(point);
+    if (!old_.colours.empty()) colours.push_back(colour);
+    const Vec2 place = heights_.to_samples(point);
+    const int column = static_cast<int>(place.x()), row = static_cast<int>(place.y());
+    for (int y = row - 1; y <= row + 1; ++y)
+      for (int x = column - 1; x <= column + 1; ++x)
+        if (is_taken_.contains(x, y)) is_taken_.at(x, y) = 1;
+  }
+
+  // Adds the point unless the tool stays well above it; lifts it where the tool stays a little above it.
+  void add_if_reached(const Vec3& point, const Colour& colour) {
+    const double left = heights_.at(point) - point.z();
+    if (left <= least_left_mm)
+      add(point, colour);
+    else if (left <= most_lift_mm)
+      add(point + Vec3(0, 0, left), colour);
+  }
+
+  void add_samples() {
+    const Image8 taken = is_taken_;
+    for (int y = 0; y < heights_.height(); ++y)
+      for (int x = 0; x < heights_.width(); ++x) {
+        const bool is_coarse = x % gentle_stride == 0 && y % gentle_stride == 0;
+        if (!heights_.is_front(x, y) || taken.at(x, y) != 0) continue;
+        if (!is_coarse && !(heights_.slope(x, y) > steep_slope)) continue;
+        if (heights_.leaves_near(x, y, is_coarse ? gentle_stride : steep_stride))
+          add(heights_.place(x, y), plate_colour);
+      }
+  }
+
+ private:
+  const ToolHeights& heights_;
+  const Solid& old_;
+  Image8 is_taken_;
+};
+
+Colour colour_of(const Solid& solid, Index i) {
+  return solid.colours.empty() ? Colour{} : solid.colours[i];
+}
+
+std::vector<std::uint8_t> used_points(const Solid& solid) {
+  std::vector<std::uint8_t> is_used(solid.points.size(), 0);
+  for (const Triangle& t : solid.triangles)
+    for (const Index i : t) is_used[i] = 1;
+  return is_used;
+}
+
+// Returns the distance between points along the rim's edges: less than its bevel is wide, so that triangles do not span it.
+double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) {
+  double narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < edges.size(); ++i)
+    narrowest = std::min(narrowest, (edges[i].polygon[0] - edges[i - 1].polygon[0]).norm());
+  return std::max(narrowest / 3, 2 * heights.mm_per_sample());
+}
+
+// The points of a surface as the tool leaves it.
+PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
+                        std::span<const RimEdge> edges) {
+  const Solid& solid = surface.solid;
+  PointSet set(heights, solid);
+  // The outline comes first: the plate's walls stand under it.
+  std::vector<std::uint8_t> is_free = used_points(solid);
+  for (const Index i : surface.outline) {
+    set.add(solid.points[i], colour_of(solid, i));
+    is_free[i] = 0;
+  }
+  for (Index i = 0; i < solid.points.size(); ++i)
+    if (is_free[i]) set.add_if_reached(solid.points[i], colour_of(solid, i));
+  const double spacing = edge_spacing(heights, edges);
+  for (const RimEdge& edge : edges.first(edges.size() - 1))
+    for (const Vec2& p : subdivided(edge.polygon, spacing))
+      set.add_if_reached({p.x(), p.y(), solid.ground_mm + edge.height_mm}, plate_colour);
+  set.add_samples();
+  return set;
+}
+
+void close_once(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges) {
+  const ToolHeights heights(surface.solid, tool);
+  PointSet set = reached_points(surface, heights, edges);
+  std::vector<Vec2> plane;
+  for (const Vec3& p : set.points) plane.push_back(p.head<2>());
+  Triangulation mesh = delaunay(plane);
+  surface.solid.points = std::move(set.points);
+  surface.solid.colours = std::move(set.colours);
+  surface.solid.triangles = std::move(mesh.triangles);
+  surface.outline = std::move(mesh.hull);
+}
+
+}  // namespace
+
+void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges) {
+  if (surface.outline.empty()) {
+    const ToolHeights heights(surface.solid, tool);
+    parallel_for(surface.solid.points.size(), [&](std::size_t i) {
+      Vec3& p = surface.solid.points[i];
+      p.z() = std::max(p.z(), heights.at(p));
+    });
+    return;
+  }
+  // A second pass closes what triangles between the first one's points leave open: docs/decisions/tool.md.
+  for (int pass = 0; pass < 2; ++pass) close_once(surface, tool, edges);
+}
+
+}  // namespace relievo

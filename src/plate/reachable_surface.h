@@ -1,0 +1,19 @@
+// The front of a plate as a milling tool leaves it.
+// Tested by reachable_surface_test.
+#pragma once
+
+#include <span>
+
+#include "plate/plate_ground.h"
+#include "plate/plate_surface.h"
+#include "relievo/plate/tool.h"
+
+namespace relievo {
+
+// Replaces the surface by the one that the tool leaves above it: see close_by_tool(). Points that the tool reaches stay,
+// others give way to samples of its own shape, which are dense where that is steep; level ground gets none. `edges` are
+// those of the rim, in the surface's coordinates; points along them keep them sharp. A surface without ground keeps its
+// triangles, and its points are lifted.
+void make_reachable(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges);
+
+}  // namespace relievo

@@ -1,0 +1,101 @@
+#include "plate/reachable_surface.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/plate_fronts.h"
+#include "support/self_intersections.h"
+
+namespace relievo {
+namespace {
+
+const Tool ball{Tool::Kind::ball, 2};
+
+// A block of 20 x 10 mm, 3 mm high, with walls as steep as the grid allows, and a pit in its middle.
+HeightFieldMesh block() {
+  return test::grid_front({40, 20, 160, 80}, [&](double x, double y) {
+    const bool is_pit = std::abs(x - 20) < 1 && std::abs(y - 10) < 1;
+    return x > 10 && x < 30 && y > 5 && y < 15 && !is_pit ? 3 : 0.;
+  });
+}
+
+PlateOptions with_tool(PlateOptions options = {}) {
+  options.tool = ball;
+  return options;
+}
+
+double highest(const Solid& solid) {
+  double z = 0;
+  for (const Triangle& t : solid.triangles)
+    for (const Index i : t) z = std::max(z, solid.points[i].z());
+  return z;
+}
+
+TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
+  for (const RimOptions& rim : {RimOptions{}, RimOptions{3, 2, 1}}) {
+    for (const Outline outline : {Outline::rectangle, Outline::circle}) {
+      const PlateOptions options{5, 3, outline, 5, rim};
+      const Solid before = make_plate(block(), options).value(),
+                  after = make_plate(block(), with_tool(options)).value();
+      EXPECT_EQ(check_solid(after), "");
+      EXPECT_EQ(test::self_intersections(after), "");
+      EXPECT_EQ(highest(after), highest(before));
+      const ToolReach was = measure_reach(before, ball), is = measure_reach(after, ball);
+      EXPECT_GT(was.largest_residual_mm, .6);
+      EXPECT_GT(is.reached_share, .995);
+      EXPECT_LT(is.largest_residual_mm, 12 * is.mm_per_sample);  // walls of slope 12, between samples
+      double lowest = 0;
+      for (std::size_t i = 0; i < is.heights_mm.pixels.size(); ++i)
+        if (!std::isnan(is.heights_mm.pixels[i]))
+          lowest = std::min(lowest, static_cast<double>(is.heights_mm.pixels[i] - was.heights_mm.pixels[i]));
+      EXPECT_GT(lowest, -24 * is.mm_per_sample);
+    }
+  }
+}
+
+// The ball of radius 1 touches a wall of slope 12 and the ground: between the two places the surface has its shape.
+TEST(ReachableSurface, HasTheToolsShapeAtTheFootOfAWall) {
+  const Solid solid = make_plate(block(), with_tool()).value();
+  const Vec2 foot(5 + 30, 5 + 10);
+  const double from_foot = std::tan(std::atan(12) / 2);
+  int found = 0;
+  for (const Vec3& p : solid.points) {
+    const double d = p.x() - foot.x();
+    if (std::abs(p.y() - foot.y()) > 2 || d < 0 || d > from_foot || p.z() < 3) continue;
+    EXPECT_NEAR(p.z() - 3, 1 - std::sqrt(1 - (from_foot - d) * (from_foot - d)), .02) << d;
+    ++found;
+  }
+  EXPECT_GT(found, 50);
+}
+
+TEST(ReachableSurface, KeepsLevelGroundLevel) {
+  const Solid solid = make_plate(block(), with_tool()).value();
+  for (const Vec3& p : solid.points)
+    if (p.x() < 13 && p.x() > 0) {
+      EXPECT_TRUE(p.z() == 3 || p.z() == 0) << p.transpose();
+    }
+}
+
+TEST(ReachableSurface, OfWhatIsReachedIsTheSame) {
+  const HeightFieldMesh front = test::flat_front({20, 10, 4, 2});
+  const Solid solid = make_plate(front, with_tool()).value();
+  EXPECT_EQ(measure_reach(solid, ball).largest_residual_mm, 0);
+  EXPECT_NEAR(volume_mm3(solid), volume_mm3(make_plate(front, {}).value()), 1e-9);
+}
+
+TEST(ReachableSurface, WithoutGroundIsLifted) {
+  HeightFieldMesh front = block();
+  front.is_relief.assign(front.triangles.size(), 1);
+  const PlateOptions options{5, 3, Outline::none};
+  const Solid before = make_plate(front, options).value(),
+              after = make_plate(front, with_tool(options)).value();
+  EXPECT_EQ(check_solid(after), "");
+  ASSERT_EQ(after.points.size(), before.points.size());
+  for (std::size_t i = 0; i < before.points.size(); ++i) ASSERT_GE(after.points[i].z(), before.points[i].z());
+  EXPECT_LT(measure_reach(after, ball).largest_residual_mm,
+            .5 * measure_reach(before, ball).largest_residual_mm);
+}
+
+}  // namespace
+}  // namespace relievo
