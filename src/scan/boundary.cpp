@@ -20,13 +20,24 @@ double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
   return twice_area > 0 ? product / (2 * twice_area) : std::numeric_limits<double>::infinity();
 }
 
+// Returns the spacing by which gaps are measured at a triangle: that of its corners where all are sparse, else rho.
+double spacing_at(const Triangle& t, double rho, std::span<const float> spacing) {
+  constexpr double sparse = 2;  // in rho
+  if (spacing.empty()) return rho;
+  const auto least = static_cast<double>(std::min({spacing[t[0]], spacing[t[1]], spacing[t[2]]}));
+  return least > sparse * rho ? least : rho;
+}
+
 class BoundaryFinder {
  public:
-  BoundaryFinder(std::span<const Vec2> points, const Triangulation& mesh) : points_(points), mesh_(mesh) {
+  BoundaryFinder(std::span<const Vec2> points, const Triangulation& mesh, double rho,
+                 std::span<const float> spacing)
+      : points_(points), mesh_(mesh) {
     radius_.resize(mesh.triangles.size());
     parallel_for(radius_.size(), [&](std::size_t t) {
       const auto [a, b, c] = mesh_.triangles[t];
-      radius_[t] = circumradius(points_[a], points_[b], points_[c]);
+      radius_[t] =
+          circumradius(points_[a], points_[b], points_[c]) / spacing_at(mesh_.triangles[t], rho, spacing);
     });
   }
 
@@ -66,7 +77,7 @@ class BoundaryFinder {
 
   std::span<const Vec2> points_;
   const Triangulation& mesh_;
-  std::vector<double> radius_;
+  std::vector<double> radius_;  // of the empty circles, in sampling distances
 };
 
 std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<std::uint8_t>& is_boundary) {
@@ -87,10 +98,10 @@ std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<
 }  // namespace
 
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
-                       const BoundaryOptions& options) {
-  const BoundaryFinder finder(points, triangulation);
+                       const BoundaryOptions& options, std::span<const float> spacing) {
+  const BoundaryFinder finder(points, triangulation, rho, spacing);
   Boundary boundary;
-  boundary.is_inside = finder.inside(options.gap * rho, options.smallest_hole * rho);
+  boundary.is_inside = finder.inside(options.gap, options.smallest_hole);
   boundary.is_boundary = finder.boundary_points(boundary.is_inside);
   boundary.distance = distances_to(points, boundary.is_boundary);
   return boundary;

@@ -9,6 +9,12 @@
 #include "relievo/core/parallel.h"
 
 namespace relievo {
+namespace {
+
+// Almost all points have local spacings of at most largest_ratio rho; those of the others may be outliers.
+constexpr double almost_all = .98, largest_ratio = 4;
+
+}  // namespace
 
 Spacing measure_spacing(const Cloud& cloud) {
   constexpr std::size_t k = spacing_neighbours;
@@ -33,9 +39,11 @@ Spacing measure_spacing(const Cloud& cloud) {
       },
       1024);
   if (cloud.size() < 2) return spacing;
-  // The median, not the mean, which a few far outliers or dense spots would change.
+  // The median, not the mean, which a few far outliers or dense spots would change. Where density varies much, as among
+  // the corners of a mesh, the sparse parts would be noise and holes to the median.
   std::vector<float> distances = spacing.local;
-  spacing.rho = static_cast<double>(median(distances));
+  spacing.rho = std::max(static_cast<double>(median(distances)),
+                         static_cast<double>(quantile(distances, almost_all)) / largest_ratio);
   return spacing;
 }
 

@@ -90,17 +90,23 @@ Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progre
   return viewed;
 }
 
-// Stages 3 and 4: sets the surface's points, normals and colours. Returns their mean curvature, 0 at hole
-// fill points.
-Result<std::vector<double>> find_points(ViewCloud& viewed, const SurfaceOptions& options, Surface& surface,
-                                        Progress* progress) {
+// What later stages need of each of the surface's points.
+struct PointMeasures {
+  std::vector<double> k;       // mean curvature, 0 at hole fill points
+  std::vector<float> spacing;  // Spacing::local
+};
+
+// Stages 3 and 4: sets the surface's points, normals and colours.
+Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& options, Surface& surface,
+                                  Progress* progress) {
   if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
   auto& [cloud, spacing] = viewed;
-  const std::vector<Index> visible = visible_points(cloud, spacing, options.visible);
+  const auto [visible, removed] = find_visible(cloud, spacing, options.visible);
   if (visible.size() < 4)
     return geometry_error(
         cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
   surface.visible_points = visible.size();
+  surface.removed_points = removed;
   const std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible, options.visible);
   // Flat, as nothing is known of the front there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
@@ -112,7 +118,7 @@ Result<std::vector<double>> find_points(ViewCloud& viewed, const SurfaceOptions&
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
   surface.colours = pick(cloud.colours, shown);
-  return pick(k, shown);
+  return PointMeasures{pick(k, shown), pick(spacing.local, shown)};
 }
 
 }  // namespace
@@ -142,8 +148,7 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
 
   Result<ViewCloud> viewed = look_at(cloud, surface, progress);
   if (!viewed) return std::unexpected(viewed.error());
-  const Result<std::vector<double>> k = find_points(*viewed, options, surface, progress);
-  if (!k) return std::unexpected(k.error());
+  RELIEVO_TRY(const PointMeasures measures, find_points(*viewed, options, surface, progress));
 
   if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
   const std::vector<Vec2> xy = in_plane(surface.points);
@@ -151,10 +156,11 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
   if (surface.triangulation.triangles.empty())
     return geometry_error("expected visible points that enclose an area, found all of them on one line");
   surface.curvature =
-      normalise(average_in_plane(*k, xy, surface.normals, surface.triangulation, surface.rho));
+      normalise(average_in_plane(measures.k, xy, surface.normals, surface.triangulation, surface.rho));
 
   if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
-  surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options.boundary);
+  surface.boundary =
+      find_boundary(xy, surface.triangulation, surface.rho, options.boundary, measures.spacing);
   // Only the boundary needs the neighbours; they take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;

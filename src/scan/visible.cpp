@@ -29,16 +29,17 @@ class Visibility {
   Visibility(const Cloud& cloud, const Spacing& spacing, const VisibleOptions& options)
       : cloud_(cloud), spacing_(spacing), options_(options), is_fragment_(cloud.size(), 0) {}
 
-  std::vector<Index> find() {
+  VisiblePoints find() {
     std::vector<Index> visible = in_front();
-    if (mark_fragments(visible)) {
+    std::size_t removed = mark_fragments(visible);
+    if (removed > 0) {
       // Without the fragments other points become visible. New fragments among these are removed without
       // another round.
       visible = in_front();
-      mark_fragments(visible);
+      removed += mark_fragments(visible);
     }
     std::erase_if(visible, [&](Index i) { return is_fragment_[i]; });
-    return without_coincident(std::move(visible));
+    return {without_coincident(std::move(visible)), removed};
   }
 
  private:
@@ -80,8 +81,8 @@ class Visibility {
     return depth + tolerance >= static_cast<double>(buffer.depth(p.x(), p.y()));
   }
 
-  // Marks the visible points of small connected sets. Returns whether there were any.
-  bool mark_fragments(const std::vector<Index>& visible) {
+  // Marks the visible points of small connected sets. Returns their number.
+  std::size_t mark_fragments(const std::vector<Index>& visible) {
     std::vector<std::uint8_t> is_visible(cloud_.size(), 0);
     for (const Index i : visible) is_visible[i] = 1;
     DisjointSets sets(cloud_.size());
@@ -92,10 +93,10 @@ class Visibility {
           sets.join(i, j);
     }
     const std::size_t least = std::min(options_.smallest_fragment, visible.size() / fragment_divisor);
-    bool found = false;
+    std::size_t marked = 0;
     for (const Index i : visible)
-      if (sets.size_of(i) < least) is_fragment_[i] = found = true;
-    return found;
+      if (sets.size_of(i) < least) is_fragment_[i] = 1, ++marked;
+    return marked;
   }
 
   // Among points that nearly coincide in the view plane only the one nearest to the viewer is kept: the
@@ -150,6 +151,10 @@ std::vector<Index> with_least_distance(const Cloud& cloud, std::vector<Index> po
 
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
                                   const VisibleOptions& options) {
+  return find_visible(viewed, spacing, options).points;
+}
+
+VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing, const VisibleOptions& options) {
   if (!viewed.has_normals() || !(spacing.rho > 0)) return {};
   return Visibility(viewed, spacing, options).find();
 }

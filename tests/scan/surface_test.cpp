@@ -36,6 +36,21 @@ TEST(Surface, RefusesNumbersThatAreNone) {
   EXPECT_NE(failure(cloud).find("found 999"), std::string::npos);
 }
 
+// The sheet's area of 4 is covered but for its edge, though most points crowd in a hundredth of it.
+TEST(Surface, CoversSparsePartsToo) {
+  const auto surface =
+      find_surface(test::joined(test::sheet(50000, .1, 0, 11), test::sheet(3000, 1, 0, 12)), {});
+  ASSERT_TRUE(surface) << surface.error().message();
+  double area = 0;
+  for (std::size_t t = 0; t < surface->triangulation.triangles.size(); ++t) {
+    if (!surface->boundary.is_inside[t]) continue;
+    const auto& [a, b, c] = surface->triangulation.triangles[t];
+    const Vec3 u = surface->points[b] - surface->points[a], v = surface->points[c] - surface->points[a];
+    area += (u.x() * v.y() - u.y() * v.x()) / 2;
+  }
+  EXPECT_GT(area, .95 * 4);
+}
+
 TEST(Surface, RefusesACloudThatFacesAway) {
   Cloud away = test::height_field(
       5000, 1, [](double x, double y) { return .3 * x * x + .2 * y; },

@@ -76,6 +76,27 @@ TEST(Visible, OfTwinsInTheViewPlaneTheNearerStays) {
   EXPECT_EQ(share(found, 0, 100), 0);
 }
 
+TEST(Visible, SpecksAreRemovedAndCounted) {
+  Cloud cloud = test::sheet(20000, 1, 0);
+  const std::size_t n = cloud.size();
+  for (int speck = 0; speck < 7; ++speck)
+    for (int k = 0; k < 5; ++k) test::add(cloud, {.2 * speck - .6, .001 * k, 1}, Vec3::UnitZ());
+  const VisiblePoints found = find_visible(cloud, measure_spacing(cloud));
+  EXPECT_NEAR(static_cast<double>(found.removed), 35, 2);  // some points of the sheet may be specks, too
+  EXPECT_EQ(share(found.points, n, cloud.size()), 0);
+  EXPECT_GT(share(found.points, 0, n), .999);
+}
+
+// Corners of a mesh may be forty times as far apart in one place as in another.
+TEST(Visible, OfVeryUnevenDensityAlmostAllToo) {
+  const std::size_t dense = 50000, sparse = 3000;
+  const Cloud both = test::joined(test::sheet(dense, .1, 0, 11), test::sheet(sparse, 1, 0, 12));
+  const VisiblePoints found = find_visible(both, measure_spacing(both));
+  EXPECT_EQ(found.removed, 0U);
+  EXPECT_GT(share(found.points, 0, dense), .97);  // some coincide at this scale
+  EXPECT_GT(share(found.points, dense, dense + sparse), .99);
+}
+
 TEST(Visible, IsTheSameForAnyOrder) {
   Cloud cloud = test::torus(20000, 1, .4);
   const std::vector<Index> found = visible(cloud);

@@ -33,6 +33,7 @@ struct Surface {
   double diagonal = 0;         // L_d, the diagonal of the whole cloud's box
   std::size_t input_points = 0;
   std::size_t visible_points = 0;  // of the cloud; the rest of `points` are hole fill points
+  std::size_t removed_points = 0;  // would be visible, but were taken for floating noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 

@@ -35,6 +35,13 @@ struct VisibleOptions {
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
                                   const VisibleOptions& options = {});
 
+// Returns the same with the number of points that would be visible, but were removed as floating noise.
+struct VisiblePoints {
+  std::vector<Index> points;
+  std::size_t removed = 0;
+};
+VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing, const VisibleOptions& options = {});
+
 // Returns the numbers of points, ascending, that stand in for missing data: points that face away from the
 // viewer and have no visible point near them in the view plane. The scan shows the back of the model there
 // but not its front; with these points the relief has no hole there, only a flat spot. Any two of them are at
