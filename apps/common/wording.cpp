@@ -1,6 +1,7 @@
 #include "common/wording.h"
 
 #include <cctype>
+#include <cmath>
 
 #include "relievo/core/text.h"
 
@@ -48,6 +49,10 @@ std::vector<std::string> remarks_on(const ScanFacts& facts) {
   if (facts.has_estimated_normals) lines.push_back("the scan has no normals: they were estimated");
   if (facts.has_turned_normals) lines.push_back("the scan's normals point inwards: they were turned");
   if (facts.left_out > 0) lines.push_back(left_out(facts.left_out));
+  const std::size_t facing = facts.visible_points + facts.removed_points;
+  if (50 * facts.removed_points > facing)
+    lines.push_back(cat("left out ", 100 * facts.removed_points / facing,
+                        " % of the points that face the viewer, as small groups far from others"));
   return lines;
 }
 
@@ -55,8 +60,11 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
   std::vector<std::string> lines;
   if (report.has_idle_alpha)
     lines.push_back("alpha has no effect at saturation 0; a height sets how flat the relief is");
-  for (const std::string& line :
-       remarks_on(ScanFacts{report.has_estimated_normals, report.has_turned_normals}))
+  if (report.has_needed_steps)
+    lines.push_back(cat("slopes alone do not reach the height: depth jumps take ",
+                        std::lround(100 * report.steps), " % of it"));
+  for (const std::string& line : remarks_on(ScanFacts{report.has_estimated_normals, report.has_turned_normals,
+                                                      0, report.visible_points, report.removed_points}))
     lines.push_back(line);
   if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
   if (report.simplification_error_mm)

@@ -20,13 +20,14 @@ struct Surface;
 
 // Facts about the relief that was made and the options that ruled it.
 struct ReliefReport {
-  std::size_t input_points = 0, visible_points = 0;
+  std::size_t input_points = 0, visible_points = 0, removed_points = 0;  // see Surface
   double rho = 0;                 // sampling distance, in the cloud's units
   double diagonal = 0;            // L_d: diagonal of the cloud's box, in its units
   Method method = Method::paper;  // alpha, beta, gamma and u mean nothing where it has no shape
   double alpha = 0;  // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
   double beta = 0, gamma = 0;
-  double u = 0;  // alpha^-beta, see Compression
+  double u = 0;      // alpha^-beta, see Compression
+  double steps = 0;  // share of the height that depth jumps take, see Shape
   std::optional<double> height_requested_mm;
   double height_mm = 0;        // reached, lowest to highest point of the front, above its base
   double below_ground_mm = 0;  // the part of height_mm that lies below the flat ground, in a die all of it
@@ -54,7 +55,8 @@ struct ReliefReport {
   std::optional<Wrapped> wrap;  // offset and scale are then those of the flat plate
 
   // Facts that a user may want to be warned of.
-  bool has_idle_alpha = false;         // an alpha was given, which has no effect
+  bool has_idle_alpha = false;    // an alpha was given, which has no effect
+  bool has_needed_steps = false;  // depth jumps take more than asked for, as slopes do not reach the height
   bool has_estimated_normals = false;  // the points had none
   bool has_turned_normals = false;     // they pointed inwards
   std::vector<SampleNote> sample;      // none for a model that the caller prepared

@@ -26,6 +26,7 @@ struct NumericOptions {
   std::optional<double> steepest_deg;    // steepest slope asked of the surface; 76
   std::optional<double> draft_deg;       // least angle of walls off the vertical, kept by every triangle; any
   std::optional<double> boundary_width;  // of (7), in sampling distances; see effective_boundary_width()
+  double steps = 0;                      // least share of the height that depth jumps take, see Shape
   double corner_mm = 5;                  // radius of the corners of Outline::round
   double margin_mm = 5;                  // least flat ground around the relief
   double thickness_mm = 3;               // smallest thickness of the plate

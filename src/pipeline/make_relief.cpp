@@ -31,19 +31,33 @@ Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOpt
   return heights;
 }
 
+// Makes the relief of the height that its shape gives it, which must not be 0.
+Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
+  Relief relief = model.make(shape);
+  const double least = 1e-6 * Box::of(model.surface().points).longer_side();
+  if (relief.height > least) return relief;
+  return geometry_error(
+      "expected a shape that gives the relief a height, found 0 mm in this view: ask for a height, "
+      "which the steps between level parts can take");
+}
+
 Result<Relief> shape_relief(const ReliefModel& model, ReliefOptions options, Progress* progress) {
   // A lithophane has no height to reach: its own is exact by construction.
   if (options.form == Form::lithophane) options.height_mm.reset();
   const double scale = mm_per_unit(model.surface(), options), height = options.height_mm.value_or(0) / scale;
   const Shape shape = shape_of(options);
+  if (options.form == Form::lithophane) return model.make(shape);
   const Method method = options.effective_method();
   if (!options.draft_deg) {
-    if (!options.height_mm) return model.make(shape);
+    if (!options.height_mm) return make_free(model, shape);
     return make_by_method(method, model, height, shape, scale, progress);
   }
   RELIEVO_TRY(const std::vector<double> base, base_heights(model.surface(), options, scale));
   const DraftOptions draft{slope_at_draft(*options.draft_deg), base};
-  if (!options.height_mm) return limit_draft(model, model.make(shape), draft, progress);
+  if (!options.height_mm) {
+    RELIEVO_TRY(Relief relief, make_free(model, shape));
+    return limit_draft(model, std::move(relief), draft, progress);
+  }
   return make_with_draft(model, {method, shape, height, scale}, draft, progress);
 }
 
@@ -67,6 +81,7 @@ Shape shape_of(const ReliefOptions& options) {
   shape.style = default_shape(options.effective_method()).style;
   if (options.steepest_deg) shape.max_slope = std::tan(to_radians(*options.steepest_deg));
   shape.boundary_width = options.effective_boundary_width();
+  shape.steps = options.steps;
   if (options.tone) shape.compression.curve = std::make_shared<const ToneCurve>(*options.tone);
   return shape;
 }

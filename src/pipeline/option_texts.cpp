@@ -85,6 +85,12 @@ std::vector<ReliefField> view_rows() {
       ReliefField{{"boundary", "W", "width of the soft rim, in sampling distances", .1, 100},
                   &OptionTexts::boundary_width,
                   boundary_of},
+      ReliefField{
+          {"steps", "SHARE",
+           "share of the height that depth jumps take, which else vanish; they take more where slopes alone "
+           "do not reach the height",
+           0, .95},
+          &OptionTexts::steps},
       ReliefField{{.name = "tone",
                    .unit = "X,Y;..",
                    .help = "tone curve that replaces the saturation: share of the "

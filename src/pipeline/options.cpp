@@ -35,12 +35,12 @@ Result<void> check_method(const ReliefOptions& options) {
   const Method method = options.effective_method();
   if (method != Method::paper && !options.height_mm)
     return option_error("method", cat("expected a height with method ", name_of(method)));
-  const bool is_shaped =
-      options.saturation || options.detail || options.steepest_deg || options.boundary_width || options.tone;
+  const bool is_shaped = options.saturation || options.detail || options.steepest_deg ||
+                         options.boundary_width || options.tone || options.steps > 0;
   if (is_shaped && !has_shape(method))
-    return option_error("method",
-                        cat("expected none of saturation, detail, steepest, boundary and tone with method ",
-                            name_of(method)));
+    return option_error(
+        "method", cat("expected none of saturation, detail, steepest, boundary, tone and steps with method ",
+                      name_of(method)));
   return {};
 }
 

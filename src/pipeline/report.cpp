@@ -1,5 +1,6 @@
 #include "pipeline/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -19,6 +20,7 @@ double lowest_visible(const Surface& surface) {
 void report_surface(const Surface& surface, ReliefReport& report) {
   report.input_points = surface.input_points;
   report.visible_points = surface.visible_points;
+  report.removed_points = surface.removed_points;
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   report.has_estimated_normals = surface.has_estimated_normals;
@@ -36,8 +38,23 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.beta = compression.beta;
   report.gamma = shape.gamma;
   report.u = compression.u;
+  report.steps = shape.steps;
+  report.has_needed_steps = shape.steps > options.steps;
   report.height_requested_mm = options.height_mm;
   report.has_idle_alpha = options.alpha && compression.beta == 0;
+}
+
+// Fills in the heights of a front that a tool has changed: what was narrow and deep is filled.
+void report_reachable_heights(const Solid& plate, ReliefReport& report) {
+  double lowest = plate.ground_mm, highest = lowest;
+  for (std::size_t t = 0; t < plate.front_triangles; ++t)
+    for (const Index i : plate.triangles[t]) {
+      if (plate.regions[t] == Region::bevel) continue;
+      lowest = std::min(lowest, plate.points[i].z());
+      highest = std::max(highest, plate.points[i].z());
+    }
+  report.height_mm = highest - lowest;
+  report.below_ground_mm = plate.ground_mm - lowest;
 }
 
 void report_body(const Body& body, const FormedFront& formed, const ReliefOptions& options,
@@ -45,6 +62,7 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
   const Solid& plate = body.plate();
   report.height_mm = formed.height_mm;
   report.below_ground_mm = depth_below_ground(formed.front);
+  if (options.finish == Finish::reachable) report_reachable_heights(plate, report);
   report.steepest_deg = std::atan(steepest_slope(plate)) * 180 / std::numbers::pi;
   report.front_triangles = plate.front_triangles;
   if (options.tolerance_mm) report.simplification_error_mm = formed.simplification_error_mm + plate.error_mm;

@@ -2,9 +2,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <variant>
 
 #include "relief/height_search.h"
+#include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relief/vertex_normals.h"
 #include "relief/weight_table.h"
@@ -48,7 +51,8 @@ struct FrameMaker::Packed {
   double boundary_width = 0;  // that boundary_weight is for
   WeightTable weight;
   std::vector<HeightSpan<float>> spans;
-  HeightSearch::Track last_height;  // where the last locked height was found
+  HeightSearch::Track last_height, last_steps;  // where the last locked height was found, by u or by steps
+  bool needs_steps = false;                     // whether slopes alone did not reach it
 
   explicit Packed(const ReliefModel& m) : model(m) {}
 
@@ -96,7 +100,7 @@ struct FrameMaker::Packed {
   }
 
   // Makes the relief of that shape but for what its style does last; frame.height is already the final one.
-  void raise(const Shape& shape, Frame& frame) {
+  void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
     frame.options.shape = model.with_membrane(shape);
     if (const HeightSystem* system = model.system())
       solve_system(*system, frame);
@@ -104,6 +108,8 @@ struct FrameMaker::Packed {
       solve_subspace(*model.subspace(), frame);
     ++frame.times.solves;
     change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
+      if (height) *height /= style.height_share();
+      add_steps(model.steps(), frame.options.shape.steps, height, heights.z);
       style.raise(heights);
       frame.height = heights.height;
     });
@@ -112,9 +118,23 @@ struct FrameMaker::Packed {
   // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().
   void raise_to(double height, Shape shape, Frame& frame) {
     constexpr double tolerance = 5e-4;  // half of what FrameOptions::height promises
-    frame.is_height_met = HeightSearch(height, tolerance).track(last_height, [&](double log_u) {
+    const HeightSearch search(height, tolerance);
+    const auto height_at = [&](double log_u) {
       shape.compression.u = std::exp(log_u);
-      raise(shape, frame);
+      raise(shape, height, frame);
+      return frame.height;
+    };
+    const auto is_too_low = [&] { return frame.height < height && !model.steps().empty(); };
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (needs_steps) height_at(infinity);
+    needs_steps = needs_steps && is_too_low();
+    if (!needs_steps) frame.is_height_met = search.track(last_height, height_at);
+    needs_steps = needs_steps || (!frame.is_height_met && is_too_low());
+    if (!needs_steps) return;
+    keep_slopes(shape);
+    frame.is_height_met = search.track(last_steps, [&](double x) {
+      shape.steps = step_share(model.steps(), height, x);
+      raise(shape, height, frame);
       return frame.height;
     });
   }
@@ -150,7 +170,7 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   if (options.height)
     packed_->raise_to(*options.height, options.shape, frame);
   else
-    packed_->raise(options.shape, frame);
+    packed_->raise(options.shape, std::nullopt, frame);
   packed_->finish(frame);
 
   const Stopwatch watch;

@@ -42,6 +42,10 @@ void HeightSystem::solve(std::span<const Vec2f> slopes, std::span<float> heights
   factor_.solve(heights, heights, workspace);
 }
 
+void HeightSystem::solve_in_place(std::span<double> heights) const {
+  factor_.solve(heights, heights);
+}
+
 void HeightSystem::solve_in_place(std::span<float> heights, Workspace& workspace) const {
   factor_.solve(heights, heights, workspace);
 }

@@ -1,12 +1,15 @@
 #include "relievo/relief/relief.h"
 
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <variant>
 
 #include "relief/height_search.h"
 #include "relief/height_span.h"
 #include "relief/membrane/height_correction.h"
 #include "relief/membrane/membrane_tuning.h"
+#include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/heights.h"
@@ -24,6 +27,7 @@ Mode resolve_mode(Mode mode, const Surface& surface) {
 struct ReliefModel::State {
   Surface surface;
   std::vector<PointLayers> layers;
+  StepHeights steps;
   HeightCorrection correction;
   MembraneTuning tuning;
   std::variant<HeightSystem, SubspaceModel> solver;
@@ -48,6 +52,9 @@ const HeightSystem* ReliefModel::system() const {
 }
 const SubspaceModel* ReliefModel::subspace() const {
   return std::get_if<SubspaceModel>(&state_->solver);
+}
+const StepHeights& ReliefModel::steps() const {
+  return state_->steps;
 }
 const HeightCorrection& ReliefModel::correction() const {
   return state_->correction;
@@ -80,22 +87,25 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   Result<HeightSystem> system =
       HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights);
   if (!system) return std::unexpected(system.error());
+  StepHeights steps = find_step_heights(surface, weights, *system);
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
   HeightCorrection correction(surface, weights);
   const Result<MembraneTuning> tuning = tune_membrane({surface, layers, correction, *system}, progress);
   if (!tuning) return std::unexpected(tuning.error());
   if (resolve_mode(mode, surface) == Mode::exact)
-    return ReliefModel(std::unique_ptr<const State>(new State{
-        std::move(surface), std::move(layers), std::move(correction), *tuning, std::move(*system)}));
+    return ReliefModel(
+        std::unique_ptr<const State>(new State{std::move(surface), std::move(layers), std::move(steps),
+                                               std::move(correction), *tuning, std::move(*system)}));
   Result<SubspaceModel> subspace = prepare_subspace(surface, layers, std::move(*system), progress);
   if (!subspace) return std::unexpected(subspace.error());
-  return ReliefModel(std::unique_ptr<const State>(
-      new State{std::move(surface), {}, std::move(correction), *tuning, std::move(*subspace)}));
+  return ReliefModel(std::unique_ptr<const State>(new State{
+      std::move(surface), {}, std::move(steps), std::move(correction), *tuning, std::move(*subspace)}));
 }
 
 std::size_t ReliefModel::memory() const {
   const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->solver);
-  return solver + surface().memory() + layers().size_bytes() + correction().memory();
+  return solver + surface().memory() + layers().size_bytes() + correction().memory() +
+         steps().z.size() * sizeof(float);
 }
 
 namespace {
@@ -135,12 +145,17 @@ class ReliefModel::Maker {
                                           boundary_rho(model.surface(), shape.boundary_width))),
         input_(slope_input(model.surface(), model.layers(), boundary_weight_)) {}
 
-  // Returns the relief of that shape but for what its style does last; the height is already the final one.
-  Relief raise(const Shape& asked) {
+  // Returns the relief of that shape but for what its style does last; the height is already the final one. Its
+  // steps are for the height asked for; without one, for that of its slopes.
+  Relief raise(const Shape& asked, std::optional<double> height = {}) {
     Relief relief{{}, 0, model_.with_membrane(asked)};
     relief.heights = model_.state_->solve(relief.shape, input_);
     RaisedHeights<double> heights{relief.heights, input_, spans_};
-    with_style(relief.shape, [&](const auto& style) { style.raise(heights); });
+    with_style(relief.shape, [&](const auto& style) {
+      if (height) *height /= style.height_share();
+      add_steps(model_.steps(), relief.shape.steps, height, heights.z);
+      style.raise(heights);
+    });
     relief.height = heights.height;
     return relief;
   }
@@ -175,14 +190,24 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
   Maker maker(*this, shape);
   Relief relief;
   bool is_cancelled = false;
-  const auto height_at = [&](double log_u) {
-    shape.compression.u = std::exp(log_u);
-    relief = maker.raise(shape);
+  const auto raised_height = [&] {
+    relief = maker.raise(shape, height);
     is_cancelled = progress && progress->is_cancelled();
     return is_cancelled ? height : relief.height;
   };
   constexpr double tolerance = 1e-5;
-  const bool is_met = HeightSearch(height, tolerance).bracket(height_at);
+  const HeightSearch search(height, tolerance);
+  bool is_met = search.bracket([&](double log_u) {
+    shape.compression.u = std::exp(log_u);
+    return raised_height();
+  });
+  if (!is_met && !steps().empty()) {
+    keep_slopes(shape);
+    is_met = search.bracket([&](double x) {
+      shape.steps = step_share(steps(), height, x);
+      return raised_height();
+    });
+  }
   if (is_cancelled) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
   if (!is_met)
     return std::unexpected(

@@ -1,6 +1,7 @@
 // The two styles of reliefs: all in which they differ stands here.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "relief/height_span.h"
@@ -78,6 +79,9 @@ class PaperStyle {
     heights.height = static_cast<double>(heights.span.size());
   }
 
+  // The height of the relief as a share of that of raised heights.
+  double height_share() const { return 1; }
+
   template <typename Real, typename Workspace>
   void finish(RaisedHeights<Real>&, const HeightCorrection&, Workspace&&) const {}
 
@@ -99,16 +103,19 @@ class LayeredStyle {
     return layered_slope(input.layers[i], weights_, saturation * w_b, static_cast<Real>(shape_.max_slope));
   }
 
-  // The shape's membrane has to be set.
+  // The shape's membrane has to be set, as for raise().
+  double height_share() const { return shape_.membrane->height_share; }
+
   template <typename Real>
   void raise(RaisedHeights<Real>& heights) const {
     heights.span = heights.measured();
-    heights.height = shape_.membrane->height_share * static_cast<double>(heights.span.size());
+    heights.height = height_share() * static_cast<double>(heights.span.size());
   }
 
   // Compresses the heights to the relief's height; workspace() returns what that needs.
   template <typename Real, typename Workspace>
   void finish(RaisedHeights<Real>& heights, const HeightCorrection& correction, Workspace&& workspace) const {
+    if (std::isinf(shape_.membrane->pull_length)) return;
     const HeightLimits limits = HeightLimits::of(heights.height, *shape_.membrane);
     correction.compress_heights<Real>({heights.z, heights.input.boundary_weight, limits}, workspace());
     heights.span = heights.measured();

@@ -170,7 +170,7 @@ TEST_F(Cli, MakesEveryForm) {
 TEST_F(Cli, ReadsMeshesAndDepthImages) {
   write_all(folder_ / "t.stl", ascii_stl());
   EXPECT_NE(run("info t.stl").out.find("triangles"), std::string::npos);
-  EXPECT_EQ(run("make t.stl -o m.stl --points 2000 --view 1,1,1 --quiet").exit_code, 0);
+  EXPECT_EQ(run("make t.stl -o m.stl --points 2000 --view 1,1,3 --quiet").exit_code, 0);
   Image16 dome{90, 60, 1, {}};
   for (int i = 0; i < 90 * 60; ++i) {
     const int x = i % 90 - 45, y = i / 90 - 30;

@@ -128,6 +128,21 @@ TEST(MakeRelief, RefusesAHeightOutOfReach) {
   EXPECT_NE(made.error().message().find("at most"), std::string::npos);
 }
 
+// Two sheets, one before the other: a form without slopes.
+TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
+  const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
+  ReliefOptions options;
+  const auto free = make_relief(sheets, options);
+  ASSERT_FALSE(free);
+  EXPECT_NE(free.error().message().find("0 mm"), std::string::npos);
+  options.height_mm = 2;
+  const auto made = make_relief(sheets, options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_TRUE(made->report.has_needed_steps);
+  EXPECT_NEAR(made->report.steps, 1, .01);
+  EXPECT_NEAR(made->report.height_mm, 2, 1e-9);
+}
+
 TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
   ReliefOptions options;
   options.margin_mm = -1;

@@ -7,7 +7,7 @@ import {defaultOf} from "./about.js";
 const START = {height: 4, method: "layered", mode: "auto", tone: "", up: ""};
 
 // The options that the page changes besides.
-const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "view", "outline", "corner", "margin",
+const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner", "margin",
   "thickness", "form", "tolerance", "draft"];
 
 export const FIRST = Object.freeze({

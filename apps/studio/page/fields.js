@@ -10,6 +10,7 @@ const SLIDERS = {
   detail: {label: "Detail", hand: [0, 0.5], decimals: 3, spread: spread.root, place: "#shape"},
   boundary: {label: "Soft rim", hand: [0.25, 60], decimals: 1, spread: spread.log, place: "#shape"},
   steepest: {label: "Steepest wall", hand: [5, 85], decimals: 0, spread: spread.linear, place: "#shape"},
+  steps: {label: "Steps", hand: [0, 0.95], decimals: 2, spread: spread.linear, place: "#shape"},
   width: {label: "Width", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#plate"},
   margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate"},
   corner: {label: "Corner radius", hand: [0.1, 100], decimals: 1, spread: spread.root, place: "#plate"},

@@ -51,8 +51,8 @@ class HeightSystem {
   // The same in single precision, for frames: within about 1e-6 of the span of the heights.
   void solve(std::span<const Vec2f> slopes, std::span<float> heights, Workspace& workspace) const;
 
-  // Solves in place for a right-hand side that the caller wrote, in single precision; boundary points stay as they
-  // are.
+  // Solve in place for a right-hand side that the caller wrote; boundary points stay as they are.
+  void solve_in_place(std::span<double> heights) const;
   void solve_in_place(std::span<float> heights, Workspace& workspace) const;
 
  private:

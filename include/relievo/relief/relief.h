@@ -17,6 +17,7 @@ class HeightCorrection;
 class HeightSystem;
 class SubspaceModel;
 struct PointLayers;
+struct StepHeights;
 struct Surface;
 
 struct Relief {
@@ -53,6 +54,9 @@ class ReliefModel {
   const HeightSystem* system() const;
   const SubspaceModel* subspace() const;
 
+  // Returns the heights of depth jumps, which Shape::steps adds.
+  const StepHeights& steps() const;
+
   // Returns what compresses layered heights.
   const HeightCorrection& correction() const;
 
@@ -71,9 +75,9 @@ class ReliefModel {
   Relief make(const Shape& shape) const;
 
   // Returns the relief whose height is `height`, detail included, by changing the compression's u at the beta,
-  // gamma and slope asked for (the intent of Algorithm 1, section 3.6). Errors: kind geometry if no u gives
-  // that height; the message states the largest that is reached, in units of `unit_mm` millimetres. Kind
-  // cancelled.
+  // gamma and slope asked for (the intent of Algorithm 1, section 3.6). If no u gives that height, u is infinite and
+  // depth jumps take what is missing, at most their depth: Shape::steps of the result. Errors: kind geometry if that does
+  // not suffice; the message states the largest height that is reached, in units of `unit_mm` millimetres. Kind cancelled.
   Result<Relief> make_at_height(double height, Shape shape, double unit_mm,
                                 Progress* progress = nullptr) const;
 

@@ -19,7 +19,7 @@ struct MembraneParams {
   double height_share =
       1;  // height of the relief, as a share of the height that (9) gives its slopes, (0, 1]
   double pull_length =
-      .1;  // of the longer side, > 0: a shorter one pulls points harder to their depth's rank
+      .1;  // of the longer side, > 0: a shorter one pulls points harder to their depth's rank; infinity does not correct
 
   bool operator==(const MembraneParams&) const = default;
 };
@@ -47,6 +47,9 @@ struct Shape {
   double gamma = 0;           // detail coefficient, [0, 1]; in layers it attenuates the coarse ones
   double max_slope = 4;       // steepest slope asked of the surface, > 0; 4 is 76 degrees
   double boundary_width = 2;  // of (7), in rho, > 0: a wider one softens the rim
+  // Least share of the height that depth jumps take, [0, 0.95]; 0 removes them. Where slopes alone do not reach a
+  // height that is asked for, jumps take the share that is missing.
+  double steps = 0;
   Style style = Style::paper;
   // Only the layered style has it; if not set, the model's own: ReliefModel::membrane_at().
   std::optional<MembraneParams> membrane = {};

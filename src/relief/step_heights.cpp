@@ -1,0 +1,82 @@
+#include "relief/step_heights.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "relief/edge_weight.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
+#include "scan/jumps.h"
+
+namespace relievo {
+namespace {
+
+// Steeper slopes explain no part of a jump: near a silhouette normals say little of the depth.
+constexpr double steepest_slope = 4;
+
+struct JumpEdge {
+  Index a, b;
+  float weight;
+};
+
+// Returns the edges of triangles inside the relief across which the depth jumps, with their weights in (9).
+std::vector<JumpEdge> jump_edges(const Surface& surface, std::span<const float> weights) {
+  const std::vector<std::uint8_t> jumps = jump_triangles(surface);
+  const auto plane = [&](Index i) { return Vec2(surface.points[i].head<2>()); };
+  std::vector<JumpEdge> halves;
+  for (std::size_t t = 0; t < jumps.size(); ++t) {
+    if (!jumps[t]) continue;
+    const Triangle& corners = surface.triangulation.triangles[t];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index apex = corners[i], a = corners[(i + 1) % 3], b = corners[(i + 2) % 3];
+      if (!is_jump(surface, a, b)) continue;
+      const auto half = static_cast<float>(half_edge_weight(plane(apex), plane(a), plane(b)));
+      halves.push_back({std::min(a, b), std::max(a, b), half});
+    }
+  }
+  std::ranges::sort(halves, {}, [](const JumpEdge& e) { return std::tuple(e.a, e.b, e.weight); });
+  std::vector<JumpEdge> edges;
+  for (const JumpEdge& half : halves)
+    if (!edges.empty() && edges.back().a == half.a && edges.back().b == half.b)
+      edges.back().weight += half.weight;
+    else
+      edges.push_back(half);
+  for (JumpEdge& e : edges) e.weight = edge_weight(e.weight) * (weights[e.a] + weights[e.b]) / 2;
+  return edges;
+}
+
+// Returns by how much the depth of b exceeds that of a beyond what their slopes explain.
+double step_between(const Surface& surface, Index a, Index b) {
+  const Vec3 step = surface.points[b] - surface.points[a];
+  const auto rise = [&](Index i) {
+    const Vec3f& n = surface.normals[i];
+    const double slope = -static_cast<double>(n.head<2>().dot(step.head<2>().cast<float>())) /
+                         std::max(static_cast<double>(n.z()), 1e-6);
+    const double most = steepest_slope * step.head<2>().norm();
+    return std::clamp(slope, -most, most);
+  };
+  const double jump = step.z() - (rise(a) + rise(b)) / 2;
+  return jump * step.z() > 0 ? jump : 0;
+}
+
+}  // namespace
+
+StepHeights find_step_heights(const Surface& surface, std::span<const float> weights,
+                              const HeightSystem& system) {
+  const std::vector<JumpEdge> edges = jump_edges(surface, weights);
+  if (edges.empty()) return {};
+  std::vector<double> z(surface.points.size(), 0);
+  for (const JumpEdge& e : edges) {
+    const double pull = static_cast<double>(e.weight) * step_between(surface, e.a, e.b);
+    z[e.a] -= pull;
+    z[e.b] += pull;
+  }
+  for (std::size_t i = 0; i < z.size(); ++i)
+    if (surface.boundary.is_boundary[i]) z[i] = 0;
+  system.solve_in_place(z);
+  return {{z.begin(), z.end()}, height_span(z)};
+}
+
+}  // namespace relievo
