@@ -42,8 +42,10 @@ Spacing measure_spacing(const Cloud& cloud) {
   // The median, not the mean, which a few far outliers or dense spots would change. Where density varies much, as among
   // the corners of a mesh, the sparse parts would be noise and holes to the median.
   std::vector<float> distances = spacing.local;
-  spacing.rho = std::max(static_cast<double>(median(distances)),
-                         static_cast<double>(quantile(distances, almost_all)) / largest_ratio);
+  const double least = static_cast<double>(quantile(distances, almost_all)) / largest_ratio;
+  spacing.rho = static_cast<double>(median(distances));
+  spacing.is_uneven = spacing.rho < least;
+  if (spacing.is_uneven) spacing.rho = least;
   return spacing;
 }
 

@@ -93,7 +93,7 @@ Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progre
 // What later stages need of each of the surface's points.
 struct PointMeasures {
   std::vector<double> k;       // mean curvature, 0 at hole fill points
-  std::vector<float> spacing;  // Spacing::local
+  std::vector<float> spacing;  // Spacing::local of clouds of uneven density, else none
 };
 
 // Stages 3 and 4: sets the surface's points, normals and colours.
@@ -118,7 +118,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
   surface.colours = pick(cloud.colours, shown);
-  return PointMeasures{pick(k, shown), pick(spacing.local, shown)};
+  return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ struct Spacing {
   // The median of `local` over all points, in the cloud's units, or a quarter of its 98 % quantile where that is more,
   // as for clouds of very uneven density. 0 if there are fewer than 2 points or almost all of them coincide.
   double rho = 0;
+  bool is_uneven = false;  // rho is not the median
   // Per point sqrt(pi r^2 / k), where r is the distance to the k-th nearest other point and k is
   // spacing_neighbours: the side of a square with the area per point. For randomly scattered points this is
   // about twice the distance to the nearest neighbour.
