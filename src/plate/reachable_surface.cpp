@@ -2,18 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "plate/ground_mesh.h"
-#include "plate/height_field.h"
 #include "plate/tool_samples.h"
 #include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 // Samples between points of the tool's shape, where it is gentle and where it is steep: a quarter of the radius of a tool
 // that samples_for() can follow, or a twelfth.
 constexpr int gentle_stride = 3, steep_stride = 1;
@@ -24,13 +24,9 @@ constexpr double most_lift_mm = .01;    // of a point that stays
 // The heights that the tool leaves over a surface, and the surface's own.
 class ToolHeights {
  public:
-  ToolHeights(const Solid& surface, const Tool& tool) {
-    Solid front = surface;
-    front.front_triangles = front.triangles.size();
-    const Box box = used_box(front.points, front.triangles);
-    field_ = draw_height_field(front, samples_for(tool, box.longer_side()));
-    for (std::size_t i = 0; i < field_.z.pixels.size(); ++i)
-      if (field_.is_beside.pixels[i] != 0) field_.z.pixels[i] = nothing;
+  ToolHeights(Solid& surface, const Tool& tool) {
+    surface.front_triangles = surface.triangles.size();
+    field_ = front_samples(surface, used_box(surface.points, surface.triangles), tool);
     closed_ = close_by_tool(field_.z, field_.mm_per_pixel, tool);
   }
 
@@ -158,7 +154,7 @@ double edge_spacing(const ToolHeights& heights, std::span<const RimEdge> edges) 
   return std::max(narrowest / 3, 2 * heights.mm_per_sample());
 }
 
-// The points of a surface as the tool leaves it.
+// Returns the points of a surface as the tool leaves it.
 PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
                         std::span<const RimEdge> edges) {
   const Solid& solid = surface.solid;
@@ -182,9 +178,7 @@ PointSet reached_points(const PlateSurface& surface, const ToolHeights& heights,
 void close_once(PlateSurface& surface, const Tool& tool, std::span<const RimEdge> edges) {
   const ToolHeights heights(surface.solid, tool);
   PointSet set = reached_points(surface, heights, edges);
-  std::vector<Vec2> plane;
-  for (const Vec3& p : set.points) plane.push_back(p.head<2>());
-  Triangulation mesh = delaunay(plane);
+  Triangulation mesh = delaunay(in_plane(set.points));
   surface.solid.points = std::move(set.points);
   surface.solid.colours = std::move(set.colours);
   surface.solid.triangles = std::move(mesh.triangles);

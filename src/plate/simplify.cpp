@@ -165,6 +165,7 @@ class Approximation {
   Triangulation mesh_;
 };
 
+// Returns the triangles that are not level at the height of the ground.
 std::vector<Triangle> triangles_above_ground(const HeightFieldMesh& front) {
   const double ground = front.points[front.hull[0]].z();
   std::vector<Triangle> above;
@@ -218,8 +219,8 @@ class Simplifier {
       if (orient2d(before.head<2>(), here.head<2>(), after.head<2>()) == 0) continue;
       choose(at_point(0, 0, hull[i]));
     }
-    for (const auto& [a, b] : boundary_edges(relief_triangles(front_)))
-      if (!front_.is_relief.empty()) choose(at_point(0, 0, a));
+    if (!front_.is_relief.empty())
+      for (const auto& [a, b] : boundary_edges(relief_triangles(front_))) choose(at_point(0, 0, a));
     for (const auto& [a, b] : boundary_edges(triangles_above_ground(front_))) choose(at_point(0, 0, a));
     const auto [lowest, highest] =
         std::ranges::minmax_element(front_.points, {}, [](const Vec3& p) { return p.z(); });

@@ -15,8 +15,8 @@ namespace relievo {
 namespace {
 
 constexpr int most_passes = 100;  // each flips one triangle of a chain of points on one line
-constexpr double thinnest =
-    0x1p-20;  // height of a triangle, of the front's size: 8 to 16 units in the last place
+// Height of a triangle as a share of the front's size: 8 to 16 units in the last place of its coordinates.
+constexpr double thinnest = 0x1p-20;
 constexpr double most_moved_mm = 1e-3;  // by flipping an edge that files could store
 
 using EdgeEnds = std::array<Index, 2>;

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "plate/height_field.h"
 #include "plate/tool_samples.h"
 #include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
@@ -11,7 +9,6 @@
 namespace relievo {
 namespace {
 
-constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
 constexpr double least_reach_tolerance_mm = .01;
 
 // Sums over samples, block by block.
@@ -45,12 +42,6 @@ Image<float> difference(const Image<float>& a, const Image<float>& b) {
   return out;
 }
 
-// Gives the samples beside the front that height.
-void fill_beside(HeightField& field, float height) {
-  for (std::size_t i = 0; i < field.z.pixels.size(); ++i)
-    if (field.is_beside.pixels[i] != 0) field.z.pixels[i] = height;
-}
-
 }  // namespace
 
 ToolReach measure_reach(const Solid& solid, const Tool& tool) {
@@ -59,8 +50,7 @@ ToolReach measure_reach(const Solid& solid, const Tool& tool) {
     for (const Index i : t) box.extend(solid.points[i]);
   ToolReach reach;
   if (box.is_empty()) return reach;
-  HeightField field = draw_height_field(solid, samples_for(tool, box.longer_side()));
-  fill_beside(field, nothing);
+  HeightField field = front_samples(solid, box, tool);
   reach.mm_per_sample = field.mm_per_pixel;
   reach.tolerance_mm = std::max(least_reach_tolerance_mm, field.mm_per_pixel / 8);
   reach.heights_mm = std::move(field.z);

@@ -1,9 +1,11 @@
-// How finely the front is sampled to find what a tool reaches.
+// Samples of a front that are fine enough to find what a tool reaches.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "plate/height_field.h"
 #include "relievo/plate/tool.h"
 
 namespace relievo {
@@ -16,6 +18,14 @@ inline int samples_for(const Tool& tool, double longer_mm) {
   if (!(radius > 0)) return least_samples;
   const double wanted = longer_mm / radius * samples_per_radius;
   return static_cast<int>(std::clamp<double>(std::ceil(wanted), least_samples, most_samples));
+}
+
+// Returns the heights of a solid's front, whose box is given; NaN beside it, where nothing hinders the tool.
+inline HeightField front_samples(const Solid& solid, const Box& box, const Tool& tool) {
+  HeightField field = draw_height_field(solid, samples_for(tool, box.longer_side()));
+  for (std::size_t i = 0; i < field.z.pixels.size(); ++i)
+    if (field.is_beside.pixels[i] != 0) field.z.pixels[i] = std::numeric_limits<float>::quiet_NaN();
+  return field;
 }
 
 }  // namespace relievo

@@ -1,7 +1,6 @@
 #include "relievo/relief/relief.h"
 
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <variant>
 

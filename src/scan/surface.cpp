@@ -90,7 +90,7 @@ Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progre
   return viewed;
 }
 
-// What later stages need of each of the surface's points.
+// Measures of the surface's points that only the stages until the boundary need.
 struct PointMeasures {
   std::vector<double> k;       // mean curvature, 0 at hole fill points
   std::vector<float> spacing;  // Spacing::local of clouds of uneven density, else none

@@ -35,11 +35,12 @@ struct VisibleOptions {
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
                                   const VisibleOptions& options = {});
 
-// Returns the same with the number of points that would be visible, but were removed as floating noise.
 struct VisiblePoints {
   std::vector<Index> points;
-  std::size_t removed = 0;
+  std::size_t removed = 0;  // number of points that would be visible, but are taken for floating noise
 };
+
+// Returns the same points, and how many were removed.
 VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing, const VisibleOptions& options = {});
 
 // Returns the numbers of points, ascending, that stand in for missing data: points that face away from the
