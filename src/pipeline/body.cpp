@@ -11,8 +11,9 @@
 namespace relievo {
 namespace {
 
-constexpr double bending_share = .25;  // of a tolerance, what a curved base may take
-constexpr double rim_bevel = .3;       // of the rim's height: 17 degrees from upright, so dies come off
+// Shares of a tolerance: what a curved base may take, and what turning the edges of thin triangles may.
+constexpr double bending_share = .25, turning_share = .01;
+constexpr double rim_bevel = .3;  // of the rim's height: 17 degrees from upright, so dies come off
 
 // The share of the steepest slope that simpler fronts keep. It is more than the 0.999 that limit_draft() keeps, so that
 // simplification has some room, and less than 1, which leaves some for rounding.
@@ -69,7 +70,8 @@ bool is_simplified_as_plate(const ReliefOptions& options) {
 }
 
 SimplifyOptions simplest_front(const ReliefOptions& options) {
-  SimplifyOptions simplest{(is_curved(options) ? 1 - bending_share : 1) * *options.tolerance_mm};
+  SimplifyOptions simplest{(1 - (is_curved(options) ? bending_share : turning_share)) *
+                           *options.tolerance_mm};
   if (!options.draft_deg) return simplest;
   simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
   simplest.tolerance_mm -= std::min(.1 * simplest.tolerance_mm, most_held_mm);

@@ -4,11 +4,13 @@
 #include <utility>
 
 #include "pipeline/body.h"
-#include "plate/silhouette.h"
+#include "plate/front/sample_front.h"
+#include "plate/front/silhouette.h"
 #include "relievo/make_relief.h"
 #include "relievo/plate/simplify.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
+#include "scan/jumps.h"
 
 namespace relievo {
 namespace {
@@ -20,6 +22,31 @@ std::pair<double, double> span_of(const HeightFieldMesh& front) {
   double lowest = front.ground_mm, highest = lowest;
   for (const Vec3& p : front.points) lowest = std::min(lowest, p.z()), highest = std::max(highest, p.z());
   return {lowest, highest};
+}
+
+// Draft angles hold for the triangles between the points, and the heights of lithophanes are no surface's.
+bool is_sampled(const ReliefOptions& options) {
+  return !options.draft_deg && options.form != Form::lithophane;
+}
+
+// Returns whether a triangle belongs to one surface: it is no ground, no wall and does not span a jump.
+std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
+  std::vector<std::uint8_t> is_smooth = jump_triangles(surface);
+  const Boundary& boundary = surface.boundary;
+  for (std::size_t t = 0; t < is_smooth.size(); ++t) {
+    const auto& [a, b, c] = surface.triangulation.triangles[t];
+    const bool is_wall =
+        boundary.is_across_wall(a, b) || boundary.is_across_wall(b, c) || boundary.is_across_wall(c, a);
+    is_smooth[t] = boundary.is_inside[t] && !is_smooth[t] && !is_wall;
+  }
+  return is_smooth;
+}
+
+// At arm's length the eye separates about a 700th of a plate that it sees as a whole.
+double sample_step(const Surface& surface, const ReliefOptions& options) {
+  constexpr double samples = 700;
+  const double finest = std::min(options.width_mm / samples, surface.rho * mm_per_unit(surface, options));
+  return options.resolution_mm.value_or(finest);
 }
 
 // The front with all its points, in the form asked for.
@@ -34,6 +61,8 @@ FormedFront full_front(const Surface& surface, const Relief& relief, const Relie
     made.front = front_in_mm(surface, relief.heights, scale);
   }
   if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
+  if (is_sampled(options))
+    made.front = sample_front(made.front, smooth_triangles(surface), {sample_step(surface, options)});
   if (options.form == Form::mirror) made.front = mirrored(std::move(made.front));
   if (options.form == Form::die) made.front = as_die(std::move(made.front));
   return made;

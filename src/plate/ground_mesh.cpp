@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "geometry/plane.h"
-#include "plate/silhouette.h"
+#include "plate/front/silhouette.h"
 #include "relievo/geometry/triangulation.h"
 
 namespace relievo {

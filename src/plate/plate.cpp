@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "plate/coincident_points.h"
+#include "plate/front/silhouette.h"
+#include "plate/front/thin_triangles.h"
 #include "plate/ground_mesh.h"
 #include "plate/plate_checks.h"
 #include "plate/plate_surface.h"
-#include "plate/silhouette.h"
-#include "plate/thin_triangles.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {

@@ -1,11 +1,28 @@
 #include "quality/model_picture.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
 
 namespace relievo {
+
+namespace {
+
+// Returns for each triangle whether it has a point of a depth jump. The walls at jumps alone are narrower than a pixel.
+std::vector<std::uint8_t> around_jumps(const Surface& surface) {
+  const std::vector<Triangle>& triangles = surface.triangulation.triangles;
+  std::vector<std::uint8_t> is_around = jump_triangles(surface), is_at_jump(surface.points.size());
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    if (is_around[t])
+      for (const Index p : triangles[t]) is_at_jump[p] = 1;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    is_around[t] = std::ranges::any_of(triangles[t], [&](Index p) { return is_at_jump[p] != 0; });
+  return is_around;
+}
+
+}  // namespace
 
 ModelPicture::ModelPicture(const Surface& surface, int longer_side_px, int margin_px)
     : grid(surface.points, surface.triangulation, longer_side_px, margin_px) {
@@ -15,7 +32,7 @@ ModelPicture::ModelPicture(const Surface& surface, int longer_side_px, int margi
 }
 
 void ModelPicture::classify(const Surface& surface) {
-  const std::vector<std::uint8_t> is_jumping = jump_triangles(surface);
+  const std::vector<std::uint8_t> is_jumping = around_jumps(surface);
   Image8 is_outside = filled_image(grid.width(), grid.height(), std::uint8_t{0}), is_broken = is_outside;
   for (std::size_t i = 0; i < grid.pixels(); ++i) {
     const Index t = grid.triangle(i);

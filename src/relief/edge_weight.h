@@ -3,9 +3,11 @@
 #pragma once
 
 #include <algorithm>
+#include <span>
 
 #include "geometry/plane.h"
 #include "relievo/core/types.h"
+#include "relievo/scan/boundary.h"
 
 namespace relievo {
 
@@ -32,6 +34,14 @@ inline float edge_weight(float sum) {
 inline double needle_share(double stiffest) {
   constexpr double largest_half = largest_edge_weight / 2;
   return std::min(1.0, largest_half / std::max(stiffest, 1e-300));
+}
+
+// Returns the share of its weight that an edge near a depth jump has: the mean of `weights`, one per point, of its ends,
+// see jump_weights(). Walls at jumps are narrower than the sampling distance, and would tie both sides together more
+// than edges between scattered points do; edges across them count a tenth.
+inline float jump_share(const Boundary& boundary, std::span<const float> weights, Index a, Index b) {
+  const float share = (weights[a] + weights[b]) / 2;
+  return boundary.is_across_wall(a, b) ? .1F * share : share;
 }
 
 }  // namespace relievo

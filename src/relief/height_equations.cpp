@@ -37,9 +37,11 @@ struct Adjacency {
   std::vector<WeightedEdge> edges;
 };
 
-// Equation (9): adds up the two terms of each edge and bounds its weight. Edges at depth jumps then count for
-// the mean of `weights`, one per point, of their ends: see jump_weights().
-Adjacency gather(const std::vector<WeightedEdge>& all, std::size_t points, std::span<const float> weights) {
+// Equation (9): adds up the two terms of each edge and bounds its weight. Edges at depth jumps then count
+// for their jump_share().
+Adjacency gather(const std::vector<WeightedEdge>& all, const Boundary& boundary,
+                 std::span<const float> weights) {
+  const std::size_t points = boundary.is_boundary.size();
   auto [begin, sorted] = grouped<WeightedEdge, std::size_t>(points, [&](auto&& add) {
     for (const WeightedEdge& e : all) add(e.from, e);
   });
@@ -62,7 +64,7 @@ Adjacency gather(const std::vector<WeightedEdge>& all, std::size_t points, std::
   result.begin.push_back(static_cast<Index>(result.edges.size()));
   for (WeightedEdge& e : result.edges) {
     e.weight = edge_weight(e.weight);
-    if (!weights.empty()) e.weight *= (weights[e.from] + weights[e.to]) / 2;
+    if (!weights.empty()) e.weight *= jump_share(boundary, weights, e.from, e.to);
   }
   return result;
 }
@@ -122,7 +124,7 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
     unknown[i] = static_cast<Index>(equations.free_points.size());
     equations.free_points.push_back(i);
   }
-  const Adjacency adjacency = gather(edge_terms(points, triangulation, boundary), points.size(), weights);
+  const Adjacency adjacency = gather(edge_terms(points, triangulation, boundary), boundary, weights);
   equations.A = laplacian(adjacency, unknown, equations.free_points);
   add_coefficients(points, adjacency, unknown, equations);
   return equations;

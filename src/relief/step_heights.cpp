@@ -43,7 +43,8 @@ std::vector<JumpEdge> jump_edges(const Surface& surface, std::span<const float> 
       edges.back().weight += half.weight;
     else
       edges.push_back(half);
-  for (JumpEdge& e : edges) e.weight = edge_weight(e.weight) * (weights[e.a] + weights[e.b]) / 2;
+  for (JumpEdge& e : edges)
+    e.weight = edge_weight(e.weight) * jump_share(surface.boundary, weights, e.a, e.b);
   return edges;
 }
 

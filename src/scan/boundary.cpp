@@ -48,15 +48,6 @@ class BoundaryFinder {
     return is_inside;
   }
 
-  std::vector<std::uint8_t> boundary_points(const std::vector<std::uint8_t>& is_inside) const {
-    std::vector<std::uint8_t> touches_inside(points_.size(), 0), is_boundary(points_.size(), 0);
-    for (std::size_t t = 0; t < is_inside.size(); ++t)
-      for (const Index corner : mesh_.triangles[t]) (is_inside[t] ? touches_inside : is_boundary)[corner] = 1;
-    for (const Index i : mesh_.hull) is_boundary[i] = 1;
-    for (std::size_t i = 0; i < points_.size(); ++i) is_boundary[i] |= !touches_inside[i];
-    return is_boundary;
-  }
-
  private:
   // Marks as inside each connected set of outside triangles that does not touch the hull and into which no
   // circle of radius `smallest_hole` fits.
@@ -80,6 +71,19 @@ class BoundaryFinder {
   std::vector<double> radius_;  // of the empty circles, in sampling distances
 };
 
+}  // namespace
+
+std::vector<std::uint8_t> boundary_points(std::size_t points, const Triangulation& triangulation,
+                                          std::span<const std::uint8_t> is_inside) {
+  std::vector<std::uint8_t> touches_inside(points, 0), is_boundary(points, 0);
+  for (std::size_t t = 0; t < is_inside.size(); ++t)
+    for (const Index corner : triangulation.triangles[t])
+      (is_inside[t] ? touches_inside : is_boundary)[corner] = 1;
+  for (const Index i : triangulation.hull) is_boundary[i] = 1;
+  for (std::size_t i = 0; i < points; ++i) is_boundary[i] |= !touches_inside[i];
+  return is_boundary;
+}
+
 std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<std::uint8_t>& is_boundary) {
   std::vector<Vec2> targets;
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -95,14 +99,12 @@ std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<
   return distance;
 }
 
-}  // namespace
-
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
                        const BoundaryOptions& options, std::span<const float> spacing) {
   const BoundaryFinder finder(points, triangulation, rho, spacing);
   Boundary boundary;
   boundary.is_inside = finder.inside(options.gap, options.smallest_hole);
-  boundary.is_boundary = finder.boundary_points(boundary.is_inside);
+  boundary.is_boundary = boundary_points(points.size(), triangulation, boundary.is_inside);
   boundary.distance = distances_to(points, boundary.is_boundary);
   return boundary;
 }

@@ -10,6 +10,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "scan/orient_normals.h"
+#include "scan/outline_points.h"
 
 namespace relievo {
 namespace {
@@ -90,12 +91,6 @@ Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progre
   return viewed;
 }
 
-// Measures of the surface's points that only the stages until the boundary need.
-struct PointMeasures {
-  std::vector<double> k;       // mean curvature, 0 at hole fill points
-  std::vector<float> spacing;  // Spacing::local of clouds of uneven density, else none
-};
-
 // Stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& options, Surface& surface,
                                   Progress* progress) {
@@ -148,19 +143,19 @@ Result<Surface> find_surface(const Cloud& cloud, const View& view, const Surface
 
   Result<ViewCloud> viewed = look_at(cloud, surface, progress);
   if (!viewed) return std::unexpected(viewed.error());
-  RELIEVO_TRY(const PointMeasures measures, find_points(*viewed, options, surface, progress));
+  RELIEVO_TRY(PointMeasures measures, find_points(*viewed, options, surface, progress));
 
   if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
   if (surface.triangulation.triangles.empty())
     return geometry_error("expected visible points that enclose an area, found all of them on one line");
-  surface.curvature =
-      normalise(average_in_plane(measures.k, xy, surface.normals, surface.triangulation, surface.rho));
-
-  if (auto go = begin_stage(progress, "boundary", .7); !go) return std::unexpected(go.error());
+  if (auto go = begin_stage(progress, "boundary", .65); !go) return std::unexpected(go.error());
   surface.boundary =
       find_boundary(xy, surface.triangulation, surface.rho, options.boundary, measures.spacing);
+  put_points_on_outlines(surface, measures);
+  surface.curvature = normalise(average_in_plane(measures.k, in_plane(surface.points), surface.normals,
+                                                 surface.triangulation, surface.rho));
   // Only the boundary needs the neighbours; they take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;

@@ -102,4 +102,34 @@ inline Cloud noisy(Cloud cloud, double sigma, double normal_sigma, std::uint64_t
   return cloud;
 }
 
+// Returns points distributed uniformly on a flat disc of that radius that faces +z, its edge rounded by a quarter of a
+// torus, its lowest points at `z`.
+inline Cloud button(std::size_t n, double radius, double edge, double z = 0, std::uint64_t seed = 12) {
+  Random random(seed);
+  Cloud cloud;
+  const double quarter = std::numbers::pi / 2;
+  const double disc_area = radius * radius / 2, edge_area = edge * (radius * quarter + edge);
+  while (cloud.size() < n) {
+    const double turn = random.uniform(0, 2 * std::numbers::pi);
+    const Vec3 outwards(std::cos(turn), std::sin(turn), 0);
+    if (random.uniform(0, disc_area + edge_area) < disc_area) {
+      const double r = radius * std::sqrt(random.uniform());
+      add(cloud, r * outwards + (z + edge) * Vec3::UnitZ(), Vec3::UnitZ());
+      continue;
+    }
+    const double tilt = random.uniform(0, quarter);
+    if (random.uniform(0, radius + edge) > radius + edge * std::sin(tilt)) continue;
+    const Vec3 normal = std::sin(tilt) * outwards + std::cos(tilt) * Vec3::UnitZ();
+    add(cloud, radius * outwards + z * Vec3::UnitZ() + edge * normal, normal);
+  }
+  return cloud;
+}
+
+// Moves each point along its normal by Gaussian noise.
+inline void add_noise(Cloud& cloud, double deviation, std::uint64_t seed = 13) {
+  Random random(seed);
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    cloud.points[i] += deviation * random.gaussian() * cloud.normals[i].cast<double>();
+}
+
 }  // namespace relievo::test

@@ -15,11 +15,20 @@ struct BoundaryOptions {
   double smallest_hole = 5;
 };
 
+enum class WallSide : std::uint8_t { none, front, back };
+
 struct Boundary {
   std::vector<std::uint8_t> is_inside;    // per triangle: belongs to the relief
   std::vector<std::uint8_t> is_boundary;  // per point: in P_b, on the silhouette or the rim of an inner hole
   // Per point the distance in the view plane to the nearest point of P_b: `dist` of equation (7).
   std::vector<float> distance;
+  // Per point: on the front or the back edge of the wall that stands at a depth jump; empty if there is no wall.
+  std::vector<WallSide> wall_side;
+
+  bool is_across_wall(Index a, Index b) const {
+    return !wall_side.empty() && wall_side[a] != WallSide::none && wall_side[b] != WallSide::none &&
+           wall_side[a] != wall_side[b];
+  }
 };
 
 // Returns the boundary of points in the view plane, given their Delaunay triangulation and sampling distance
@@ -33,5 +42,12 @@ struct Boundary {
 // beside surfaces that are seen edge on.
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
                        const BoundaryOptions& options = {}, std::span<const float> spacing = {});
+
+// Returns for each of `points` points whether it is a corner of a triangle outside, on the hull, or in no triangle.
+std::vector<std::uint8_t> boundary_points(std::size_t points, const Triangulation& triangulation,
+                                          std::span<const std::uint8_t> is_inside);
+
+// Returns for each point its distance to the nearest boundary point, 0 for these; infinity if there is none.
+std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<std::uint8_t>& is_boundary);
 
 }  // namespace relievo

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "geometry/predicates.h"
-#include "plate/silhouette.h"
+#include "plate/front/silhouette.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/geometry/triangulation.h"

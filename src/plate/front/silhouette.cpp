@@ -1,4 +1,4 @@
-#include "plate/silhouette.h"
+#include "plate/front/silhouette.h"
 
 #include <algorithm>
 

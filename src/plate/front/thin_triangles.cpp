@@ -1,4 +1,4 @@
-#include "plate/thin_triangles.h"
+#include "plate/front/thin_triangles.h"
 
 #include <algorithm>
 #include <array>

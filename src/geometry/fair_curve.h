@@ -1,0 +1,32 @@
+// A smooth curve through measured places that scatter around it. Tested by tests/geometry/fair_curve_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+struct CurveNode {
+  Vec2 place;
+  double weight = 1;  // > 0, how much the place is trusted
+};
+
+struct FairCurveOptions {
+  double spacing = 1;  // of the curve's points
+  double window = 4;   // half the length of curve that a point is fitted to; more is smoother
+};
+
+struct FairCurve {
+  std::vector<Vec2> points;             // evenly spaced between corners; the first is not repeated at the end
+  std::vector<std::uint8_t> is_corner;  // per point
+};
+
+// Returns the curve through nodes that are given in its order. Each of its points is that of a quadratic that is
+// fitted to the nodes nearby by weighted least squares; nodes that lie far from the first such curve count little
+// in the second. Corners of more than 45 degrees between straight sides stay: no fit goes across them. Empty if
+// the curve is shorter than four spacings, if an open curve has fewer than 3 nodes or a closed one fewer than 6.
+FairCurve fair_curve(std::span<const CurveNode> nodes, bool is_closed, const FairCurveOptions& options);
+
+}  // namespace relievo

@@ -1,0 +1,88 @@
+#include "geometry/segment_grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry/plane.h"
+
+namespace relievo {
+namespace {
+
+// A closed grid has at most this many cells a side; larger curves get larger cells.
+constexpr double most_cells = 4096;
+
+}  // namespace
+
+SegmentGrid::SegmentGrid(std::vector<Segment> segments, double cell)
+    : segments_(std::move(segments)), cell_(cell) {
+  if (segments_.empty()) return;
+  Vec2 low = segments_[0].from, high = low;
+  for (const Segment& s : segments_) {
+    low = low.cwiseMin(s.from).cwiseMin(s.to);
+    high = high.cwiseMax(s.from).cwiseMax(s.to);
+  }
+  origin_ = low;
+  cell_ = std::max(cell_, (high - low).maxCoeff() / most_cells);
+  width_ = static_cast<int>((high.x() - low.x()) / cell_) + 1;
+  height_ = static_cast<int>((high.y() - low.y()) / cell_) + 1;
+  in_cell_ = grouped<Index, std::size_t>(static_cast<std::size_t>(width_) * height_, [&](auto&& add) {
+    for (Index i = 0; i < segments_.size(); ++i) {
+      const Segment& s = segments_[i];
+      const Cells c = cells_of(s.from.cwiseMin(s.to), s.from.cwiseMax(s.to));
+      for (int y = c.y0; y <= c.y1; ++y)
+        for (int x = c.x0; x <= c.x1; ++x) add(static_cast<std::size_t>(y) * width_ + x, i);
+    }
+  });
+}
+
+SegmentGrid::Cells SegmentGrid::cells_of(const Vec2& low, const Vec2& high) const {
+  const auto at = [&](double v, double origin, int count) {
+    return static_cast<int>(std::clamp(std::floor((v - origin) / cell_), -1.0, static_cast<double>(count)));
+  };
+  return {std::max(0, at(low.x(), origin_.x(), width_)), std::max(0, at(low.y(), origin_.y(), height_)),
+          std::min(width_ - 1, at(high.x(), origin_.x(), width_)),
+          std::min(height_ - 1, at(high.y(), origin_.y(), height_))};
+}
+
+NearestSegment SegmentGrid::nearest(const Vec2& place, double radius, Index except) const {
+  NearestSegment best;
+  if (segments_.empty()) return best;
+  double least_sq = radius * radius, farthest_line = 0;
+  const Cells c = cells_of(place - Vec2::Constant(radius), place + Vec2::Constant(radius));
+  for (int y = c.y0; y <= c.y1; ++y)
+    for (int x = c.x0; x <= c.x1; ++x)
+      for (const Index i : in_cell_[static_cast<std::size_t>(y) * width_ + x]) {
+        const Segment& s = segments_[i];
+        if (s.curve == except) continue;
+        const Vec2 step = s.to - s.from, offset = place - s.from;
+        const double length_sq = step.squaredNorm();
+        if (!(length_sq > 0)) continue;
+        const double share = std::clamp(offset.dot(step) / length_sq, 0.0, 1.0);
+        const double distance_sq = (offset - share * step).squaredNorm();
+        const double line = cross(step, offset) / std::sqrt(length_sq);
+        const bool is_tie = best.segment != no_index && std::abs(distance_sq - least_sq) <= 1e-12 * least_sq;
+        if (is_tie ? std::abs(line) <= farthest_line : distance_sq > least_sq) continue;
+        least_sq = std::min(least_sq, distance_sq);
+        farthest_line = std::abs(line);
+        best = {i, std::sqrt(distance_sq), line > 0};
+      }
+  return best;
+}
+
+bool SegmentGrid::is_crossed(const Vec2& a, const Vec2& b) const {
+  if (segments_.empty()) return false;
+  const Vec2 line = b - a;
+  const Cells c = cells_of(a.cwiseMin(b), a.cwiseMax(b));
+  for (int y = c.y0; y <= c.y1; ++y)
+    for (int x = c.x0; x <= c.x1; ++x)
+      for (const Index i : in_cell_[static_cast<std::size_t>(y) * width_ + x]) {
+        const Segment& s = segments_[i];
+        const Vec2 step = s.to - s.from;
+        if ((cross(line, s.from - a) > 0) != (cross(line, s.to - a) > 0) &&
+            (cross(step, a - s.from) > 0) != (cross(step, b - s.from) > 0))
+          return true;
+      }
+  return false;
+}
+
+}  // namespace relievo

@@ -1,0 +1,179 @@
+#include "geometry/smooth_surface.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "core/groups.h"
+#include "geometry/plane.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+// A slope may exceed the steepest triangle around its point by this factor, which lets extrema be round.
+constexpr double most_over = 1.25;
+
+Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 u = b - a, v = c - a;
+  const double twice_area = u.x() * v.y() - u.y() * v.x();
+  if (!(twice_area > 0)) return Vec2::Zero();
+  return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
+}
+
+// Returns the slope at `centre` of the quadratic through it that fits its neighbours best; `fallback` if they are
+// too few.
+Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const Index> neighbours,
+                  const Vec2& fallback) {
+  if (neighbours.size() < 6) return fallback;
+  double radius_sq = 0;
+  for (const Index j : neighbours)
+    radius_sq = std::max(radius_sq, (points[j] - points[centre]).head<2>().squaredNorm());
+  const double unit = std::sqrt(radius_sq);
+  if (!(unit > 0)) return fallback;
+  Eigen::Matrix<double, 5, 5> moments = Eigen::Matrix<double, 5, 5>::Zero();
+  Eigen::Matrix<double, 5, 1> products = Eigen::Matrix<double, 5, 1>::Zero(), row;
+  for (const Index j : neighbours) {
+    const Vec3 step = points[j] - points[centre];
+    const double x = step.x() / unit, y = step.y() / unit;
+    row << x, y, x * x, x * y, y * y;
+    const double weight = 1 / (x * x + y * y + .05);
+    moments += weight * row * row.transpose();
+    products += weight * step.z() * row;
+  }
+  // A little bending energy keeps the fit defined where neighbours lie on two lines.
+  for (int i = 2; i < 5; ++i) moments(i, i) += 1e-3 * moments(0, 0) + 1e-12;
+  const Eigen::Matrix<double, 5, 1> fit = moments.ldlt().solve(products);
+  const Vec2 slope = fit.head<2>() / unit;
+  return slope.allFinite() ? slope : fallback;
+}
+
+// Returns the middle point of a third that makes the slope across the edge a-b linear along it.
+template <typename Third>
+double middle_point(const Third& t, const Vec2& a, const Vec2& b, const Vec2& s) {
+  const Vec2 edge = b - a;
+  const double foot = (s - a).dot(edge) / edge.squaredNorm();  // where s projects onto the edge
+  const double along_a = -(1 - foot), along_b = -foot;
+  const double begin = along_a * t.a + along_b * t.ab + t.as, end = along_a * t.ba + along_b * t.b + t.bs;
+  return (begin + end) / 2 - along_a * t.ab - along_b * t.ba;
+}
+
+}  // namespace
+
+SmoothSurface::SmoothSurface(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                             std::span<const std::uint8_t> is_smooth)
+    : points_(points), triangles_(triangles), is_smooth_(is_smooth), slopes_(points.size(), Vec2::Zero()) {
+  find_slopes();
+}
+
+void SmoothSurface::find_slopes() {
+  const auto around = grouped<Index>(points_.size(), [&](auto&& add) {
+    for (Index t = 0; t < triangles_.size(); ++t)
+      if (is_smooth_[t])
+        for (const Index i : triangles_[t]) add(i, t);
+  });
+  const auto add_ring = [&](Index i, std::vector<Index>& ring) {
+    for (const Index t : around[i]) ring.insert(ring.end(), triangles_[t].begin(), triangles_[t].end());
+  };
+  parallel_ranges(points_.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    std::vector<Index> near, all;
+    for (auto i = static_cast<Index>(begin); i < end; ++i) {
+      if (around[i].empty()) continue;
+      double steepest = 0, areas = 0;
+      Vec2 mean = Vec2::Zero();
+      for (const Index t : around[i]) {
+        const auto& [a, b, c] = triangles_[t];
+        const Vec2 slope = plane_slope(points_[a], points_[b], points_[c]);
+        const double area = cross((points_[b] - points_[a]).head<2>(), (points_[c] - points_[a]).head<2>());
+        steepest = std::max(steepest, slope.norm());
+        mean += area * slope;
+        areas += area;
+      }
+      if (areas > 0) mean /= areas;
+      near.clear(), all.clear();
+      add_ring(i, near);
+      for (const Index j : near) add_ring(j, all);
+      std::ranges::sort(all);
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+      std::erase(all, i);
+      slopes_[i] = fitted_slope(points_, i, all, mean);
+      const double most = most_over * steepest;
+      if (slopes_[i].norm() > most) slopes_[i] *= most / slopes_[i].norm();
+    }
+  });
+}
+
+// The Bezier points of the three cubics over a triangle; cubic i lies between the side opposite to corner i and the
+// centre.
+struct SmoothSurface::Element {
+  std::array<Vec2, 3> corners;
+  Vec2 centre;
+  std::array<Third, 3> thirds;
+  std::array<double, 3> near_centre;  // on the lines from the corners to the centre
+  double at_centre;
+};
+
+SmoothSurface::Element SmoothSurface::element(Index t) const {
+  const Triangle& numbers = triangles_[t];
+  Element e;
+  std::array<double, 3> z, to_centre;
+  for (std::size_t i = 0; i < 3; ++i)
+    e.corners[i] = points_[numbers[i]].head<2>(), z[i] = points_[numbers[i]].z();
+  const auto& p = e.corners;
+  e.centre = (p[0] + p[1] + p[2]) / 3;
+  for (std::size_t i = 0; i < 3; ++i) to_centre[i] = z[i] + slopes_[numbers[i]].dot(e.centre - p[i]) / 3;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+    Third& third = e.thirds[i];
+    third = {z[a],
+             z[b],
+             z[a] + slopes_[numbers[a]].dot(p[b] - p[a]) / 3,
+             z[b] + slopes_[numbers[b]].dot(p[a] - p[b]) / 3,
+             to_centre[a],
+             to_centre[b],
+             0};
+    third.abs = middle_point(third, p[a], p[b], e.centre);
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    e.near_centre[i] = (to_centre[i] + e.thirds[(i + 1) % 3].abs + e.thirds[(i + 2) % 3].abs) / 3;
+  e.at_centre = (e.near_centre[0] + e.near_centre[1] + e.near_centre[2]) / 3;
+  return e;
+}
+
+SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
+  const Vec3 &p0 = points_[triangles_[t][0]], &p1 = points_[triangles_[t][1]],
+             &p2 = points_[triangles_[t][2]];
+  const double twice_area = cross((p1 - p0).head<2>(), (p2 - p0).head<2>());
+  if (!is_smooth_[t] || !(twice_area > 0)) {
+    const Vec2 slope = plane_slope(p0, p1, p2);
+    return {p0.z() + slope.dot(place - p0.head<2>()), slope};
+  }
+  const Element e = element(t);
+  const auto& p = e.corners;
+  // The place lies in the third opposite to the corner of least weight.
+  std::array<double, 3> weight;
+  for (std::size_t k = 0; k < 3; ++k) weight[k] = cross(p[(k + 1) % 3] - place, p[(k + 2) % 3] - place);
+  const auto i = static_cast<std::size_t>(std::ranges::min_element(weight) - weight.begin());
+  const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
+  // Weights of a, b and the centre. A place outside counts as one on the triangle's side.
+  Vec3 share(cross(p[b] - place, e.centre - place), cross(e.centre - place, p[a] - place), weight[i]);
+  share = share.cwiseMax(0);
+  share /= share.sum();
+  return de_casteljau(e.thirds[i], {e.near_centre[a], e.near_centre[b], e.at_centre}, share,
+                      {p[a], p[b], e.centre});
+}
+
+// Evaluates one cubic: six points of a quadratic, then three of a plane, which give height and slope. `inner` are its
+// Bezier points next to the centre, on the lines from a and b, and at it.
+SmoothSurface::Sample SmoothSurface::de_casteljau(const Third& t, const Vec3& inner, const Vec3& share,
+                                                  const std::array<Vec2, 3>& corners) {
+  const double u = share.x(), v = share.y(), w = share.z();
+  const double aa = u * t.a + v * t.ab + w * t.as, bb = u * t.ba + v * t.b + w * t.bs, ss = share.dot(inner);
+  const double ab = u * t.ab + v * t.ba + w * t.abs, as = u * t.as + v * t.abs + w * inner.x(),
+               bs = u * t.abs + v * t.bs + w * inner.y();
+  const double fa = u * aa + v * ab + w * as, fb = u * ab + v * bb + w * bs, fs = u * as + v * bs + w * ss;
+  const auto at = [&](std::size_t i, double z) { return Vec3(corners[i].x(), corners[i].y(), z); };
+  return {u * fa + v * fb + w * fs, 3 * plane_slope(at(0, fa), at(1, fb), at(2, fs))};
+}
+
+}  // namespace relievo

@@ -1,0 +1,51 @@
+// A smooth surface through heights over a triangulation. Tested by tests/geometry/smooth_surface_test.cpp.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// Heights over the plane that interpolate those of points, with a continuous slope inside each sheet: a set of
+// triangles marked as smooth that share edges. Other triangles stay plane, so that the surface has a crease along
+// their edges. Each smooth triangle is a reduced Clough-Tocher element: three cubics, quadratic surfaces are
+// reproduced. The slope at a point comes from the quadratic that fits the heights of up to two rings of smooth
+// triangles around it, and is at most a little steeper than these triangles.
+class SmoothSurface {
+ public:
+  // A place in a triangle and what the surface is there.
+  struct Sample {
+    double height = 0;
+    Vec2 slope = Vec2::Zero();
+  };
+
+  // Keeps views of the points and triangles, counter-clockwise, which must outlive it; `is_smooth` has a flag per
+  // triangle.
+  SmoothSurface(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                std::span<const std::uint8_t> is_smooth);
+
+  // Returns the height and slope of triangle `t` at a place in it, or near it.
+  Sample at(Index t, const Vec2& place) const;
+
+ private:
+  // Bezier points of a third of a triangle, between two corners a, b and the centre s.
+  struct Third {
+    double a, b, ab, ba, as, bs, abs;  // ab is near a on the side to b, abs in the middle of the third
+  };
+  struct Element;
+
+  void find_slopes();
+  Element element(Index t) const;
+  static Sample de_casteljau(const Third& third, const Vec3& inner, const Vec3& share,
+                             const std::array<Vec2, 3>& corners);
+
+  std::span<const Vec3> points_;
+  std::span<const Triangle> triangles_;
+  std::span<const std::uint8_t> is_smooth_;
+  std::vector<Vec2> slopes_;  // per point; 0 where no smooth triangle is
+};
+
+}  // namespace relievo

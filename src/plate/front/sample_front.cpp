@@ -1,0 +1,372 @@
+#include "plate/front/sample_front.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/raster.h"
+#include "geometry/segment_grid.h"
+#include "geometry/smooth_surface.h"
+#include "plate/front/silhouette.h"
+#include "relievo/core/parallel.h"
+#include "relievo/geometry/triangulation.h"
+
+namespace relievo {
+namespace {
+
+constexpr int band_rings = 3;      // of triangles beside creases that keep their points
+constexpr int coarsest_level = 3;  // squares have sides of 1, 2, 4 or 8 steps
+constexpr int most_divisions = 16;
+constexpr double apart = .6;  // least distance of a sample from the band's points, in steps
+
+// The places of a grid over the front, and which triangle each lies in.
+struct Grid {
+  double step = 0;
+  Vec2 corner;  // upper left
+  RasterInput input;
+  Image<Index> triangle;  // no_index beside the front
+
+  Vec2 place(int x, int y) const { return {corner.x() + (x + .5) * step, corner.y() - (y + .5) * step}; }
+  Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
+};
+
+Grid make_grid(const HeightFieldMesh& front, double step) {
+  const Box box = Box::of(front.points);
+  Grid grid;
+  grid.step = std::max(step, box.longer_side() / (RasterInput::most_pixels - 16));
+  const auto cells = [&](double mm) {
+    const int block = 1 << coarsest_level;
+    return (static_cast<int>(mm / grid.step + .37) / block + 1) *
+           block;  // not on a step, which rounding would decide
+  };
+  grid.corner = {box.min.x(), box.max.y()};
+  grid.input.width = cells(box.size().x());
+  grid.input.height = cells(box.size().y());
+  grid.input.triangles = front.triangles;
+  for (const Vec3& p : front.points) {
+    const Vec2 place = grid.pixel(p.head<2>());
+    grid.input.points.emplace_back(place.x(), place.y(), 0);
+  }
+  // In pictures y points down, which turns triangles over.
+  grid.triangle = filled_image(grid.input.width, grid.input.height, no_index);
+  const Rasterizer rasterizer(grid.input, 32);
+  parallel_for(
+      rasterizer.bands(),
+      [&](std::size_t b) {
+        const RowBand band = rasterizer.draw(b);
+        const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));
+        std::ranges::transform(band.fragments.pixels, grid.triangle.pixels.begin() + first,
+                               [](const Fragment& f) { return f.triangle; });
+      },
+      1);
+  return grid;
+}
+
+// Marks the triangles that are not smooth, and those up to some rings of smooth triangles beside them and the hull.
+std::vector<std::uint8_t> band_triangles(const HeightFieldMesh& front,
+                                         std::span<const std::uint8_t> is_smooth) {
+  std::vector<std::uint8_t> is_near(front.points.size(), 0), is_band(front.triangles.size());
+  for (std::size_t t = 0; t < is_band.size(); ++t) is_band[t] = !is_smooth[t];
+  for (const Index i : front.hull) is_near[i] = 1;
+  for (int ring = 0; ring <= band_rings; ++ring) {
+    for (std::size_t t = 0; t < is_band.size(); ++t)
+      if (is_band[t])
+        for (const Index i : front.triangles[t]) is_near[i] = 1;
+    if (ring == band_rings) break;
+    for (std::size_t t = 0; t < is_band.size(); ++t)
+      is_band[t] |=
+          is_near[front.triangles[t][0]] || is_near[front.triangles[t][1]] || is_near[front.triangles[t][2]];
+  }
+  return is_band;
+}
+
+// Least and greatest slope in a square.
+struct SlopeRange {
+  Eigen::Vector2f least = Eigen::Vector2f::Constant(std::numeric_limits<float>::infinity());
+  Eigen::Vector2f most = -least;
+
+  void extend(const SlopeRange& other) {
+    least = least.cwiseMin(other.least);
+    most = most.cwiseMax(other.most);
+  }
+  // Returns an upper bound of the angle between two normals in the square, about.
+  float turn() const {
+    const Eigen::Vector2f middle = (least + most) / 2;
+    return (most - least).norm() / (1 + middle.squaredNorm());
+  }
+};
+
+class Sampler {
+ public:
+  Sampler(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth, const SampleOptions& options)
+      : front_(front),
+        is_smooth_(is_smooth),
+        options_(options),
+        surface_(front.points, front.triangles, is_smooth),
+        is_band_(band_triangles(front, is_smooth)),
+        grid_(make_grid(front, options.resolution_mm)) {}
+
+  HeightFieldMesh make() {
+    add_old_points();
+    divide_band();
+    add_squares();
+    keep_within_range();
+    return triangulated();
+  }
+
+ private:
+  void add(Index triangle, const Vec2& place, double z) {
+    out_.points.emplace_back(place.x(), place.y(), z);
+    if (!front_.colours.empty()) out_.colours.push_back(colour_at(triangle, place));
+  }
+
+  Colour colour_at(Index t, const Vec2& place) const {
+    const Vec2 pixel = grid_.pixel(place);
+    const Vec3f weights = corner_weights(grid_.input, t, pixel.x(), pixel.y());
+    Colour colour;
+    for (std::size_t c = 0; c < 3; ++c) {
+      float sum = .5F;
+      for (int i = 0; i < 3; ++i)
+        sum += weights[i] * static_cast<float>(front_.colours[front_.triangles[t][i]][c]);
+      colour[c] = static_cast<std::uint8_t>(std::clamp(sum, 0.F, 255.F));
+    }
+    return colour;
+  }
+
+  // The points of the band, of the hull, and the highest and lowest of all keep their places.
+  void add_old_points() {
+    std::vector<std::uint8_t> is_kept(front_.points.size(), 0);
+    for (std::size_t t = 0; t < is_band_.size(); ++t)
+      if (is_band_[t])
+        for (const Index i : front_.triangles[t]) is_kept[i] = 1;
+    for (const Index i : front_.hull) is_kept[i] = 1;
+    const auto used = [&](Index i) { return front_.points[i].z(); };
+    Index lowest = front_.triangles[0][0], highest = lowest;
+    for (const Triangle& t : front_.triangles)
+      for (const Index i : t) {
+        if (used(i) < used(lowest)) lowest = i;
+        if (used(i) > used(highest)) highest = i;
+      }
+    low_ = used(lowest), high_ = used(highest);
+    is_kept[lowest] = is_kept[highest] = 1;
+    for (Index i = 0; i < is_kept.size(); ++i) {
+      if (!is_kept[i]) continue;
+      out_.points.push_back(front_.points[i]);
+      if (!front_.colours.empty()) out_.colours.push_back(front_.colours[i]);
+    }
+  }
+
+  // Divides the smooth triangles of the band so that their sides are no longer than a step. Points on the sides of
+  // creases stay on them.
+  void divide_band() {
+    double longest_sq = 0, count = 0;
+    for (Index t = 0; t < is_band_.size(); ++t)
+      if (is_band_[t] && is_smooth_[t])
+        for (std::size_t i = 0; i < 3; ++i) {
+          const Triangle& c = front_.triangles[t];
+          longest_sq += (front_.points[c[i]] - front_.points[c[(i + 1) % 3]]).head<2>().squaredNorm(),
+              ++count;
+        }
+    if (count == 0) return;
+    const double side = std::sqrt(longest_sq / count);
+    divisions_ = std::clamp(static_cast<int>(std::lround(side / options_.resolution_mm)), 1, most_divisions);
+    if (divisions_ == 1) return;
+    std::vector<std::array<Index, 3>> sides;  // lower point, higher point, triangle
+    for (Index t = 0; t < is_band_.size(); ++t) {
+      const Triangle& c = front_.triangles[t];
+      if (!is_band_[t]) continue;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Index a = c[i], b = c[(i + 1) % 3];
+        sides.push_back({std::min(a, b), std::max(a, b), t});
+      }
+      if (is_smooth_[t]) divide_inside(t);
+    }
+    std::ranges::sort(sides);
+    for (std::size_t s = 0; s < sides.size();) {
+      std::size_t end = s + 1;
+      while (end < sides.size() && sides[end][0] == sides[s][0] && sides[end][1] == sides[s][1]) ++end;
+      divide_side(std::span(sides).subspan(s, end - s));
+      s = end;
+    }
+  }
+
+  void divide_inside(Index t) {
+    const Triangle& c = front_.triangles[t];
+    const auto at = [&](int i) -> Vec2 { return front_.points[c[i]].head<2>(); };
+    for (int i = 1; i < divisions_; ++i)
+      for (int j = 1; i + j < divisions_; ++j) {
+        const Vec2 place = (i * at(0) + j * at(1) + (divisions_ - i - j) * at(2)) / divisions_;
+        add(t, place, surface_.at(t, place).height);
+      }
+  }
+
+  // Divides a side that the given triangles of the band have, unless it lies between plane triangles.
+  void divide_side(std::span<const std::array<Index, 3>> same) {
+    const auto is_smooth = [&](const auto& side) { return is_smooth_[side[2]] != 0; };
+    if (std::ranges::none_of(same, is_smooth)) return;
+    const bool is_on_hull = same.size() == 1;
+    const bool is_crease = is_on_hull || !std::ranges::all_of(same, is_smooth);
+    const Vec3 &a = front_.points[same[0][0]], &b = front_.points[same[0][1]];
+    for (int k = 1; k < divisions_; ++k) {
+      const double share = static_cast<double>(k) / divisions_;
+      const Vec3 plane = a + share * (b - a);
+      const Index t = same[0][2];
+      add(t, plane.head<2>(), is_crease ? plane.z() : surface_.at(t, plane.head<2>()).height);
+    }
+  }
+
+  bool is_open(int x, int y) const {
+    const Index t = grid_.triangle.at(x, y);
+    return t != no_index && is_smooth_[t] && !is_band_[t];
+  }
+
+  // Adds a place near the middle of each square: of one step, or of more where all of a square is nearly plane. Neighbouring squares
+  // differ by a factor of two at most.
+  void add_squares() {
+    const int width = grid_.input.width, height = grid_.input.height;
+    std::vector<Image<std::uint8_t>> is_whole;  // per level: the square is not divided
+    Image<SlopeRange> ranges = filled_image(width, height, SlopeRange());
+    is_whole.push_back(filled_image(width, height, std::uint8_t{0}));
+    parallel_for(
+        static_cast<std::size_t>(height),
+        [&](std::size_t row) {
+          const int y = static_cast<int>(row);
+          for (int x = 0; x < width; ++x) {
+            if (!is_open(x, y)) continue;
+            const Eigen::Vector2f slope =
+                surface_.at(grid_.triangle.at(x, y), grid_.place(x, y)).slope.cast<float>();
+            ranges.at(x, y) = {slope, slope};
+            is_whole[0].at(x, y) = 1;
+          }
+        },
+        16);
+    for (int level = 1; level <= coarsest_level; ++level) ranges = merge(ranges, is_whole);
+    const std::vector<std::uint8_t> is_taken = taken_cells();
+    for (int level = 0; level <= coarsest_level; ++level) {
+      const Image<std::uint8_t>& squares = is_whole[static_cast<std::size_t>(level)];
+      for (int y = 0; y < squares.height; ++y)
+        for (int x = 0; x < squares.width; ++x)
+          if (squares.at(x, y)) add_square(x, y, level, is_taken);
+    }
+  }
+
+  // Adds the next level: squares of four whole ones that are plane together, if all squares around are whole or
+  // larger. Their parts are no longer whole.
+  Image<SlopeRange> merge(const Image<SlopeRange>& fine, std::vector<Image<std::uint8_t>>& is_whole) const {
+    const int width = fine.width / 2, height = fine.height / 2;
+    const Image<std::uint8_t>& parts = is_whole.back();
+    Image<SlopeRange> ranges = filled_image(width, height, SlopeRange());
+    Image<std::uint8_t> can_merge = filled_image(width, height, std::uint8_t{0});
+    const auto most = static_cast<float>(options_.plane_angle) * 2;
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        bool are_whole = true;
+        for (int k = 0; k < 4; ++k) {
+          const int px = 2 * x + k % 2, py = 2 * y + k / 2;
+          are_whole &= parts.at(px, py) != 0;
+          ranges.at(x, y).extend(fine.at(px, py));
+        }
+        can_merge.at(x, y) = are_whole && ranges.at(x, y).turn() < most;
+      }
+    // A square next to smaller ones than its parts would differ by a factor of four.
+    Image<std::uint8_t> whole = filled_image(width, height, std::uint8_t{0});
+    for (int y = 1; y + 1 < height; ++y)
+      for (int x = 1; x + 1 < width; ++x) {
+        bool fits = can_merge.at(x, y);
+        for (int k = 0; k < 9 && fits; ++k) {
+          const int nx = x + k % 3 - 1, ny = y + k / 3 - 1;
+          for (int part = 0; part < 4; ++part) fits &= parts.at(2 * nx + part % 2, 2 * ny + part / 2) != 0;
+        }
+        whole.at(x, y) = fits;
+      }
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        if (whole.at(x, y))
+          for (int k = 0; k < 4; ++k) is_whole.back().at(2 * x + k % 2, 2 * y + k / 2) = 0;
+    is_whole.push_back(std::move(whole));
+    return ranges;
+  }
+
+  // Returns the cells of the grid near points of the band.
+  std::vector<std::uint8_t> taken_cells() const {
+    const int width = grid_.input.width, height = grid_.input.height;
+    std::vector<std::uint8_t> is_taken(grid_.triangle.pixels.size(), 0);
+    for (const Vec3& p : out_.points) {
+      const Vec2 pixel = grid_.pixel(p.head<2>());
+      for (int y = static_cast<int>(pixel.y()) - 1; y <= static_cast<int>(pixel.y()) + 1; ++y)
+        for (int x = static_cast<int>(pixel.x()) - 1; x <= static_cast<int>(pixel.x()) + 1; ++x)
+          if (x >= 0 && y >= 0 && x < width && y < height && (Vec2(x + .5, y + .5) - pixel).norm() < apart)
+            is_taken[grid_.triangle.index(x, y)] = 1;
+    }
+    return is_taken;
+  }
+
+  void add_square(int x, int y, int level, const std::vector<std::uint8_t>& is_taken) {
+    const int side = 1 << level, left = x * side, top = y * side;
+    if (level == 0 && is_taken[grid_.triangle.index(left, top)]) return;
+    const int middle_x = left + side / 2, middle_y = top + side / 2;
+    const Vec2 place = grid_.place(middle_x, middle_y);
+    const Index t = grid_.triangle.at(middle_x, middle_y);
+    add(t, place, surface_.at(t, place).height);
+  }
+
+  void keep_within_range() {
+    for (Vec3& p : out_.points) p.z() = std::clamp(p.z(), low_, high_);
+  }
+
+  HeightFieldMesh triangulated() {
+    std::vector<Vec2> plane;
+    for (const Vec3& p : out_.points) plane.emplace_back(p.head<2>());
+    Triangulation mesh = delaunay(plane);
+    out_.triangles = std::move(mesh.triangles);
+    out_.hull = std::move(mesh.hull);
+    out_.ground_mm = front_.ground_mm;
+    if (!front_.is_relief.empty()) tell_relief(plane);
+    return std::move(out_);
+  }
+
+  // A triangle is part of the relief if its centre is.
+  void tell_relief(const std::vector<Vec2>& plane) {
+    const double near = 2 * grid_.step;
+    std::vector<Segment> edges;
+    for (const auto& [a, b] : boundary_edges(relief_triangles(front_)))
+      edges.push_back({front_.points[a].head<2>(), front_.points[b].head<2>()});
+    const SegmentGrid silhouette(std::move(edges), near);
+    out_.is_relief.resize(out_.triangles.size());
+    parallel_for(out_.triangles.size(), [&](std::size_t t) {
+      const auto& [a, b, c] = out_.triangles[t];
+      const Vec2 centre = (plane[a] + plane[b] + plane[c]) / 3;
+      const NearestSegment edge = silhouette.nearest(centre, near);
+      out_.is_relief[t] = edge.segment == no_index ? is_relief_around(centre) : edge.is_left;
+    });
+  }
+
+  // For places farther from the silhouette than a square of the grid is wide.
+  bool is_relief_around(const Vec2& place) const {
+    const Vec2 pixel = grid_.pixel(place);
+    const int x = std::clamp(static_cast<int>(pixel.x()), 0, grid_.input.width - 1),
+              y = std::clamp(static_cast<int>(pixel.y()), 0, grid_.input.height - 1);
+    const Index old = grid_.triangle.at(x, y);
+    return old != no_index && front_.is_relief[old];
+  }
+
+  const HeightFieldMesh& front_;
+  std::span<const std::uint8_t> is_smooth_;
+  const SampleOptions& options_;
+  SmoothSurface surface_;
+  std::vector<std::uint8_t> is_band_;
+  Grid grid_;
+  HeightFieldMesh out_;
+  double low_ = 0, high_ = 0;
+  int divisions_ = 1;
+};
+
+}  // namespace
+
+HeightFieldMesh sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
+                             const SampleOptions& options) {
+  if (front.triangles.empty()) return front;
+  return Sampler(front, is_smooth, options).make();
+}
+
+}  // namespace relievo

@@ -1,0 +1,23 @@
+// Samples the smooth surface of a front by well-shaped triangles. Tested by tests/plate/sample_front_test.cpp.
+#pragma once
+
+#include <span>
+
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+struct SampleOptions {
+  // Longest step between samples, > 0, where the surface is not plane.
+  double resolution_mm = .15;
+  // Where the surface turns less than this, in radians, from one sample to the next, samples are up to 8 steps apart.
+  double plane_angle = .012;
+};
+
+// Returns a front over the same hull whose points lie on the smooth surface through the given one: on a grid of
+// squares, and near creases on the triangles of the given front, divided as finely. Creases are the edges between
+// smooth triangles and others, `is_smooth` per triangle; the others stay plane. Highest and lowest point stay.
+HeightFieldMesh sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
+                             const SampleOptions& options);
+
+}  // namespace relievo

@@ -1,0 +1,217 @@
+#include "scan/outline_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry/hilbert.h"
+#include "geometry/plane.h"
+#include "relievo/core/parallel.h"
+#include "scan/row_points.h"
+
+namespace relievo {
+namespace {
+
+// Lengths in rho.
+constexpr double rows_end = 3.2;         // points nearer than this to an outline may be replaced
+constexpr double replaced_within = .65;  // by a point of a row that is as near
+constexpr double widest_gap = 1.6;       // radius of an empty circle inside the surface
+constexpr double cell_size = .7;         // of the set of new points; none in a gap is nearer to another
+
+// Returns the centres of circles without points inside the surface that are wider than sampling explains.
+std::vector<Vec2> gap_centres(const Surface& surface, double least_radius) {
+  std::vector<Vec2> centres;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const Triangle& corners = surface.triangulation.triangles[t];
+    const auto at = [&](int i) -> Vec2 { return surface.points[corners[i]].head<2>(); };
+    const Vec2 u = at(1) - at(0), v = at(2) - at(0);
+    const double twice_area = cross(u, v);
+    if (!(twice_area > 0)) continue;
+    const Vec2 centre = Vec2(v.y() * u.squaredNorm() - u.y() * v.squaredNorm(),
+                             u.x() * v.squaredNorm() - v.x() * u.squaredNorm()) /
+                        (2 * twice_area);
+    if (centre.norm() > least_radius) centres.push_back(at(0) + centre);
+  }
+  return centres;
+}
+
+// The new points of a surface, gathered before they replace the old ones.
+class NewSurface {
+ public:
+  NewSurface(const Surface& surface, const PointMeasures& measures, const std::vector<Outline>& outlines)
+      : surface_(surface),
+        measures_(measures),
+        outlines_(outlines),
+        grid_(segments_of(outlines), 1.5 * surface.rho),
+        silhouettes_(silhouette_segments(outlines), 1.5 * surface.rho) {}
+
+  void gather() {
+    PointSet taken(cell_size * surface_.rho);
+    std::vector<RowPoint> rows = row_points(outlines_, grid_, surface_.rho, taken);
+    const std::vector<std::uint8_t> is_kept = kept(taken);
+    add_gap_points(is_kept, taken, rows);
+    for (Index i = 0; i < is_kept.size(); ++i)
+      if (is_kept[i]) add_old(i);
+    add_new(rows);
+  }
+
+  // Replaces the points, in the order of a space-filling curve, and triangulates them.
+  void replace(Surface& surface, PointMeasures& measures) const {
+    std::vector<Vec2> plane = in_plane(points_);
+    const std::vector<Index> order = hilbert_order(plane);
+    const auto pick = [&](const auto& from) {
+      std::remove_cvref_t<decltype(from)> to;
+      if (!from.empty())
+        for (const Index i : order) to.push_back(from[i]);
+      return to;
+    };
+    surface.points = pick(points_);
+    surface.normals = pick(normals_);
+    surface.colours = pick(colours_);
+    measures.k = pick(k_);
+    measures.spacing = pick(spacing_);
+    plane = in_plane(surface.points);
+    surface.triangulation = delaunay(plane);
+    set_boundary(surface, plane, pick(places_));
+  }
+
+ private:
+  static std::vector<Segment> silhouette_segments(const std::vector<Outline>& outlines) {
+    std::vector<Segment> segments = segments_of(outlines);
+    std::erase_if(segments, [&](const Segment& s) { return outlines[s.curve].is_jump; });
+    return segments;
+  }
+
+  // Returns per point of the surface whether it lies inside, and no row takes its place.
+  std::vector<std::uint8_t> kept(const PointSet& rows) {
+    outline_distance_.assign(surface_.points.size(), std::numeric_limits<float>::infinity());
+    std::vector<std::uint8_t> is_kept(surface_.points.size(), 0);
+    for (std::size_t t = 0; t < surface_.triangulation.triangles.size(); ++t)
+      if (surface_.boundary.is_inside[t])
+        for (const Index i : surface_.triangulation.triangles[t]) is_kept[i] = 1;
+    const double rho = surface_.rho;
+    parallel_for(is_kept.size(), [&](std::size_t i) {
+      const Vec2 p = surface_.points[i].head<2>();
+      const NearestSegment silhouette = silhouettes_.nearest(p, rows_end * rho);
+      if (silhouette.segment != no_index && !silhouette.is_left) is_kept[i] = 0;
+      if (!is_kept[i]) return;
+      const NearestSegment outline = grid_.nearest(p, rows_end * rho);
+      if (outline.segment == no_index) return;
+      outline_distance_[i] = static_cast<float>(outline.distance);
+      if (outline.distance < half_wall * rho || rows.is_near(p, replaced_within * rho)) is_kept[i] = 0;
+    });
+    return is_kept;
+  }
+
+  void add_gap_points(const std::vector<std::uint8_t>& is_kept, PointSet& taken,
+                      std::vector<RowPoint>& rows) const {
+    const double rho = surface_.rho;
+    std::vector<Vec2> plane;
+    for (Index i = 0; i < is_kept.size(); ++i)
+      if (is_kept[i]) plane.push_back(surface_.points[i].head<2>());
+    const KdTree<Vec2> tree(plane);
+    for (const Vec2& centre : gap_centres(surface_, widest_gap * rho)) {
+      const NearestSegment near = silhouettes_.nearest(centre, rows_end * rho);
+      if (near.segment != no_index && (!near.is_left || near.distance < .6 * rho)) continue;
+      if (grid_.nearest(centre, .6 * rho).segment != no_index) continue;
+      Index nearest;
+      double distance_sq;
+      if (tree.nearest(centre, 1, &nearest, &distance_sq) && distance_sq < .64 * rho * rho) continue;
+      if (taken.add(centre, cell_size * rho)) rows.push_back({centre, centre, Place::row});
+    }
+  }
+
+  void add_old(Index i) {
+    points_.push_back(surface_.points[i]);
+    normals_.push_back(surface_.normals[i]);
+    if (!surface_.colours.empty()) colours_.push_back(surface_.colours[i]);
+    k_.push_back(measures_.k[i]);
+    if (!measures_.spacing.empty()) spacing_.push_back(measures_.spacing[i]);
+    places_.push_back(Place::scan);
+  }
+
+  void add_new(const std::vector<RowPoint>& rows) {
+    const SideInterpolation interpolation(surface_, measures_, grid_, outline_distance_);
+    std::vector<SideInterpolation::Value> values(rows.size());
+    parallel_for(
+        rows.size(), [&](std::size_t r) { values[r] = interpolation.at(rows[r]); }, 256);
+    for (std::size_t r = 0; r < rows.size(); ++r) {
+      const SideInterpolation::Value& value = values[r];
+      if (!value.is_known) continue;
+      points_.push_back(value.point);
+      normals_.push_back(value.normal);
+      if (!surface_.colours.empty()) colours_.push_back(value.colour);
+      k_.push_back(value.k);
+      if (!measures_.spacing.empty()) spacing_.push_back(value.spacing);
+      places_.push_back(rows[r].place);
+    }
+  }
+
+  // Triangles with a point of the silhouette are inside if their centre is; all others are.
+  void set_boundary(Surface& surface, const std::vector<Vec2>& plane,
+                    const std::vector<Place>& places) const {
+    Boundary& boundary = surface.boundary;
+    const auto& triangles = surface.triangulation.triangles;
+    boundary.is_inside.assign(triangles.size(), 1);
+    parallel_for(triangles.size(), [&](std::size_t t) {
+      const auto& [a, b, c] = triangles[t];
+      const auto is_on = [&](Index i) { return places[i] == Place::silhouette; };
+      const double longest = std::max(
+          {(plane[a] - plane[b]).norm(), (plane[b] - plane[c]).norm(), (plane[c] - plane[a]).norm()});
+      if (!is_on(a) && !is_on(b) && !is_on(c) && longest < 3 * surface.rho) return;
+      const Vec2 centre = (plane[a] + plane[b] + plane[c]) / 3;
+      const NearestSegment near = silhouettes_.nearest(centre, std::max(3 * surface.rho, longest));
+      boundary.is_inside[t] = near.segment == no_index || near.is_left;
+    });
+    drop_crumbs(surface);
+    boundary.is_boundary = boundary_points(plane.size(), surface.triangulation, boundary.is_inside);
+    for (Index i = 0; i < plane.size(); ++i) boundary.is_boundary[i] |= places[i] == Place::silhouette;
+    boundary.wall_side.assign(plane.size(), WallSide::none);
+    for (Index i = 0; i < plane.size(); ++i) {
+      if (places[i] == Place::front) boundary.wall_side[i] = WallSide::front;
+      if (places[i] == Place::back) boundary.wall_side[i] = WallSide::back;
+    }
+    set_distances(surface, plane);
+  }
+
+  // Near the silhouette the distance is that to its segments, elsewhere to its points.
+  void set_distances(Surface& surface, const std::vector<Vec2>& plane) const {
+    Boundary& boundary = surface.boundary;
+    boundary.distance = distances_to(plane, boundary.is_boundary);
+    parallel_for(plane.size(), [&](std::size_t i) {
+      if (boundary.is_boundary[i] || boundary.distance[i] > 4 * surface.rho) return;
+      const NearestSegment near = silhouettes_.nearest(plane[i], 4 * surface.rho);
+      if (near.segment != no_index)
+        boundary.distance[i] = std::min(boundary.distance[i], static_cast<float>(near.distance));
+    });
+  }
+
+  const Surface& surface_;
+  const PointMeasures& measures_;
+  const std::vector<Outline>& outlines_;
+  SegmentGrid grid_, silhouettes_;
+  std::vector<float> outline_distance_;  // of the old points, infinity far from all outlines
+  std::vector<Vec3> points_;
+  std::vector<Vec3f> normals_;
+  std::vector<Colour> colours_;
+  std::vector<double> k_;
+  std::vector<float> spacing_;
+  std::vector<Place> places_;
+};
+
+}  // namespace
+
+void put_points_on_outlines(Surface& surface, PointMeasures& measures) {
+  Surface before = surface;
+  if (!drop_crumbs(before)) return;
+  const std::vector<Outline> outlines = find_outlines(before);
+  if (outlines.empty() || outlines.front().is_jump) return;
+  NewSurface now(before, measures, outlines);
+  now.gather();
+  PointMeasures new_measures;
+  now.replace(surface, new_measures);
+  measures = std::move(new_measures);
+}
+
+}  // namespace relievo

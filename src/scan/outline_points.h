@@ -1,0 +1,17 @@
+// Points of the surface in rows beside its outlines, which take the place of scattered ones.
+// Tested by tests/scan/outlines_test.cpp.
+#pragma once
+
+#include "relievo/scan/surface.h"
+#include "scan/side_interpolation.h"
+
+namespace relievo {
+
+// Finds the outlines of a triangulated surface, and replaces the points up to 3 rho from them by rows of evenly
+// spaced ones, whose normals, depths and measures are interpolated from the points on the same side. Rows lie on
+// the silhouette, on both sides of each jump, and parallel to them. Adds points where sampling leaves gaps inside
+// the surface, and leaves out points outside. Then triangulates anew and sets the boundary: the silhouette's
+// points are on it. Changes nothing if there is no silhouette.
+void put_points_on_outlines(Surface& surface, PointMeasures& measures);
+
+}  // namespace relievo

@@ -1,0 +1,279 @@
+#include "scan/outlines.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "core/disjoint_sets.h"
+#include "geometry/neighbours.h"
+#include "geometry/plane.h"
+#include "relievo/core/parallel.h"
+#include "scan/jumps.h"
+#include "scan/linear_field.h"
+
+namespace relievo {
+namespace {
+
+// Lengths and areas in rho.
+constexpr double crumb_area = 20, hole_area = 4;
+constexpr double point_spacing = .75, fair_window = 3;
+constexpr double shortest_jump = 6, least_occlusion = 3;
+constexpr double lean_radius = 2.5, farthest_edge = 2;
+// Nodes whose place normals do not tell count less than others.
+constexpr double uncertain = .03;
+// The error, in rho, of a place that is half trusted.
+constexpr double trusted_error = .25;
+// Normals that lean less say too little of where the surface ends.
+constexpr double least_lean = .75;
+
+double area_of(const Surface& surface, const Triangle& t) {
+  const auto at = [&](int i) -> Vec2 { return surface.points[t[i]].head<2>(); };
+  return cross(at(1) - at(0), at(2) - at(0)) / 2;
+}
+
+// Returns whether no surface with the normals of two neighbouring points connects them. The chord of a circle is
+// perpendicular to the mean of the normals at its ends. is_jump() would not do: at the edge of a surface that turns
+// away from the viewer, the normal there explains any depth.
+bool is_occlusion(const Surface& surface, Index a, Index b) {
+  const Vec3 step = surface.points[b] - surface.points[a];
+  const Vec3 sum = (surface.normals[a] + surface.normals[b]).cast<double>();
+  const double rise = std::abs(sum.head<2>().dot(step.head<2>())) / std::max(sum.z(), .2);
+  return std::abs(step.z()) > 2 * rise + least_occlusion * surface.rho;
+}
+
+// Connected triangles that are all inside or all outside.
+class Pieces {
+ public:
+  explicit Pieces(const Surface& surface)
+      : sets_(surface.triangulation.triangles.size()),
+        area_(sets_count(surface), 0),
+        is_open_(area_.size(), 0) {
+    const auto& inside = surface.boundary.is_inside;
+    for (Index t = 0; t < area_.size(); ++t)
+      for (const Index other : surface.triangulation.neighbours[t])
+        if (other != no_index && inside[t] == inside[other]) sets_.join(t, other);
+    for (Index t = 0; t < area_.size(); ++t) {
+      area_[sets_.find(t)] += area_of(surface, surface.triangulation.triangles[t]);
+      for (const Index other : surface.triangulation.neighbours[t])
+        if (other == no_index) is_open_[sets_.find(t)] = 1;
+    }
+  }
+
+  double area(Index t) { return area_[sets_.find(t)]; }
+  bool touches_hull(Index t) { return is_open_[sets_.find(t)]; }
+
+ private:
+  static std::size_t sets_count(const Surface& surface) { return surface.triangulation.triangles.size(); }
+
+  DisjointSets sets_;
+  std::vector<double> area_;
+  std::vector<std::uint8_t> is_open_;
+};
+
+// Tells where the surface ends beyond a point, by the normals around it.
+class EdgeFinder {
+ public:
+  explicit EdgeFinder(const Surface& surface)
+      : surface_(surface), plane_(in_plane(surface.points)), tree_(plane_) {}
+
+  // Returns the place where the normals around a point, continued linearly, are perpendicular to the view; the
+  // point's own, with little weight, if they do not tell or the place is farther than `farthest`.
+  CurveNode at(Index i, double farthest) const {
+    const CurveNode unknown{plane_[i], uncertain};
+    std::vector<KdTree<Vec2>::Match> matches;
+    tree_.within(plane_[i], lean_radius * surface_.rho, matches);
+    LinearField<2> lean(plane_[i], lean_radius * surface_.rho);
+    for (const auto& [j, distance_sq] : matches)
+      if (!is_occlusion(surface_, i, j)) lean.add(plane_[j], surface_.normals[j].head<2>().cast<double>());
+    const auto fit = lean.fitted();
+    if (!fit.is_sloped || fit.value.norm() < least_lean) return unknown;
+    const Vec2 outwards = fit.value.normalized();
+    const double growth = outwards.dot(fit.gradient.transpose() * outwards);
+    if (!(growth > 0)) return unknown;
+    const double distance = (1 - fit.value.norm()) / growth;
+    if (!(std::abs(distance) <= farthest)) return unknown;
+    // Where the surface turns slowly, noise of the normals moves its edge far.
+    const double error = 2 * fit.misfit / std::sqrt(fit.count) / growth,
+                 ratio = error / (trusted_error * surface_.rho);
+    const double trust = 1 / (1 + ratio * ratio);
+    return {plane_[i] + trust * std::max(0.0, distance) * outwards, std::max(uncertain, trust)};
+  }
+
+  const std::vector<Vec2>& plane() const { return plane_; }
+
+ private:
+  const Surface& surface_;
+  std::vector<Vec2> plane_;
+  KdTree<Vec2> tree_;
+};
+
+Outline faired(const std::vector<CurveNode>& nodes, bool is_closed, bool is_jump, double rho) {
+  return {fair_curve(nodes, is_closed, {point_spacing * rho, fair_window * rho}), is_closed, is_jump};
+}
+
+// The sides of triangles, numbered 3 t + i: side i of triangle t lies opposite its corner i.
+struct Sides {
+  const Surface& surface;
+
+  Index from(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 1) % 3]; }
+  Index to(Index side) const { return surface.triangulation.triangles[side / 3][(side % 3 + 2) % 3]; }
+
+  // Returns the same side as a side of the triangle across, no_index on the hull.
+  Index twin(Index side) const {
+    const Index other = surface.triangulation.neighbours[side / 3][side % 3];
+    if (other == no_index) return no_index;
+    const Triangle& around = surface.triangulation.neighbours[other];
+    const auto i = static_cast<Index>(std::ranges::find(around, side / 3) - around.begin());
+    return 3 * other + i;
+  }
+
+  bool is_boundary(Index side) const {
+    const Index other = surface.triangulation.neighbours[side / 3][side % 3];
+    return surface.boundary.is_inside[side / 3] && (other == no_index || !surface.boundary.is_inside[other]);
+  }
+
+  // Returns the boundary side that follows one around the same piece.
+  Index next_boundary(Index side) const {
+    Index turn = side / 3 * 3 + (side % 3 + 1) % 3;
+    while (!is_boundary(turn)) {
+      turn = twin(turn);
+      turn = turn / 3 * 3 + (turn % 3 + 1) % 3;
+    }
+    return turn;
+  }
+};
+
+void add_silhouettes(const Surface& surface, const EdgeFinder& finder, std::vector<Outline>& outlines) {
+  const Sides sides{surface};
+  const auto count = static_cast<Index>(3 * surface.triangulation.triangles.size());
+  std::vector<std::uint8_t> is_done(count, 0);
+  for (Index first = 0; first < count; ++first) {
+    if (is_done[first] || !sides.is_boundary(first)) continue;
+    std::vector<CurveNode> nodes;
+    for (Index side = first; !is_done[side]; side = sides.next_boundary(side)) {
+      is_done[side] = 1;
+      nodes.push_back(finder.at(sides.from(side), farthest_edge * surface.rho));
+    }
+    Outline outline = faired(nodes, true, false, surface.rho);
+    if (!outline.curve.points.empty()) outlines.push_back(std::move(outline));
+  }
+}
+
+// The jumps as lines across the sides of triangles: each crossed side has a next one, with the surface in front
+// on the left.
+class JumpLines {
+ public:
+  explicit JumpLines(const Surface& surface) : surface_(surface), sides_{surface} {
+    const auto triangles = static_cast<Index>(surface.triangulation.triangles.size());
+    next_.assign(3 * std::size_t{triangles}, no_index);
+    previous_ = next_;
+    for (Index t = 0; t < triangles; ++t)
+      if (surface.boundary.is_inside[t]) cross_triangle(t);
+  }
+
+  void add_outlines(const EdgeFinder& finder, std::vector<Outline>& outlines) {
+    std::vector<std::uint8_t> is_done(next_.size(), 0);
+    const auto follow = [&](Index first, bool is_closed) {
+      std::vector<CurveNode> nodes;
+      for (Index side = first; side != no_index && !is_done[side]; side = next_[side]) {
+        is_done[side] = 1;
+        nodes.push_back(node_at(side, finder));
+      }
+      Outline outline = faired(nodes, is_closed, true, surface_.rho);
+      if (static_cast<double>(outline.curve.points.size()) * point_spacing >= shortest_jump)
+        outlines.push_back(std::move(outline));
+    };
+    for (Index side = 0; side < next_.size(); ++side)
+      if (next_[side] != no_index && previous_[side] == no_index) follow(side, false);
+    for (Index side = 0; side < next_.size(); ++side)
+      if (next_[side] != no_index && !is_done[side]) follow(side, true);
+  }
+
+ private:
+  // One number for both sides of an edge.
+  Index edge(Index side) const {
+    const Index other = sides_.twin(side);
+    return other == no_index ? side : std::min(side, other);
+  }
+
+  void link(Index from, Index to) {
+    from = edge(from), to = edge(to);
+    if (next_[from] != no_index || previous_[to] != no_index) return;
+    next_[from] = to;
+    previous_[to] = from;
+  }
+
+  double depth(Index point) const { return surface_.points[point].z(); }
+
+  // Links the two sides between the corner that lies in front of, or behind, the other two.
+  void cross_triangle(Index t) {
+    const Triangle& corners = surface_.triangulation.triangles[t];
+    std::array<bool, 3> jumps;
+    for (Index i = 0; i < 3; ++i)
+      jumps[i] = is_occlusion(surface_, corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    const int count = jumps[0] + jumps[1] + jumps[2];
+    if (count < 2) return;
+    Index alone = 0;  // the corner whose two sides are crossed
+    for (Index i = 0; i < 3; ++i)
+      if (count == 3 ? depth(corners[i]) > depth(corners[alone]) : !jumps[i]) alone = i;
+    const Index after = (alone + 1) % 3, before = (alone + 2) % 3;
+    const double z = depth(corners[alone]), u = depth(corners[after]), v = depth(corners[before]);
+    const Index leaving = 3 * t + before, arriving = 3 * t + after;  // the sides alone-after and before-alone
+    if (z > u && z > v) link(leaving, arriving);
+    if (z < u && z < v) link(arriving, leaving);
+  }
+
+  CurveNode node_at(Index side, const EdgeFinder& finder) const {
+    Index front = sides_.from(side), back = sides_.to(side);
+    if (depth(front) < depth(back)) std::swap(front, back);
+    const Vec2 &p = finder.plane()[front], &q = finder.plane()[back];
+    const CurveNode node = finder.at(front, (q - p).norm() + .3 * surface_.rho);
+    const bool is_towards = (node.place - p).dot(q - p) >= 0;
+    if (node.weight > uncertain && is_towards) return node;
+    return {(p + q) / 2, uncertain};
+  }
+
+  const Surface& surface_;
+  Sides sides_;
+  std::vector<Index> next_, previous_;  // per edge; no_index for none
+};
+
+}  // namespace
+
+bool drop_crumbs(Surface& surface) {
+  Pieces pieces(surface);
+  const double unit = surface.rho * surface.rho;
+  double largest = 0;
+  auto& inside = surface.boundary.is_inside;
+  for (Index t = 0; t < inside.size(); ++t)
+    if (inside[t]) largest = std::max(largest, pieces.area(t));
+  const double crumb = std::min(crumb_area * unit, .5 * largest);
+  bool is_any = false;
+  for (Index t = 0; t < inside.size(); ++t) {
+    if (inside[t])
+      inside[t] = pieces.area(t) >= crumb;
+    else
+      inside[t] = !pieces.touches_hull(t) && pieces.area(t) < hole_area * unit;
+    is_any |= inside[t] != 0;
+  }
+  return is_any;
+}
+
+std::vector<Outline> find_outlines(const Surface& surface) {
+  const EdgeFinder finder(surface);
+  std::vector<Outline> outlines;
+  add_silhouettes(surface, finder, outlines);
+  JumpLines(surface).add_outlines(finder, outlines);
+  return outlines;
+}
+
+std::vector<Segment> segments_of(const std::vector<Outline>& outlines) {
+  std::vector<Segment> segments;
+  for (Index c = 0; c < outlines.size(); ++c) {
+    const std::vector<Vec2>& points = outlines[c].curve.points;
+    const std::size_t n = points.size(), edges = outlines[c].is_closed ? n : n - 1;
+    for (std::size_t k = 0; k < edges; ++k) segments.push_back({points[k], points[(k + 1) % n], c});
+  }
+  return segments;
+}
+
+}  // namespace relievo

@@ -1,0 +1,34 @@
+// Outlines of the visible surface as smooth curves: its silhouette, and the depth jumps inside.
+// Tested by tests/scan/outlines_test.cpp.
+#pragma once
+
+#include <vector>
+
+#include "geometry/fair_curve.h"
+#include "geometry/segment_grid.h"
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+
+// A curve in the view plane. The surface whose edge it is lies on its left; on its right lie the ground or, at a
+// jump, the surface behind.
+struct Outline {
+  FairCurve curve;
+  bool is_closed = false;
+  bool is_jump = false;
+};
+
+// Leaves out pieces of the surface of less than 20 rho^2, as crumbs of the scan, and closes holes of less than
+// 4 rho^2: changes boundary.is_inside. Returns whether the surface has any triangle left.
+bool drop_crumbs(Surface& surface);
+
+// Returns the silhouettes first, which are closed, then the depth jumps, of a surface that has neighbours of
+// triangles. Where a surface turns away from the viewer, the curve is where its normals, continued, are
+// perpendicular to the view; elsewhere it goes through the outermost points, or at jumps between the points in
+// front and those behind. Outlines shorter than 4 rho are left out.
+std::vector<Outline> find_outlines(const Surface& surface);
+
+// Returns the segments of outlines; curve numbers are those of the outlines.
+std::vector<Segment> segments_of(const std::vector<Outline>& outlines);
+
+}  // namespace relievo

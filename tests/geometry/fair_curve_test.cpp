@@ -1,0 +1,93 @@
+#include "geometry/fair_curve.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+std::vector<CurveNode> circle_nodes(int count, double radius, double noise) {
+  test::Random random(7);
+  std::vector<CurveNode> nodes;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + random.uniform(-.4, .4)) / count;
+    nodes.push_back({(radius + noise * random.gaussian()) * Vec2(std::cos(angle), std::sin(angle))});
+  }
+  return nodes;
+}
+
+// The sides of a square of half side `half`, counter-clockwise from its lower left corner.
+std::vector<CurveNode> square_nodes(int per_side, double half, double noise) {
+  test::Random random(9);
+  const std::array<Vec2, 4> corners{Vec2(-half, -half), Vec2(half, -half), Vec2(half, half),
+                                    Vec2(-half, half)};
+  std::vector<CurveNode> nodes;
+  for (std::size_t side = 0; side < 4; ++side)
+    for (int i = 0; i < per_side; ++i) {
+      const Vec2 step = corners[(side + 1) % 4] - corners[side];
+      const Vec2 across = Vec2(-step.y(), step.x()).normalized();
+      nodes.push_back({corners[side] + (i + .5) / per_side * step + noise * random.gaussian() * across});
+    }
+  return nodes;
+}
+
+TEST(FairCurve, ThroughExactNodesOfACircleLiesOnIt) {
+  const FairCurve curve = fair_curve(circle_nodes(200, 30, 0), true, {1, 4});
+  ASSERT_NEAR(static_cast<double>(curve.points.size()), 2 * std::numbers::pi * 30, 3);
+  for (const Vec2& p : curve.points) EXPECT_NEAR(p.norm(), 30, 1e-3);
+  for (const std::uint8_t corner : curve.is_corner) EXPECT_FALSE(corner);
+}
+
+TEST(FairCurve, IsEvenlySpaced) {
+  const std::vector<Vec2> points = fair_curve(circle_nodes(200, 30, .2), true, {1, 4}).points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    EXPECT_NEAR((points[(i + 1) % points.size()] - points[i]).norm(), 1, .1);
+}
+
+TEST(FairCurve, RemovesMostOfTheNoise) {
+  double squares = 0;
+  const FairCurve curve = fair_curve(circle_nodes(200, 30, .3), true, {1, 4});
+  for (const Vec2& p : curve.points) squares += (p.norm() - 30) * (p.norm() - 30);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(curve.points.size())), .2);
+}
+
+TEST(FairCurve, KeepsTheCornersOfASquare) {
+  const FairCurve curve = fair_curve(square_nodes(40, 20, .1), true, {1, 4});
+  int corners = 0;
+  for (std::size_t i = 0; i < curve.points.size(); ++i) {
+    EXPECT_NEAR(curve.points[i].cwiseAbs().maxCoeff(), 20, .3);
+    if (!curve.is_corner[i]) continue;
+    ++corners;
+    EXPECT_NEAR(curve.points[i].cwiseAbs().minCoeff(), 20, .3);
+  }
+  EXPECT_EQ(corners, 4);
+}
+
+TEST(FairCurve, OfAnOpenLineReachesBothEnds) {
+  std::vector<CurveNode> nodes;
+  for (int i = 0; i <= 30; ++i) nodes.push_back({Vec2(i, .5 * i)});
+  const FairCurve curve = fair_curve(nodes, false, {1, 4});
+  ASSERT_FALSE(curve.points.empty());
+  EXPECT_LT((curve.points.front() - Vec2(0, 0)).norm(), 1e-2);
+  EXPECT_LT((curve.points.back() - Vec2(30, 15)).norm(), 1e-2);
+  for (const Vec2& p : curve.points) EXPECT_NEAR(p.y(), .5 * p.x(), 1e-6);
+}
+
+TEST(FairCurve, TrustsANodeByItsWeight) {
+  std::vector<CurveNode> nodes = circle_nodes(200, 30, 0);
+  for (std::size_t i = 0; i < nodes.size(); i += 2) nodes[i].place *= 1.02, nodes[i].weight = 1e-6;
+  for (const Vec2& p : fair_curve(nodes, true, {1, 4}).points) EXPECT_NEAR(p.norm(), 30, .01);
+}
+
+TEST(FairCurve, IsEmptyIfTooShort) {
+  EXPECT_TRUE(fair_curve(circle_nodes(20, .3, 0), true, {1, 4}).points.empty());
+  EXPECT_TRUE(fair_curve(circle_nodes(5, 30, 0), true, {1, 4}).points.empty());
+  EXPECT_TRUE(fair_curve({}, false, {1, 4}).points.empty());
+}
+
+}  // namespace
+}  // namespace relievo

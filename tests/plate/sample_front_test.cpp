@@ -1,0 +1,120 @@
+#include "plate/front/sample_front.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "relievo/geometry/triangulation.h"
+#include "support/planar_points.h"
+
+namespace relievo {
+namespace {
+
+constexpr double side = 20;
+
+double dome(const Vec2& p) {
+  return 2 - .02 * (p - Vec2(side / 2, side / 2)).squaredNorm();
+}
+
+// Random points over a square, its corners among them, with the heights of a function.
+template <typename F>
+HeightFieldMesh front_of(F height, std::size_t n = 4000) {
+  std::vector<Vec2> plane = random_points(n, 21);
+  for (Vec2& p : plane) p *= side;
+  for (int corner = 0; corner < 4; ++corner) plane.emplace_back(side * (corner % 2), side * (corner / 2));
+  HeightFieldMesh front;
+  for (const Vec2& p : plane) front.points.emplace_back(p.x(), p.y(), height(p));
+  Triangulation mesh = delaunay(plane);
+  front.triangles = std::move(mesh.triangles);
+  front.hull = std::move(mesh.hull);
+  return front;
+}
+
+std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag) {
+  return std::vector<std::uint8_t>(front.triangles.size(), flag);
+}
+
+double area(const HeightFieldMesh& front) {
+  double sum = 0;
+  for (const auto& [a, b, c] : front.triangles) {
+    const Vec3 u = front.points[b] - front.points[a], v = front.points[c] - front.points[a];
+    const double twice = u.x() * v.y() - u.y() * v.x();
+    EXPECT_GT(twice, 0);
+    sum += twice / 2;
+  }
+  return sum;
+}
+
+TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
+  const HeightFieldMesh front = front_of(dome);
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2});
+  EXPECT_NEAR(area(sampled), side * side, 1e-6);
+  for (const Vec3& p : sampled.points)
+    if ((p.head<2>() - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .45 * side) {
+      EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
+    }
+}
+
+TEST(SampleFront, IsFinerWhereAskedAndCoarserWherePlane) {
+  const HeightFieldMesh curved = front_of(dome), plane = front_of([](const Vec2&p) { return .1 * p.x(); });
+  const auto count = [](const HeightFieldMesh& front, double step) {
+    return sample_front(front, all_of(front, 1), {step}).points.size();
+  };
+  EXPECT_GT(count(curved, .1), 2.5 * static_cast<double>(count(curved, .2)));
+  EXPECT_LT(4 * count(plane, .1), count(curved, .1));
+}
+
+TEST(SampleFront, KeepsHullAndRange) {
+  const HeightFieldMesh front =
+      front_of([](const Vec2& p) { return std::sin(2 * p.x()) * std::cos(3 * p.y()); });
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.15});
+  ASSERT_EQ(sampled.hull.size(), front.hull.size());
+  for (std::size_t i = 0; i < front.hull.size(); ++i)
+    EXPECT_EQ(sampled.points[sampled.hull[i]], front.points[front.hull[i]]);
+  EXPECT_EQ(Box::of(sampled.points).max, Box::of(front.points).max);
+  EXPECT_EQ(Box::of(sampled.points).min, Box::of(front.points).min);
+}
+
+TEST(SampleFront, HasNoThinTriangleAwayFromTheHull) {
+  const HeightFieldMesh front = front_of(dome);
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2});
+  for (const Triangle& t : sampled.triangles) {
+    double least = 4;
+    bool is_far = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 p = sampled.points[t[i]].head<2>();
+      is_far &= (p - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .4 * side;
+      const Vec2 u = sampled.points[t[(i + 1) % 3]].head<2>() - p,
+                 v = sampled.points[t[(i + 2) % 3]].head<2>() - p;
+      least = std::min(least, std::acos(u.normalized().dot(v.normalized())));
+    }
+    if (is_far) {
+      EXPECT_GT(least, .35);  // 20 degrees
+    }
+  }
+}
+
+TEST(SampleFront, LeavesPlaneTrianglesAsTheyAre) {
+  const HeightFieldMesh front = front_of(dome, 500);
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 0), {.2});
+  EXPECT_EQ(sampled.points.size(), front.points.size());
+  EXPECT_EQ(sampled.triangles.size(), front.triangles.size());
+}
+
+TEST(SampleFront, TellsReliefFromGround) {
+  HeightFieldMesh front = front_of(dome);
+  front.is_relief.resize(front.triangles.size());
+  for (std::size_t t = 0; t < front.triangles.size(); ++t)
+    front.is_relief[t] = front.points[front.triangles[t][0]].x() < side / 2;
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2});
+  ASSERT_EQ(sampled.is_relief.size(), sampled.triangles.size());
+  for (std::size_t t = 0; t < sampled.triangles.size(); ++t) {
+    const double x = sampled.points[sampled.triangles[t][0]].x();
+    if (std::abs(x - side / 2) > 1) {
+      EXPECT_EQ(sampled.is_relief[t] != 0, x < side / 2);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace relievo

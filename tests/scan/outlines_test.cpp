@@ -1,0 +1,141 @@
+#include "scan/outlines.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scan/outline_points.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+const View from_front = {};
+
+// A button of radius 1.15 with another of half its size before it.
+Cloud two_buttons(std::size_t n) {
+  Cloud cloud = test::button(n, 1, .15);
+  const Cloud front = test::button(n / 4, .5, .075, .6);
+  cloud.points.insert(cloud.points.end(), front.points.begin(), front.points.end());
+  cloud.normals.insert(cloud.normals.end(), front.normals.begin(), front.normals.end());
+  return cloud;
+}
+
+Surface surface_of(const Cloud& cloud) {
+  Result<Surface> surface = find_surface(cloud, from_front);
+  EXPECT_TRUE(surface) << (surface ? "" : surface.error().message());
+  return std::move(*surface);
+}
+
+// The radii of the points of a surface that satisfy a condition, about the z axis of the model.
+template <typename Condition>
+std::vector<double> radii(const Surface& surface, Condition holds) {
+  std::vector<double> found;
+  for (Index i = 0; i < surface.points.size(); ++i)
+    if (holds(i)) found.push_back((surface.points[i] + surface.centre).head<2>().norm());
+  return found;
+}
+
+struct Spread {
+  double mean = 0, deviation = 0, farthest = 0;  // from a radius, in rho
+};
+
+Spread spread(const std::vector<double>& radii, double radius, double rho) {
+  Spread s;
+  const auto n = static_cast<double>(radii.size());
+  for (const double r : radii)
+    s.mean += (r - radius) / rho / n, s.farthest = std::max(s.farthest, std::abs(r - radius) / rho);
+  for (const double r : radii) s.deviation += std::pow((r - radius) / rho - s.mean, 2) / n;
+  s.deviation = std::sqrt(s.deviation);
+  return s;
+}
+
+class OutlinesOfButtons : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(OutlinesOfButtons, SilhouetteIsTheTrueCircle) {
+  const Surface surface = surface_of(two_buttons(GetParam()));
+  const std::vector<double> found =
+      radii(surface, [&](Index i) { return surface.boundary.is_boundary[i] != 0; });
+  const Spread s = spread(found, 1.15, surface.rho);
+  EXPECT_NEAR(static_cast<double>(found.size()), 2 * std::numbers::pi * 1.15 / (.75 * surface.rho), 5);
+  EXPECT_LT(s.farthest, .05);
+  EXPECT_LT(s.deviation, .02);
+}
+
+TEST_P(OutlinesOfButtons, WallAtTheJumpIsAnEvenStrip) {
+  const Surface surface = surface_of(two_buttons(GetParam()));
+  const auto on = [&](WallSide side) {
+    return spread(radii(surface, [&](Index i) { return surface.boundary.wall_side[i] == side; }), .575,
+                  surface.rho);
+  };
+  const Spread front = on(WallSide::front), back = on(WallSide::back);
+  EXPECT_NEAR(front.mean, -.15, .02);
+  EXPECT_NEAR(back.mean, .15, .02);
+  EXPECT_LT(front.deviation, .02);
+  EXPECT_LT(back.deviation, .02);
+}
+
+TEST_P(OutlinesOfButtons, PointsOfRowsHaveTheNormalsAndDepthsOfTheirSide) {
+  const Surface surface = surface_of(two_buttons(GetParam()));
+  const double rho = surface.rho;
+  for (Index i = 0; i < surface.points.size(); ++i) {
+    if (surface.boundary.wall_side[i] == WallSide::none) continue;
+    const Vec3 p = surface.points[i] + surface.centre;
+    const bool is_front = surface.boundary.wall_side[i] == WallSide::front;
+    const double lean = is_front ? (p.head<2>().norm() - .5) / .075 : 0;
+    EXPECT_NEAR(static_cast<double>(surface.normals[i].head<2>().norm()), lean, .05);
+    EXPECT_NEAR(p.z(), is_front ? .6 + .075 * std::sqrt(1 - lean * lean) : .15, .5 * rho);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, OutlinesOfButtons, testing::Values(20000, 200000));
+
+TEST(Outlines, OfANoisyScanStayWithinAThirdOfRho) {
+  Cloud cloud = two_buttons(100000);
+  const double rho = surface_of(cloud).rho;
+  test::add_noise(cloud, .15 * rho);
+  const Surface surface = surface_of(cloud);
+  const Spread s = spread(radii(surface, [&](Index i) { return surface.boundary.is_boundary[i] != 0; }), 1.15,
+                          surface.rho);
+  EXPECT_LT(s.farthest, .35);
+  EXPECT_LT(s.deviation, .08);
+}
+
+TEST(Outlines, KeepTheCornersOfASheet) {
+  const Surface surface = surface_of(test::sheet(40000, 1, 0));
+  for (const double x : {-1., 1.})
+    for (const double y : {-1., 1.}) {
+      double nearest = 1;
+      for (Index i = 0; i < surface.points.size(); ++i)
+        if (surface.boundary.is_boundary[i])
+          nearest = std::min(nearest, ((surface.points[i] + surface.centre).head<2>() - Vec2(x, y)).norm());
+      EXPECT_LT(nearest, 1.0 * surface.rho);
+    }
+}
+
+TEST(Outlines, OfASphereHaveNoJump) {
+  const Surface surface = surface_of(test::sphere(40000, 1));
+  for (const WallSide side : surface.boundary.wall_side) EXPECT_EQ(side, WallSide::none);
+}
+
+TEST(Outlines, LeaveNoGapInside) {
+  Cloud cloud = test::button(60000, 1, .15);
+  const double rho = surface_of(cloud).rho;
+  // A hole that is narrow enough to be closed.
+  Cloud holed;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if ((cloud.points[i].head<2>() - Vec2(.3, .2)).norm() > 3.5 * rho)
+      test::add(holed, cloud.points[i], cloud.normals[i].cast<double>());
+  const Surface surface = surface_of(holed);
+  double longest = 0;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    const Triangle& c = surface.triangulation.triangles[t];
+    for (std::size_t i = 0; i < 3 && surface.boundary.is_inside[t]; ++i)
+      longest = std::max(longest, (surface.points[c[i]] - surface.points[c[(i + 1) % 3]]).head<2>().norm());
+  }
+  EXPECT_LT(longest, 4 * rho);
+}
+
+}  // namespace
+}  // namespace relievo
