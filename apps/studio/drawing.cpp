@@ -28,6 +28,17 @@ std::vector<std::string> sentences_on(const Surface& surface, std::size_t left_o
   return sentences;
 }
 
+double area_of(const Surface& surface) {
+  double sum = 0;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const auto& [a, b, c] = surface.triangulation.triangles[t];
+    const Vec3 u = surface.points[b] - surface.points[a], v = surface.points[c] - surface.points[a];
+    sum += (u.x() * v.y() - u.y() * v.x()) / 2;
+  }
+  return sum;
+}
+
 ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
   const Box box = Box::of(surface.points);
   return {.input_points = surface.input_points,
@@ -36,6 +47,7 @@ ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
           .triangles = surface.triangulation.triangles.size(),
           .hull = surface.triangulation.hull.size(),
           .size = box.size().head<2>(),
+          .area = area_of(surface),
           .rho = surface.rho,
           .delta = surface.curvature.delta,
           .rotation = surface.view.R_view_model,

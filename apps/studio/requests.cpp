@@ -161,6 +161,7 @@ Json to_json(const ModelFacts& facts) {
           {"triangles", facts.triangles},
           {"hull", facts.hull},
           {"size", {facts.size.x(), facts.size.y()}},
+          {"area", facts.area},
           {"rho", facts.rho},
           {"delta", facts.delta},
           {"rotation", rotation},

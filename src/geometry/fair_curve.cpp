@@ -50,9 +50,17 @@ class Course {
   bool is_closed_;
 };
 
-// The part of a course that a fit may use: up to its corners, or all of it.
+// A place where the course turns sharply.
+struct Corner {
+  double length;
+  Vec2 place;
+  double turn;
+};
+
+// The part of a course that a fit may use: up to its corners, or all of it. It ends in these corners, if it has any.
 struct Piece {
-  double from, to;
+  double from = -1e300, to = 1e300;
+  const Corner *begin = nullptr, *end = nullptr;
 };
 
 double kernel(double share) {
@@ -77,6 +85,9 @@ Vec2 fitted(const Course& course, double at, const Piece& piece, double window) 
       count += weight > 0;
     };
     course.between(at, std::max(piece.from, at - window), std::min(piece.to, at + window), add);
+    const double firm = 10 * moments(0, 0);
+    if (piece.begin) add({piece.from, piece.begin->place, firm}, piece.from - at);
+    if (piece.end) add({piece.to, piece.end->place, firm}, piece.to - at);
     if (count >= enough) break;
   }
   if (!(moments(0, 0) > 0)) return Vec2::Zero();
@@ -109,7 +120,7 @@ Course course_of(std::span<const CurveNode> nodes, bool is_closed) {
 // Returns points of the course, evenly spaced in its length, both ends included if it is open.
 std::vector<Vec2> drawn(const Course& course, const FairCurveOptions& options) {
   const auto steps = std::max<std::size_t>(8, std::lround(course.length() / (.5 * options.spacing)));
-  const Piece whole = course.is_closed() ? Piece{-1e300, 1e300} : Piece{course.begin(), course.end()};
+  const Piece whole = course.is_closed() ? Piece{} : Piece{course.begin(), course.end()};
   std::vector<Vec2> line(steps + (course.is_closed() ? 0 : 1));
   for (std::size_t k = 0; k < line.size(); ++k)
     line[k] =
@@ -151,6 +162,8 @@ Course along(const std::vector<Vec2>& line, const Course& course, const FairCurv
 struct Side {
   Vec2 point, direction;
   double misfit = 1e300;  // root mean square
+  double curvature = 0;   // of the samples beside the line
+  double turn_error = 0;  // standard deviation of the direction, in radians
 };
 
 Side side_of(const Course& course, double at, double from, double to) {
@@ -160,73 +173,93 @@ Side side_of(const Course& course, double at, double from, double to) {
   course.between(at, from, to, [&](const Sample& s, double distance) {
     mean += s.weight * s.place, mean_length += s.weight * distance, weights += s.weight, ++count;
   });
-  if (count < 3 || !(weights > 0)) return {};
+  if (count < 4 || !(weights > 0)) return {};
   mean /= weights, mean_length /= weights;
+  double spread = 0;
   course.between(at, from, to, [&](const Sample& s, double distance) {
     mean_step += s.weight * (distance - mean_length) * (s.place - mean);
+    spread += s.weight * (distance - mean_length) * (distance - mean_length);
   });
   if (!(mean_step.norm() > 0)) return {};
   const Vec2 direction = mean_step.normalized();
-  double misfit = 0;
-  course.between(at, from, to, [&](const Sample& s, double) {
+  double misfit = 0, bend = 0, bend_unit = 0;
+  course.between(at, from, to, [&](const Sample& s, double distance) {
     const double off = cross(direction, s.place - mean);
+    const double along_sq = (distance - mean_length) * (distance - mean_length) - spread / weights;
     misfit += s.weight * off * off;
+    bend += s.weight * off * along_sq;
+    bend_unit += s.weight * along_sq * along_sq;
   });
-  return {mean, direction, std::sqrt(misfit / weights)};
+  return {mean, direction, std::sqrt(misfit / weights), 2 * bend / std::max(bend_unit, 1e-300),
+          std::sqrt(misfit / spread / static_cast<double>(count - 2))};
 }
 
-struct Corner {
-  double length;
-  Vec2 place;
-  double turn;
-};
-
-// Returns the corner at a length, with turn 0 if there is none.
-Corner corner_at(const Course& course, double at, const FairCurveOptions& options) {
-  constexpr double least_turn = std::numbers::pi / 4;
-  const double skip = .5 * options.spacing, reach = 1.3 * options.window, roughest = .25 * options.spacing;
+// Returns the corner between two sides that reach equally far, with turn 0 if there is none: the sides turn by more
+// than their curvature and the scatter of their samples explain.
+Corner corner_between(const Course& course, double at, double reach, const FairCurveOptions& options) {
+  constexpr double least_turn = std::numbers::pi / 4, sure = 3;  // standard deviations
+  const double skip = .5 * options.spacing, roughest = .6 * options.spacing;
   const Side before = side_of(course, at, at - reach, at - skip),
              after = side_of(course, at, at + skip, at + reach);
   if (before.misfit > roughest || after.misfit > roughest) return {at, {}, 0};
   const double sine = cross(before.direction, after.direction);
   const double turn = std::abs(std::atan2(sine, before.direction.dot(after.direction)));
-  if (turn < least_turn || turn > 3) return {at, {}, 0};
+  const double error = std::hypot(before.turn_error, after.turn_error);
+  const double smooth = (std::abs(before.curvature) + std::abs(after.curvature)) / 2 * (reach + skip);
+  if (turn < least_turn + smooth + sure * error || turn > 3) return {at, {}, 0};
   const double share = cross(after.point - before.point, after.direction) / sine;
   return {at, before.point + share * before.direction, turn};
 }
 
-// Returns the corners in the order of their length: the sharpest within a window.
-std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
-  std::vector<Corner> found, corners;
-  const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
-  for (std::size_t k = 0; k < steps; ++k) {
-    const Corner corner = corner_at(
-        course, course.begin() + course.length() * static_cast<double>(k) / static_cast<double>(steps),
-        options);
-    const Vec2 drawn_place = fitted(course, corner.length, {-1e300, 1e300}, options.window);
-    if (corner.turn > 0 && (corner.place - drawn_place).norm() < 2 * options.spacing) found.push_back(corner);
+// Returns the corner at a length, with turn 0 if there is none. Long sides tell its place best.
+Corner corner_at(const Course& course, double at, const FairCurveOptions& options) {
+  for (const double windows : {4.0, 2.3, 1.3}) {
+    const Corner corner = corner_between(course, at, windows * options.window, options);
+    if (corner.turn > 0) return corner;
   }
-  const auto apart = [&](const Corner& a, const Corner& b) {
-    const double d = std::abs(a.length - b.length);
+  return {at, {}, 0};
+}
+
+// Returns the corners in the order of their length: the sharpest within a window, each at the length of the drawn
+// curve that is nearest to it.
+std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& options) {
+  const auto steps = std::max<std::size_t>(1, std::lround(course.length() / (.5 * options.spacing)));
+  std::vector<Corner> found, corners;
+  std::vector<std::pair<double, Vec2>> drawn_places;
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double at = course.begin() + course.length() * static_cast<double>(k) / static_cast<double>(steps);
+    drawn_places.emplace_back(at, fitted(course, at, {}, options.window));
+    const Corner corner = corner_at(course, at, options);
+    if (corner.turn > 0 && (corner.place - drawn_places.back().second).norm() < options.window)
+      found.push_back(corner);
+  }
+  const auto apart = [&](double a, double b) {
+    const double d = std::abs(a - b);
     return course.is_closed() ? std::min(d, course.length() - d) : d;
   };
   std::ranges::stable_sort(found, [](const Corner& a, const Corner& b) { return a.turn > b.turn; });
-  for (const Corner& c : found)
-    if (std::ranges::all_of(corners, [&](const Corner& k) { return apart(c, k) > 1.5 * options.window; }))
+  for (Corner& c : found) {
+    double nearest = 1e300, length = c.length;
+    for (const auto& [at, place] : drawn_places)
+      if (apart(at, c.length) < options.window && (place - c.place).norm() < nearest)
+        nearest = (place - c.place).norm(), length = at;
+    c.length = length;
+    if (std::ranges::all_of(
+            corners, [&](const Corner& k) { return apart(c.length, k.length) > 1.5 * options.window; }))
       corners.push_back(c);
+  }
   std::ranges::sort(corners, {}, &Corner::length);
   return corners;
 }
 
-// Adds the points of a piece, its end excluded; its begin is the corner, if there is one.
-void add_piece(const Course& course, const Piece& piece, const Corner* corner,
-               const FairCurveOptions& options, FairCurve& curve) {
+// Adds the points of a piece, its end excluded.
+void add_piece(const Course& course, const Piece& piece, const FairCurveOptions& options, FairCurve& curve) {
   const double length = piece.to - piece.from;
   const auto steps = std::max<std::size_t>(1, std::lround(length / options.spacing));
   for (std::size_t k = 0; k < steps; ++k) {
     const double at = piece.from + length * static_cast<double>(k) / static_cast<double>(steps);
-    const bool is_corner = k == 0 && corner;
-    curve.points.push_back(is_corner ? corner->place : fitted(course, at, piece, options.window));
+    const bool is_corner = k == 0 && piece.begin;
+    curve.points.push_back(is_corner ? piece.begin->place : fitted(course, at, piece, options.window));
     curve.is_corner.push_back(is_corner);
   }
 }
@@ -234,27 +267,29 @@ void add_piece(const Course& course, const Piece& piece, const Corner* corner,
 FairCurve curve_of(const Course& course, const FairCurveOptions& options) {
   FairCurve curve;
   const std::vector<Corner> corners = corners_of(course, options);
-  if (corners.empty() && course.is_closed()) {
-    const auto steps = static_cast<double>(std::lround(course.length() / options.spacing));
-    for (double k = 0; k < steps; ++k) {
-      curve.points.push_back(fitted(course, k / steps * course.length(), {-1e300, 1e300}, options.window));
-      curve.is_corner.push_back(0);
-    }
-    return curve;
-  }
   if (!course.is_closed()) {
-    double from = course.begin();
-    const Corner* begin = nullptr;
-    for (const Corner& c : corners)
-      add_piece(course, {from, c.length}, begin, options, curve), from = c.length, begin = &c;
-    add_piece(course, {from, course.end()}, begin, options, curve);
-    curve.points.push_back(fitted(course, course.end(), {from, course.end()}, options.window));
+    Piece piece{course.begin(), course.end()};
+    for (const Corner& c : corners) {
+      add_piece(course, {piece.from, c.length, piece.begin, &c}, options, curve);
+      piece.from = c.length, piece.begin = &c;
+    }
+    add_piece(course, piece, options, curve);
+    curve.points.push_back(fitted(course, course.end(), piece, options.window));
     curve.is_corner.push_back(0);
     return curve;
   }
+  if (corners.empty()) {
+    const auto steps = static_cast<double>(std::lround(course.length() / options.spacing));
+    for (double k = 0; k < steps; ++k)
+      curve.points.push_back(fitted(course, k / steps * course.length(), {}, options.window));
+    curve.is_corner.resize(curve.points.size(), 0);
+    return curve;
+  }
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double to = i + 1 < corners.size() ? corners[i + 1].length : corners[0].length + course.length();
-    add_piece(course, {corners[i].length, to}, &corners[i], options, curve);
+    const bool is_last = i + 1 == corners.size();
+    const Corner& next = corners[is_last ? 0 : i + 1];
+    const double to = next.length + (is_last ? course.length() : 0);
+    add_piece(course, {corners[i].length, to, &corners[i], &next}, options, curve);
   }
   return curve;
 }

@@ -48,6 +48,18 @@ Vec2 fitted_slope(std::span<const Vec3> points, Index centre, std::span<const In
   return slope.allFinite() ? slope : fallback;
 }
 
+// Returns the weights of a, b and s at a place of the triangle a, b, s; those at the nearest place of the side a-b if
+// the place lies outside or the triangle is too thin to tell.
+Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) {
+  const Vec2 side = b - a;
+  const Vec3 areas =
+      Vec3(cross(b - place, s - place), cross(s - place, a - place), cross(a - place, b - place)).cwiseMax(0);
+  if (areas.sum() > 1e-12 * side.squaredNorm()) return areas / areas.sum();
+  const double share =
+      side.squaredNorm() > 0 ? std::clamp((place - a).dot(side) / side.squaredNorm(), 0.0, 1.0) : 0;
+  return {1 - share, share, 0};
+}
+
 // Returns the middle point of a third that makes the slope across the edge a-b linear along it.
 template <typename Third>
 double middle_point(const Third& t, const Vec2& a, const Vec2& b, const Vec2& s) {
@@ -155,12 +167,8 @@ SmoothSurface::Sample SmoothSurface::at(Index t, const Vec2& place) const {
   for (std::size_t k = 0; k < 3; ++k) weight[k] = cross(p[(k + 1) % 3] - place, p[(k + 2) % 3] - place);
   const auto i = static_cast<std::size_t>(std::ranges::min_element(weight) - weight.begin());
   const std::size_t a = (i + 1) % 3, b = (i + 2) % 3;
-  // Weights of a, b and the centre. A place outside counts as one on the triangle's side.
-  Vec3 share(cross(p[b] - place, e.centre - place), cross(e.centre - place, p[a] - place), weight[i]);
-  share = share.cwiseMax(0);
-  share /= share.sum();
-  return de_casteljau(e.thirds[i], {e.near_centre[a], e.near_centre[b], e.at_centre}, share,
-                      {p[a], p[b], e.centre});
+  return de_casteljau(e.thirds[i], {e.near_centre[a], e.near_centre[b], e.at_centre},
+                      weights_in(p[a], p[b], e.centre, place), {p[a], p[b], e.centre});
 }
 
 // Evaluates one cubic: six points of a quadratic, then three of a plane, which give height and slope. `inner` are its

@@ -39,7 +39,7 @@ std::vector<Vec2> gap_centres(const Surface& surface, double least_radius) {
 // The new points of a surface, gathered before they replace the old ones.
 class NewSurface {
  public:
-  NewSurface(const Surface& surface, const PointMeasures& measures, const std::vector<Outline>& outlines)
+  NewSurface(const Surface& surface, const PointMeasures& measures, const std::vector<OutlineCurve>& outlines)
       : surface_(surface),
         measures_(measures),
         outlines_(outlines),
@@ -77,7 +77,7 @@ class NewSurface {
   }
 
  private:
-  static std::vector<Segment> silhouette_segments(const std::vector<Outline>& outlines) {
+  static std::vector<Segment> silhouette_segments(const std::vector<OutlineCurve>& outlines) {
     std::vector<Segment> segments = segments_of(outlines);
     std::erase_if(segments, [&](const Segment& s) { return outlines[s.curve].is_jump; });
     return segments;
@@ -189,7 +189,7 @@ class NewSurface {
 
   const Surface& surface_;
   const PointMeasures& measures_;
-  const std::vector<Outline>& outlines_;
+  const std::vector<OutlineCurve>& outlines_;
   SegmentGrid grid_, silhouettes_;
   std::vector<float> outline_distance_;  // of the old points, infinity far from all outlines
   std::vector<Vec3> points_;
@@ -205,7 +205,7 @@ class NewSurface {
 void put_points_on_outlines(Surface& surface, PointMeasures& measures) {
   Surface before = surface;
   if (!drop_crumbs(before)) return;
-  const std::vector<Outline> outlines = find_outlines(before);
+  const std::vector<OutlineCurve> outlines = find_outlines(before);
   if (outlines.empty() || outlines.front().is_jump) return;
   NewSurface now(before, measures, outlines);
   now.gather();

@@ -106,7 +106,7 @@ class EdgeFinder {
   KdTree<Vec2> tree_;
 };
 
-Outline faired(const std::vector<CurveNode>& nodes, bool is_closed, bool is_jump, double rho) {
+OutlineCurve faired(const std::vector<CurveNode>& nodes, bool is_closed, bool is_jump, double rho) {
   return {fair_curve(nodes, is_closed, {point_spacing * rho, fair_window * rho}), is_closed, is_jump};
 }
 
@@ -142,7 +142,7 @@ struct Sides {
   }
 };
 
-void add_silhouettes(const Surface& surface, const EdgeFinder& finder, std::vector<Outline>& outlines) {
+void add_silhouettes(const Surface& surface, const EdgeFinder& finder, std::vector<OutlineCurve>& outlines) {
   const Sides sides{surface};
   const auto count = static_cast<Index>(3 * surface.triangulation.triangles.size());
   std::vector<std::uint8_t> is_done(count, 0);
@@ -153,7 +153,7 @@ void add_silhouettes(const Surface& surface, const EdgeFinder& finder, std::vect
       is_done[side] = 1;
       nodes.push_back(finder.at(sides.from(side), farthest_edge * surface.rho));
     }
-    Outline outline = faired(nodes, true, false, surface.rho);
+    OutlineCurve outline = faired(nodes, true, false, surface.rho);
     if (!outline.curve.points.empty()) outlines.push_back(std::move(outline));
   }
 }
@@ -170,7 +170,7 @@ class JumpLines {
       if (surface.boundary.is_inside[t]) cross_triangle(t);
   }
 
-  void add_outlines(const EdgeFinder& finder, std::vector<Outline>& outlines) {
+  void add_outlines(const EdgeFinder& finder, std::vector<OutlineCurve>& outlines) {
     std::vector<std::uint8_t> is_done(next_.size(), 0);
     const auto follow = [&](Index first, bool is_closed) {
       std::vector<CurveNode> nodes;
@@ -178,7 +178,7 @@ class JumpLines {
         is_done[side] = 1;
         nodes.push_back(node_at(side, finder));
       }
-      Outline outline = faired(nodes, is_closed, true, surface_.rho);
+      OutlineCurve outline = faired(nodes, is_closed, true, surface_.rho);
       if (static_cast<double>(outline.curve.points.size()) * point_spacing >= shortest_jump)
         outlines.push_back(std::move(outline));
     };
@@ -258,15 +258,15 @@ bool drop_crumbs(Surface& surface) {
   return is_any;
 }
 
-std::vector<Outline> find_outlines(const Surface& surface) {
+std::vector<OutlineCurve> find_outlines(const Surface& surface) {
   const EdgeFinder finder(surface);
-  std::vector<Outline> outlines;
+  std::vector<OutlineCurve> outlines;
   add_silhouettes(surface, finder, outlines);
   JumpLines(surface).add_outlines(finder, outlines);
   return outlines;
 }
 
-std::vector<Segment> segments_of(const std::vector<Outline>& outlines) {
+std::vector<Segment> segments_of(const std::vector<OutlineCurve>& outlines) {
   std::vector<Segment> segments;
   for (Index c = 0; c < outlines.size(); ++c) {
     const std::vector<Vec2>& points = outlines[c].curve.points;

@@ -12,7 +12,7 @@ namespace relievo {
 
 // A curve in the view plane. The surface whose edge it is lies on its left; on its right lie the ground or, at a
 // jump, the surface behind.
-struct Outline {
+struct OutlineCurve {
   FairCurve curve;
   bool is_closed = false;
   bool is_jump = false;
@@ -26,9 +26,9 @@ bool drop_crumbs(Surface& surface);
 // triangles. Where a surface turns away from the viewer, the curve is where its normals, continued, are
 // perpendicular to the view; elsewhere it goes through the outermost points, or at jumps between the points in
 // front and those behind. Outlines shorter than 4 rho are left out.
-std::vector<Outline> find_outlines(const Surface& surface);
+std::vector<OutlineCurve> find_outlines(const Surface& surface);
 
 // Returns the segments of outlines; curve numbers are those of the outlines.
-std::vector<Segment> segments_of(const std::vector<Outline>& outlines);
+std::vector<Segment> segments_of(const std::vector<OutlineCurve>& outlines);
 
 }  // namespace relievo

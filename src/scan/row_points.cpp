@@ -17,7 +17,7 @@ constexpr double least_from_other_outline = .35;
 // Makes the points of all rows, those nearest to the outlines first.
 class RowMaker {
  public:
-  RowMaker(const std::vector<Outline>& outlines, const SegmentGrid& grid, double rho, PointSet& taken)
+  RowMaker(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid, double rho, PointSet& taken)
       : outlines_(outlines), grid_(grid), rho_(rho), taken_(taken) {}
 
   std::vector<RowPoint> make() {
@@ -36,7 +36,7 @@ class RowMaker {
  private:
   // Returns the unit vector to the left of an outline at one of its points, longer at corners, so that a parallel
   // through its end has the distance 1.
-  Vec2 left_at(const Outline& outline, std::size_t k) const {
+  Vec2 left_at(const OutlineCurve& outline, std::size_t k) const {
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
     const Vec2 after = k + 1 < n || outline.is_closed ? Vec2(p[(k + 1) % n] - p[k]) : Vec2(p[k] - p[k - 1]);
@@ -49,7 +49,7 @@ class RowMaker {
   }
 
   void add_silhouette(Index c) {
-    const Outline& outline = outlines_[c];
+    const OutlineCurve& outline = outlines_[c];
     for (std::size_t k = 0; k < outline.curve.points.size(); ++k) {
       const Vec2 at = outline.curve.points[k];
       if (taken_.add(at, least_on_outlines * rho_))
@@ -60,7 +60,7 @@ class RowMaker {
   // Adds a row on the left (side 1) or on the right (side -1) of an outline. Points of odd rows lie between those
   // of even ones.
   void add_row(Index c, std::size_t row, double side) {
-    const Outline& outline = outlines_[c];
+    const OutlineCurve& outline = outlines_[c];
     const std::vector<Vec2>& p = outline.curve.points;
     const std::size_t n = p.size();
     const bool is_between = row % 2 == 1;
@@ -82,7 +82,7 @@ class RowMaker {
     if (taken_.add(at, apart * rho_)) points_.push_back({at, at, place});
   }
 
-  const std::vector<Outline>& outlines_;
+  const std::vector<OutlineCurve>& outlines_;
   const SegmentGrid& grid_;
   double rho_;
   PointSet& taken_;
@@ -91,8 +91,8 @@ class RowMaker {
 
 }  // namespace
 
-std::vector<RowPoint> row_points(const std::vector<Outline>& outlines, const SegmentGrid& grid, double rho,
-                                 PointSet& taken) {
+std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
+                                 double rho, PointSet& taken) {
   return RowMaker(outlines, grid, rho, taken).make();
 }
 

@@ -31,7 +31,7 @@ inline constexpr double half_wall = .15, last_row = 2.95;
 // Returns the points of all rows, and adds them to `taken`, whose cells are to be at least 0.7 rho. Those on the
 // silhouette come first, then those on both sides of each jump, then parallel rows in the order of their distance. Points
 // of a row that would lie nearer to another outline, behind one, or too near to a point of an earlier row are left out.
-std::vector<RowPoint> row_points(const std::vector<Outline>& outlines, const SegmentGrid& grid, double rho,
-                                 PointSet& taken);
+std::vector<RowPoint> row_points(const std::vector<OutlineCurve>& outlines, const SegmentGrid& grid,
+                                 double rho, PointSet& taken);
 
 }  // namespace relievo

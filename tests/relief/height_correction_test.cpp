@@ -215,8 +215,8 @@ TEST(HeightCorrection, IsHingedAtJumps) {
           most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
     return most;
   };
-  EXPECT_GT(bend(18, 21), 4 * bend(5, 15));
-  EXPECT_GT(bend(18, 21), 4 * bend(24, 34));
+  EXPECT_GT(bend(18, 21), 3 * bend(5, 15));
+  EXPECT_GT(bend(18, 21), 3 * bend(24, 34));
 }
 
 TEST(HeightCorrection, IsTheSameInSinglePrecision) {

@@ -41,10 +41,15 @@ Shape plain(double steps = 0) {
   return shape;
 }
 
+// Of the points farther than 2.5 sampling distances from the edges of the terraces, whose places are known no better.
 double largest_error(const ReliefModel& model, std::span<const double> heights, double scale) {
   double worst = 0;
-  for (std::size_t i = 0; i < heights.size(); ++i)
-    worst = std::max(worst, std::abs(heights[i] - scale * depths[terrace_of(model.surface().points[i])]));
+  for (std::size_t i = 0; i < heights.size(); ++i) {
+    const Vec3& p = model.surface().points[i];
+    const double out = std::max(std::abs(p.x()), std::abs(p.y())), unknown = 2.5 * model.surface().rho;
+    if (std::abs(out - .5) < unknown || std::abs(out - .25) < unknown) continue;
+    worst = std::max(worst, std::abs(heights[i] - scale * depths[terrace_of(p)]));
+  }
   return worst;
 }
 

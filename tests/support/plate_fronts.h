@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -122,6 +123,12 @@ inline double depth_in(const std::vector<Vec2>& polygon, const Vec2& place) {
     depth = std::min(depth, along.x() * to_place.y() - along.y() * to_place.x());
   }
   return depth;
+}
+
+// Returns whether a corner of the solid lies over a place, to within a distance.
+inline bool has_corner_at(const Solid& solid, const Vec2& place, double distance) {
+  return std::ranges::any_of(solid.points,
+                             [&](const Vec3& p) { return (p.head<2>() - place).norm() < distance; });
 }
 
 }  // namespace relievo::test

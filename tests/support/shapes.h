@@ -125,11 +125,4 @@ inline Cloud button(std::size_t n, double radius, double edge, double z = 0, std
   return cloud;
 }
 
-// Moves each point along its normal by Gaussian noise.
-inline void add_noise(Cloud& cloud, double deviation, std::uint64_t seed = 13) {
-  Random random(seed);
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    cloud.points[i] += deviation * random.gaussian() * cloud.normals[i].cast<double>();
-}
-
 }  // namespace relievo::test

@@ -8,7 +8,7 @@ const START = {height: 4, method: "layered", mode: "auto", tone: "", up: ""};
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner", "margin",
-  "thickness", "form", "tolerance", "draft"];
+  "thickness", "form", "resolution", "tolerance", "draft"];
 
 export const FIRST = Object.freeze({
   input: null,
@@ -104,13 +104,14 @@ export class Document {
 
 // Returns the options as the engine and `relievo make` take them.
 export function engineOptions(step) {
-  const {steepest, tone, up, form, outline, corner, tolerance, draft, ...rest} = step.options;
+  const {steepest, tone, up, form, outline, corner, resolution, tolerance, draft, ...rest} = step.options;
   const options = {...rest, height: Math.round(rest.height * 1e4) / 1e4};
   if (steepest !== FIRST.options.steepest) options.steepest = steepest; // without it the paper's bound rules
   if (tone) options.tone = tone;
   if (form !== FIRST.options.form) options.form = form;
   if (outline !== FIRST.options.outline) options.outline = outline;
   if (outline === "round") options.corner = corner;
+  if (resolution) options.resolution = resolution;
   if (tolerance) options.tolerance = tolerance;
   if (draft && form !== "lithophane") options.draft = draft;
   if (up) options.up = up;

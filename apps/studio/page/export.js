@@ -4,10 +4,19 @@ import {about, optionOf} from "./about.js";
 import {$, download, fileSize, make} from "./controls.js";
 import {fillChoices} from "./fields.js";
 
-// Estimates the bytes of the files whose size is known beforehand; exact for STL.
+const fields = ["resolution", "tolerance", "draft"]; // empty for none
+
+// Estimates the triangles of the solid: of its samples, or with a draft angle or as a lithophane of the scan's points.
+function solidTriangles(facts, {width, resolution, form, draft, outline}) {
+  const sides = outline === "none" ? 2 : 1; // its bottom is as fine as its front
+  if (draft || form === "lithophane") return sides * (facts.triangles + facts.hull + 14);
+  const scale = width / Math.max(...facts.size), step = resolution ?? Math.min(width / 700, facts.rho * scale);
+  return sides * 2 * facts.area * (scale / step) ** 2;
+}
+
+// Estimates the bytes of the files whose size is known beforehand.
 function sizes(facts, options, pixels) {
-  const sides = options.outline === "none" ? 2 : 1; // its bottom is as fine as its front
-  const triangles = sides * (facts.triangles + facts.hull + 14), points = sides * (facts.points + 8);
+  const triangles = solidTriangles(facts, options), points = triangles / 2;
   const [longer, shorter] = [Math.max(...facts.size), Math.min(...facts.size)];
   const share = (shorter / longer * options.width + 2 * options.margin) / (options.width + 2 * options.margin);
   return {
@@ -18,10 +27,10 @@ function sizes(facts, options, pixels) {
 }
 
 // Returns the size in words, if it is known. How much smaller a simplified mesh is depends on the relief.
-const sizeText = ({name, type}, bytes, {tolerance, outline = "rectangle"}) => {
+const sizeText = ({type}, bytes, {tolerance}) => {
   if (bytes === undefined) return "";
   if (tolerance && !type.startsWith("image/")) return `less than ${fileSize(bytes)}`;
-  return (name === "stl" && outline === "rectangle" ? "" : "about ") + fileSize(bytes);
+  return `about ${fileSize(bytes)}`;
 };
 
 export class ExportDialog {
@@ -35,7 +44,7 @@ export class ExportDialog {
     fillChoices("form");
     this.dialog.oninput = () => this.show();
     $("#form").onchange = () => this.choose();
-    for (const name of ["tolerance", "draft"]) {
+    for (const name of fields) {
       const {min, max} = optionOf(name);
       Object.assign($(`#${name}`), {min, max, onchange: () => this.choose()});
     }
@@ -50,16 +59,19 @@ export class ExportDialog {
   }
 
   choose() {
-    const tolerance = Number.parseFloat($("#tolerance").value), draft = Number.parseFloat($("#draft").value);
-    this.change({form: $("#form").value, tolerance: tolerance > 0 ? tolerance : null, draft: draft > 0 ? draft : null});
+    const chosen = {form: $("#form").value};
+    for (const name of fields) {
+      const value = Number.parseFloat($(`#${name}`).value);
+      chosen[name] = value > 0 ? value : null;
+    }
+    this.change(chosen);
     this.show();
   }
 
   open() {
-    const {form = "relief", tolerance = "", draft = ""} = this.current().options;
-    $("#form").value = form;
-    $("#tolerance").value = tolerance;
-    $("#draft").value = draft;
+    const {options} = this.current();
+    $("#form").value = options.form ?? "relief";
+    for (const name of fields) $(`#${name}`).value = options[name] ?? "";
     $("#export-note").textContent = "";
     this.show();
     this.dialog.showModal();

@@ -261,7 +261,7 @@ test("survives a page that closes during an export, and half a request", async (
 test("exports the very bytes that make writes", async () => {
   const options = {
     ...OPTIONS, saturation: 0.3, detail: 0.05, tone: "0,0.2;0.6,0.5;1,0.9", steepest: 60, boundary: 4, margin: 2,
-    thickness: 1.5, form: "mirror", tolerance: 0.02, draft: 40,
+    thickness: 1.5, form: "mirror", resolution: 0.2, tolerance: 0.02, draft: 40,
   };
   const project = path.join(folder, "p.relievo");
   writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "scan.ply"}, options}));

@@ -98,7 +98,7 @@ struct SlopeRange {
 
 class Sampler {
  public:
-  Sampler(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth, const SampleOptions& options)
+  Sampler(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth, const FrontSampling& options)
       : front_(front),
         is_smooth_(is_smooth),
         options_(options),
@@ -156,19 +156,20 @@ class Sampler {
     }
   }
 
-  // Divides the smooth triangles of the band so that their sides are no longer than a step. Points on the sides of
+  // Divides the smooth triangles of the band so that most of their sides are no longer than a step. Points on the sides of
   // creases stay on them.
   void divide_band() {
-    double longest_sq = 0, count = 0;
+    std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
       if (is_band_[t] && is_smooth_[t])
         for (std::size_t i = 0; i < 3; ++i) {
           const Triangle& c = front_.triangles[t];
-          longest_sq += (front_.points[c[i]] - front_.points[c[(i + 1) % 3]]).head<2>().squaredNorm(),
-              ++count;
+          lengths.push_back((front_.points[c[i]] - front_.points[c[(i + 1) % 3]]).head<2>().norm());
         }
-    if (count == 0) return;
-    const double side = std::sqrt(longest_sq / count);
+    if (lengths.empty()) return;
+    const auto median = lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2);
+    std::ranges::nth_element(lengths, median);
+    const double side = *median;
     divisions_ = std::clamp(static_cast<int>(std::lround(side / options_.resolution_mm)), 1, most_divisions);
     if (divisions_ == 1) return;
     std::vector<std::array<Index, 3>> sides;  // lower point, higher point, triangle
@@ -352,7 +353,7 @@ class Sampler {
 
   const HeightFieldMesh& front_;
   std::span<const std::uint8_t> is_smooth_;
-  const SampleOptions& options_;
+  const FrontSampling& options_;
   SmoothSurface surface_;
   std::vector<std::uint8_t> is_band_;
   Grid grid_;
@@ -364,7 +365,7 @@ class Sampler {
 }  // namespace
 
 HeightFieldMesh sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
-                             const SampleOptions& options) {
+                             const FrontSampling& options) {
   if (front.triangles.empty()) return front;
   return Sampler(front, is_smooth, options).make();
 }

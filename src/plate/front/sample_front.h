@@ -7,7 +7,7 @@
 
 namespace relievo {
 
-struct SampleOptions {
+struct FrontSampling {
   // Longest step between samples, > 0, where the surface is not plane.
   double resolution_mm = .15;
   // Where the surface turns less than this, in radians, from one sample to the next, samples are up to 8 steps apart.
@@ -18,6 +18,6 @@ struct SampleOptions {
 // squares, and near creases on the triangles of the given front, divided as finely. Creases are the edges between
 // smooth triangles and others, `is_smooth` per triangle; the others stay plane. Highest and lowest point stay.
 HeightFieldMesh sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
-                             const SampleOptions& options);
+                             const FrontSampling& options);
 
 }  // namespace relievo
