@@ -31,13 +31,13 @@ bool is_sampled(const ReliefOptions& options) {
 
 // Returns whether a triangle belongs to one surface: it is no ground, no wall and does not span a jump.
 std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
-  std::vector<std::uint8_t> is_smooth = jump_triangles(surface);
+  std::vector<std::uint8_t> is_smooth(surface.triangulation.triangles.size());
   const Boundary& boundary = surface.boundary;
   for (std::size_t t = 0; t < is_smooth.size(); ++t) {
     const auto& [a, b, c] = surface.triangulation.triangles[t];
     const bool is_wall =
         boundary.is_across_wall(a, b) || boundary.is_across_wall(b, c) || boundary.is_across_wall(c, a);
-    is_smooth[t] = boundary.is_inside[t] && !is_smooth[t] && !is_wall;
+    is_smooth[t] = boundary.is_inside[t] && !is_wall;
   }
   return is_smooth;
 }

@@ -1,4 +1,4 @@
-// The front of a solid as heights under the centres of a picture's pixels.
+// The front of a solid as heights under the centres of a picture's pixels. Tested by tests/plate/height_field_test.cpp.
 #pragma once
 
 #include "relievo/core/image.h"
@@ -18,6 +18,9 @@ struct HeightField {
     const Vec3 p = (point - box.centre()) / mm_per_pixel;
     return {z.width / 2.0 + p.x(), z.height / 2.0 - p.y()};
   }
+  Vec2 to_mm(double x, double y) const {
+    return box.centre().head<2>() + mm_per_pixel * Vec2(x - z.width / 2.0, z.height / 2.0 - y);
+  }
 };
 
 // Returns a field of zeros for a front with that box, its longer side of `longer_side_px` pixels; without
@@ -26,5 +29,9 @@ HeightField flat_height_field(const Box& box, int longer_side_px);
 
 // Returns the heights of a solid's front; without pixels as flat_height_field().
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
+
+// Returns the heights of a smooth surface through the corners of a solid's front, see SmoothSurface. Ground and
+// triangles at sharp edges stay plane; lowest and highest point stay. Without pixels as flat_height_field().
+HeightField draw_smooth_height_field(const Solid& solid, int longer_side_px);
 
 }  // namespace relievo
