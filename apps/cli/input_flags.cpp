@@ -29,12 +29,14 @@ void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
       ->type_name("INPUT");
   command.add_option("--view", arguments.view, "as for make")->type_name("SIDE")->capture_default_str();
   command.add_option("--up", arguments.up, "as for make")->type_name("X,Y,Z");
+  command.add_option("--crop", arguments.crop, "as for make")->type_name("X0,Y0,X1,Y1");
+  command.add_option("--crumbs", arguments.crumbs, "as for make")->type_name("WHAT")->capture_default_str();
   add_input_flags(command, arguments.in);
 }
 
 Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progress) {
   RELIEVO_TRY(const InputArguments in, parse_input_texts(arguments.in));
-  RELIEVO_TRY(const View view, parse_view(arguments.view, arguments.up));
+  RELIEVO_TRY(const View view, parse_view(static_cast<const ViewTexts&>(arguments)));
   const PointsWanted wanted{view};
   RELIEVO_TRY(const SceneInput input, read_scene(arguments.paths, in, wanted, progress));
   RELIEVO_TRY(ViewSample sample, sample_for_view(input.scene, view, wanted.points, progress));

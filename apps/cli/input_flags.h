@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/read_inputs.h"
+#include "relievo/option_texts.h"
 #include "relievo/view_sample.h"
 
 namespace relievo::app::cli {
@@ -23,13 +24,12 @@ void add_input_flags(CLI::App& command, InputTexts& texts);
 Result<InputArguments> parse_input_texts(const InputTexts& texts);
 
 // The inputs of a command and the side of them to look at.
-struct SceneArguments {
+struct SceneArguments : ViewTexts {
   std::vector<std::string> paths;
-  std::string view = "front", up;
   InputTexts in;
 };
 
-// Adds INPUT, --view, --up and the flags of InputTexts.
+// Adds INPUT, the flags of ViewTexts and the flags of InputTexts.
 void add_scene_flags(CLI::App& command, SceneArguments& arguments);
 
 struct SampledView {

@@ -67,6 +67,7 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
       {"input_points", report.input_points},
       {"visible_points", report.visible_points},
       {"removed_points", report.removed_points},
+      {"crumbs", report.crumbs},
       {"rho", report.rho},
       {"diagonal", report.diagonal},
       {"method", name_of(report.method)},

@@ -34,7 +34,7 @@ Result<void> studio(const StudioArguments& arguments) {
     if (const auto bytes = read_file(arguments.input); !bytes) return std::unexpected(bytes.error());
     const std::string path = std::filesystem::absolute(arguments.input).string();
     const ScanSource input{{}, path, std::filesystem::path(path).filename().string(), {}};
-    engine.open(input, "front", "");
+    engine.open(input, {});
     if (auto kept = store.remember(input); !kept) return kept;
   }
   studio::Server server(engine, store,

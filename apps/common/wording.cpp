@@ -53,6 +53,9 @@ std::vector<std::string> remarks_on(const ScanFacts& facts) {
   if (50 * facts.removed_points > facing)
     lines.push_back(cat("left out ", 100 * facts.removed_points / facing,
                         " % of the points that face the viewer, as small groups far from others"));
+  if (facts.crumbs > 0)
+    lines.push_back(cat("left out ", facts.crumbs, facts.crumbs == 1 ? " small piece" : " small pieces",
+                        " of the surface; --crumbs keep keeps what is no speck"));
   return lines;
 }
 
@@ -63,8 +66,9 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
   if (report.has_needed_steps)
     lines.push_back(cat("slopes alone do not reach the height: depth jumps take ",
                         std::lround(100 * report.steps), " % of it"));
-  for (const std::string& line : remarks_on(ScanFacts{report.has_estimated_normals, report.has_turned_normals,
-                                                      0, report.visible_points, report.removed_points}))
+  for (const std::string& line :
+       remarks_on(ScanFacts{report.has_estimated_normals, report.has_turned_normals, 0, report.visible_points,
+                            report.removed_points, report.crumbs}))
     lines.push_back(line);
   if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
   if (report.simplification_error_mm)

@@ -23,7 +23,7 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
 std::vector<std::string> sentences_on(const Surface& surface, std::size_t left_out) {
   std::vector<std::string> sentences;
   const ScanFacts facts{surface.has_estimated_normals, surface.has_flipped_normals, left_out,
-                        surface.visible_points, surface.removed_points};
+                        surface.visible_points,        surface.removed_points,      surface.crumbs};
   for (const std::string& line : remarks_on(facts)) sentences.push_back(as_sentence(line));
   return sentences;
 }

@@ -25,7 +25,7 @@ struct ShownModel {
 
 struct Shared {
   ScanSource wanted;  // asked for last, with its view
-  std::string view, up;
+  ViewTexts view;
   std::shared_ptr<const ScanSource> unread;  // asked for, but not yet read
   LoadedScan scan;                           // read last
   ShownModel shown;
@@ -107,23 +107,21 @@ struct Engine::State {
 Engine::Engine() : state_(std::make_unique<State>()) {}
 Engine::~Engine() = default;
 
-void Engine::open(const ScanSource& input, const std::string& view, const std::string& up) {
+void Engine::open(const ScanSource& input, const ViewTexts& view) {
   state_->shared.with([&](Shared& s) {
     s.unread = std::make_shared<const ScanSource>(input);
     s.wanted = input;
     s.view = view;
-    s.up = up;
   });
-  state_->prepare(parse_view(view, up).value_or(View{}));
+  state_->prepare(parse_view(view).value_or(View{}));
 }
 
-Result<void> Engine::choose_view(const std::string& view, const std::string& up) {
-  const Result<View> parsed = parse_view(view, up);
+Result<void> Engine::choose_view(const ViewTexts& view) {
+  const Result<View> parsed = parse_view(view);
   if (!parsed) return std::unexpected(parsed.error());
   const LoadedScan scan = state_->scan_in_use();
   const bool is_open = state_->shared.with([&](Shared& s) {
     s.view = view;
-    s.up = up;
     return scan.cloud() || s.unread;
   });
   if (!is_open) return nothing_open();
@@ -140,8 +138,7 @@ EngineStatus Engine::status() const {
   const SessionStatus session = state_->session.status();
   return state_->shared.with([&](const Shared& s) {
     return EngineStatus{session.is_preparing, session.stage, session.fraction, session.error,
-                        s.shown.scan.input(), s.wanted,      s.view,           s.up,
-                        s.shown.number};
+                        s.shown.scan.input(), s.wanted,      s.view,           s.shown.number};
   });
 }
 
@@ -195,7 +192,7 @@ Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::
   }
   const std::shared_ptr<const ReliefModel> model = state_->session.model();
   if (!model) return nothing_open();
-  if (options.view.R_view_model != model->surface().view.R_view_model)
+  if (options.view != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected auto, as the model was prepared");

@@ -9,6 +9,7 @@
 #include "common/export_file.h"
 #include "common/project.h"
 #include "relievo/make_relief.h"
+#include "relievo/option_texts.h"
 #include "studio/drawing.h"
 
 namespace relievo::app::studio {
@@ -21,7 +22,7 @@ struct EngineStatus {
   std::optional<Error> error;  // of the last opening or change of view
   ScanSource input;            // of the scan that is shown
   ScanSource wanted;           // of the scan that was last asked for, and its view
-  std::string view, up;
+  ViewTexts view;
   std::uint64_t model = 0;  // number of the model that is shown; 0 is none yet
 };
 
@@ -33,11 +34,11 @@ class Engine {
 
   // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
   // and for good if that fails.
-  void open(const ScanSource& input, const std::string& view, const std::string& up);
+  void open(const ScanSource& input, const ViewTexts& view);
 
   // Prepares another view of the scan that was opened last or, if that failed, of the one that is shown.
   // Errors: those of parse_view(); kind geometry if there is no scan.
-  Result<void> choose_view(const std::string& view, const std::string& up);
+  Result<void> choose_view(const ViewTexts& view);
 
   void cancel();
 

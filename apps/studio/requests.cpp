@@ -142,10 +142,25 @@ Result<View> view_from(const Json& json) {
   return view_towards(*towards, *up);
 }
 
+ViewTexts view_texts(const Json& json) {
+  const ViewTexts none;
+  return {json.value("view", none.view), json.value("up", none.up), json.value("crop", none.crop),
+          json.value("crumbs", none.crumbs)};
+}
+
+static Json to_json(const ViewTexts& texts) {
+  return {{"view", texts.view}, {"up", texts.up}, {"crop", texts.crop}, {"crumbs", texts.crumbs}};
+}
+
 Json to_json(const EngineStatus& status) {
-  Json json{{"busy", status.is_busy}, {"stage", status.stage}, {"fraction", status.fraction},
-            {"model", status.model},  {"error", nullptr},      {"input", nullptr},
-            {"wanted", nullptr},      {"view", status.view},   {"up", status.up}};
+  Json json{{"busy", status.is_busy},
+            {"stage", status.stage},
+            {"fraction", status.fraction},
+            {"model", status.model},
+            {"error", nullptr},
+            {"input", nullptr},
+            {"wanted", nullptr},
+            {"shown", to_json(status.view)}};
   if (status.error) json["error"] = error_json(*status.error);
   if (!status.wanted.name.empty()) json["wanted"] = to_json(status.wanted);
   if (status.model > 0) json["input"] = to_json(status.input);

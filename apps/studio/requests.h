@@ -16,6 +16,9 @@ Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<View> view_from(const nlohmann::json& json);
 
+// Returns the texts of a view as the page sends them; those that are missing have their defaults.
+ViewTexts view_texts(const nlohmann::json& json);
+
 nlohmann::json to_json(const EngineStatus& status);
 nlohmann::json to_json(const ModelFacts& facts);
 

@@ -109,14 +109,14 @@ struct Server::State {
   void open(const Json& json, Response& response) {
     Result<ScanSource> input = input_from_json(json.value("input", Json()), "input");
     if (!input) return answer(response, input.error());
-    engine.open(*input, json.value("view", "front"), json.value("up", ""));
+    engine.open(*input, view_texts(json));
     const std::lock_guard lock(storing);
     if (auto kept = store.remember(*input); !kept) return answer(response, kept.error());
     answer(response, Json::object());
   }
 
   void choose_view(const Json& json, Response& response) {
-    const auto ok = engine.choose_view(json.value("view", "front"), json.value("up", ""));
+    const auto ok = engine.choose_view(view_texts(json));
     ok ? answer(response, Json::object()) : answer(response, ok.error());
   }
 

@@ -14,11 +14,22 @@
 
 namespace relievo {
 
-struct OptionTexts : NumericOptions {
+// A view as users type it.
+struct ViewTexts {
+  std::string view = "front", up;  // see parse_view()
+  std::string crop;                // see parse_crop(); empty: all
+  std::string crumbs = "drop";     // or keep, see View
+
+  bool operator==(const ViewTexts&) const = default;
+};
+
+// Returns the view. Errors: kind option, naming the option.
+Result<View> parse_view(const ViewTexts& texts);
+
+struct OptionTexts : NumericOptions, ViewTexts {
   std::string method;  // empty: see ReliefOptions
   std::string tone;    // see parse_tone_curve(); empty: none
   std::string mode = "exact";
-  std::string view = "front", up;     // see parse_view()
   std::string outline = "rectangle";  // see outline.h
   std::string base = "plane";         // see parse_base()
   std::string wrap = "none";          // see parse_wrap()

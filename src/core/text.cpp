@@ -4,18 +4,24 @@
 
 namespace relievo {
 
-std::optional<Vec3> parse_triple(std::string_view text) {
-  Vec3 v;
-  for (int axis = 0; axis < 3; ++axis) {
-    const char* const end = text.data() + text.size();
-    const auto [rest, status] = std::from_chars(text.data(), end, v[axis]);
-    if (status != std::errc{} || !std::isfinite(v[axis])) return std::nullopt;
+std::optional<std::vector<double>> parse_numbers(std::string_view text) {
+  std::vector<double> numbers;
+  while (true) {
+    double number = 0;
+    const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (status != std::errc{} || !std::isfinite(number)) return std::nullopt;
+    numbers.push_back(number);
     text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
-    if (axis == 2) break;
-    if (text.empty() || text.front() != ',') return std::nullopt;
+    if (text.empty()) return numbers;
+    if (text.front() != ',') return std::nullopt;
     text.remove_prefix(1);
   }
-  return text.empty() ? std::optional(v) : std::nullopt;
+}
+
+std::optional<Vec3> parse_triple(std::string_view text) {
+  const auto numbers = parse_numbers(text);
+  if (!numbers || numbers->size() != 3) return std::nullopt;
+  return Vec3((*numbers)[0], (*numbers)[1], (*numbers)[2]);
 }
 
 }  // namespace relievo

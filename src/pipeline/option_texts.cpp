@@ -70,6 +70,9 @@ std::vector<ReliefField> shape_rows() {
   };
 }
 
+// Whether the view has crumbs.
+constexpr std::array<Choice<bool>, 2> crumb_choices{{{"drop", false}, {"keep", true}}};
+
 // Returns the rows of the relief's limits and of the side of the model it shows.
 std::vector<ReliefField> view_rows() {
   return {
@@ -114,6 +117,18 @@ std::vector<ReliefField> view_rows() {
                    .help = "direction shown upright",
                    .otherwise = "+Y, of top -Z, of bottom +Z"},
                   &OptionTexts::up},
+      ReliefField{
+          {.name = "crop",
+           .unit = "X0,Y0,X1,Y1",
+           .help = "part of the scan that is used, in shares of its box as seen, from below on the left; "
+                   "with ,NEAR,FAR a part of its depth, too",
+           .otherwise = "all of it"},
+          &OptionTexts::crop},
+      ReliefField{{.name = "crumbs",
+                   .unit = "WHAT",
+                   .help = "drop or keep pieces of less than 0.5 % of what is seen",
+                   .choices = names_of(crumb_choices)},
+                  &OptionTexts::crumbs},
   };
 }
 
@@ -209,6 +224,13 @@ std::span<const ReliefField> option_fields() {
   return rows;
 }
 
+Result<View> parse_view(const ViewTexts& texts) {
+  RELIEVO_TRY(View view, parse_view(texts.view, texts.up));
+  RELIEVO_TRY(view.crop, parse_crop(texts.crop));
+  RELIEVO_TRY(view.has_crumbs, parse_choice("crumbs", texts.crumbs, crumb_choices));
+  return view;
+}
+
 Result<ReliefOptions> parse_options(const OptionTexts& texts) {
   ReliefOptions options;
   static_cast<NumericOptions&>(options) = texts;
@@ -222,7 +244,7 @@ Result<ReliefOptions> parse_options(const OptionTexts& texts) {
     RELIEVO_TRY(options.tool, parse_tool(texts.tool));
   }
   RELIEVO_TRY(options.mode, parse_mode(texts.mode));
-  RELIEVO_TRY(options.view, parse_view(texts.view, texts.up));
+  RELIEVO_TRY(options.view, parse_view(static_cast<const ViewTexts&>(texts)));
   RELIEVO_TRY(options.outline, parse_outline(texts.outline));
   RELIEVO_TRY(options.base, parse_base(texts.base));
   RELIEVO_TRY(options.wrap, parse_wrap(texts.wrap));

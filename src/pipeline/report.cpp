@@ -21,6 +21,7 @@ void report_surface(const Surface& surface, ReliefReport& report) {
   report.input_points = surface.input_points;
   report.visible_points = surface.visible_points;
   report.removed_points = surface.removed_points;
+  report.crumbs = surface.crumbs;
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   report.has_estimated_normals = surface.has_estimated_normals;

@@ -205,6 +205,7 @@ class NewSurface {
 void put_points_on_outlines(Surface& surface, PointMeasures& measures) {
   Surface before = surface;
   if (!drop_crumbs(before)) return;
+  surface.crumbs = before.crumbs;
   const std::vector<OutlineCurve> outlines = find_outlines(before);
   if (outlines.empty() || outlines.front().is_jump) return;
   NewSurface now(before, measures, outlines);

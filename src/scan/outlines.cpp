@@ -14,7 +14,8 @@ namespace relievo {
 namespace {
 
 // Lengths and areas in rho.
-constexpr double crumb_area = 20, hole_area = 4;
+constexpr double least_piece = 20, hole_area = 4;
+constexpr double crumb_share = .005;  // of the surface
 constexpr double point_spacing = .75, fair_window = 3;
 constexpr double shortest_jump = 6, least_occlusion = 3;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
@@ -59,6 +60,7 @@ class Pieces {
   }
 
   double area(Index t) { return area_[sets_.find(t)]; }
+  bool is_first(Index t) { return sets_.find(t) == t; }  // of its piece, for one of its triangles
   bool touches_hull(Index t) { return is_open_[sets_.find(t)]; }
 
  private:
@@ -242,11 +244,17 @@ class JumpLines {
 bool drop_crumbs(Surface& surface) {
   Pieces pieces(surface);
   const double unit = surface.rho * surface.rho;
-  double largest = 0;
+  double largest = 0, all = 0;
   auto& inside = surface.boundary.is_inside;
+  for (Index t = 0; t < inside.size(); ++t) {
+    if (!inside[t]) continue;
+    largest = std::max(largest, pieces.area(t));
+    all += area_of(surface, surface.triangulation.triangles[t]);
+  }
+  const double least = std::max(least_piece * unit, surface.view.has_crumbs ? 0 : crumb_share * all);
+  const double crumb = std::min(least, .5 * largest);
   for (Index t = 0; t < inside.size(); ++t)
-    if (inside[t]) largest = std::max(largest, pieces.area(t));
-  const double crumb = std::min(crumb_area * unit, .5 * largest);
+    surface.crumbs += inside[t] && pieces.is_first(t) && pieces.area(t) < crumb;
   bool is_any = false;
   for (Index t = 0; t < inside.size(); ++t) {
     if (inside[t])

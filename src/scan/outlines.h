@@ -18,8 +18,9 @@ struct OutlineCurve {
   bool is_jump = false;
 };
 
-// Leaves out pieces of the surface of less than 20 rho^2, as crumbs of the scan, and closes holes of less than
-// 4 rho^2: changes boundary.is_inside. Returns whether the surface has any triangle left.
+// Leaves out pieces of less than 0.5 % of the surface, as crumbs of the scan, and closes holes of less than 4 rho^2:
+// changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only pieces of less than 20 rho^2, which have
+// no outline, are left out. Returns whether the surface has any triangle left.
 bool drop_crumbs(Surface& surface);
 
 // Returns the silhouettes first, which are closed, then the depth jumps, of a surface that has neighbours of

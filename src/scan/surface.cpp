@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <iterator>
+#include <optional>
 
 #include "core/memory.h"
 #include "geometry/hilbert.h"
@@ -130,16 +131,23 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
   return xy;
 }
 
-Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
+Result<Surface> find_surface(const Cloud& whole, const View& view, const SurfaceOptions& options,
                              Progress* progress) {
-  if (auto ok = check_numbers(cloud); !ok) return std::unexpected(ok.error());
+  if (auto ok = check_numbers(whole); !ok) return std::unexpected(ok.error());
+  std::optional<Cloud> part;
+  if (view.crop != Crop{}) {
+    part = cropped(whole, view);
+    if (part->size() < 4)
+      return option_error("crop", cat("expected a part with at least 4 points, found ", part->size()));
+  }
+  const Cloud& cloud = part ? *part : whole;
   const Box box = bounds(cloud);
   if (auto ok = check_extent(cloud, box); !ok) return std::unexpected(ok.error());
   Surface surface;
   surface.view = view;
   surface.centre = box.centre();
   surface.diagonal = box.diagonal();
-  surface.input_points = cloud.size();
+  surface.input_points = whole.size();
 
   Result<ViewCloud> viewed = look_at(cloud, surface, progress);
   if (!viewed) return std::unexpected(viewed.error());

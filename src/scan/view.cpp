@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -72,6 +73,44 @@ Result<View> parse_view(std::string_view text, std::string_view up) {
     wanted.up = *parsed;
   }
   return view_towards(wanted.towards_viewer, wanted.up);
+}
+
+Result<Crop> parse_crop(std::string_view text) {
+  if (text.empty()) return Crop{};
+  const auto wrong = [&] {
+    return option_error(
+        "crop", cat("expected shares X0,Y0,X1,Y1 or X0,Y0,X1,Y1,NEAR,FAR from 0 to 1, the lesser ones "
+                    "first, found '",
+                    text, "'"));
+  };
+  std::vector<double> shares = parse_numbers(text).value_or(std::vector<double>());
+  if (shares.size() == 4) shares.insert(shares.end(), {0, 1});
+  const auto is_share = [](double s) { return s >= 0 && s <= 1; };
+  if (shares.size() != 6 || !std::ranges::all_of(shares, is_share)) return wrong();
+  const Crop crop{{shares[0], shares[1]}, {shares[2], shares[3]}, shares[4], shares[5]};
+  if (!(crop.least.x() < crop.most.x() && crop.least.y() < crop.most.y() && crop.nearest < crop.farthest))
+    return wrong();
+  return crop;
+}
+
+Cloud cropped(const Cloud& cloud, const View& view) {
+  if (view.crop == Crop{}) return cloud;
+  const Mat3& R = view.R_view_model;
+  Box box;
+  for (const Vec3& p : cloud.points) box.extend(R * p);
+  const Vec3 size = box.size();
+  const Crop& crop = view.crop;
+  const Vec3 least = box.min + size.cwiseProduct(Vec3(crop.least.x(), crop.least.y(), 1 - crop.farthest));
+  const Vec3 most = box.min + size.cwiseProduct(Vec3(crop.most.x(), crop.most.y(), 1 - crop.nearest));
+  Cloud part;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const Vec3 p = R * cloud.points[i];
+    if ((p.array() < least.array()).any() || (p.array() > most.array()).any()) continue;
+    part.points.push_back(cloud.points[i]);
+    if (!cloud.normals.empty()) part.normals.push_back(cloud.normals[i]);
+    if (!cloud.colours.empty()) part.colours.push_back(cloud.colours[i]);
+  }
+  return part;
 }
 
 // Equation (1): R = R_y R_x.

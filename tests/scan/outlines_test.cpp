@@ -148,5 +148,40 @@ TEST(Outlines, LeaveNoGapInside) {
   EXPECT_LT(longest, 4 * rho);
 }
 
+TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
+  Cloud cloud = test::button(40000, 1, .15);
+  const double rho = surface_of(cloud).rho;
+  const Cloud crumb = test::sphere(200, .03);  // 0.07 % of the button, and 13 rho^2 or more
+  for (std::size_t i = 0; i < crumb.size(); ++i)
+    test::add(cloud, crumb.points[i] + Vec3(1.6, 0, 0), crumb.normals[i].cast<double>());
+  const auto width = [](const Surface& surface) {
+    Box box;
+    for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+      if (surface.boundary.is_inside[t])
+        for (const Index i : surface.triangulation.triangles[t]) box.extend(surface.points[i]);
+    return box.size().x();
+  };
+  View view;
+  const Result<Surface> without = find_surface(cloud, view);
+  view.has_crumbs = true;
+  const Result<Surface> with = find_surface(cloud, view);
+  ASSERT_TRUE(without && with);
+  EXPECT_EQ(without->crumbs, 1U);
+  EXPECT_EQ(with->crumbs, 0U);
+  EXPECT_NEAR(width(*without), 2.3, rho);
+  EXPECT_NEAR(width(*with), 1.15 + 1.63, rho);
+}
+
+TEST(Outlines, OfACroppedScanAreItsCut) {
+  View view;
+  view.crop = {{0, 0}, {.5, 1}};
+  const Result<Surface> surface = find_surface(test::button(40000, 1, .15), view);
+  ASSERT_TRUE(surface);
+  EXPECT_NEAR(Box::of(surface->points).size().x(), 1.15, surface->rho);
+  EXPECT_NEAR(Box::of(surface->points).size().y(), 2.3, surface->rho);
+  view.crop = {{.9, .9}, {.91, .91}};
+  EXPECT_EQ(find_surface(test::button(40000, 1, .15), view).error().input, "crop");
+}
+
 }  // namespace
 }  // namespace relievo

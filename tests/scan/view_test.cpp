@@ -86,5 +86,33 @@ TEST(View, RanksTheCarvedSideFirst) {
   EXPECT_EQ(rank_views(test::joined(slab, back))[0].name, "front");
 }
 
+TEST(Crop, IsFourOrSixAscendingShares) {
+  EXPECT_EQ(*parse_crop(""), Crop{});
+  EXPECT_EQ(*parse_crop("0,0,1,1"), Crop{});
+  const Crop part = *parse_crop(".1,0.2,.7,1,.25,.5");
+  EXPECT_EQ(part, (Crop{{.1, .2}, {.7, 1}, .25, .5}));
+  for (const char* wrong : {"0,0,1", "0,0,1,1,0", "0,0,1,1.1", "-1,0,1,1", "1,0,1,1", "0,.6,1,.5",
+                            "0,0,1,1,1,0", "0,0,1,1,", "a,0,1,1", "nan,0,1,1"}) {
+    ASSERT_FALSE(parse_crop(wrong)) << wrong;
+    EXPECT_EQ(parse_crop(wrong).error().input, "crop");
+  }
+}
+
+TEST(Crop, KeepsThePointsInsideInTheirOrder) {
+  const Cloud cloud = test::sphere(2000, 1);
+  View view = *parse_view("right");  // looks along -X, -Z to the right
+  view.crop = *parse_crop("0,.5,1,1,0,.25");
+  const Cloud part = cropped(cloud, view);
+  std::vector<Vec3> expected;
+  for (const Vec3& p : cloud.points)
+    if (p.y() >= 0 && p.x() >= .5) expected.push_back(p);
+  EXPECT_NEAR(static_cast<double>(part.size()), static_cast<double>(expected.size()),
+              5);  // the box is a little less
+  EXPECT_EQ(part.normals.size(), part.size());
+  for (const Vec3& p : part.points) EXPECT_GT(std::min(p.y(), p.x() - .5), -.01);
+  view.crop = {};
+  EXPECT_EQ(cropped(cloud, view).points, cloud.points);
+}
+
 }  // namespace
 }  // namespace relievo

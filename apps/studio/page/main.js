@@ -69,7 +69,7 @@ function toggleLock() {
 function changed(before) {
   const {now} = doc;
   showDocument();
-  const hasNewView = before && (before.options.view !== now.options.view || before.options.up !== now.options.up);
+  const hasNewView = before && !isSameView(viewOf(before), viewOf(now));
   if (hasNewView) {
     stage.await(true);
     engine.chooseView(viewOf(now)).catch(failed);
@@ -78,7 +78,9 @@ function changed(before) {
   keepSoon();
 }
 
-const viewOf = ({options: {view, up}}) => ({view, up});
+const viewOf = ({options: {view, up, crop, crumbs}}) => ({view, up, crop, crumbs});
+
+const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 
 function showDocument() {
   const {options, isHeightLocked, material, input} = doc.now;
@@ -88,6 +90,8 @@ function showDocument() {
   curve.show({tone: options.tone});
   $("#method").value = options.method;
   $("#outline").value = options.outline;
+  $("#crop").value = options.crop;
+  $("#crumbs").checked = options.crumbs === "keep";
   $("#outline-note").textContent =
     options.outline === "rectangle" ? "" : "The files have this outline; the picture here keeps the rectangle.";
   sliders.corner.disabled = options.outline !== "round";
@@ -165,7 +169,7 @@ async function arrived() {
   } catch (error) {
     return failed(error);
   }
-  shownView = {view: status.view, up: status.up};
+  shownView = status.shown;
   fallback = null;
   if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
   stage.isReady = true;
@@ -187,8 +191,7 @@ function complain({error, model}) {
     keepSoon();
     return;
   }
-  const {view, up} = doc.now.options;
-  if (shownView && (view !== shownView.view || up !== shownView.up)) doc.change({options: shownView});
+  if (shownView && !isSameView(shownView, viewOf(doc.now))) doc.change({options: shownView});
 }
 
 function failed(error) {
@@ -309,6 +312,8 @@ function wire() {
     event.target.value = "";
   };
   $("#method").onchange = (event) => changeMethod(event.target.value);
+  $("#crop").onchange = (event) => doc.change({options: {crop: event.target.value.replaceAll(" ", "")}});
+  $("#crumbs").onchange = (event) => doc.change({options: {crumbs: event.target.checked ? "keep" : "drop"}});
   $("#outline").onchange = (event) => doc.change({options: {outline: event.target.value}});
   $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
   takeDrops($("#veil"), openFile);
@@ -347,15 +352,14 @@ const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll(
 const isSame = (a, b) => a && b && (a.sample ?? "") === (b.sample ?? "") && (a.path ?? "") === (b.path ?? "");
 
 // Goes on where the last page or the last run ended, unless the program was started with another scan.
-async function resume({state, status: {wanted, model, view, up}}) {
+async function resume({state, status: {wanted, model, shown}}) {
   const hasState = doc.restore(state);
   if (wanted && !(hasState && isSame(doc.now.input, wanted))) doc.begin({...FIRST, input: wanted});
   showDocument();
   if (!doc.now.input) return showStart(true);
   showStart(false);
   if (!wanted) return engine.open(doc.now.input, viewOf(doc.now));
-  const {options} = doc.now;
-  if (options.view !== view || options.up !== up) {
+  if (!isSameView(shown, viewOf(doc.now))) {
     if (model > 0) await engine.chooseView(viewOf(doc.now));
     else await engine.open(doc.now.input, viewOf(doc.now));
   }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "relievo/core/types.h"
 
@@ -37,6 +38,9 @@ std::string cat(const Parts&... parts) {
   (append(out, parts), ...);
   return out;
 }
+
+// Parses finite numbers with commas between them. Returns nothing for any other text.
+std::optional<std::vector<double>> parse_numbers(std::string_view text);
 
 // Parses "X,Y,Z" as three finite numbers. Returns nothing for any other text.
 std::optional<Vec3> parse_triple(std::string_view text);

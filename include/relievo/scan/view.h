@@ -11,10 +11,23 @@ namespace relievo {
 
 struct Cloud;
 
-// A direction of view. R_view_model maps the model's frame to the view's, in which x points to the right, y
-// up and z towards the viewer, who looks along -z: p_view = R_view_model p_model.
+// A part of a model, in shares of its box as seen: x from the left to the right, y from below upwards, and depth from the
+// nearest point to the farthest.
+struct Crop {
+  Vec2 least = Vec2::Zero(), most = Vec2::Ones();
+  double nearest = 0, farthest = 1;
+
+  bool operator==(const Crop&) const = default;
+};
+
+// A direction of view, and what of the model it shows. R_view_model maps the model's frame to the view's, in which x
+// points to the right, y up and z towards the viewer, who looks along -z: p_view = R_view_model p_model.
 struct View {
   Mat3 R_view_model = Mat3::Identity();
+  Crop crop = {};
+  bool has_crumbs = false;  // shows pieces of the surface that are taken for crumbs, see find_surface()
+
+  bool operator==(const View&) const = default;
 };
 
 // Returns the view from the direction `towards_viewer`, which points from the model to the viewer: (0, 0, 1)
@@ -26,6 +39,13 @@ Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up = Vec3::Uni
 // is +Z, the right side +X and the top +Y. Without `up`, -Z and +Z point upwards in the views from the top
 // and the bottom, +Y in all others. Errors: kind option for any other text.
 Result<View> parse_view(std::string_view text, std::string_view up = {});
+
+// Returns the part of a model that "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR" names, all of it for an empty text. Errors:
+// kind option for anything but such numbers, in [0, 1] and ascending.
+Result<Crop> parse_crop(std::string_view text);
+
+// Returns the points of a cloud that the view's crop shows, in their order.
+Cloud cropped(const Cloud& cloud, const View& view);
 
 // Returns the paper's equation (1): a rotation by theta_x about X, then by theta_y about Y, in radians. The
 // programs take a direction instead; this one is for comparisons with the paper.
