@@ -73,8 +73,8 @@ std::vector<ReliefField> shape_rows() {
 // Whether the view has crumbs.
 constexpr std::array<Choice<bool>, 2> crumb_choices{{{"drop", false}, {"keep", true}}};
 
-// Returns the rows of the relief's limits and of the side of the model it shows.
-std::vector<ReliefField> view_rows() {
+// Returns the rows of the relief's limits.
+std::vector<ReliefField> limit_rows() {
   return {
       ReliefField{{"steepest", "DEG",
                    "steepest slope asked of the surface, which walls at depth jumps can exceed", 1, 89},
@@ -107,6 +107,12 @@ std::vector<ReliefField> view_rows() {
                    "memory, 1 to 4 % of the height off; auto does so above 1.5 million visible points",
            .choices = names_of(mode_choices)},
           &OptionTexts::mode},
+  };
+}
+
+// Returns the rows of the side of the model that the relief shows.
+std::vector<ReliefField> view_rows() {
+  return {
       ReliefField{{.name = "view",
                    .unit = "SIDE",
                    .help = "side shown: front (+Z), back, left, right, top, bottom or "
@@ -217,7 +223,7 @@ std::vector<ReliefField> body_rows() {
 std::span<const ReliefField> option_fields() {
   static const std::vector<ReliefField> rows = [] {
     std::vector<ReliefField> all;
-    for (const auto& part : {shape_rows(), view_rows(), plate_rows(), body_rows()})
+    for (const auto& part : {shape_rows(), limit_rows(), view_rows(), plate_rows(), body_rows()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();

@@ -195,11 +195,23 @@ test("makes a frame once", async () => {
 test("takes a view that is chosen while the scan is read", async () => {
   await engine.post("open", {input: {sample: "still_life", name: "still_life"}});
   await engine.post("view", {view: "left"});
-  const {input, view} = await engine.untilIdle();
+  const {input, shown} = await engine.untilIdle();
   assert.equal(input.sample, "still_life");
-  assert.equal(view, "left");
+  assert.equal(shown.view, "left");
   assert.equal((await facts()).rotation[6], -1);
   await engine.open({path: scan});
+});
+
+test("crops a scan as seen", async () => {
+  const crop = "0,0,0.5,1", before = await facts();
+  await engine.post("view", {view: "front", crop});
+  const {shown} = await engine.untilIdle(), {size} = await facts();
+  assert.equal(shown.crop, crop);
+  assert.ok(Math.abs(size[0] / before.size[0] - 0.5) < 0.1, `${size} of ${before.size}`);
+  const wrong = await engine.post("view", {view: "front", crop: "0,0,1"});
+  assert.equal(wrong.status, 422);
+  await engine.post("view", {view: "front"});
+  await engine.untilIdle();
 });
 
 test("goes on with the old scan when the new one is cancelled", async () => {
