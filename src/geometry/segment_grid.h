@@ -15,7 +15,7 @@ struct Segment {
   Index curve = 0;  // the number of the curve that it belongs to
 };
 
-// What SegmentGrid::nearest() finds.
+// The result of SegmentGrid::nearest().
 struct NearestSegment {
   Index segment = no_index;  // no_index if none is near enough
   double distance = 0;

@@ -70,7 +70,7 @@ std::vector<ReliefField> shape_rows() {
   };
 }
 
-// Whether the view has crumbs.
+// The words for whether the view has crumbs.
 constexpr std::array<Choice<bool>, 2> crumb_choices{{{"drop", false}, {"keep", true}}};
 
 // Returns the rows of the relief's limits.
