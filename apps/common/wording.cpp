@@ -55,7 +55,7 @@ std::vector<std::string> remarks_on(const ScanFacts& facts) {
                         " % of the points that face the viewer, as small groups far from others"));
   if (facts.crumbs > 0)
     lines.push_back(cat("left out ", facts.crumbs, facts.crumbs == 1 ? " small piece" : " small pieces",
-                        " of the surface; --crumbs keep keeps what is no speck"));
+                        " of the surface; crumbs 'keep' leaves out specks alone"));
   return lines;
 }
 

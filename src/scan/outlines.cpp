@@ -93,7 +93,7 @@ class EdgeFinder {
     if (!(growth > 0)) return unknown;
     const double distance = (1 - fit.value.norm()) / growth;
     if (!(std::abs(distance) <= farthest)) return unknown;
-    // Where the surface turns slowly, noise of the normals moves its edge far.
+    // Noise of the normals moves the edge of a surface far if it turns slowly.
     const double error = 2 * fit.misfit / std::sqrt(fit.count) / growth,
                  ratio = error / (trusted_error * surface_.rho);
     const double trust = 1 / (1 + ratio * ratio);

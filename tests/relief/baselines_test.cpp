@@ -95,6 +95,7 @@ TEST(Gradient, IntegratesAttenuatedGradients) {
     ASSERT_NEAR(relief.heights[i], .1 * heights[i] / highest, 1e-6);
 }
 
+// The normals of points beside the outline are interpolated, so that slopes are even to about four digits.
 TEST(Gradient, OfEvenSlopesIsTheDepthScaled) {
   const ReliefModel model = model_of(roof(.5));
   const GradientOptions options{.attenuation = 5, .steepest_kept = 100, .band_weights = {1}};

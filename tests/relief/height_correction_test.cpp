@@ -215,6 +215,7 @@ TEST(HeightCorrection, IsHingedAtJumps) {
           most, std::abs(sum[b - 1] / points[b - 1] + sum[b + 1] / points[b + 1] - 2 * sum[b] / points[b]));
     return most;
   };
+  // With rows of points beside the jump it is 3.6 times as much, with scattered points alone it was above 4.
   EXPECT_GT(bend(18, 21), 3 * bend(5, 15));
   EXPECT_GT(bend(18, 21), 3 * bend(24, 34));
 }

@@ -41,7 +41,8 @@ Shape plain(double steps = 0) {
   return shape;
 }
 
-// Of the points farther than 2.5 sampling distances from the edges of the terraces, whose places are known no better.
+// Returns the largest error of the heights, without points nearer than 2.5 sampling distances to the edges of the
+// terraces: the points tell the places of these edges no better.
 double largest_error(const ReliefModel& model, std::span<const double> heights, double scale) {
   double worst = 0;
   for (std::size_t i = 0; i < heights.size(); ++i) {

@@ -118,6 +118,7 @@ TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
 }
 
+// The first is 1.02 % with rows of points beside outlines, and was below 1 % with scattered points alone.
 TEST(Subspace, IsCloseToTheExactReliefOfAFigure) {
   const Surface surface = surface_of(figure());
   EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .012);

@@ -37,9 +37,9 @@ struct Boundary {
 // A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds the gap,
 // unless it belongs to a narrow hole: a connected set of such triangles that does not touch the hull and has
 // no radius above smallest_hole. Boundary points are the corners of outside triangles and the hull, and
-// points that are in no inside triangle. Where the local spacing of all corners exceeds 2 rho, it stands for rho: the scan
-// is sparse there. `spacing` is Spacing::local of each point, for clouds of uneven density; in others that would close gaps
-// beside surfaces that are seen edge on.
+// points that are in no inside triangle. Where the local spacing of all corners exceeds 2 rho, it stands for rho: the
+// scan is sparse there. `spacing` is Spacing::local of each point, for clouds of uneven density; in others that would
+// close gaps beside surfaces that are seen edge on.
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
                        const BoundaryOptions& options = {}, std::span<const float> spacing = {});
 

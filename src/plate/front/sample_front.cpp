@@ -34,10 +34,10 @@ Grid make_grid(const HeightFieldMesh& front, double step) {
   const Box box = Box::of(front.points);
   Grid grid;
   grid.step = std::max(step, box.longer_side() / (RasterInput::most_pixels - 16));
+  // Sides are often whole numbers of steps: what is added leaves no decision to rounding.
   const auto cells = [&](double mm) {
     const int block = 1 << coarsest_level;
-    return (static_cast<int>(mm / grid.step + .37) / block + 1) *
-           block;  // not on a step, which rounding would decide
+    return (static_cast<int>(mm / grid.step + .37) / block + 1) * block;
   };
   grid.corner = {box.min.x(), box.max.y()};
   grid.input.width = cells(box.size().x());
@@ -140,14 +140,14 @@ class Sampler {
       if (is_band_[t])
         for (const Index i : front_.triangles[t]) is_kept[i] = 1;
     for (const Index i : front_.hull) is_kept[i] = 1;
-    const auto used = [&](Index i) { return front_.points[i].z(); };
+    const auto height = [&](Index i) { return front_.points[i].z(); };
     Index lowest = front_.triangles[0][0], highest = lowest;
     for (const Triangle& t : front_.triangles)
       for (const Index i : t) {
-        if (used(i) < used(lowest)) lowest = i;
-        if (used(i) > used(highest)) highest = i;
+        if (height(i) < height(lowest)) lowest = i;
+        if (height(i) > height(highest)) highest = i;
       }
-    low_ = used(lowest), high_ = used(highest);
+    low_ = height(lowest), high_ = height(highest);
     is_kept[lowest] = is_kept[highest] = 1;
     for (Index i = 0; i < is_kept.size(); ++i) {
       if (!is_kept[i]) continue;
@@ -156,8 +156,8 @@ class Sampler {
     }
   }
 
-  // Divides the smooth triangles of the band so that most of their sides are no longer than a step. Points on the sides of
-  // creases stay on them.
+  // Divides the smooth triangles of the band so that most of their sides are no longer than a step. Points on the
+  // sides of creases stay on them.
   void divide_band() {
     std::vector<double> lengths;
     for (Index t = 0; t < is_band_.size(); ++t)
@@ -221,8 +221,8 @@ class Sampler {
     return t != no_index && is_smooth_[t] && !is_band_[t];
   }
 
-  // Adds a place near the middle of each square: of one step, or of more where all of a square is nearly plane. Neighbouring squares
-  // differ by a factor of two at most.
+  // Adds a place near the middle of each square. A square is one step wide, or more if all of it is nearly plane.
+  // Neighbouring squares differ by a factor of two at most.
   void add_squares() {
     const int width = grid_.input.width, height = grid_.input.height;
     std::vector<Image<std::uint8_t>> is_whole;  // per level: the square is not divided

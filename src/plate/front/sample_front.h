@@ -10,7 +10,7 @@ namespace relievo {
 struct FrontSampling {
   // Longest step between samples, > 0, where the surface is not plane.
   double resolution_mm = .15;
-  // Where the surface turns less than this, in radians, from one sample to the next, samples are up to 8 steps apart.
+  // Samples are up to 8 steps apart if the surface turns by less than this, in radians, from one to the next.
   double plane_angle = .012;
 };
 
