@@ -68,6 +68,8 @@ nlohmann::json report_json(const ReliefReport& report, const Progress& progress)
       {"visible_points", report.visible_points},
       {"removed_points", report.removed_points},
       {"crumbs", report.crumbs},
+      {"measured_noise", report.measured_noise},
+      {"removed_noise", report.removed_noise},
       {"rho", report.rho},
       {"diagonal", report.diagonal},
       {"method", name_of(report.method)},

@@ -56,6 +56,9 @@ std::vector<std::string> remarks_on(const ScanFacts& facts) {
   if (facts.crumbs > 0)
     lines.push_back(cat("left out ", facts.crumbs, facts.crumbs == 1 ? " small piece" : " small pieces",
                         " of the surface; crumbs 'keep' leaves out specks alone"));
+  if (facts.removed_noise > 0 && facts.removed_noise == facts.measured_noise)
+    lines.push_back(cat("removed noise of ", std::round(100 * facts.removed_noise) / 100,
+                        " sampling distances; denoise '0' keeps it"));
   return lines;
 }
 
@@ -66,9 +69,9 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
   if (report.has_needed_steps)
     lines.push_back(cat("slopes alone do not reach the height: depth jumps take ",
                         std::lround(100 * report.steps), " % of it"));
-  for (const std::string& line :
-       remarks_on(ScanFacts{report.has_estimated_normals, report.has_turned_normals, 0, report.visible_points,
-                            report.removed_points, report.crumbs}))
+  for (const std::string& line : remarks_on(
+           ScanFacts{report.has_estimated_normals, report.has_turned_normals, 0, report.visible_points,
+                     report.removed_points, report.crumbs, report.measured_noise, report.removed_noise}))
     lines.push_back(line);
   if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
   if (report.simplification_error_mm)

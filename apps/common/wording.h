@@ -13,6 +13,7 @@ struct ScanFacts {
   bool has_estimated_normals = false, has_turned_normals = false;
   std::size_t left_out = 0;                                        // outliers
   std::size_t visible_points = 0, removed_points = 0, crumbs = 0;  // see Surface
+  double measured_noise = 0, removed_noise = 0;
 };
 
 // Returns a line for each fact that a user should know, without capital and full stop.

@@ -23,7 +23,8 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
 std::vector<std::string> sentences_on(const Surface& surface, std::size_t left_out) {
   std::vector<std::string> sentences;
   const ScanFacts facts{surface.has_estimated_normals, surface.has_flipped_normals, left_out,
-                        surface.visible_points,        surface.removed_points,      surface.crumbs};
+                        surface.visible_points,        surface.removed_points,      surface.crumbs,
+                        surface.measured_noise,        surface.removed_noise};
   for (const std::string& line : remarks_on(facts)) sentences.push_back(as_sentence(line));
   return sentences;
 }
@@ -48,6 +49,7 @@ ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
           .hull = surface.triangulation.hull.size(),
           .size = box.size().head<2>(),
           .area = area_of(surface),
+          .noise = surface.removed_noise,
           .rho = surface.rho,
           .delta = surface.curvature.delta,
           .rotation = surface.view.R_view_model,

@@ -18,6 +18,7 @@ struct ModelFacts {
   std::size_t input_points = 0, visible_points = 0, points = 0, triangles = 0, hull = 0;
   Vec2 size = Vec2::Zero();  // of the relief, in the scan's units
   double area = 0;           // of the relief without its ground, in those units squared
+  double noise = 0;          // that was removed, in sampling distances
   double rho = 0, delta = 0;
   Mat3 rotation = Mat3::Identity();
   std::vector<std::string> remarks;

@@ -145,11 +145,15 @@ Result<View> view_from(const Json& json) {
 ViewTexts view_texts(const Json& json) {
   const ViewTexts none;
   return {json.value("view", none.view), json.value("up", none.up), json.value("crop", none.crop),
-          json.value("crumbs", none.crumbs)};
+          json.value("crumbs", none.crumbs), json.value("denoise", none.denoise)};
 }
 
 static Json to_json(const ViewTexts& texts) {
-  return {{"view", texts.view}, {"up", texts.up}, {"crop", texts.crop}, {"crumbs", texts.crumbs}};
+  return {{"view", texts.view},
+          {"up", texts.up},
+          {"crop", texts.crop},
+          {"crumbs", texts.crumbs},
+          {"denoise", texts.denoise}};
 }
 
 Json to_json(const EngineStatus& status) {
@@ -178,6 +182,7 @@ Json to_json(const ModelFacts& facts) {
           {"size", {facts.size.x(), facts.size.y()}},
           {"area", facts.area},
           {"rho", facts.rho},
+          {"noise", facts.noise},
           {"delta", facts.delta},
           {"rotation", rotation},
           {"remarks", facts.remarks},

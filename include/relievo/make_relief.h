@@ -21,6 +21,7 @@ struct Surface;
 // Facts about the relief that was made and the options that ruled it.
 struct ReliefReport {
   std::size_t input_points = 0, visible_points = 0, removed_points = 0, crumbs = 0;  // see Surface
+  double measured_noise = 0, removed_noise = 0;                                      // see Surface
   double rho = 0;                 // sampling distance, in the cloud's units
   double diagonal = 0;            // L_d: diagonal of the cloud's box, in its units
   Method method = Method::paper;  // alpha, beta, gamma and u mean nothing where it has no shape

@@ -135,6 +135,12 @@ std::vector<ReliefField> view_rows() {
                    .help = "drop or keep pieces of less than 0.5 % of what is seen",
                    .choices = names_of(crumb_choices)},
                   &OptionTexts::crumbs},
+      ReliefField{
+          {.name = "denoise",
+           .unit = "NOISE",
+           .help = "noise that is removed while creases stay, as standard deviation in sampling distances, "
+                   "0 to 1; auto: as much as is measured"},
+          &OptionTexts::denoise},
   };
 }
 
@@ -234,6 +240,7 @@ Result<View> parse_view(const ViewTexts& texts) {
   RELIEVO_TRY(View view, parse_view(texts.view, texts.up));
   RELIEVO_TRY(view.crop, parse_crop(texts.crop));
   RELIEVO_TRY(view.has_crumbs, parse_choice("crumbs", texts.crumbs, crumb_choices));
+  RELIEVO_TRY(view.denoise, parse_denoise(texts.denoise));
   return view;
 }
 

@@ -22,6 +22,8 @@ void report_surface(const Surface& surface, ReliefReport& report) {
   report.visible_points = surface.visible_points;
   report.removed_points = surface.removed_points;
   report.crumbs = surface.crumbs;
+  report.measured_noise = surface.measured_noise;
+  report.removed_noise = surface.removed_noise;
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   report.has_estimated_normals = surface.has_estimated_normals;

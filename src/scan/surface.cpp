@@ -10,6 +10,8 @@
 #include "geometry/space_curve.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
+#include "relievo/scan/normals.h"
+#include "scan/noise.h"
 #include "scan/orient_normals.h"
 #include "scan/outline_points.h"
 
@@ -69,6 +71,25 @@ struct ViewCloud {
   Spacing spacing;
 };
 
+// Estimates normals from more neighbours, as noise needs them, with the signs that they have.
+void estimate_again(Cloud& cloud, double noise) {
+  constexpr double neighbours = 16, more_neighbours = 48;
+  const std::vector<Vec3f> before = cloud.normals;
+  estimate_normals(cloud, static_cast<std::size_t>(neighbours + more_neighbours * noise));
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (cloud.normals[i].dot(before[i]) < 0) cloud.normals[i] = -cloud.normals[i];
+}
+
+// Removes the noise that the view asks for, else the noise that is measured. The spacing stays that of the scan: where
+// several scans overlap, points without noise lie closer together than the surface is sampled.
+void denoise(ViewCloud& viewed, Surface& surface) {
+  surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing);
+  surface.removed_noise = surface.view.denoise.value_or(surface.measured_noise);
+  if (surface.removed_noise == 0) return;
+  if (surface.has_estimated_normals) estimate_again(viewed.cloud, surface.removed_noise);
+  remove_noise(viewed.cloud, viewed.spacing, surface.removed_noise);
+}
+
 // Stages 1 and 2.
 Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progress) {
   if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
@@ -89,6 +110,7 @@ Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progre
   const OriginalNormals were = orient_normals(viewed.cloud, viewed.spacing, cloud);
   surface.has_estimated_normals = were == OriginalNormals::missing;
   surface.has_flipped_normals = were == OriginalNormals::inward;
+  denoise(viewed, surface);
   return viewed;
 }
 

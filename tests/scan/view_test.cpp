@@ -98,6 +98,17 @@ TEST(Crop, IsFourOrSixAscendingShares) {
   }
 }
 
+TEST(Denoise, IsAutoOrANumberUpToOne) {
+  EXPECT_EQ(*parse_denoise("auto"), std::nullopt);
+  EXPECT_EQ(*parse_denoise("0"), 0);
+  EXPECT_EQ(*parse_denoise(".25"), .25);
+  EXPECT_EQ(*parse_denoise("1"), 1);
+  for (const char* wrong : {"", "yes", "-0.1", "1.1", "nan", "inf", "0.1,0.2", "0.1x"}) {
+    ASSERT_FALSE(parse_denoise(wrong)) << wrong;
+    EXPECT_EQ(parse_denoise(wrong).error().input, "denoise");
+  }
+}
+
 TEST(Crop, KeepsThePointsInsideInTheirOrder) {
   const Cloud cloud = test::sphere(2000, 1);
   View view = *parse_view("right");  // looks along -X, -Z to the right

@@ -4,7 +4,7 @@
 import {defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
-const START = {height: 4, method: "layered", mode: "auto", tone: "", up: "", crop: "", crumbs: "drop"};
+const START = {height: 4, method: "layered", mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner", "margin",
@@ -104,7 +104,9 @@ export class Document {
 
 // Returns the options as the engine and `relievo make` take them.
 export function engineOptions(step) {
-  const {steepest, tone, up, crop, crumbs, form, outline, corner, resolution, tolerance, draft, ...rest} = step.options;
+  const {
+    steepest, tone, up, crop, crumbs, denoise, form, outline, corner, resolution, tolerance, draft, ...rest
+  } = step.options;
   const options = {...rest, height: Math.round(rest.height * 1e4) / 1e4};
   if (steepest !== FIRST.options.steepest) options.steepest = steepest; // without it the paper's bound rules
   if (tone) options.tone = tone;
@@ -117,6 +119,7 @@ export function engineOptions(step) {
   if (up) options.up = up;
   if (crop) options.crop = crop;
   if (crumbs !== START.crumbs) options.crumbs = crumbs;
+  if (denoise !== START.denoise) options.denoise = denoise;
   return options;
 }
 

@@ -6,7 +6,7 @@
 //                                  samples, recent, status, state (as keepState() stored it)
 //   follow(onStatus, onLost)       calls back with each new status; onLost when the engine has gone
 //   open(input, view)              starts to read and prepare; upload(file) -> input for a file of the browser
-//   chooseView(view), cancel()     view is {view, up, crop, crumbs}, as the command line has them
+//   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise}, as the command line has them
 //   facts(), suggestViews()     -> facts about the model; names of sides, the best first
 //   frame(request), scan(request)-> {image: ImageData, about}
 //   profile(request)            -> heights in mm

@@ -78,7 +78,7 @@ function changed(before) {
   keepSoon();
 }
 
-const viewOf = ({options: {view, up, crop, crumbs}}) => ({view, up, crop, crumbs});
+const viewOf = ({options: {view, up, crop, crumbs, denoise}}) => ({view, up, crop, crumbs, denoise});
 
 const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 
@@ -92,6 +92,7 @@ function showDocument() {
   $("#outline").value = options.outline;
   $("#crop").value = options.crop;
   $("#crumbs").checked = options.crumbs === "keep";
+  showNoise(options.denoise);
   $("#outline-note").textContent =
     options.outline === "rectangle" ? "" : "The files have this outline; the picture here keeps the rectangle.";
   sliders.corner.disabled = options.outline !== "round";
@@ -102,6 +103,13 @@ function showDocument() {
   for (const swatch of $("#materials").children) check(swatch, swatch.dataset.material === material);
   $("#title").textContent = input?.sample ? sampleName(input.sample) : input?.name ?? "";
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
+}
+
+function showNoise(denoise) {
+  const isMeasured = denoise === "auto", noise = isMeasured ? facts?.noise ?? 0 : Number(denoise);
+  $("#denoise").value = noise;
+  $("#denoise-value").textContent = noise.toFixed(2);
+  $("#denoise-auto").checked = isMeasured;
 }
 
 // Checks a radio button, and lets only the checked one of its group be reached with the Tab key.
@@ -169,6 +177,7 @@ async function arrived() {
   } catch (error) {
     return failed(error);
   }
+  showNoise(doc.now.options.denoise);
   shownView = status.shown;
   fallback = null;
   if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
@@ -314,6 +323,10 @@ function wire() {
   $("#method").onchange = (event) => changeMethod(event.target.value);
   $("#crop").onchange = (event) => doc.change({options: {crop: event.target.value.replaceAll(" ", "")}});
   $("#crumbs").onchange = (event) => doc.change({options: {crumbs: event.target.checked ? "keep" : "drop"}});
+  $("#denoise").oninput = (event) => ($("#denoise-value").textContent = Number(event.target.value).toFixed(2));
+  $("#denoise").onchange = (event) => doc.change({options: {denoise: event.target.value}});
+  $("#denoise-auto").onchange = (event) =>
+    doc.change({options: {denoise: event.target.checked ? "auto" : $("#denoise").value}});
   $("#outline").onchange = (event) => doc.change({options: {outline: event.target.value}});
   $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
   takeDrops($("#veil"), openFile);

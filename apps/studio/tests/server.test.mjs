@@ -214,6 +214,17 @@ test("crops a scan as seen", async () => {
   await engine.untilIdle();
 });
 
+test("removes as much noise as is measured or asked for", async () => {
+  const measured = (await facts()).noise;
+  await engine.post("view", {view: "front", denoise: "0.6"});
+  assert.equal((await engine.untilIdle()).shown.denoise, "0.6");
+  assert.equal((await facts()).noise, 0.6);
+  assert.equal((await engine.post("view", {view: "front", denoise: "much"})).status, 422);
+  await engine.post("view", {view: "front"});
+  await engine.untilIdle();
+  assert.equal((await facts()).noise, measured);
+});
+
 test("goes on with the old scan when the new one is cancelled", async () => {
   const {model} = (await about()).status;
   await engine.post("open", {input: {sample: "still_life", name: "still_life"}});

@@ -35,6 +35,8 @@ struct Surface {
   std::size_t visible_points = 0;  // of the cloud; the rest of `points` are hole fill points
   std::size_t removed_points = 0;  // would be visible, but were taken for floating noise
   std::size_t crumbs = 0;          // small pieces that were left out
+  double measured_noise = 0;       // along the normals, in sampling distances; 0 if little
+  double removed_noise = 0;        // what View::denoise asked for, or the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 
@@ -46,7 +48,8 @@ struct Surface {
 std::vector<Vec2> in_plane(std::span<const Vec3> points);
 
 // Returns the surface of the part of the cloud that the view crops. Normals are estimated if the cloud has none, and
-// turned if they point inwards. Pieces of less than 0.5 % of what is seen are left out as crumbs.
+// turned if they point inwards. Noise is removed, see View::denoise. Pieces of less than 0.5 % of what is seen
+// are left out as crumbs.
 // Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
 // are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind
 // cancelled.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string_view>
 
 #include "relievo/core/error.h"
@@ -26,6 +27,8 @@ struct View {
   Mat3 R_view_model = Mat3::Identity();
   Crop crop = {};
   bool has_crumbs = false;  // shows pieces of the surface that are taken for crumbs, see find_surface()
+  std::optional<double> denoise =
+      {};  // noise that is removed, in sampling distances, [0, 1]; else what is measured
 
   bool operator==(const View&) const = default;
 };
@@ -43,6 +46,10 @@ Result<View> parse_view(std::string_view text, std::string_view up = {});
 // Returns the part of a model that "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR" names, all of it for an empty text. Errors:
 // kind option for anything but such numbers, in [0, 1] and ascending.
 Result<Crop> parse_crop(std::string_view text);
+
+// Returns the noise to remove that "auto" or a number in [0, 1] names, see View::denoise. Errors: kind option for any other
+// text.
+Result<std::optional<double>> parse_denoise(std::string_view text);
 
 // Returns the points of a cloud that the view's crop shows, in their order.
 Cloud cropped(const Cloud& cloud, const View& view);
