@@ -1,6 +1,7 @@
 #include "io/faces.h"
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/weld.h"
 #include "io/polygon.h"
@@ -32,9 +33,13 @@ void add_polygon(std::span<const std::int64_t> corners, std::span<const Vec3> po
     add_triangle(corners[a], corners[b], corners[c], triangles);
   };
   if (corners.size() == 3) return add(0, 1, 2);
-  std::vector<Vec3> polygon;
-  for (const std::int64_t corner : corners) polygon.push_back(points[static_cast<std::size_t>(corner)]);
-  for (const auto& [a, b, c] : triangulate(polygon)) add(a, b, c);
+  // Most polygons have four corners: those take no memory of their own.
+  std::array<Vec3, 4> four;
+  std::vector<Vec3> more(corners.size() > four.size() ? corners.size() : 0);
+  const std::span<Vec3> polygon =
+      more.empty() ? std::span(four).first(std::min(corners.size(), four.size())) : std::span(more);
+  for (std::size_t i = 0; i < corners.size(); ++i) polygon[i] = points[static_cast<std::size_t>(corners[i])];
+  for_each_triangle(polygon, add);
 }
 
 }  // namespace

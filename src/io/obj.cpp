@@ -126,8 +126,9 @@ class ObjReader {
   // Returns the triangles of the faces; corners without a normal get none.
   void add_mesh(RawCloud& raw) const {
     std::size_t begin = 0;
+    std::vector<Vec3> polygon;  // kept for its memory
     for (const std::size_t end : face_ends_) {
-      add_face_of(std::span(corners_).subspan(begin, end - begin), raw);
+      add_face_of(std::span(corners_).subspan(begin, end - begin), polygon, raw);
       begin = end;
     }
     if (raw.mesh.triangles.empty()) return;
@@ -136,17 +137,17 @@ class ObjReader {
       if (!point.allFinite()) point = Vec3::Zero();  // no triangle uses it
   }
 
-  void add_face_of(std::span<const Corner> corners, RawCloud& raw) const {
-    std::vector<Vec3> polygon;
+  void add_face_of(std::span<const Corner> corners, std::vector<Vec3>& polygon, RawCloud& raw) const {
+    polygon.clear();
     for (const Corner& c : corners) polygon.push_back(raw.cloud.points[c.vertex]);
-    for (const auto& [a, b, c] : triangulate(polygon)) {
+    for_each_triangle(polygon, [&](Index a, Index b, Index c) {
       const Corner &p = corners[a], &q = corners[b], &r = corners[c];
       const bool is_finite = polygon[a].allFinite() && polygon[b].allFinite() && polygon[c].allFinite();
-      if (!is_finite || p.vertex == q.vertex || q.vertex == r.vertex || r.vertex == p.vertex) continue;
+      if (!is_finite || p.vertex == q.vertex || q.vertex == r.vertex || r.vertex == p.vertex) return;
       raw.mesh.triangles.push_back({p.vertex, q.vertex, r.vertex});
       if (raw.cloud.has_normals())
         raw.mesh.corner_normals.push_back({normal_of(p, raw), normal_of(q, raw), normal_of(r, raw)});
-    }
+    });
   }
 
   Vec3f normal_of(const Corner& c, const RawCloud& raw) const {

@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -25,6 +24,17 @@ std::vector<std::array<Index, 3>> fan_of(std::size_t corners) {
   std::vector<std::array<Index, 3>> fan;
   for (Index i = 2; i < corners; ++i) fan.push_back({0, i - 1, i});
   return fan;
+}
+
+// Returns twice the vector area of the fan's triangle whose last corner is i.
+Vec3 fan_area(std::span<const Vec3> corners, std::size_t i) {
+  return (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+}
+
+Vec3 area_of(std::span<const Vec3> corners) {
+  Vec3 area = Vec3::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i) area += fan_area(corners, i);
+  return area;
 }
 
 double cross(const Vec2& a, const Vec2& b) {
@@ -125,16 +135,18 @@ std::vector<Vec2> in_plane(std::span<const Vec3> corners, const Vec3& area) {
 
 }  // namespace
 
-std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners) {
-  if (corners.size() <= 3) return fan_of(corners.size());
-  std::vector<Vec3> areas;  // of the fan's triangles, twice
-  for (std::size_t i = 2; i < corners.size(); ++i)
-    areas.push_back((corners[i - 1] - corners[0]).cross(corners[i] - corners[0]));
-  const Vec3 area = std::accumulate(areas.begin(), areas.end(), Vec3(Vec3::Zero()));
+bool fan_covers(std::span<const Vec3> corners) {
+  const Vec3 area = area_of(corners);
   const double least = -rounding * area.squaredNorm();
-  // A comparison with NaN is false.
-  const bool is_turned = std::ranges::any_of(areas, [&](const Vec3& a) { return a.dot(area) < least; });
-  if (!is_turned || corners.size() > most_corners || !area.allFinite()) return fan_of(corners.size());
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    if (fan_area(corners, i).dot(area) < least) return false;  // a comparison with NaN is false
+  return true;
+}
+
+std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners) {
+  const Vec3 area = area_of(corners);
+  if (corners.size() <= 3 || corners.size() > most_corners || !area.allFinite() || fan_covers(corners))
+    return fan_of(corners.size());
   auto triangles = EarClipper(in_plane(corners, area), area.norm()).clip();
   return triangles.empty() ? fan_of(corners.size()) : triangles;
 }

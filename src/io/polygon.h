@@ -17,4 +17,17 @@ namespace relievo::io {
 // with the outline.
 std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners);
 
+// Returns true if that is the fan from the first corner because the fan covers the polygon.
+bool fan_covers(std::span<const Vec3> corners);
+
+// Calls add(a, b, c) for each of those triangles. This allocates nothing for the many polygons that a fan covers.
+template <typename Add>
+void for_each_triangle(std::span<const Vec3> corners, Add&& add) {
+  if (corners.size() > 3 && !fan_covers(corners)) {
+    for (const auto& [a, b, c] : triangulate(corners)) add(a, b, c);
+    return;
+  }
+  for (Index i = 2; i < corners.size(); ++i) add(Index{0}, i - 1, i);
+}
+
 }  // namespace relievo::io

@@ -153,7 +153,7 @@ TEST(Gltf, NamesOldVersionsAndCompression) {
 
 TEST(Gltf, TakesLinearTimeForAChainOfNodesWithoutAScene) {
   std::string nodes = R"("nodes":[)";
-  const int length = 100000;
+  const int length = 400000;
   for (int i = 0; i < length; ++i) nodes += R"({"children":[)" + std::to_string(i + 1) + "]},";
   nodes += R"({"mesh":0}],)";
   std::string json = gltf_json();
@@ -164,7 +164,7 @@ TEST(Gltf, TakesLinearTimeForAChainOfNodesWithoutAScene) {
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   ASSERT_TRUE(file) << file.error().message();
   EXPECT_EQ(file->mesh.points, tetrahedron_points);
-  EXPECT_LT(seconds.count(), 1.5);  // it took 2 when the time was quadratic, and takes .1
+  EXPECT_LT(seconds.count(), 15);  // a quadratic search takes 30, and this less than 1
 }
 
 }  // namespace

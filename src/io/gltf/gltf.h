@@ -43,7 +43,7 @@ class GltfFile {
   Result<AccessorValues> accessor(std::size_t i, const std::string& place);
 
  private:
-  // What an accessor's JSON states about its numbers.
+  // The layout of the numbers of an accessor, as its JSON states it.
   struct Layout {
     std::size_t count = 0, components = 0;
     NumberType type = NumberType::float32;
