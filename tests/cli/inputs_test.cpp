@@ -66,6 +66,11 @@ TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
   EXPECT_EQ(run("make torus.ply -o t.stl --stream-above 0.1").err.find("faces"), std::string::npos);
 }
 
+TEST_F(CliInputs, HintsAtAnotherViewWhereOneFaceIsSeen) {
+  expect_refusal("make scans/a.gltf -o a.stl --view 1,1,1 --height 2 --points 2000",
+                 "found 2 mm: this view shows a level face alone; choose another");
+}
+
 TEST_F(CliInputs, NamesTheDepthImageWithoutDepths) {
   const std::vector<std::byte> black = write_png(Image8{20, 20, 1, std::vector<std::uint8_t>(400)});
   write_all(folder_ / "black.png", {reinterpret_cast<const char*>(black.data()), black.size()});
