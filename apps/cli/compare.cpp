@@ -182,7 +182,8 @@ Result<void> compare(const CompareArguments& arguments) {
     const OutputFile file{arguments.output, bytes_of(comparison_page(*comparison))};
     RELIEVO_CHECK(write_files({&file, 1}));
   }
-  for (const std::string& remark : comparison->remarks) std::fprintf(stderr, "%s\n", remark.c_str());
+  for (const std::string& remark : comparison->remarks)
+    std::fprintf(stderr, "%s\n", on_one_line(remark).c_str());
   arguments.is_json ? print_json(*comparison) : print_table(*comparison);
   return {};
 }

@@ -6,6 +6,7 @@
 
 #include "cli/commands.h"
 #include "cli/input_flags.h"
+#include "cli/terminal.h"
 #include "common/files.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
@@ -37,7 +38,7 @@ std::string views_text(const Cloud& cloud) {
 }
 
 void print_line(const char* what, const std::string& value) {
-  std::printf("%-10s %s\n", what, value.c_str());
+  std::printf("%-10s %s\n", what, on_one_line(value).c_str());
 }
 
 Result<void> depth_info(std::span<const std::byte> bytes, const std::string& input) {
@@ -56,10 +57,25 @@ Result<void> depth_info(std::span<const std::byte> bytes, const std::string& inp
   return {};
 }
 
-Box placed_box(const CloudFile& file, const PlacedModel& place) {
+// Returns the bounds of the triangles, or of the points if there are none: a mesh may have points that no
+// triangle uses.
+Box box_of(const CloudFile& file, const PlacedModel& place) {
   Box box;
-  for (const Vec3& p : file.mesh.empty() ? file.cloud.points : file.mesh.points) box.extend(place(p));
+  const bool is_mesh = !file.mesh.empty();
+  for (const Triangle& triangle : file.mesh.triangles)
+    for (const Index i : triangle) box.extend(place(file.mesh.points[i]));
+  for (std::size_t i = 0; !is_mesh && i < file.cloud.size(); ++i) box.extend(place(file.cloud.points[i]));
   return box;
+}
+
+// Returns the number of points that are used, and of those that are not.
+std::string points_text(const CloudFile& file) {
+  const bool is_mesh = !file.mesh.empty();
+  std::string text = cat(is_mesh ? file.mesh.points.size() - file.dropped_points : file.cloud.size(),
+                         file.dropped_points > 0 ? cat(" (and ", file.dropped_points, " not finite)") : "");
+  if (file.dropped_normals > 0 && file.cloud.has_normals() && !is_mesh)
+    text += cat(" (and ", file.dropped_normals, " without a normal)");
+  return text;
 }
 
 // Prints where each model of a scene stands, seen from the front.
@@ -71,10 +87,10 @@ Result<void> scene_info(const std::vector<std::string>& inputs) {
   print_line("models", cat(places->size()));
   for (std::size_t i = 0; i < places->size(); ++i) {
     const CloudFile& file = *input->scene.models[i].file;
-    const Box box = placed_box(file, (*places)[i]);
-    std::printf("\n%s\n", input->scene.models[i].name.c_str());
+    const Box box = box_of(file, (*places)[i]);
+    std::printf("\n%s\n", on_one_line(input->scene.models[i].name).c_str());
     print_line("format", file.format);
-    print_line("points", cat(file.cloud.size()));
+    print_line("points", points_text(file));
     if (!file.mesh.empty()) print_line("triangles", cat(file.mesh.triangles.size()));
     print_line("scale", cat((*places)[i].scale));
     print_line("from", vector_text(box.min));
@@ -89,12 +105,11 @@ Result<void> info(const std::vector<std::string>& inputs) {
   const Result<std::vector<std::byte>> bytes = read_file(input);
   if (!bytes) return std::unexpected(bytes.error());
   if (is_picture(*bytes)) return depth_info(*bytes, input);
-  const Result<CloudFile> file = read_cloud(*bytes, input);
+  const Result<CloudFile> file = read_cloud_at(*bytes, input);
   if (!file) return std::unexpected(file.error());
-  const Box box = bounds(file->cloud);
+  const Box box = box_of(*file, {});
   print_line("format", file->format);
-  print_line("points", cat(file->cloud.size(),
-                           file->dropped_points ? cat(" (and ", file->dropped_points, " not finite)") : ""));
+  print_line("points", points_text(*file));
   if (!file->mesh.empty()) print_line("triangles", cat(file->mesh.triangles.size()));
   print_line("normals", normals_text(file->cloud));
   print_line("from", vector_text(box.min));

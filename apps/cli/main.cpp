@@ -2,6 +2,7 @@
 #include <new>
 
 #include "cli/commands.h"
+#include "cli/terminal.h"
 #include "common/files.h"
 #include "relievo/core/version.h"
 
@@ -44,7 +45,7 @@ int main(int argc, char** argv) {
     std::fprintf(
         stderr,
         "relievo: expected make, studio, info, sample, bench or compare, found '%s'; see relievo --help\n",
-        argv[1]);
+        relievo::app::cli::on_one_line(argv[1]).c_str());
     return 2;
   }
   relievo::app::remove_temporary_files_on_signals();
@@ -57,6 +58,7 @@ int main(int argc, char** argv) {
     return 1;
   }
   if (result) return 0;
-  std::fprintf(stderr, "relievo: %s\n", line_of(result.error(), program).c_str());
+  std::fprintf(stderr, "relievo: %s\n",
+               relievo::app::cli::on_one_line(line_of(result.error(), program)).c_str());
   return result.error().kind == relievo::ErrorKind::option ? 2 : 1;
 }

@@ -192,7 +192,7 @@ Result<void> make(const MakeArguments& arguments, const CLI::App& command) {
   if (!finished) return std::unexpected(finished.error());
   RELIEVO_CHECK(write_files(finished->files));
   for (const std::string& line : finished->lines)
-    if (!arguments.is_quiet) std::fprintf(stderr, "%s\n", line.c_str());
+    if (!arguments.is_quiet) std::fprintf(stderr, "%s\n", on_one_line(line).c_str());
   return {};
 }
 

@@ -25,4 +25,17 @@ Progress::Watcher progress_bar(bool is_quiet) {
   };
 }
 
+std::string on_one_line(std::string_view text) {
+  std::string line;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    // U+0080 to U+009F are control characters, too.
+    const bool is_second_set =
+        byte == 0xC2 && i + 1 < text.size() && static_cast<unsigned char>(text[i + 1]) < 0xA0;
+    if (is_second_set) ++i;
+    line += byte < 0x20 || byte == 0x7F || is_second_set ? '?' : text[i];
+  }
+  return line;
+}
+
 }  // namespace relievo::app::cli

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "relievo/core/progress.h"
 
@@ -9,5 +10,9 @@ namespace relievo::app::cli {
 
 // A progress bar with stage names on standard error if that is a terminal, else nothing. Erased at the end.
 Progress::Watcher progress_bar(bool is_quiet);
+
+// Returns the text with '?' for control characters, which names and words from files may contain: it stays on
+// one line and cannot command the terminal. Letters in UTF-8 are kept.
+std::string on_one_line(std::string_view text);
 
 }  // namespace relievo::app::cli

@@ -8,6 +8,7 @@
 
 #include "common/files.h"
 #include "common/read_inputs.h"
+#include "relievo/core/json_place.h"
 #include "relievo/core/option_field.h"
 #include "relievo/core/text.h"
 #include "relievo/samples/sample.h"
@@ -125,6 +126,8 @@ Result<ScanSource> input_from_json(const Json& json, std::string_view name) {
 
 Result<Project> read_project(std::string_view text, std::string_view name) {
   const Json json = Json::parse(text, nullptr, false);
+  if (json.is_discarded())
+    return fail(name, json_error_place(text), "expected a project in JSON, found text that is none");
   if (!json.is_object()) return fail(name, {}, "expected a project in JSON");
   if (!json.contains("relievo") || json["relievo"] != 1)
     return fail(name, "relievo", "expected a project of version 1");

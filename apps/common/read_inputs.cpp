@@ -22,7 +22,8 @@ std::vector<std::string> remarks_on(const CloudFile& file, const std::string& pa
   if (file.dropped_points > 0)
     lines.push_back(
         cat(path, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
-  if (file.dropped_normals > 0)
+  // A mesh keeps its points, whatever their normals.
+  if (file.dropped_normals > 0 && file.mesh.empty())
     lines.push_back(cat(path, ": left out ", file.dropped_normals,
                         file.cloud.has_normals() ? " points without a usable normal" : " unusable normals"));
   return lines;
@@ -58,6 +59,7 @@ Result<LoadedFile> read_depths(std::span<const std::byte> bytes, const std::stri
   if (!parsed) return std::unexpected(parsed.error());
   options.camera = *parsed;
   auto made = depth_cloud(*image, options, progress);
+  if (!made && made.error().input.empty()) made.error().input = path;
   if (!made) return std::unexpected(made.error());
   LoadedFile input;
   input.remarks.push_back(cat(path, ": ", remark_on(*image, *made)));
@@ -108,6 +110,10 @@ Result<std::optional<LoadedFile>> read_large(const std::string& path, const Inpu
   LoadedFile input;
   input.remarks.push_back(
       cat(path, ": ", streamed->cloud.size(), " points for the ", streamed->input_points, " of the file"));
+  if (streamed->ignored_faces > 0)
+    input.remarks.push_back(
+        cat(path, ": left out the ", streamed->ignored_faces,
+            " faces of the mesh, as it is read piece by piece; stream-above sets from which size"));
   input.file.cloud = std::move(streamed->cloud);
   input.file.format = streamed->format;
   return input;
@@ -154,12 +160,18 @@ bool is_scene_file(const std::string& path) {
   return ending_of(path) == "json";
 }
 
+Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path) {
+  return read_cloud(bytes, path, [&](const std::string& name) {
+    return read_file((std::filesystem::path(path).parent_path() / name).string());
+  });
+}
+
 Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress) {
   DepthOptions depth = arguments.depth;
   depth.points = points;
   if (is_picture(bytes)) return read_depths(bytes, path, depth, arguments.camera, progress);
-  auto file = read_cloud(bytes, path);
+  auto file = read_cloud_at(bytes, path);
   if (!file) return std::unexpected(file.error());
   std::vector<std::string> remarks = remarks_on(*file, path);
   return LoadedFile{std::move(*file), std::move(remarks)};

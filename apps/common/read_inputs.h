@@ -30,6 +30,9 @@ struct PointsWanted {
   double points = NumericOptions{}.points;
 };
 
+// Reads the bytes of a cloud or mesh as read_cloud() does, with the files beside `path` that they name.
+Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path);
+
 // Makes of a file's bytes what read_input() makes of the file.
 Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "relievo/core/json_place.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app {
@@ -102,7 +103,12 @@ class SceneReader {
 }  // namespace
 
 Result<std::vector<SceneEntry>> read_scene_file(std::string_view text, const std::string& name) {
-  return SceneReader(name).read(Json::parse(text, nullptr, false));
+  const Json scene = Json::parse(text, nullptr, false);
+  if (scene.is_discarded())
+    return std::unexpected(
+        Error{ErrorKind::input, name, json_error_place(text),
+              "expected a scene in JSON, {\"models\": [...]}, found text that is no JSON"});
+  return SceneReader(name).read(scene);
 }
 
 }  // namespace relievo::app

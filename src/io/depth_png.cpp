@@ -41,6 +41,10 @@ void take(png_structp png, png_bytep to, png_size_t size) {
 bool read_header(png_structp png, png_infop info, Job& job) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_read_fn(png, &job, take);
+  // libpng allocates what a chunk's length promises before it reads the chunk: texts and profiles are
+  // skipped, and the limit is for the others. A palette needs less than 1 kB.
+  png_set_chunk_malloc_max(png, 8 << 20);
+  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(png, info);
   png_set_expand(png);
   png_set_strip_alpha(png);
@@ -102,8 +106,9 @@ class Reader {
       const png_byte* pixel = bytes.data() + i * channels * value_size;
       for (std::size_t c = 1; c < channels; ++c)
         if (std::memcmp(pixel, pixel + c * value_size, value_size) != 0)
-          return source_.error("pixel " + std::to_string(i),
-                               "expected a grey picture of depths, found colours");
+          return source_.error(
+              "column " + std::to_string(i % job_.width + 1) + ", row " + std::to_string(i / job_.width + 1),
+              "expected a grey picture of depths, found colours");
       std::uint16_t value = *pixel;
       if (value_size == 2) std::memcpy(&value, pixel, 2);
       image.values[i] = value;

@@ -1,18 +1,24 @@
 #include <algorithm>
 #include <array>
-#include <cstring>
+#include <cmath>
+#include <limits>
+#include <optional>
 
-#include "io/numbers.h"
 #include "io/pictures.h"
 #include "io/text.h"
 #include "io/tiff_bytes.h"
+#include "io/tiff_samples.h"
 
 namespace relievo::io {
 namespace {
 
+constexpr std::uint32_t gdal_no_data = 42113;  // the tag of the value that stands for none, as text
+
 struct Layout {
   std::uint32_t width = 0, height = 0, tile_width = 0, tile_height = 0;
-  std::uint16_t bits = 1, kind = SAMPLEFORMAT_UINT, channels = 1;
+  std::uint16_t bits = 1, kind = SAMPLEFORMAT_UINT, channels = 1, colours = PHOTOMETRIC_MINISBLACK,
+                planes = PLANARCONFIG_CONTIG;
+  SampleFormat samples = {};
 };
 
 Layout layout_of(TIFF* tiff) {
@@ -22,55 +28,102 @@ Layout layout_of(TIFF* tiff) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &it.bits);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &it.kind);
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &it.channels);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_PLANARCONFIG, &it.planes);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &it.colours);
   if (!TIFFIsTiled(tiff)) return it;
   TIFFGetField(tiff, TIFFTAG_TILEWIDTH, &it.tile_width);
   TIFFGetField(tiff, TIFFTAG_TILELENGTH, &it.tile_height);
   return it;
 }
 
-std::optional<NumberType> type_of(const Layout& layout) {
-  using enum NumberType;
-  if (layout.kind == SAMPLEFORMAT_IEEEFP && layout.bits == 32) return float32;
-  if (layout.kind == SAMPLEFORMAT_INT && layout.bits == 16) return int16;
-  if (layout.kind != SAMPLEFORMAT_UINT) return std::nullopt;
-  if (layout.bits == 8) return uint8;
-  return layout.bits == 16 ? std::optional(uint16) : std::nullopt;
+std::string name_of_colours(std::uint16_t photometric) {
+  switch (photometric) {
+    case PHOTOMETRIC_PALETTE:
+      return "a palette";
+    case PHOTOMETRIC_LOGL:
+    case PHOTOMETRIC_LOGLUV:
+      return "logarithms of brightness";
+    default:
+      return "colours of kind " + std::to_string(photometric);
+  }
 }
 
-// libtiff converts numbers to the machine's byte order, which is little-endian here.
-void decode_run(NumberType type, const char* from, std::size_t n, float* to) {
-  std::vector<double> values(n);
-  decoder(type, false)(from, size_in_bytes(type), n, values.data());
-  std::transform(values.begin(), values.end(), to, [](double v) { return static_cast<float>(v); });
+// Sets the format of the samples, or says why they are not depths.
+Result<void> check_samples(const Source& source, Layout& layout) {
+  const bool is_grey = layout.colours <= PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_RGB;
+  if (!is_grey)
+    return source.error({}, "expected a grey picture of depths, found " + name_of_colours(layout.colours));
+  if (layout.channels < 1 || layout.channels > 2)
+    return source.error({}, "expected one channel of depths, found " + std::to_string(layout.channels));
+  const auto samples = find_sample_format(layout.kind, layout.bits);
+  if (!samples)
+    return source.error({},
+                        "expected whole numbers of 8 to 32 or 64 bits, or fractions of 16, 32 or 64, found " +
+                            describe_samples(layout.kind, layout.bits));
+  layout.samples = *samples;
+  return {};
 }
 
-bool read_lines(TIFF* tiff, const Layout& layout, NumberType type, DepthImage& image) {
-  std::vector<char> line(static_cast<std::size_t>(TIFFScanlineSize64(tiff)));
-  if (line.size() < layout.width * size_in_bytes(type)) return false;
+// Returns how many samples a row has per pixel: transparency, which is not read, may stand between depths.
+std::size_t samples_per_pixel(const Layout& layout) {
+  return layout.planes == PLANARCONFIG_CONTIG ? layout.channels : 1;
+}
+
+std::size_t row_size(const Layout& layout, std::size_t pixels) {
+  return (pixels * samples_per_pixel(layout) * layout.bits + 7) / 8;
+}
+
+bool read_lines(TIFF* tiff, const Layout& layout, DepthImage& image) {
+  std::vector<unsigned char> line(static_cast<std::size_t>(TIFFScanlineSize64(tiff)));
+  if (line.size() < row_size(layout, layout.width)) return false;
   for (std::uint32_t r = 0; r < layout.height; ++r) {
     if (TIFFReadScanline(tiff, line.data(), r) != 1) return false;
-    decode_run(type, line.data(), layout.width,
-               image.values.pixels.data() + image.values.index(0, static_cast<int>(r)));
+    decode_samples(layout.samples, line.data(), layout.width, samples_per_pixel(layout),
+                   image.values.pixels.data() + image.values.index(0, static_cast<int>(r)));
   }
   return true;
 }
 
-bool read_tiles(TIFF* tiff, const Layout& layout, NumberType type, DepthImage& image) {
-  const std::size_t row = layout.tile_width * size_in_bytes(type);
+bool read_tiles(TIFF* tiff, const Layout& layout, DepthImage& image) {
+  const std::size_t row = row_size(layout, layout.tile_width);
   const auto size = static_cast<std::size_t>(TIFFTileSize64(tiff));
   if (layout.tile_width == 0 || layout.tile_height == 0 || size > most_pixels * 4 ||
       size < row * layout.tile_height)
     return false;
-  std::vector<char> tile(size);
+  std::vector<unsigned char> tile(size);
   for (std::uint32_t y = 0; y < layout.height; y += layout.tile_height)
     for (std::uint32_t x = 0; x < layout.width; x += layout.tile_width) {
       if (TIFFReadTile(tiff, tile.data(), x, y, 0, 0) < 0) return false;
       const std::uint32_t columns = std::min(layout.tile_width, layout.width - x);
       for (std::uint32_t r = 0; r < std::min(layout.tile_height, layout.height - y); ++r)
-        decode_run(type, tile.data() + r * row, columns,
-                   &image.values.at(static_cast<int>(x), static_cast<int>(y + r)));
+        decode_samples(layout.samples, tile.data() + r * row, columns, samples_per_pixel(layout),
+                       &image.values.at(static_cast<int>(x), static_cast<int>(y + r)));
     }
   return true;
+}
+
+// Returns the value that stands for none, if the file states one as GDAL does.
+std::optional<float> no_data(TIFF* tiff) {
+  std::uint32_t size = 0;
+  const char* text = nullptr;
+  if (TIFFGetField(tiff, gdal_no_data, &size, &text) != 1 || !text) return std::nullopt;
+  const std::string_view whole(text, size);
+  const auto value = parse_number(trim(whole.substr(0, whole.find('\0'))));
+  return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
+}
+
+// Makes bright what is white, and NaN what stands for no value.
+void interpret(const Layout& layout, std::optional<float> missing, DepthImage& image) {
+  const bool is_inverted = layout.colours == PHOTOMETRIC_MINISWHITE &&
+                           layout.samples.kind == SampleKind::whole && layout.bits <= 32;
+  const auto white = static_cast<float>(std::exp2(layout.bits) - 1);
+  for (float& value : image.values.pixels) {
+    if (value == missing) {
+      value = std::numeric_limits<float>::quiet_NaN();
+    } else if (is_inverted) {
+      value = white - value;
+    }
+  }
 }
 
 }  // namespace
@@ -85,28 +138,25 @@ bool is_tiff(const Source& source) {
 Result<DepthImage> read_depth_tiff(const Source& source) {
   TiffBytes file(source.bytes);
   const auto broken = [&] {
-    return source.error({}, "expected the data of a TIFF picture, found " +
-                                (file.message().empty() ? "too little" : printable(file.message())));
+    const std::string why = printable(file.message(), 120);
+    return source.error({}, why.empty() ? "expected the data of a TIFF picture, found too little"
+                                        : "expected the data of a TIFF picture; libtiff says: " + why);
   };
   if (!file.handle()) return broken();
-  const Layout layout = layout_of(file.handle());
+  Layout layout = layout_of(file.handle());
   const std::size_t pixels = std::size_t{layout.width} * layout.height;
   if (pixels > most_pixels)
     return source.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
   if (pixels / best_packing > source.bytes.size())
     return source.error({}, "expected more data for " + std::to_string(pixels) + " pixels");
-  if (layout.channels != 1)
-    return source.error({}, "expected one channel of depths, found " + std::to_string(layout.channels));
-  const auto type = type_of(layout);
-  if (!type)
-    return source.error({}, "expected 8 or 16 bits or float32, found " + std::to_string(layout.bits) +
-                                " bits of another kind");
-  DepthImage image{
-      {}, *type == NumberType::float32 ? 0.0 : 1.0, "TIFF, " + std::to_string(layout.bits) + " bits"};
+  RELIEVO_CHECK(check_samples(source, layout));
+  const bool is_fraction = layout.samples.kind == SampleKind::fraction;
+  DepthImage image{{}, is_fraction ? 0.0 : 1.0, "TIFF, " + std::to_string(layout.bits) + " bits"};
   image.values.resize(static_cast<int>(layout.width), static_cast<int>(layout.height));
-  const bool is_read = TIFFIsTiled(file.handle()) ? read_tiles(file.handle(), layout, *type, image)
-                                                  : read_lines(file.handle(), layout, *type, image);
+  const bool is_read = TIFFIsTiled(file.handle()) ? read_tiles(file.handle(), layout, image)
+                                                  : read_lines(file.handle(), layout, image);
   if (!is_read) return broken();
+  interpret(layout, no_data(file.handle()), image);
   return image;
 }
 

@@ -1,8 +1,10 @@
 #include "io/faces.h"
 
 #include <algorithm>
+#include <array>
 
 #include "geometry/weld.h"
+#include "io/polygon.h"
 
 namespace relievo::io {
 namespace {
@@ -25,19 +27,32 @@ void add_strip(std::span<const std::int64_t> corners, std::vector<Triangle>& tri
   }
 }
 
+void add_polygon(std::span<const std::int64_t> corners, std::span<const Vec3> points,
+                 std::vector<Triangle>& triangles) {
+  const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+    add_triangle(corners[a], corners[b], corners[c], triangles);
+  };
+  if (corners.size() == 3) return add(0, 1, 2);
+  // Most polygons have four corners: those take no memory of their own.
+  std::array<Vec3, 4> four;
+  std::vector<Vec3> more(corners.size() > four.size() ? corners.size() : 0);
+  const std::span<Vec3> polygon =
+      more.empty() ? std::span(four).first(std::min(corners.size(), four.size())) : std::span(more);
+  for (std::size_t i = 0; i < corners.size(); ++i) polygon[i] = points[static_cast<std::size_t>(corners[i])];
+  for_each_triangle(polygon, add);
+}
+
 }  // namespace
 
-bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::size_t points,
+bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::span<const Vec3> points,
               std::vector<Triangle>& triangles) {
   const std::int64_t least = kind == FaceKind::strip ? -1 : 0;
-  const auto is_bad = [&](std::int64_t i) { return i < least || i >= static_cast<std::int64_t>(points); };
+  const auto is_bad = [&](std::int64_t i) { return i < least || i >= std::ssize(points); };
   if (std::ranges::any_of(corners, is_bad)) return false;
-  if (kind == FaceKind::strip) {
-    add_strip(corners, triangles);
-  } else {
-    for (std::size_t i = 2; i < corners.size(); ++i)
-      add_triangle(corners[0], corners[i - 1], corners[i], triangles);
-  }
+  if (kind == FaceKind::strip) add_strip(corners, triangles);
+  if (kind == FaceKind::polygon && corners.size() > 2) add_polygon(corners, points, triangles);
+  for (std::size_t i = 2; kind == FaceKind::fan && i < corners.size(); ++i)
+    add_triangle(corners[0], corners[i - 1], corners[i], triangles);
   return true;
 }
 

@@ -9,12 +9,13 @@
 
 namespace relievo::io {
 
-enum class FaceKind { polygon, strip };
+enum class FaceKind { polygon, strip, fan };
 
-// Appends the triangles of a face: of a polygon, a fan from its first corner, which is right if it is convex;
-// of a strip, its triangles, every second one reversed, with a restart after each -1. Triangles with two
-// equal corners are left out. Returns false, and appends nothing, if a corner is not in [0, points).
-bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::size_t points,
+// Appends the triangles of a face, whose corners are numbers of points. Of a polygon, triangles that cover it,
+// as triangulate() says; of a strip, its triangles, every second one reversed, with a restart after each -1; of
+// a fan, all triangles at its first corner. Triangles with two equal corners are left out. Returns false, and
+// appends nothing, if a corner is not the number of a point.
+bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::span<const Vec3> points,
               std::vector<Triangle>& triangles);
 
 // Returns the mesh of the triangles over a cloud's points, without triangles that have a corner which is not

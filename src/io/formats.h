@@ -26,19 +26,21 @@ bool is_text(const Source& source);
 // Return the content of a file, with as many points as the file has. Errors: kind input. What is read:
 //
 // - PLY: ascii, binary little and big endian; x y z, nx ny nz and red green blue of any numeric type, in any
-//   order, among any other properties and elements. Of the elements after the vertices, `face` and
-//   `tristrips` are read. Each ascii row begins on a new line.
+//   order, among any other properties and elements. Of these, `face` and `tristrips` are
+//   read, be they before or after the vertices. Each ascii row begins on a new line.
 // - OBJ: v, vn and f. The normal of a vertex is the mean of those that faces name for it; or, if no face
-//   names any, that of the vn in the same place of the file.
+//   names any, that of the vn in the same place of the file. A face may name normals that are not there.
 // - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
 // - OFF, with normals (NOFF) and colours (COFF).
-// - glTF 2.0, .glb or .gltf with embedded buffers: the triangles of the scene, transformed by its nodes.
+// - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the scene,
+//   transformed by its nodes; without nodes, of all meshes. Nothing compressed (Draco, meshopt).
 // - PCD: ascii, binary and binary_compressed; x y z, normal_x normal_y normal_z and rgb.
-// - LAS 1.0 to 1.4, not compressed, with colours.
+// - LAS 1.0 to 1.5, not compressed, with colours.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
 //   first; three columns that are unit vectors in nine of ten rows are normals. Allowed are a first line with
 //   the number of points (more may follow, but not fewer), comments (#, //) and a line of column names, which
-//   then decide. Other columns may contain anything. Numbers have a decimal point, never a comma.
+//   then decide. Other columns may contain anything. Numbers have a decimal point, or a comma if
+//   semicolons separate them; they may stand in quotation marks.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
 Result<RawCloud> read_las(const Source& source);
@@ -71,7 +73,7 @@ inline constexpr std::array formats = {
     Format{"PLY", ".ply", Content::both, is_ply, read_ply, find_ply_rows},
     Format{"PCD", ".pcd", Content::points, is_pcd, read_pcd, find_pcd_rows},
     Format{"LAS", ".las", Content::points, is_las, read_las, find_las_rows},
-    Format{"glTF", ".glb .gltf", Content::triangles, is_gltf, read_gltf},
+    Format{"glTF", ".glb .gltf", Content::both, is_gltf, read_gltf},
     Format{"OFF", ".off", Content::triangles, is_off, read_off},
     Format{"STL", ".stl", Content::triangles, is_stl, read_stl},
     Format{"OBJ", ".obj", Content::triangles, is_obj, read_obj},

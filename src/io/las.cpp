@@ -1,4 +1,4 @@
-// LAS 1.0 to 1.4, point formats 0 to 10, not compressed.
+// LAS 1.0 to 1.5, point formats 0 to 10, not compressed.
 #include "io/formats.h"
 
 #include <algorithm>
@@ -39,9 +39,9 @@ class LasHeaderReader {
 
   Result<void> check_version() const {
     const int major = at<std::uint8_t>(24), minor = at<std::uint8_t>(25);
-    if (major == 1 && minor <= 4) return {};
+    if (major == 1 && minor <= 5) return {};
     return source_.error_at_byte(
-        24, "expected LAS 1.0 to 1.4, found " + std::to_string(major) + "." + std::to_string(minor));
+        24, "expected LAS 1.0 to 1.5, found " + std::to_string(major) + "." + std::to_string(minor));
   }
 
   Result<void> take_layout() {

@@ -2,8 +2,8 @@
 #include <array>
 #include <vector>
 
-#include "io/faces.h"
 #include "io/formats.h"
+#include "io/polygon.h"
 #include "io/text.h"
 
 namespace relievo::io {
@@ -14,13 +14,6 @@ struct Corner {
   Index vertex, normal;
 };
 
-// The highest index that a face has used, and its line, to be checked at the end: faces may precede their
-// vertices.
-struct Highest {
-  std::int64_t index = 0;  // counted from 1, 0 for none
-  std::size_t line = 0;
-};
-
 class ObjReader {
  public:
   explicit ObjReader(const Source& source)
@@ -28,7 +21,7 @@ class ObjReader {
 
   Result<RawCloud> read() {
     while (next_line()) {
-      Words words(line_.substr(0, line_.find('#')));
+      Words words(before_comment(line_));
       const std::string_view keyword = words.next();
       Result<void> taken;
       if (keyword == "v") taken = take_vector(words, points_);
@@ -40,12 +33,8 @@ class ObjReader {
       return source_.error_in_line(lines_.number() + 1,
                                    "expected lines 'v x y z', found the end of the file");
     }
-    if (const auto checked = check(highest_vertex_, points_.size(), "vertices"); !checked) {
-      return std::unexpected(checked.error());
-    }
-    if (const auto checked = check(highest_normal_, normals_.size(), "normals"); !checked) {
-      return std::unexpected(checked.error());
-    }
+    RELIEVO_CHECK(check_vertices());
+    forget_missing_normals();
     std::vector<Vec3f> normals = point_normals();
     RawCloud raw{Cloud{std::move(points_), std::move(normals)}, "OBJ"};
     add_mesh(raw);
@@ -83,39 +72,42 @@ class ObjReader {
   }
 
   Result<void> take_face(Words& words) {
-    const std::size_t first = corners_.size();
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
       const std::size_t slash = std::min(word.find('/'), word.size());
-      const auto vertex = resolve(word.substr(0, slash), points_.size(), highest_vertex_);
+      const auto vertex = resolve(word.substr(0, slash), points_.size());
       if (!vertex) return fail("expected the number of a vertex, found " + in_quotes(word));
+      if (*vertex > highest_vertex_) highest_vertex_ = *vertex, highest_line_ = first_line_;
+      corners_.push_back({*vertex, no_index});
       const std::size_t second = word.find('/', slash + 1);
-      if (second == std::string_view::npos) {
-        corners_.push_back({*vertex, no_index});
-        continue;
-      }
-      const auto normal = resolve(word.substr(second + 1), normals_.size(), highest_normal_);
+      if (second >= word.size() - 1) continue;  // "1", "1/2" and "1/2/"
+      const auto normal = resolve(word.substr(second + 1), normals_.size());
       if (!normal) return fail("expected the number of a normal, found " + in_quotes(word));
-      corners_.push_back({*vertex, *normal});
+      corners_.back().normal = *normal;
     }
-    for (std::size_t i = first + 2; i < corners_.size(); ++i)
-      fans_.push_back({static_cast<Index>(first), static_cast<Index>(i - 1), static_cast<Index>(i)});
+    face_ends_.push_back(corners_.size());
     return {};
   }
 
   // Converts an index counted from 1, or backwards from -1, to one counted from 0.
-  std::optional<Index> resolve(std::string_view word, std::size_t defined, Highest& highest) {
+  static std::optional<Index> resolve(std::string_view word, std::size_t defined) {
     std::int64_t index = parse_integer(word).value_or(0);
     if (index < 0) index += static_cast<std::int64_t>(defined) + 1;
     if (index <= 0 || index >= no_index) return std::nullopt;
-    if (index > highest.index) highest = {index, first_line_};
     return static_cast<Index>(index - 1);
   }
 
-  Result<void> check(const Highest& highest, std::size_t defined, std::string_view what) const {
-    if (highest.index <= static_cast<std::int64_t>(defined)) return {};
-    return source_.error_in_line(highest.line, "expected an index up to " + std::to_string(defined) +
-                                                   ", the number of " + std::string(what) + ", found " +
-                                                   std::to_string(highest.index));
+  // This comes last because faces may precede their vertices.
+  Result<void> check_vertices() const {
+    if (corners_.empty() || highest_vertex_ < points_.size()) return {};
+    return source_.error_in_line(highest_line_, "expected an index up to " + std::to_string(points_.size()) +
+                                                    ", the number of vertices, found " +
+                                                    std::to_string(highest_vertex_ + std::size_t{1}));
+  }
+
+  // Some programs number normals that they do not write. The geometry is whole without them.
+  void forget_missing_normals() {
+    for (Corner& c : corners_)
+      if (c.normal != no_index && c.normal >= normals_.size()) c.normal = no_index;
   }
 
   // Returns one normal per point, or none at all: the mean of those that faces name for a vertex.
@@ -133,23 +125,33 @@ class ObjReader {
 
   // Returns the triangles of the faces; corners without a normal get none.
   void add_mesh(RawCloud& raw) const {
-    const auto normal_of = [&](const Corner& c) -> Vec3f {
-      if (c.normal != no_index) return unit_normal(normals_[c.normal]);
-      return raw.cloud.has_normals() ? raw.cloud.normals[c.vertex] : Vec3f(Vec3f::Zero());
-    };
-    for (const auto& [a, b, c] : fans_) {
-      const Corner &p = corners_[a], &q = corners_[b], &r = corners_[c];
-      const bool is_finite = raw.cloud.points[p.vertex].allFinite() &&
-                             raw.cloud.points[q.vertex].allFinite() && raw.cloud.points[r.vertex].allFinite();
-      if (!is_finite || p.vertex == q.vertex || q.vertex == r.vertex || r.vertex == p.vertex) continue;
-      raw.mesh.triangles.push_back({p.vertex, q.vertex, r.vertex});
-      if (raw.cloud.has_normals())
-        raw.mesh.corner_normals.push_back({normal_of(p), normal_of(q), normal_of(r)});
+    std::size_t begin = 0;
+    std::vector<Vec3> polygon;  // kept for its memory
+    for (const std::size_t end : face_ends_) {
+      add_face_of(std::span(corners_).subspan(begin, end - begin), polygon, raw);
+      begin = end;
     }
     if (raw.mesh.triangles.empty()) return;
     raw.mesh.points = raw.cloud.points;
     for (Vec3& point : raw.mesh.points)
       if (!point.allFinite()) point = Vec3::Zero();  // no triangle uses it
+  }
+
+  void add_face_of(std::span<const Corner> corners, std::vector<Vec3>& polygon, RawCloud& raw) const {
+    polygon.clear();
+    for (const Corner& c : corners) polygon.push_back(raw.cloud.points[c.vertex]);
+    for_each_triangle(polygon, [&](Index a, Index b, Index c) {
+      const Corner &p = corners[a], &q = corners[b], &r = corners[c];
+      const bool is_finite = polygon[a].allFinite() && polygon[b].allFinite() && polygon[c].allFinite();
+      if (!is_finite || p.vertex == q.vertex || q.vertex == r.vertex || r.vertex == p.vertex) return;
+      raw.mesh.triangles.push_back({p.vertex, q.vertex, r.vertex});
+      if (raw.cloud.has_normals())
+        raw.mesh.corner_normals.push_back({normal_of(p, raw), normal_of(q, raw), normal_of(r, raw)});
+    });
+  }
+
+  Vec3f normal_of(const Corner& c, const RawCloud& raw) const {
+    return c.normal != no_index ? unit_normal(normals_[c.normal]) : raw.cloud.normals[c.vertex];
   }
 
   Result<void> fail(std::string expected) const {
@@ -162,9 +164,10 @@ class ObjReader {
   std::string joined_;
   std::size_t first_line_ = 0;  // where line_ begins
   std::vector<Vec3> points_, normals_;
-  std::vector<Corner> corners_;
-  std::vector<Triangle> fans_;  // indices of corners
-  Highest highest_vertex_, highest_normal_;
+  std::vector<Corner> corners_;         // of all faces
+  std::vector<std::size_t> face_ends_;  // behind the last corner of each face
+  Index highest_vertex_ = 0;            // that a face has named
+  std::size_t highest_line_ = 0;        // where
 };
 
 }  // namespace

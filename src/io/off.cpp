@@ -1,5 +1,6 @@
 // OFF: a keyword whose prefixes state the properties of a vertex, three counts, vertices, faces.
 #include <algorithm>
+#include <utility>
 
 #include "io/faces.h"
 #include "io/formats.h"
@@ -52,11 +53,35 @@ class OffReader {
   // Returns the words of the next line that has any; none at the end of the file.
   Words next_row() {
     while (const auto line = lines_.next()) {
-      const std::string_view text = trim(line->substr(0, line->find('#')));
+      const std::string_view text = trim(before_comment(*line));
       if (!text.empty()) return Words(text);
     }
     is_at_end_ = true;
     return Words();
+  }
+
+  // Returns the next word, of this line or a later one: the format is free-form. is_wrapped_ is then true.
+  std::string_view next_word(Words& words) {
+    std::string_view word = words.next();
+    while (word.empty() && !is_at_end_) {
+      words = next_row();
+      is_wrapped_ = true;
+      word = words.next();
+    }
+    return word;
+  }
+
+  // Further words in a line belong to properties that are not read; but where a row went over the end of its
+  // line, they show that the line was too short.
+  Result<void> end_row(Words words) {
+    const std::string_view word = words.next();
+    const bool is_bad = std::exchange(is_wrapped_, false) && !word.empty();
+    return is_bad ? fail("expected the end of a row that began in a line before, found " + in_quotes(word))
+                  : Result<void>{};
+  }
+
+  static std::string shown(std::string_view word) {
+    return word.empty() ? "the end of the file" : in_quotes(word);
   }
 
   Result<void> take_counts(Words words) {
@@ -74,10 +99,9 @@ class OffReader {
 
   Result<void> take_numbers(Words& words, Vec3& to) {
     for (double& value : to) {
-      const std::string_view word = words.next();
+      const std::string_view word = next_word(words);
       const auto number = parse_number(word);
-      if (!number)
-        return fail("expected a number, found " + (word.empty() ? "the end of the line" : in_quotes(word)));
+      if (!number) return fail("expected a number, found " + shown(word));
       value = *number;
     }
     return {};
@@ -93,14 +117,16 @@ class OffReader {
       if (const auto taken = take_numbers(words, normal); !taken) return taken;
       cloud_.normals.push_back(unit_normal(normal));
     }
-    return kind_.has_colours ? take_colour(words) : Result<void>{};
+    if (kind_.has_colours)
+      if (const auto taken = take_colour(words); !taken) return taken;
+    return end_row(words);
   }
 
   // Components are whole numbers up to 255, or fractions of 1 with a decimal point.
-  Result<void> take_colour(Words words) {
+  Result<void> take_colour(Words& words) {
     Colour colour;
     for (std::uint8_t& value : colour) {
-      const std::string_view word = words.next();
+      const std::string_view word = next_word(words);
       const auto number = parse_number(word);
       if (!number) return fail("expected three numbers for the colour, found " + in_quotes(word));
       const double scale = word.find('.') == std::string_view::npos ? 1 : 255;
@@ -119,14 +145,14 @@ class OffReader {
     if (!length || *length < 0) return fail("expected the number of corners, found " + in_quotes(first));
     corners_.clear();
     for (std::int64_t c = 0; c < *length; ++c) {
-      const std::string_view word = words.next();
+      const std::string_view word = next_word(words);
       const auto corner = parse_integer(word);
       if (!corner)
-        return fail("expected " + std::to_string(*length) + " numbers of vertices, found " +
-                    (word.empty() ? "the end of the line" : in_quotes(word)));
+        return fail("expected " + std::to_string(*length) + " numbers of vertices, found " + shown(word));
       corners_.push_back(*corner);
     }
-    if (add_face(corners_, FaceKind::polygon, cloud_.size(), triangles)) return {};
+    if (const auto ended = end_row(words); !ended) return ended;
+    if (add_face(corners_, FaceKind::polygon, cloud_.points, triangles)) return {};
     return fail("expected numbers of vertices from 0 to " + std::to_string(vertices_ - 1) + ", found others");
   }
 
@@ -142,7 +168,7 @@ class OffReader {
   const Source& source_;
   Lines lines_;
   Kind kind_;
-  bool is_at_end_ = false;
+  bool is_at_end_ = false, is_wrapped_ = false;
   std::int64_t vertices_ = 0, faces_ = 0;
   std::vector<std::int64_t> corners_;
   Cloud cloud_;
@@ -154,7 +180,7 @@ bool is_off(const Source& source) {
   if (has_control_bytes(source.bytes)) return has_ending(source.name, ".off");
   Lines lines(source.bytes, byte_order_mark_size(source.bytes));
   while (const auto line = lines.next()) {
-    const std::string_view word = Words(line->substr(0, line->find('#'))).next();
+    const std::string_view word = Words(before_comment(*line)).next();
     if (!word.empty()) return parse_keyword(word).has_value() || has_ending(source.name, ".off");
   }
   return false;

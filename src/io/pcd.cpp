@@ -129,8 +129,19 @@ class PcdHeaderReader {
   }
 
   const Field* find(std::string_view name) const {
-    const auto found = std::ranges::find(fields_, name, &Field::name);
+    const auto found =
+        std::ranges::find_if(fields_, [&](const Field& f) { return equals_ignoring_case(f.name, name); });
     return found == fields_.end() ? nullptr : &*found;
+  }
+
+  std::string names() const {
+    std::string all;
+    for (const Field& field : fields_) {
+      if (all.size() > 60) return all + ", ...";
+      all +=
+          (all.empty() ? "" : ", ") + printable(field.name) + ' ' + field.type + std::to_string(field.size);
+    }
+    return all.empty() ? "none" : all;
   }
 
   // Returns the type of a field's numbers; nothing for types that are not read, as 64-bit integers.
@@ -161,7 +172,7 @@ class PcdHeaderReader {
   Result<void> place_columns() {
     Records& records = header_.records;
     if (!place({"x", "y", "z"}, records.position, header_.position_columns))
-      return fail("expected fields x, y and z of a numeric type, found others");
+      return fail("expected fields x, y and z of a numeric type, found " + names());
     std::array<RecordColumn, 3> columns;
     std::array<std::size_t, 3> ascii;
     if (place({"normal_x", "normal_y", "normal_z"}, columns, ascii) ||

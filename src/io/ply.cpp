@@ -162,7 +162,10 @@ Result<StreamRecords> find_ply_rows(const Source& head) {
                                                    std::to_string(element->count));
     records.offset += size * element->count;
   }
-  return StreamRecords{records, to_string(header->format)};
+  std::uint64_t faces = 0;
+  for (const PlyElement& element : elements)
+    if (find_face_list(element)) faces += element.count;
+  return StreamRecords{records, to_string(header->format), faces};
 }
 
 }  // namespace relievo::io

@@ -23,11 +23,11 @@ struct VertexColumns {
   bool has_colours() const { return is_there[6]; }
 };
 
-// A file whose header has been read. Faces among the elements after the vertices are read.
+// A file whose header has been read. Faces are read, be they before or after the vertices.
 struct PlyBody {
   const Source& source;
   const PlyHeader& header;
-  std::span<const PlyElement> before;  // elements to skip
+  std::span<const PlyElement> before;
   const PlyElement& vertex;
   std::span<const PlyElement> after;
   VertexColumns columns;

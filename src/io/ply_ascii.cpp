@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "io/ply.h"
 #include "io/text.h"
@@ -27,7 +29,11 @@ class AsciiRows {
         return fail("expected a number for " + printable(property.name) + ", found " + in_quotes(word));
       }
     }
-    if (const auto word = words_.next(); !word.empty()) return fail_in_long_row(element, word);
+    const std::string_view word = words_.next();
+    // MeshLab writes colours of a face's corners, which its header does not declare. Only vertices must be
+    // right.
+    if (!word.empty() && element.name == "vertex") return fail_in_long_row(element, word);
+    words_ = Words();
     ++rows_;
     return {};
   }
@@ -111,8 +117,9 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
     if (body.columns.is_there[c]) column_of[body.columns.property[c]] = c;
   const double scale =
       body.columns.has_colours() ? colour_scale(body.vertex.properties[body.columns.property[6]].type) : 1;
-  std::array<double, VertexColumns::most + 1> values = {};  // the last one takes properties that are not read
+  std::array<double, VertexColumns::most> values = {};
   const auto take = [&](std::size_t property, std::string_view word) {
+    if (column_of[property] == VertexColumns::most) return true;  // it may be a text, such as True
     const auto value = parse_number(word);
     if (value) values[column_of[property]] = *value;
     return value.has_value();
@@ -145,7 +152,7 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, AsciiRo
             element, [](auto...) { return true; }, take);
         !read)
       return read;
-    if (!add_face(corners, list.kind, content.cloud.size(), content.triangles))
+    if (!add_face(corners, list.kind, content.cloud.points, content.triangles))
       return rows.fail("expected numbers of vertices below " + std::to_string(content.cloud.size()) +
                        ", found others in row " + std::to_string(row) + " of element " +
                        printable(element.name));
@@ -157,14 +164,18 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, AsciiRo
 
 Result<PlyContent> read_ascii_body(const PlyBody& body) {
   AsciiRows rows(body.source, body.header);
+  std::vector<std::pair<const PlyElement*, AsciiRows>> early_faces;
   for (const PlyElement& element : body.before) {
-    if (const auto skipped = rows.skip(element); !skipped) return std::unexpected(skipped.error());
+    if (find_face_list(element)) early_faces.emplace_back(&element, rows);
+    RELIEVO_CHECK(rows.skip(element));
   }
   const std::size_t left = body.source.bytes.size() - body.header.data_offset;
   // If the header promises more vertices than the bytes can contain, an error follows below; this saves the
   // memory.
   PlyContent content{sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns), {}};
-  if (const auto read = read_vertices(body, rows, content.cloud); !read) return std::unexpected(read.error());
+  RELIEVO_CHECK(read_vertices(body, rows, content.cloud));
+  for (auto& [element, at] : early_faces)
+    RELIEVO_CHECK(read_faces(*element, *find_face_list(*element), at, content));
   for (const PlyElement& element : body.after) {
     const auto list = find_face_list(element);
     const auto read = list ? read_faces(element, *list, rows, content) : rows.skip(element);

@@ -1,3 +1,6 @@
+#include <utility>
+#include <vector>
+
 #include "io/ply.h"
 #include "io/records.h"
 #include "io/text.h"
@@ -139,7 +142,7 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, BinaryR
             element, [](auto...) {}, take);
         !walked)
       return walked;
-    if (!add_face(corners, list.kind, content.cloud.size(), content.triangles))
+    if (!add_face(corners, list.kind, content.cloud.points, content.triangles))
       return rows.fail("expected numbers of vertices below " + std::to_string(content.cloud.size()) +
                        ", found others in row " + std::to_string(row) + " of element " +
                        printable(element.name));
@@ -151,10 +154,12 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, BinaryR
 
 Result<PlyContent> read_binary_body(const PlyBody& body) {
   BinaryRows rows(body.source, body.header);
+  std::vector<std::pair<const PlyElement*, BinaryRows>> early_faces;
   for (const PlyElement& element : body.before) {
-    if (const auto skipped = rows.skip(element); !skipped) return std::unexpected(skipped.error());
+    if (find_face_list(element)) early_faces.emplace_back(&element, rows);
+    RELIEVO_CHECK(rows.skip(element));
   }
-  if (const auto room = rows.check_room(body.vertex); !room) return std::unexpected(room.error());
+  RELIEVO_CHECK(rows.check_room(body.vertex));
   PlyContent content;
   if (!has_lists(body.vertex)) {
     content.cloud = decode_all(vertex_records(body.header, body.vertex, body.columns),
@@ -165,6 +170,8 @@ Result<PlyContent> read_binary_body(const PlyBody& body) {
     if (const auto read = read_rows_with_lists(body, rows, content.cloud); !read)
       return std::unexpected(read.error());
   }
+  for (auto& [element, at] : early_faces)
+    RELIEVO_CHECK(read_faces(*element, *find_face_list(*element), at, content));
   for (const PlyElement& element : body.after) {
     const auto list = find_face_list(element);
     const auto read = list ? read_faces(element, *list, rows, content) : rows.skip(element);

@@ -11,7 +11,7 @@ namespace {
 
 using enum NumberType;
 
-constexpr std::array<std::pair<std::string_view, NumberType>, 16> type_names = {{{"char", int8},
+constexpr std::array<std::pair<std::string_view, NumberType>, 17> type_names = {{{"char", int8},
                                                                                  {"int8", int8},
                                                                                  {"uchar", uint8},
                                                                                  {"uint8", uint8},
@@ -26,7 +26,8 @@ constexpr std::array<std::pair<std::string_view, NumberType>, 16> type_names = {
                                                                                  {"float", float32},
                                                                                  {"float32", float32},
                                                                                  {"double", float64},
-                                                                                 {"float64", float64}}};
+                                                                                 {"float64", float64},
+                                                                                 {"bool", uint8}}};
 
 constexpr std::array<std::pair<std::string_view, PlyFormat>, 3> format_names = {
     {{"ascii", PlyFormat::ascii},
@@ -63,6 +64,8 @@ class PlyHeaderReader {
     if (keyword == "format") return take_format(words);
     if (keyword == "element") return take_element(words);
     if (keyword == "property") return take_property(words);
+    // Old versions of Blender wrote their comment without the word.
+    if (header_.elements.empty()) return {};
     return fail("expected format, element, property, comment, obj_info or end_header, found " +
                 in_quotes(keyword));
   }

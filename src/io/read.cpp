@@ -76,16 +76,19 @@ void drop_unusable(CloudFile& file) {
 
 }  // namespace
 
-Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name) {
-  const io::Source source{{reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name};
+Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
+                             const FilesBeside& beside) {
+  const io::Source source{
+      {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, beside ? &beside : nullptr};
   auto raw = read_by_format(source);
   if (!raw) return std::unexpected(std::move(raw.error()));
   CloudFile file{std::move(raw->cloud), std::move(raw->format), 0, 0, std::move(raw->mesh)};
   const std::size_t points = file.cloud.size();
   drop_unusable(file);
   if (file.cloud.points.empty()) {
-    return source.error(
-        {}, "expected points, found none with finite coordinates among " + std::to_string(points));
+    return source.error({}, points == 0
+                                ? "expected points, found none"
+                                : cat("expected points, found none with finite coordinates among ", points));
   }
   return file;
 }

@@ -12,7 +12,8 @@ namespace relievo::io {
 // The bytes of a file, or of its beginning.
 struct Source {
   std::string_view bytes;
-  std::string_view name;  // of the file, for messages and for its ending
+  std::string_view name;                // of the file, for messages and for its ending
+  const FilesBeside* beside = nullptr;  // the files in the same folder, if they can be had
 
   std::unexpected<Error> error(std::string place, std::string expected) const {
     return std::unexpected(Error{ErrorKind::input, std::string(name), std::move(place), std::move(expected)});

@@ -30,7 +30,8 @@ struct Records {
 // The rows of a file that can be read piece by piece.
 struct StreamRecords {
   Records records;
-  std::string format;  // for people
+  std::string format;       // for people
+  std::uint64_t faces = 0;  // of a mesh over the points, which is not read so
 };
 
 // Returns a cloud of `points` points, with normals and colours if the records have them; all values are

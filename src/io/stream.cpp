@@ -288,7 +288,7 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
   if (auto done = rows.each("means", .4, .6, progress, [&](const Cloud& piece) { front.gather(piece); });
       !done)
     return std::unexpected(done.error());
-  return StreamedCloud{front.means(), found->format, found->records.count};
+  return StreamedCloud{front.means(), found->format, found->records.count, found->faces};
 }
 
 }  // namespace relievo

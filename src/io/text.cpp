@@ -45,6 +45,12 @@ std::string_view trim(std::string_view text) {
   return text;
 }
 
+std::string_view before_comment(std::string_view line) {
+  std::size_t mark = line.find('#');
+  while (mark != std::string_view::npos && mark > 0 && line[mark - 1] == '.') mark = line.find('#', mark + 1);
+  return line.substr(0, mark);
+}
+
 std::optional<double> parse_number(std::string_view word) {
   word = without_plus(word);
   const char* last = word.data() + word.size();
@@ -68,8 +74,7 @@ std::optional<std::int64_t> parse_integer(std::string_view word) {
   return value;
 }
 
-std::string printable(std::string_view text) {
-  const std::size_t most = 32;
+std::string printable(std::string_view text, std::size_t most) {
   std::string shown(text.substr(0, most));
   std::replace_if(
       shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');

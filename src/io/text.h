@@ -62,6 +62,9 @@ class Words {
 // Returns the text without blanks at its ends.
 std::string_view trim(std::string_view text);
 
+// Returns the text before the comment that '#' begins. It begins none in 1.#QNAN.
+std::string_view before_comment(std::string_view line);
+
 // Returns the number that the whole word spells: decimal, with exponent and either sign, or nan and inf in
 // their spellings. It is infinite beyond the range of double, and zero if too small. Nothing if the word is
 // no number.
@@ -70,8 +73,9 @@ std::optional<double> parse_number(std::string_view word);
 // Returns the integer that the whole word spells, nothing if it is none or beyond 64 bits.
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
-// Return the text for messages, shortened and with '?' for unprintable bytes; in_quotes() puts it in quotes.
-std::string printable(std::string_view text);
+// Return the text for messages, shortened to `most` bytes and with '?' for unprintable ones; in_quotes() puts
+// it in quotes.
+std::string printable(std::string_view text, std::size_t most = 32);
 std::string in_quotes(std::string_view text);
 
 // Returns true if both are equal but for the case of ASCII letters.

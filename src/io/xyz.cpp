@@ -47,7 +47,7 @@ class XyzReader {
     for (auto field = fields.next(); field; field = fields.next(), ++column) {
       const std::size_t slot = column < layout_.columns ? slots_[column] : XyzLayout::most_wanted;
       if (slot == XyzLayout::most_wanted) continue;
-      const auto value = parse_number(*field);
+      const auto value = parse_field(*field, layout_);
       if (!value)
         return fail("expected a number in column " + std::to_string(column + 1) + ", found " +
                     in_quotes(*field));

@@ -12,7 +12,8 @@
 
 namespace relievo::io {
 
-// Iterates over the fields of a line: words if `separator` is ' ', else the text between separators, trimmed.
+// Iterates over the fields of a line: words if `separator` is ' ', else the text between separators, without
+// blanks and quotation marks around it.
 // A separator at the end of the line ends the last field.
 class Fields {
  public:
@@ -32,6 +33,7 @@ std::string_view without_comment(std::string_view line);
 struct XyzLayout {
   static constexpr std::size_t most_wanted = 6;
   char separator = ' ';
+  bool has_decimal_commas = false;                          // instead of points
   std::size_t columns = 0;                                  // of every line
   std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz
   bool has_normals = false;
@@ -40,6 +42,9 @@ struct XyzLayout {
   std::size_t first_line = 0;  // of data, counted from 1
   std::size_t data_offset = 0;
 };
+
+// Returns the number that a field spells, with a decimal comma if the layout has them.
+std::optional<double> parse_field(std::string_view field, const XyzLayout& layout);
 
 // Detects the layout: from the names of the columns if the file has any, else from the first line of data
 // (separator, number of columns) and from lines all over the file (normals).

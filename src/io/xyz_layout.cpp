@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "io/xyz.h"
@@ -48,13 +49,20 @@ std::size_t count_fields(std::string_view line, char separator) {
   return count;
 }
 
+bool are_numbers(std::string_view text) {
+  Words words(text);
+  for (std::string_view word = words.next(); !word.empty(); word = words.next())
+    if (!parse_number(word)) return false;
+  return true;
+}
+
 // Returns true for commas that cannot all be separators, as in "1,5 2,5". In "1, 2,5" a comma counts as
 // decimal only if no number has a decimal point.
 bool has_decimal_commas(std::string_view line) {
   std::size_t commas = 0, spaced_commas = 0;
   Fields fields(line, ',');
   while (const auto field = fields.next()) {
-    if (std::any_of(field->begin(), field->end(), is_blank)) return true;
+    if (std::any_of(field->begin(), field->end(), is_blank) && are_numbers(*field)) return true;
   }
   for (std::size_t i = line.find(','); i < line.size(); i = line.find(',', i + 1)) {
     ++commas;
@@ -111,7 +119,10 @@ class Preamble {
       layout_.promising_line = lines_.number();
       return false;
     }
-    if (!words.empty() && parse_number(words[0])) return true;
+    // Below names of columns, the first column may be a text.
+    const bool has_number =
+        std::ranges::any_of(words, [](auto word) { return parse_number(word).has_value(); });
+    if (!words.empty() && (parse_number(words[0]) || (!names_.empty() && has_number))) return true;
     if (!names_.empty() || count_named(words) < 3) {
       return source_.error_in_line(
           lines_.number(), "expected numbers, or names of columns with x, y and z, found " + in_quotes(line));
@@ -153,7 +164,7 @@ std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLay
   for (std::size_t i = 0; i < samples; ++i) {
     std::vector<double> row;
     Fields fields(without_comment(line_around(data, data.size() * i / samples)), layout.separator);
-    while (const auto field = fields.next()) row.push_back(parse_number(*field).value_or(0));
+    while (const auto field = fields.next()) row.push_back(parse_field(*field, layout).value_or(0));
     if (row.size() == layout.columns) rows.push_back(std::move(row));
   }
   return rows;
@@ -187,9 +198,17 @@ std::optional<std::string_view> Fields::next() {
   }
   if (trim(line_).empty()) return std::nullopt;
   const std::size_t end = std::min(line_.find(separator_), line_.size());
-  const std::string_view field = trim(line_.substr(0, end));
+  std::string_view field = trim(line_.substr(0, end));
   line_.remove_prefix(std::min(end + 1, line_.size()));
-  return field;
+  const bool is_quoted = field.size() >= 2 && field.starts_with('"') && field.ends_with('"');
+  return is_quoted ? trim(field.substr(1, field.size() - 2)) : field;
+}
+
+std::optional<double> parse_field(std::string_view field, const XyzLayout& layout) {
+  if (!layout.has_decimal_commas) return parse_number(field);
+  std::string word(field);
+  std::ranges::replace(word, ',', '.');
+  return parse_number(word);
 }
 
 std::string_view without_comment(std::string_view line) {
@@ -211,6 +230,8 @@ Result<XyzLayout> find_layout(const Source& source) {
   const auto separator = find_separator(source, *line, layout.first_line);
   if (!separator) return std::unexpected(separator.error());
   layout.separator = *separator;
+  // Between semicolons a comma is no separator.
+  layout.has_decimal_commas = layout.separator == ';' && line->contains(',') && !line->contains('.');
   layout.columns = count_fields(*line, layout.separator);
   if (layout.columns < 3) {
     return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(*line));

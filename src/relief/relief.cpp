@@ -214,7 +214,8 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
               {},
               {},
               cat("expected a height that can be reached, at most ", relief.height * unit_mm,
-                  " mm for this view and width, found ", height * unit_mm, " mm")});
+                  " mm for this view and width, found ", height * unit_mm, " mm",
+                  relief.height > 0 ? "" : ": this view shows a level face alone; choose another")});
   maker.finish(relief);
   // The search ends within a part in 10^5 of the height; scaling makes it exact.
   for (double& z : relief.heights) z *= height / relief.height;

@@ -17,7 +17,8 @@ TEST_F(CliRefusals, RefusesWrongProjects) {
     write_all(folder_ / "p.relievo", project);
     expect_refusal("make p.relievo -o p.stl", part);
   };
-  refuse("not json", "p.relievo: expected a project in JSON");
+  refuse("not json", "p.relievo, line 1, column 2: expected a project in JSON");
+  refuse("[]", "p.relievo: expected a project in JSON");
   refuse(R"({"relievo": 2})", "p.relievo, relievo: expected a project of version 1");
   refuse(R"({"relievo": 1, "options": {}})", "p.relievo, input: expected an object");
   refuse(R"({"relievo": 1, "input": {}, "options": {}})", "expected either a path or a sample");
@@ -38,8 +39,8 @@ TEST_F(CliRefusals, RefusesBrokenScenes) {
     refuse(R"({"models": [{"file": "torus.ply"}, {"file": "torus.ply", )" + rest + "}]}",
            ", models[1]" + part);
   };
-  refuse("", ": expected a scene in JSON");
-  refuse("{\"models\": [", ": expected a scene in JSON");
+  refuse("", ", line 1, column 1: expected a scene in JSON");
+  refuse("{\"models\": [", ", line 1, column 13: expected a scene in JSON");
   refuse("[]", ": expected a scene in JSON");
   refuse("{}", ", models: expected a list of at least one model");
   refuse(R"({"models": []})", ", models: expected a list of at least one model");

@@ -89,8 +89,7 @@ TEST(ReadCloud, NormalisesNormalsOfAnyLength) {
 }
 
 TEST(ReadCloud, WithoutFinitePointsIsAnError) {
-  EXPECT_EQ(message_of(as_string(write_ply(Cloud{})), "scan.ply"),
-            "scan.ply: expected points, found none with finite coordinates among 0");
+  EXPECT_EQ(message_of(as_string(write_ply(Cloud{})), "scan.ply"), "scan.ply: expected points, found none");
   EXPECT_EQ(message_of("nan 0 0\n0 inf 0\n", "scan.xyz"),
             "scan.xyz: expected points, found none with finite coordinates among 2");
 }

@@ -67,6 +67,40 @@ TEST(MeshFormats, StripsOfPlyTurnEverySecondTriangle) {
   }
 }
 
+// The arrow has an area of 2; fanned out from its second corner, it has more.
+TEST(MeshFormats, ConcavePolygonsAreCoveredInEveryFormat) {
+  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
+  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}}};
+  const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}}, {{4, 1, 2, 3, 0}}};
+  for (const std::string& text : {encode_ply({vertices, faces}, PlyEncoding::ascii),
+                                  encode_ply({vertices, faces}, PlyEncoding::little_endian),
+                                  std::string("OFF\n4 1 0\n0 0 0\n2 2 0\n0 1 0\n-2 2 0\n4 1 2 3 0\n")}) {
+    const auto file = read(text, "a");
+    ASSERT_TRUE(file) << file.error().message();
+    double area = 0;
+    for (const auto& [a, b, c] : file->mesh.triangles) {
+      const auto& p = file->mesh.points;
+      area += (p[b] - p[a]).cross(p[c] - p[a]).z() / 2;
+      EXPECT_GT((p[b] - p[a]).cross(p[c] - p[a]).z(), 0) << file->format;
+    }
+    EXPECT_DOUBLE_EQ(area, 2) << file->format;
+  }
+}
+
+TEST(MeshFormats, FacesOfPlyMayComeBeforeTheVertices) {
+  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
+  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const PlyTable other{"other", {{"uchar", "n"}}, {{1}, {2}}};
+  PlyTable faces{
+      "face", {{"int", "vertex_indices", "uchar"}}, {{3, 0, 2, 1}, {3, 0, 1, 3}, {3, 0, 3, 2}, {3, 1, 2, 3}}};
+  for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little_endian, PlyEncoding::big_endian})
+    EXPECT_EQ(read(encode_ply({faces, other, vertices}, encoding), "a.ply")->mesh.triangles,
+              tetrahedron_triangles);
+  faces.rows[2][3] = 4;
+  EXPECT_EQ(message_of(encode_ply({faces, vertices}, PlyEncoding::ascii), "a.ply"),
+            "a.ply, line 12: expected numbers of vertices below 4, found others in row 2 of element face");
+}
+
 TEST(MeshFormats, PolygonsBecomeFans) {
   const auto file = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 1 2\n", "a.obj");
   ASSERT_TRUE(file);
@@ -92,6 +126,14 @@ TEST(Stl, BinaryMayBeginWithSolid) {
   std::string file = binary_stl();
   file.replace(0, 5, "solid");
   expect_tetrahedron(file, "scan", "STL binary");
+}
+
+TEST(Stl, TextMayBeginInManyWays) {
+  const std::string ascii = ascii_stl();
+  for (const std::string& text :
+       {"\xEF\xBB\xBF" + ascii, "  " + ascii, "\n\n" + ascii, replaced(ascii, "solid tetra", "SOLID tetra"),
+        "  " + replaced(ascii, "solid tetra", "Solid tetra")})
+    expect_tetrahedron(text, "scan.stl", "STL ascii");
 }
 
 TEST(Stl, BrokenFieldsAreNamed) {
@@ -129,6 +171,11 @@ TEST(Off, ReadsColoursAndNormals) {
   EXPECT_EQ(file->mesh.colours, file->cloud.colours);
 }
 
+TEST(Off, RowsMayGoOverTheEndsOfLines) {
+  expect_tetrahedron(replaced(replaced(off(), "3 0 2 1", "3 0\n2\n\n1"), "0 1 0\n", "0 1\n  0 # y\n"), "scan",
+                     "OFF");
+}
+
 TEST(Off, BrokenFieldsAreNamed) {
   const std::string good = off();
   expect_messages(
@@ -143,13 +190,16 @@ TEST(Off, BrokenFieldsAreNamed) {
        {replaced(good, "4 4 6", "4294967290 4 6"),
         ", line 12: expected 4294967290 vertices, found the end of the file after 8"},
        {replaced(good, "1 0 0\n", "1 x 0\n"), ", line 4: expected a number, found 'x'"},
-       {replaced(good, "1 0 0\n", "1 0\n"), ", line 4: expected a number, found the end of the line"},
+       {replaced(good, "1 0 0\n", "1 0\n"),
+        ", line 5: expected the end of a row that began in a line before, found '1'"},
        {replaced(good, "3 0 2 1", "3 0 2 4"),
         ", line 7: expected numbers of vertices from 0 to 3, found others"},
        {replaced(good, "3 0 2 1", "3 0 2 -1"),
         ", line 7: expected numbers of vertices from 0 to 3, found others"},
        {replaced(good, "3 0 2 1", "4 0 2 1"),
-        ", line 7: expected 4 numbers of vertices, found the end of the line"},
+        ", line 8: expected the end of a row that began in a line before, found '0'"},
+       {replaced(good, "3 1 2 3", "4 1 2 3"),
+        ", line 11: expected 4 numbers of vertices, found the end of the file"},
        {replaced(good, "3 0 2 1", "x 0 2 1"), ", line 7: expected the number of corners, found 'x'"},
        {good.substr(0, good.find("3 0 3 2")),
         ", line 10: expected 4 faces, found the end of the file after 2"},
@@ -190,12 +240,13 @@ TEST(Gltf, BrokenFieldsAreNamed) {
        {patched(good, 12, std::uint32_t{99999}),
         ", byte 12: expected a chunk of 99999 bytes, found " + std::to_string(good.size() - 20)},
        {patched(good, 16, std::uint32_t{0}), ", byte 12: expected a JSON chunk, found none"},
-       {json("{\"asset\"", "{asset"), ": expected the JSON of a glTF file, found text that is none"},
+       {json("{\"asset\"", "{asset"), ", JSON: expected the JSON of a glTF file, found text that is none"},
        {json("asset", "tessa"), ", asset: expected the member asset of a glTF file, found none"},
        {json(R"("byteLength":72)", R"("byteLength":73)"),
         ", buffer 0: expected as many bytes as its byteLength says, found 72"},
        {json(R"("byteLength":72)", R"("uri":"a.bin","byteLength":72)"),
-        ", buffer 0: expected a buffer inside the file, found 'a.bin'; save it as .glb"},
+        ", buffer 0: expected the file 'a.bin' beside it, found none that can be read; a .glb needs no other "
+        "file"},
        {json(R"("byteLength":72)", R"("uri":"data:x;base64,?","byteLength":72)"),
         ", buffer 0: expected base64 text, found other characters"},
        {json("5126", "5127"), first + "expected a known component type, found another"},
@@ -203,7 +254,7 @@ TEST(Gltf, BrokenFieldsAreNamed) {
        {json(R"("count":4)", R"("count":5)"), first + "expected room for 5 elements, found less"},
        {json(R"("count":4)", R"("count":-4)"), first + "expected whole numbers, found others"},
        {json(R"("count":4)", R"("sparse":{},"count":4)"),
-        first + "expected plain numbers, found a sparse accessor"},
+        first + "expected the indices and values of its sparse part"},
        {json(R"("byteOffset":48)", R"("byteOffset":49)"),
         indices + "expected a view inside its buffer, found one beyond it"},
        {json(R"({"buffer":0,"byteLength":48})", R"({"buffer":1,"byteLength":48})"),
@@ -217,9 +268,10 @@ TEST(Gltf, BrokenFieldsAreNamed) {
        {json(R"("mesh":0)", R"("children":[0])"), ", node 0: expected one parent, found two or a ring"},
        {json(R"("nodes":[0])", R"("nodes":[5])"), ", node 5: expected a node, found none of that number"},
        {json("[10,0,0]", "[10,0]"), ", node 0: expected numbers in its transformation, found others"},
-       {json(R"("indices":1)", R"("mode":1)"), ", meshes: expected triangles, found none"},
+       {json(R"("indices":1)", R"("mode":1)"), ", meshes: expected triangles or points, found lines"},
        {json(R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"])"),
-        ", extensionsRequired: expected meshes that are not compressed, found 'KHR_draco_mesh_compression'"},
+        ", extensionsRequired: expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; "
+        "unpack them first"},
        {patched(good, good.size() - 24, std::uint16_t{4}),
         ", mesh 0: expected numbers of vertices below 4, found others"}});
 }

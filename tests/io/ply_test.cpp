@@ -160,6 +160,23 @@ TEST(PlyAscii, RowsMayBeWrappedIndentedAndSpacedOut) {
   EXPECT_EQ(points_of(replaced(small_ply, "\n", "\r")), three_points);
 }
 
+TEST(PlyAscii, OnlyRowsOfVerticesMustHaveTheRightLength) {
+  const std::string faces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto file = read(change("end_header\n", faces) + "3 0 1 2 255 0 0 255 9 9\n3 2 1 0 7\n", "scan.ply");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
+}
+
+TEST(PlyAscii, PropertiesThatAreNotReadMayBeTexts) {
+  const std::string header = small_ply.substr(0, small_ply.find("end_header"));
+  const std::string body = "end_header\n1 2 3 True\n4 5 6 False\n-7.5 8.25 1e6 1\n";
+  EXPECT_EQ(points_of(header + "property bool is_edge\n" + body), three_points);
+}
+
+TEST(PlyHeader, LinesBeforeTheFirstElementMayBeComments) {
+  EXPECT_EQ(points_of(change("element vertex", "Created by Blender\nelement vertex")), three_points);
+}
+
 TEST(PlyAscii, RowWithTooManyNumbersIsAnError) {
   EXPECT_EQ(message_of(change("4 5 6", "4 5 6 7"), "scan.ply"),
             "scan.ply, line 9: expected the line to end after the last property, z, found '7'");

@@ -134,10 +134,23 @@ TEST(Xyz, DecimalCommasAreNeverMisread) {
        {"1,5 2,5 3,5", "1,5\t2,5\t3,5", "1,5, 2,5, 3,5", "1,5  2,5  3,5  0,1  0,2  0,3"}) {
     EXPECT_TRUE(message_of(text + "\n", "scan.xyz").starts_with("scan.xyz, line 1" + message)) << text;
   }
-  EXPECT_EQ(message_of("1,5;2,5;3,5\n", "scan.xyz"),
-            "scan.xyz, line 1: expected a number in column 1, found '1,5'");
   EXPECT_EQ(message_of("1 2 3\n1,5 2,5 3,5\n", "scan.xyz"),
             "scan.xyz, line 2: expected a number in column 1, found '1,5'");
+}
+
+TEST(Xyz, SemicolonsMaySeparateNumbersWithDecimalCommas) {
+  EXPECT_EQ(points_of("1,0;2,5;-3\n4;5;6,0e3\n"), two_points);
+  const CloudFile file = file_of("x;y;z;nx;ny;nz\n1,0;2,5;-3,0;1,0;0;0\n4;5;6e3;0;0;1,0\n");
+  EXPECT_EQ(file.cloud.points, two_points);
+  EXPECT_EQ(file.cloud.normals, xz);
+  EXPECT_EQ(message_of("1.5;2,5;3\n", "scan.xyz"),
+            "scan.xyz, line 1: expected a number in column 2, found '2,5'");
+}
+
+TEST(Xyz, OtherColumnsMayBeTexts) {
+  EXPECT_EQ(points_of("1,2.5,-3,a wall\n4,5,6e3,b c d\n"), two_points);
+  EXPECT_EQ(points_of("name,x,y,z\nfirst one,1,2.5,-3\nb,4,5,6e3\n"), two_points);
+  EXPECT_EQ(points_of("\"1\",\"2.5\",\" -3 \",\"a\"\n\"4\",\"5\",\"6e3\",\"b c\"\n"), two_points);
 }
 
 TEST(Xyz, BadLinesAreNamed) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,27 +21,39 @@ std::string readable_formats();
 // Returns the endings of the names of such files, with the dot and in lower case.
 std::vector<std::string> readable_endings();
 
+// Returns the bytes of a file that the file being read names: of a glTF, the buffers. The name is relative to
+// the folder of the file being read, in UTF-8, and does not lead out of that folder. Why it fails is for the
+// caller to know.
+using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::string& name)>;
+
 // Returns the points in `bytes`, and the triangles if it has any. The format is recognised by the content,
-// then by the ending of `name`; anything else is read as text of numbers. src/io/formats.h says what is read of
-// each format. Errors name `name`, too.
+// then by the ending of `name`; anything else is read as text of numbers. src/io/formats.h says what is read
+// of each format. Errors name `name`, too.
 //
-// Polygons become triangle fans, which is right for convex ones.
+// Polygons become triangles that cover them, concave ones too, as if they were flat. A polygon that crosses
+// itself becomes a triangle fan.
 //
 // Text may have LF, CRLF or CR, a UTF-8 byte order mark, plus signs, and nan or inf. A number beyond the
 // range of double is infinite.
 //
+// Files that this one names are asked for by `beside`, at most once each; without it such a file is an error.
+//
 // Errors (kind input) state the line or the byte and what was expected there, or the name of a format that is
 // not read, "an E57 file". A file without a point of finite coordinates is an error. A header that promises
 // more than the bytes contain is an error before anything is allocated for it. Reading always ends: there is
-// no recursion, and the time is linear in the bytes.
-Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name);
+// no recursion, and the time is linear in the bytes, but for concave polygons of at most 10,000 corners, for
+// which it grows with the square of their number.
+Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
+                             const FilesBeside& beside = {});
 
 // Returns true for the beginning of a PNG or TIFF file.
 bool is_picture(std::span<const std::byte> bytes);
 
-// Returns the depths in a PNG (grey, 8 or 16 bits; colour if all channels are equal) or TIFF (one channel, 8
-// or 16 bits or float32, strips or tiles, any compression that libtiff knows). Errors: kind input for
-// other or broken pictures, and for more than 2^27 pixels or fewer than 4 x 4.
+// Returns the depths in a PNG (grey, 8 or 16 bits; colour if all channels are equal) or TIFF (grey; whole
+// numbers of 8 to 32 and 64 bits or fractions of 16, 32 and 64, strips or tiles, any compression that libtiff
+// knows). Transparency is not read. What GDAL's tag states as no data is NaN; where 0 is white, whole numbers
+// are inverted, so that bright pixels have large values. Errors: kind input for other or broken pictures,
+// palettes among them, and for more than 2^27 pixels or fewer than 4 x 4.
 Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name);
 
 // Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row, separated by

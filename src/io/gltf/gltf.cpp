@@ -1,5 +1,5 @@
-// glTF 2.0: the triangles of the scene's meshes, transformed by their nodes.
-#include "io/gltf.h"
+// glTF 2.0: the triangles and points of the scene's meshes, transformed by their nodes.
+#include "io/gltf/gltf.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -15,7 +15,7 @@ using Transform = Eigen::Affine3d;
 
 constexpr std::size_t most_vertices = 100'000'000;  // a small file can ask for more: nodes may repeat a mesh
 
-constexpr std::size_t triangles_mode = 4, strip_mode = 5, fan_mode = 6;
+constexpr std::size_t points_mode = 0, triangles_mode = 4, strip_mode = 5, fan_mode = 6;
 
 // Returns a member that is an array of `n` numbers; `otherwise` if it is missing; nothing if it is anything
 // else.
@@ -46,14 +46,28 @@ std::optional<Transform> transform_of(const Json& node) {
   return transform.scale(Vec3((*s)[0], (*s)[1], (*s)[2]));
 }
 
+// The vertices of a primitive, whose number its positions decide.
+struct Vertices {
+  AccessorValues positions, normals, colours;
+
+  std::size_t count() const { return positions.count(); }
+};
+
+Vec3 vector_at(const AccessorValues& values, std::size_t i) {
+  return Eigen::Map<const Vec3>(values.numbers.data() + i * values.components);
+}
+
 class GltfReader {
  public:
-  GltfReader(const Source& source, const GltfFile& file) : source_(source), file_(file) {}
+  GltfReader(const Source& source, GltfFile& file) : source_(source), file_(file) {}
 
   Result<RawCloud> read() {
-    if (const auto refused = refuse_compression(); !refused) return std::unexpected(refused.error());
-    if (const auto walked = walk_nodes(); !walked) return std::unexpected(walked.error());
-    if (triangles_.empty()) return source_.error("meshes", "expected triangles, found none");
+    RELIEVO_CHECK(refuse_compression());
+    const std::vector<std::size_t> first = roots();
+    RELIEVO_CHECK(first.empty() ? add_all_meshes() : walk_nodes(first));
+    if (points_.empty())
+      return source_.error("meshes", has_lines_ ? "expected triangles or points, found lines"
+                                                : "expected triangles or points, found none");
     if (normals_.size() != points_.size()) normals_.clear();
     if (colours_.size() != points_.size()) colours_.clear();
     RawCloud raw{Cloud{std::move(points_), std::move(normals_), std::move(colours_)},
@@ -74,7 +88,8 @@ class GltfReader {
     for (const Json& name : *required)
       if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
         return source_.error("extensionsRequired", "expected meshes that are not compressed, found " +
-                                                       in_quotes(name.get_ref<const std::string&>()));
+                                                       in_quotes(name.get_ref<const std::string&>()) +
+                                                       "; unpack them first");
     return {};
   }
 
@@ -84,27 +99,37 @@ class GltfReader {
     const auto collect = [&](const Json& list) {
       if (list.is_array())
         for (const Json& i : list)
-          if (i.is_number_unsigned()) found.push_back(i.get<std::size_t>());
+          if (const auto number = whole_number(i)) found.push_back(*number);
     };
     const Json* scene = file_.element("scenes", number_in(file_.json(), "scene", 0).value_or(0));
     if (scene && scene->contains("nodes")) {
       collect((*scene)["nodes"]);
       return found;
     }
-    for (std::size_t i = 0; const Json* node = file_.element("nodes", i); ++i)
+    std::size_t nodes = 0;
+    for (; const Json* node = file_.element("nodes", nodes); ++nodes)
       if (node->contains("children")) collect((*node)["children"]);
-    const std::vector<std::size_t> children = std::move(found);
+    std::vector<bool> is_child(nodes);
+    for (const std::size_t i : found)
+      if (i < nodes) is_child[i] = true;
     found.clear();
-    for (std::size_t i = 0; file_.element("nodes", i); ++i)
-      if (std::ranges::find(children, i) == children.end()) found.push_back(i);
+    for (std::size_t i = 0; i < nodes; ++i)
+      if (!is_child[i]) found.push_back(i);
     return found;
+  }
+
+  // A file without nodes is a library of meshes; all of them are shown where they are.
+  Result<void> add_all_meshes() {
+    for (std::size_t i = 0; file_.element("meshes", i); ++i)
+      RELIEVO_CHECK(add_mesh(i, Transform::Identity()));
+    return {};
   }
 
   // Visits each node once. In a valid file no node has two parents; in others this keeps cycles from being
   // endless.
-  Result<void> walk_nodes() {
+  Result<void> walk_nodes(const std::vector<std::size_t>& first) {
     std::vector<Visit> open;
-    for (const std::size_t i : roots()) open.push_back({i, Transform::Identity()});
+    for (const std::size_t i : first) open.push_back({i, Transform::Identity()});
     std::vector<bool> is_seen;
     while (!open.empty()) {
       const Visit visit = open.back();
@@ -120,11 +145,10 @@ class GltfReader {
       const Transform transform = visit.parent * *own;
       const auto mesh = number_in(*node, "mesh", no_index);
       if (!mesh) return source_.error(place, "expected the number of a mesh, found another value");
-      if (*mesh != no_index)
-        if (const auto added = add_mesh(*mesh, transform); !added) return added;
+      if (*mesh != no_index) RELIEVO_CHECK(add_mesh(*mesh, transform));
       if (node->contains("children") && (*node)["children"].is_array())
         for (const Json& child : (*node)["children"])
-          if (child.is_number_unsigned()) open.push_back({child.get<std::size_t>(), transform});
+          if (const auto number = whole_number(child)) open.push_back({*number, transform});
     }
     return {};
   }
@@ -136,8 +160,7 @@ class GltfReader {
     const auto primitives = mesh->find("primitives");
     if (primitives == mesh->end() || !primitives->is_array())
       return source_.error(place, "expected primitives, found none");
-    for (const Json& primitive : *primitives)
-      if (const auto added = add_primitive(primitive, transform, place); !added) return added;
+    for (const Json& primitive : *primitives) RELIEVO_CHECK(add_primitive(primitive, transform, place));
     return {};
   }
 
@@ -145,86 +168,93 @@ class GltfReader {
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object())
       return source_.error(place, "expected attributes, found none");
+    // The format says to skip what has no positions.
+    if (!attributes->contains("POSITION")) return {};
     const auto mode = number_in(primitive, "mode", triangles_mode);
-    if (!mode || *mode < triangles_mode || *mode > fan_mode) return {};  // points and lines
+    const bool is_read = mode && (*mode == points_mode || (*mode >= triangles_mode && *mode <= fan_mode));
+    has_lines_ = has_lines_ || !is_read;
+    if (!is_read) return {};
+    RELIEVO_TRY(const Vertices vertices, vertices_of(*attributes, place));
     const auto first = static_cast<Index>(points_.size());
-    const auto added = add_vertices(*attributes, transform, place);
-    if (!added) return std::unexpected(added.error());
-    std::vector<double> order;
-    if (primitive.contains("indices")) {
-      const auto number = number_in(primitive, "indices", no_index);
-      const auto indices = file_.accessor(source_, number.value_or(no_index), place);
-      if (!indices) return std::unexpected(indices.error());
-      indices->decode(order);
-    } else {
-      order.resize(*added);
-      for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<double>(i);
-    }
-    for (const double i : order)
-      if (!(i >= 0 && i < static_cast<double>(*added)))
-        return source_.error(
-            place, "expected numbers of vertices below " + std::to_string(*added) + ", found others");
-    add_triangles(order, *mode, first);
+    add_vertices(vertices, transform);
+    if (*mode == points_mode) return {};
+    RELIEVO_TRY(const std::vector<std::int64_t> order, order_of(primitive, vertices.count(), first, place));
+    add_triangles(order, *mode);
     return {};
   }
 
-  // Returns the number of vertices.
-  Result<std::size_t> add_vertices(const Json& attributes, const Transform& transform,
-                                   const std::string& place) {
-    const auto vectors = [&](const char* name, std::vector<double>& to) -> Result<std::size_t> {
-      const auto number = number_in(attributes, name, no_index);
-      const auto accessor = file_.accessor(source_, number.value_or(no_index), place);
-      if (!accessor) return std::unexpected(accessor.error());
-      if (accessor->components < 3)
-        return source_.error(place, "expected vectors of three numbers, found fewer");
-      accessor->decode(to);
-      return accessor->components;
-    };
-    std::vector<double> values;
-    const auto width = vectors("POSITION", values);
-    if (!width) return width;
-    const std::size_t count = values.size() / *width;
-    if (points_.size() + count > most_vertices)
-      return source_.error(place, "expected at most 100000000 vertices, found more");
-    for (std::size_t i = 0; i < count; ++i)
-      points_.push_back(transform * Vec3(values[i * *width], values[i * *width + 1], values[i * *width + 2]));
-    if (attributes.contains("NORMAL")) {
-      values.clear();
-      const auto wide = vectors("NORMAL", values);
-      if (!wide) return wide;
-      if (values.size() != count * *wide) return source_.error(place, "expected a normal for each vertex");
-      const Mat3 turn =
-          transform.linear().inverse().transpose() * (transform.linear().determinant() < 0 ? -1 : 1);
-      for (std::size_t i = 0; i < count; ++i)
-        normals_.push_back(
-            unit_normal(turn * Vec3(values[i * *wide], values[i * *wide + 1], values[i * *wide + 2])));
+  // Returns the points that the corners of the triangles are, one after the other.
+  Result<std::vector<std::int64_t>> order_of(const Json& primitive, std::size_t vertices, Index first,
+                                             const std::string& place) {
+    std::vector<std::int64_t> order;
+    if (!primitive.contains("indices")) {
+      for (std::size_t i = 0; i < vertices; ++i) order.push_back(static_cast<std::int64_t>(first + i));
+      return order;
     }
-    if (!attributes.contains("COLOR_0")) return count;
-    values.clear();
-    const auto wide = vectors("COLOR_0", values);
-    if (!wide) return wide;
-    if (values.size() != count * *wide) return source_.error(place, "expected a colour for each vertex");
+    const auto number = number_in(primitive, "indices", no_index);
+    RELIEVO_TRY(const AccessorValues indices, file_.accessor(number.value_or(no_index), place));
+    for (const double i : indices.numbers) {
+      if (!(i >= 0 && i < static_cast<double>(vertices)))
+        return source_.error(
+            place, "expected numbers of vertices below " + std::to_string(vertices) + ", found others");
+      order.push_back(static_cast<std::int64_t>(i) + first);
+    }
+    return order;
+  }
+
+  // Returns the vectors of an attribute.
+  Result<AccessorValues> attribute(const Json& attributes, const char* name, const std::string& place) {
+    const auto number = number_in(attributes, name, no_index);
+    RELIEVO_TRY(AccessorValues values, file_.accessor(number.value_or(no_index), place));
+    if (values.components < 3) return source_.error(place, "expected vectors of three numbers, found fewer");
+    return values;
+  }
+
+  Result<Vertices> vertices_of(const Json& attributes, const std::string& place) {
+    Vertices all;
+    RELIEVO_TRY(all.positions, attribute(attributes, "POSITION", place));
+    if (points_.size() + all.count() > most_vertices)
+      return source_.error(place, "expected at most 100000000 vertices, found more");
+    if (attributes.contains("NORMAL")) {
+      RELIEVO_TRY(all.normals, attribute(attributes, "NORMAL", place));
+      if (all.normals.count() != all.count())
+        return source_.error(place, "expected a normal for each vertex");
+    }
+    if (attributes.contains("COLOR_0")) {
+      RELIEVO_TRY(all.colours, attribute(attributes, "COLOR_0", place));
+      if (all.colours.count() != all.count())
+        return source_.error(place, "expected a colour for each vertex");
+    }
+    return all;
+  }
+
+  void add_vertices(const Vertices& all, const Transform& transform) {
     const auto byte = [](double v) {
       return v > 0 ? static_cast<std::uint8_t>(std::min(255.0, 255 * v + .5)) : std::uint8_t{0};
     };
-    for (std::size_t i = 0; i < count; ++i)
-      colours_.push_back({byte(values[i * *wide]), byte(values[i * *wide + 1]), byte(values[i * *wide + 2])});
-    return count;
+    const Mat3 turn =
+        transform.linear().inverse().transpose() * (transform.linear().determinant() < 0 ? -1 : 1);
+    for (std::size_t i = 0; i < all.count(); ++i) points_.push_back(transform * vector_at(all.positions, i));
+    for (std::size_t i = 0; i < all.normals.count(); ++i)
+      normals_.push_back(unit_normal(turn * vector_at(all.normals, i)));
+    for (std::size_t i = 0; i < all.colours.count(); ++i) {
+      const Vec3 colour = vector_at(all.colours, i);
+      colours_.push_back({byte(colour.x()), byte(colour.y()), byte(colour.z())});
+    }
   }
 
-  void add_triangles(const std::vector<double>& order, std::size_t mode, Index first) {
-    std::vector<std::int64_t> corners;
-    for (const double i : order) corners.push_back(static_cast<std::int64_t>(i) + first);
+  void add_triangles(const std::vector<std::int64_t>& corners, std::size_t mode) {
     if (mode != triangles_mode) {
-      add_face(corners, mode == strip_mode ? FaceKind::strip : FaceKind::polygon, points_.size(), triangles_);
+      add_face(corners, mode == strip_mode ? FaceKind::strip : FaceKind::fan, points_, triangles_);
       return;
     }
     for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
-      add_face(std::span(corners).subspan(i, 3), FaceKind::polygon, points_.size(), triangles_);
+      add_face(std::span(corners).subspan(i, 3), FaceKind::polygon, points_, triangles_);
   }
 
   const Source& source_;
-  const GltfFile& file_;
+  GltfFile& file_;
+  bool has_lines_ = false;
   std::vector<Vec3> points_;
   std::vector<Vec3f> normals_;
   std::vector<Colour> colours_;
@@ -239,9 +269,8 @@ bool is_gltf(const Source& source) {
 }
 
 Result<RawCloud> read_gltf(const Source& source) {
-  const auto file = GltfFile::open(source);
-  if (!file) return std::unexpected(file.error());
-  return GltfReader(source, *file).read();
+  RELIEVO_TRY(GltfFile file, GltfFile::open(source));
+  return GltfReader(source, file).read();
 }
 
 }  // namespace relievo::io

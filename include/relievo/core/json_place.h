@@ -1,0 +1,13 @@
+// Where a text that should be JSON is not.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace relievo {
+
+// Returns the place of the first character that cannot belong to a JSON text, "line 3, column 14"; empty if
+// the text is JSON.
+std::string json_error_place(std::string_view text);
+
+}  // namespace relievo

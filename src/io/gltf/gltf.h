@@ -1,0 +1,81 @@
+// The parts of a glTF file that geometry needs: its JSON, and the numbers in its buffers.
+// Tested by tests/io/gltf_test.cpp and tests/io/mesh_formats_test.cpp.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "io/numbers.h"
+#include "io/readers.h"
+
+namespace relievo::io {
+
+using Json = nlohmann::json;
+
+// The numbers of an accessor: vectors of `components` numbers, one after the other.
+struct AccessorValues {
+  std::size_t components = 1;
+  std::vector<double> numbers;
+
+  std::size_t count() const { return numbers.size() / components; }
+};
+
+// Vectors in a buffer that are `stride` bytes apart.
+struct BufferRows {
+  const char* first = nullptr;
+  std::size_t stride = 0;
+};
+
+// glTF 2.0 as JSON, or binary (GLB). Buffers are loaded when an accessor needs them, so that a buffer that no
+// mesh uses may be missing. The source must outlive the object.
+class GltfFile {
+ public:
+  static Result<GltfFile> open(const Source& source);
+
+  const Json& json() const { return json_; }
+
+  // Returns element i of an array in the file's root if it is an object, else null.
+  const Json* element(std::string_view array, std::size_t i) const;
+
+  // Returns the numbers of accessor i. Errors: kind input, at `place`, if it does not exist, does not fit
+  // into its buffer, or the buffer cannot be had.
+  Result<AccessorValues> accessor(std::size_t i, const std::string& place);
+
+ private:
+  // The layout of the numbers of an accessor, as its JSON states it.
+  struct Layout {
+    std::size_t count = 0, components = 0;
+    NumberType type = NumberType::float32;
+    double scale = 1;  // factor of normalised integers, else 1
+  };
+
+  explicit GltfFile(const Source& source) : source_(&source) {}
+  Result<void> split_glb(std::string_view& text);
+  Result<void> check_version() const;
+  Result<std::string_view> buffer(std::size_t i);
+  Result<std::string_view> load(const std::string& uri, const std::string& place);
+  Result<Layout> layout_of(const Json& json, const std::string& place) const;
+  Result<BufferRows> rows(const Json& in_view, const Layout& layout, const std::string& place);
+  Result<void> replace_sparse(const Json& sparse, const Layout& layout, const std::string& place,
+                              AccessorValues& out);
+
+  const Source* source_;
+  Json json_;
+  std::string_view binary_;                               // GLB's own buffer
+  std::map<std::string, std::vector<std::byte>> loaded_;  // by uri
+};
+
+// Returns the non-negative integer that a value is, also if it is written as 4.0; nothing if it is anything
+// else.
+std::optional<std::size_t> whole_number(const Json& value);
+
+// Returns a member that is a non-negative integer; `otherwise` if it is missing; nothing if it is anything
+// else.
+std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise);
+
+// Returns the relative name of a file that a URI states, without escapes (%20). Nothing if it may lead out of
+// the folder: an absolute path, a scheme such as http:, or a part '..'.
+std::optional<std::string> name_in_uri(std::string_view uri);
+
+}  // namespace relievo::io

@@ -1,0 +1,112 @@
+// The buffers of a glTF file: the bytes after the JSON of a GLB, base64 text, or files beside it.
+#include <algorithm>
+#include <charconv>
+
+#include "io/gltf/gltf.h"
+#include "io/text.h"
+
+namespace relievo::io {
+namespace {
+
+// Returns the bytes; nothing for text that is not base64.
+std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
+  std::vector<std::byte> bytes;
+  bytes.reserve(text.size() / 4 * 3);
+  std::uint32_t bits = 0;
+  int held = 0;
+  while (text.ends_with('=')) text.remove_suffix(1);
+  for (const char c : text) {
+    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::size_t digit = digits.find(c);
+    if (digit == std::string_view::npos) return std::nullopt;
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes.push_back(static_cast<std::byte>(bits >> held & 0xFF));
+  }
+  return bytes;
+}
+
+// Returns the text with the byte of each escape %XX in its place; an incomplete escape stays as it is.
+std::string without_escapes(std::string_view text) {
+  std::string plain;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    unsigned char byte = 0;
+    const std::string_view digits = text.substr(i + 1, 2);
+    const bool is_escape =
+        text[i] == '%' && digits.size() == 2 &&
+        std::from_chars(digits.data(), digits.data() + 2, byte, 16).ptr == digits.data() + 2;
+    plain += is_escape ? static_cast<char>(byte) : text[i];
+    if (is_escape) i += 2;
+  }
+  return plain;
+}
+
+bool has_parent_part(std::string_view name) {
+  for (std::size_t begin = 0; begin <= name.size();) {
+    const std::size_t end = std::min(name.find_first_of("/\\", begin), name.size());
+    if (name.substr(begin, end - begin) == "..") return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::optional<std::string> name_in_uri(std::string_view uri) {
+  std::string name = without_escapes(uri);
+  const bool leads_out = name.starts_with('/') || name.starts_with('\\') || has_parent_part(name);
+  // A colon before the first slash ends a scheme, or the letter of a drive.
+  const bool has_scheme = name.find(':') < name.find('/');
+  if (name.empty() || leads_out || has_scheme || name.contains('\0')) return std::nullopt;
+  return name;
+}
+
+// Returns the bytes that a URI contains or names.
+Result<std::string_view> GltfFile::load(const std::string& uri, const std::string& place) {
+  const auto known = loaded_.find(uri);
+  std::vector<std::byte> bytes;
+  if (known == loaded_.end() && uri.starts_with("data:")) {
+    const std::size_t data = uri.find(";base64,");
+    auto decoded =
+        data == std::string::npos ? std::nullopt : decode_base64(std::string_view(uri).substr(data + 8));
+    if (!decoded) return source_->error(place, "expected base64 text, found other characters");
+    bytes = std::move(*decoded);
+  } else if (known == loaded_.end()) {
+    const auto name = name_in_uri(uri);
+    if (!name) return source_->error(place, "expected a file in the same folder, found " + in_quotes(uri));
+    auto file = source_->beside ? (*source_->beside)(*name) : source_->error(place, {});
+    if (!file)
+      return source_->error(place, "expected the file " + in_quotes(*name) +
+                                       " beside it, found none that can be read; a .glb needs no other file");
+    bytes = std::move(*file);
+  }
+  const auto& kept = known == loaded_.end() ? loaded_[uri] = std::move(bytes) : known->second;
+  return std::string_view(reinterpret_cast<const char*>(kept.data()), kept.size());
+}
+
+Result<std::string_view> GltfFile::buffer(std::size_t i) {
+  const std::string place = "buffer " + std::to_string(i);
+  const Json* json = element("buffers", i);
+  if (!json) return source_->error(place, "expected an object, found something else");
+  const auto uri = json->find("uri");
+  std::string_view bytes = binary_;
+  if (uri != json->end()) {
+    if (!uri->is_string()) return source_->error(place, "expected a text as uri");
+    RELIEVO_TRY(bytes, load(uri->get_ref<const std::string&>(), place));
+  }
+  const auto promised = number_in(*json, "byteLength", 0);
+  const bool is_fallback =
+      json->value("extensions", Json::object()).contains("EXT_meshopt_compression") && bytes.empty();
+  if (is_fallback)
+    return source_->error(place,
+                          "expected meshes that are not compressed, found EXT_meshopt_compression; "
+                          "unpack them first");
+  if (!promised || *promised > bytes.size())
+    return source_->error(
+        place, "expected as many bytes as its byteLength says, found " + std::to_string(bytes.size()));
+  return bytes.substr(0, *promised);
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,154 @@
+// Ear clipping. Whatever triangles are cut off, their signed areas add up to the polygon's, and so do their
+// winding numbers at every place. If none of them is turned over, they therefore cover the inside of a
+// polygon that does not cross itself exactly once. The tests whether a triangle is an ear only serve to find
+// such a sequence.
+#include "io/polygon.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace relievo::io {
+namespace {
+
+// The share of the polygon's area that a triangle may be turned over by, because corners in a line are
+// rounded to the float numbers of a file.
+constexpr double rounding = 1e-6;
+
+constexpr std::size_t most_corners =
+    10'000;  // of a polygon that is not convex; the time grows with its square
+
+std::vector<std::array<Index, 3>> fan_of(std::size_t corners) {
+  std::vector<std::array<Index, 3>> fan;
+  for (Index i = 2; i < corners; ++i) fan.push_back({0, i - 1, i});
+  return fan;
+}
+
+// Returns twice the vector area of the fan's triangle whose last corner is i.
+Vec3 fan_area(std::span<const Vec3> corners, std::size_t i) {
+  return (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+}
+
+Vec3 area_of(std::span<const Vec3> corners) {
+  Vec3 area = Vec3::Zero();
+  for (std::size_t i = 2; i < corners.size(); ++i) area += fan_area(corners, i);
+  return area;
+}
+
+double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+// Cuts ears off a polygon in the plane that runs counter-clockwise.
+class EarClipper {
+ public:
+  EarClipper(std::vector<Vec2> corners, double area)
+      : at_(std::move(corners)),
+        slack_(rounding * area),
+        next_(at_.size()),
+        before_(at_.size()),
+        is_ear_(at_.size()) {
+    const auto n = static_cast<Index>(at_.size());
+    for (Index i = 0; i < n; ++i) next_[i] = (i + 1) % n, before_[i] = (i + n - 1) % n;
+    for (Index i = 0; i < n; ++i)
+      if (turn(i) <= 0) reflex_.push_back(i);
+    for (Index i = 0; i < n; ++i) is_ear_[i] = turn(i) > 0 && is_empty(i);
+  }
+
+  // Returns no triangles if the polygon crosses itself.
+  std::vector<std::array<Index, 3>> clip() {
+    std::vector<std::array<Index, 3>> triangles;
+    Index at = 0;
+    for (std::size_t left = at_.size(); left > 2; --left) {
+      const std::optional<Index> ear = find_ear(at, left);
+      if (!ear) return {};
+      triangles.push_back({before_[*ear], *ear, next_[*ear]});
+      cut(*ear);
+      at = next_[*ear];
+    }
+    return triangles;
+  }
+
+ private:
+  // Returns twice the signed area of the triangle at corner i.
+  double turn(Index i) const { return cross(at_[i] - at_[before_[i]], at_[next_[i]] - at_[before_[i]]); }
+
+  // Returns the next ear, or else a corner whose triangle has next to no area.
+  std::optional<Index> find_ear(Index from, std::size_t left) const {
+    std::optional<Index> flat;
+    for (std::size_t k = 0; k < left; ++k, from = next_[from]) {
+      if (is_ear_[from]) return from;
+      if (!flat && std::abs(turn(from)) <= slack_) flat = from;
+    }
+    return flat;
+  }
+
+  // Only a reflex corner can be in the triangle of a corner unless the polygon crosses itself.
+  bool is_empty(Index ear) const {
+    const Vec2 &a = at_[before_[ear]], &b = at_[ear], &c = at_[next_[ear]];
+    for (const Index i : reflex_) {
+      const Vec2& p = at_[i];
+      if (i == before_[ear] || i == next_[ear]) continue;
+      const bool is_in =
+          p == a   ? enters(i, b, c)
+          : p == b ? enters(i, c, a)
+          : p == c ? enters(i, a, b)
+                   : cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0;
+      if (is_in) return false;
+    }
+    return true;
+  }
+
+  // Returns true if an edge at corner i leads into the angle between the directions to `right` and `left`.
+  bool enters(Index i, const Vec2& right, const Vec2& left) const {
+    const auto is_between = [&](const Vec2& q) {
+      return cross(right - at_[i], q - at_[i]) > 0 && cross(q - at_[i], left - at_[i]) > 0;
+    };
+    return is_between(at_[next_[i]]) || is_between(at_[before_[i]]);
+  }
+
+  // Only the corners beside the ear can become ears by that.
+  void cut(Index ear) {
+    const Index before = before_[ear], next = next_[ear];
+    next_[before] = next;
+    before_[next] = before;
+    std::erase_if(reflex_, [&](Index i) { return i == ear || ((i == before || i == next) && turn(i) > 0); });
+    for (const Index i : {before, next}) is_ear_[i] = turn(i) > 0 && is_empty(i);
+  }
+
+  std::vector<Vec2> at_;
+  double slack_;
+  std::vector<Index> next_, before_;
+  std::vector<bool> is_ear_;
+  std::vector<Index> reflex_;  // those left whose angle is 180 degrees or more
+};
+
+// Returns the corners in the plane of their vector area, in which they run counter-clockwise.
+std::vector<Vec2> in_plane(std::span<const Vec3> corners, const Vec3& area) {
+  const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(area, Vec3::UnitZ());
+  std::vector<Vec2> flat;
+  for (const Vec3& corner : corners) flat.push_back((turn * (corner - corners[0])).head<2>());
+  return flat;
+}
+
+}  // namespace
+
+bool fan_covers(std::span<const Vec3> corners) {
+  const Vec3 area = area_of(corners);
+  const double least = -rounding * area.squaredNorm();
+  for (std::size_t i = 2; i < corners.size(); ++i)
+    if (fan_area(corners, i).dot(area) < least) return false;  // a comparison with NaN is false
+  return true;
+}
+
+std::vector<std::array<Index, 3>> triangulate(std::span<const Vec3> corners) {
+  const Vec3 area = area_of(corners);
+  if (corners.size() <= 3 || corners.size() > most_corners || !area.allFinite() || fan_covers(corners))
+    return fan_of(corners.size());
+  auto triangles = EarClipper(in_plane(corners, area), area.norm()).clip();
+  return triangles.empty() ? fan_of(corners.size()) : triangles;
+}
+
+}  // namespace relievo::io

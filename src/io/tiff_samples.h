@@ -1,0 +1,31 @@
+// The numbers that a TIFF picture has per pixel. Tested by tests/io/depth_tiff_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace relievo::io {
+
+enum class SampleKind { whole, signed_whole, fraction };
+
+struct SampleFormat {
+  SampleKind kind = SampleKind::whole;
+  unsigned bits = 1;
+};
+
+// Returns the format of the tags SampleFormat and BitsPerSample if it is read: whole numbers of 8 to 32 and
+// of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are taken as
+// whole numbers.
+std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits);
+
+// Returns what a picture has instead, for messages: "4-bit whole numbers".
+std::string describe_samples(unsigned sample_format, unsigned bits);
+
+// Decodes every `step`-th sample of a row as libtiff returns it: numbers of 8, 16, 24, 32 and 64 bits in the
+// machine's byte order, which is little-endian, and others packed, the most significant bit first.
+void decode_samples(const SampleFormat& format, const unsigned char* row, std::size_t n, std::size_t step,
+                    float* to);
+
+}  // namespace relievo::io

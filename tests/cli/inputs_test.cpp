@@ -1,0 +1,104 @@
+// Files as they lie on a disk: buffers beside a glTF, meshes read piece by piece, names that a terminal should not see.
+#include "support/cli_folder.h"
+#include "support/format_samples.h"
+
+namespace relievo {
+namespace {
+
+using namespace test;
+
+// Returns the value that `info` prints after `label`, without blanks before it.
+std::string info_line(const std::string& text, const std::string& label) {
+  const std::size_t at = ("\n" + text).find("\n" + label);
+  if (at == std::string::npos) return {};
+  const std::string line = text.substr(at, text.find('\n', at) - at).substr(label.size());
+  return line.substr(std::min(line.find_first_not_of(' '), line.size()));
+}
+
+class CliInputs : public CliFolder {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    fs::create_directory(folder_ / "scans");
+    write_all(folder_ / "scans/four corners.bin", gltf_buffer());
+    write_all(folder_ / "scans/a.gltf", gltf_json(R"("uri":"four%20corners.bin",)"));
+  }
+};
+
+TEST_F(CliInputs, ReadsTheBuffersBesideAGltf) {
+  EXPECT_EQ(info_line(run("info scans/a.gltf").out, "triangles"), "4");
+  const Outcome made = run("make scans/a.gltf -o a.stl --view -1,-1,-1 --height 2 --points 2000");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  write_all(folder_ / "s.json", R"({"models": [{"file": "scans/a.gltf"}, {"file": "torus.ply"}]})");
+  EXPECT_EQ(info_line(run("info s.json").out, "models"), "2");
+  EXPECT_EQ(run("make s.json -o s.stl --view -1,-1,-1 --height 2 --points 2000").exit_code, 0);
+  fs::remove(folder_ / "scans/four corners.bin");
+  expect_refusal("make scans/a.gltf -o b.stl",
+                 "a.gltf, buffer 0: expected the file 'four corners.bin' beside it");
+}
+
+TEST_F(CliInputs, ReadsNoFileOutsideTheFolderOfAGltf) {
+  fs::rename(folder_ / "scans/four corners.bin", folder_ / "b.bin");
+  write_all(folder_ / "scans/a.gltf", gltf_json(R"("uri":"../b.bin",)"));
+  expect_refusal("info scans/a.gltf", "expected a file in the same folder, found '../b.bin'");
+}
+
+// Four points, of which two are used by triangles and one is not finite; the fifth is far away and unused.
+TEST_F(CliInputs, TellsTheSizeOfTheSurface) {
+  write_all(folder_ / "a.obj",
+            "v 0 0 0\nv 2 0 0\nv 0 3 0\nv nan 0 0\nv 0 0 1e30\nvn 0 0 1\nvn 0 0 -1\n"
+            "f 1//1 2//1 3//1\nf 3//2 2//1 1//2\n");
+  const Outcome told = run("info a.obj");
+  EXPECT_EQ(info_line(told.out, "points"), "4 (and 1 not finite)");
+  EXPECT_EQ(info_line(told.out, "size"), "2, 3, 0");
+  write_all(folder_ / "s.json", R"({"models": [{"file": "a.obj", "translate": [0, 0, 50]}]})");
+  EXPECT_EQ(info_line(run("info s.json").out, "from"), "0, 0, 50");
+}
+
+TEST_F(CliInputs, SaysThatItReadsNoFacesPieceByPiece) {
+  std::string text = read_all(folder_ / "torus.ply");
+  const std::string end = "end_header\n";
+  text.insert(text.find(end), "element face 1\nproperty list uchar int vertex_indices\n");
+  write_all(folder_ / "faces.ply", text + "\3" + raw(0) + raw(1) + raw(2));
+  const Outcome made = run("make faces.ply -o t.stl --stream-above 0.1");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("faces.ply: left out the 1 faces of the mesh"), std::string::npos) << made.err;
+  EXPECT_EQ(run("make torus.ply -o t.stl --stream-above 0.1").err.find("faces"), std::string::npos);
+}
+
+TEST_F(CliInputs, HintsAtAnotherViewWhereOneFaceIsSeen) {
+  expect_refusal("make scans/a.gltf -o a.stl --view 1,1,1 --height 2 --points 2000",
+                 "found 2 mm: this view shows a level face alone; choose another");
+}
+
+TEST_F(CliInputs, NamesTheDepthImageWithoutDepths) {
+  const std::vector<std::byte> black = write_png(Image8{20, 20, 1, std::vector<std::uint8_t>(400)});
+  write_all(folder_ / "black.png", {reinterpret_cast<const char*>(black.data()), black.size()});
+  expect_refusal("make torus.ply black.png -o t.stl",
+                 "black.png: expected at least 16 pixels with a depth, found 0");
+}
+
+TEST_F(CliInputs, KeepsControlCharactersOffTheTerminal) {
+  const auto refuse = [&](const std::string& name, const std::string& text) {
+    write_all(folder_ / name, text);
+    const Outcome outcome = run("make " + name + " -o t.stl");
+    EXPECT_GT(outcome.exit_code, 0);
+    EXPECT_EQ(std::ranges::count_if(outcome.err, [](unsigned char c) { return c < ' ' || c == 0x7F; }), 1)
+        << "only the end of the line is a control character";
+    return outcome.err;
+  };
+  refuse("s.json", R"({"mod\nels\u001b[31m": []})");
+  refuse("s.json", R"({"models": [{"file": "a\n\u0007\u007f\u009b.ply"}]})");
+  refuse("p.relievo", R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"\n\r\u001b": 1}})");
+  EXPECT_NE(refuse("s.json", R"({"models": [{"file": "grün.ply"}]})").find("grün.ply"), std::string::npos);
+}
+
+TEST_F(CliInputs, SaysWhereJsonIsBroken) {
+  write_all(folder_ / "s.json", "{\"models\": [\n  {\"file\": \"torus.ply\"},\n]}");
+  expect_refusal("info s.json", "s.json, line 3, column 1: expected a scene in JSON");
+  write_all(folder_ / "p.relievo", "{\"relievo\": 1,\n\"input\" 2}");
+  expect_refusal("make p.relievo -o t.stl", "p.relievo, line 2, column 9: expected a project in JSON");
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,204 @@
+// TIFF pictures of every kind of number, as cameras, terrain models and microscopes write them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "relievo/io/read.h"
+#include "relievo/scan/depth_image.h"
+#include "support/format_samples.h"
+
+namespace relievo {
+namespace {
+
+constexpr int width = 5, height = 4;
+
+struct TiffField {
+  std::uint16_t tag, type;
+  std::uint32_t count, value;
+};
+
+// The tags of a picture, which tests change.
+struct TiffTags {
+  std::uint32_t bits = 16, kind = 1, channels = 1, colours = 1;
+  std::string no_data = {};
+};
+
+// Little-endian, one strip of these bytes.
+std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
+  const bool has_palette = tags.colours == 3;  // of 256 colours
+  const std::string palette(has_palette ? 2 * 3 * 256 : 0, '\7');
+  const std::string text = tags.no_data.empty() ? palette : padded(tags.no_data + '\0', '\0');
+  std::vector<TiffField> fields = {{256, 4, 1, width},
+                                   {257, 4, 1, height},
+                                   {258, 3, 1, tags.bits},
+                                   {259, 3, 1, 1},
+                                   {262, 3, 1, tags.colours},
+                                   {273, 4, 1, 0},
+                                   {277, 3, 1, tags.channels},
+                                   {278, 4, 1, height},
+                                   {279, 4, 1, static_cast<std::uint32_t>(pixels.size())},
+                                   {339, 3, 1, tags.kind}};
+  if (tags.channels > 1) {  // two equal numbers of 16 bits fit into the field
+    fields[2].count = fields[9].count = 2;
+    fields[2].value *= 65537, fields[9].value *= 65537;
+    fields.insert(fields.end() - 1, {338, 3, 1, 2});
+  }
+  if (has_palette) fields.insert(fields.end() - 1, {320, 3, 3 * 256, 0});
+  if (!tags.no_data.empty()) fields.push_back({42113, 2, static_cast<std::uint32_t>(text.size()), 0});
+  const auto data = static_cast<std::uint32_t>(8 + 2 + fields.size() * 12 + 4);
+  fields[5].value = data + static_cast<std::uint32_t>(text.size());
+  for (TiffField& f : fields)
+    if (f.tag == 320 || f.tag == 42113) f.value = data;
+  std::string file =
+      std::string("II*\0", 4) + raw(std::uint32_t{8}) + raw(static_cast<std::uint16_t>(fields.size()));
+  for (const TiffField& f : fields) file += raw(f.tag) + raw(f.type) + raw(f.count) + raw(f.value);
+  return file + raw(std::uint32_t{0}) + text + pixels;
+}
+
+Result<DepthImage> read_tiff(const TiffTags& tags, const std::string& pixels) {
+  const std::string file = tiff_of(tags, pixels);
+  return read_depth_image(std::as_bytes(std::span(file)), "d.tif");
+}
+
+// The bytes of all pixels, each made of its number.
+template <typename MakeNumber>
+std::string pixels_of(MakeNumber&& number) {
+  std::string pixels;
+  for (int i = 0; i < width * height; ++i) pixels += raw(number(i));
+  return pixels;
+}
+
+// Expects that pixel i of the picture has the value expected(i).
+void expect_values(const TiffTags& tags, const std::string& pixels,
+                   const std::function<double(int)>& expected) {
+  const auto image = read_tiff(tags, pixels);
+  ASSERT_TRUE(image) << tags.bits << " bits: " << image.error().message();
+  EXPECT_EQ(image->format, "TIFF, " + std::to_string(tags.bits) + " bits");
+  EXPECT_EQ(image->step, tags.kind == 3 ? 0 : 1);
+  for (int i = 0; i < width * height; ++i)
+    EXPECT_EQ(image->values[static_cast<std::size_t>(i)], static_cast<float>(expected(i)))
+        << tags.bits << ", " << i;
+}
+
+TEST(DepthTiff, ReadsNumbersOfAllWholeBytes) {
+  expect_values({8, 2}, pixels_of([](int i) { return static_cast<std::int8_t>(i - 9); }),
+                [](int i) { return i - 9; });
+  expect_values({16, 2}, pixels_of([](int i) { return static_cast<std::int16_t>(-900 * i); }),
+                [](int i) { return -900 * i; });
+  expect_values({32, 1}, pixels_of([](int i) { return 200'000'000U * static_cast<unsigned>(i); }),
+                [](int i) { return 2e8 * i; });
+  expect_values({32, 2}, pixels_of([](int i) { return -100000 * i; }), [](int i) { return -1e5 * i; });
+  expect_values({64, 1}, pixels_of([](int i) { return std::uint64_t{1} << (3 * i); }),
+                [](int i) { return std::exp2(3 * i); });
+  expect_values({64, 2}, pixels_of([](int i) { return -(std::int64_t{1} << (3 * i)); }),
+                [](int i) { return -std::exp2(3 * i); });
+  expect_values({8, 4}, pixels_of([](int i) { return static_cast<std::uint8_t>(12 * i); }),
+                [](int i) { return 12 * i; });
+}
+
+TEST(DepthTiff, ReadsFractions) {
+  expect_values({64, 3}, pixels_of([](int i) { return 1 / (1. + i); }), [](int i) { return 1 / (1. + i); });
+  expect_values({32, 3}, pixels_of([](int i) { return .25F * static_cast<float>(i); }),
+                [](int i) { return .25 * i; });
+  // Halves have 10 bits of fraction; 15 is the exponent of 1.
+  expect_values({16, 3}, pixels_of([](int i) { return static_cast<std::uint16_t>(i << 10 | 512); }),
+                [](int i) { return i == 0 ? std::ldexp(512, -24) : std::ldexp(1.5, i - 15); });
+  const auto special = read_tiff({16, 3}, pixels_of([](int i) {
+                                   constexpr std::uint16_t all[] = {0x7C00, 0xFC00, 0x7E00, 0x8000, 0xC000};
+                                   return all[i % 5];
+                                 }));
+  ASSERT_TRUE(special);
+  EXPECT_EQ(special->values[0], HUGE_VALF);
+  EXPECT_EQ(special->values[1], -HUGE_VALF);
+  EXPECT_TRUE(std::isnan(special->values[2]));
+  EXPECT_EQ(special->values[3], 0);
+  EXPECT_EQ(special->values[4], -2);
+}
+
+// Each row begins at a byte; the most significant bit of a number comes first.
+TEST(DepthTiff, ReadsPackedNumbers) {
+  for (const std::uint32_t bits : {9U, 10U, 12U, 14U, 17U, 20U, 31U}) {
+    const auto number = [&](int i) {
+      return (std::uint64_t{1} << (bits - 1)) + 7 * static_cast<unsigned>(i);
+    };
+    std::string pixels;
+    for (int row = 0; row < height; ++row) {
+      std::string line((width * bits + 7) / 8, '\0');
+      for (std::size_t bit = 0; bit < width * bits; ++bit) {
+        const auto i = row * width + static_cast<int>(bit / bits);
+        if (number(i) >> (bits - 1 - bit % bits) & 1)
+          line[bit / 8] = static_cast<char>(line[bit / 8] | 128 >> bit % 8);
+      }
+      pixels += line;
+    }
+    expect_values({bits, 1}, pixels, [&](int i) { return static_cast<double>(number(i)); });
+  }
+  std::string pixels;
+  for (int i = 0; i < width * height; ++i)
+    pixels += raw(std::uint32_t{70000} * static_cast<unsigned>(i)).substr(0, 3);
+  expect_values({24, 1}, pixels, [](int i) { return 70000. * i; });
+}
+
+TEST(DepthTiff, LeavesOutTransparency) {
+  std::string pixels;
+  for (int i = 0; i < width * height; ++i)
+    pixels += raw(static_cast<std::uint16_t>(i)) + raw(std::uint16_t{65535});
+  expect_values({16, 1, 2}, pixels, [](int i) { return i; });
+}
+
+TEST(DepthTiff, InvertsWhereZeroIsWhite) {
+  const std::string pixels = pixels_of([](int i) { return static_cast<std::uint16_t>(i); });
+  expect_values({16, 1, 1, 0}, pixels, [](int i) { return 65535 - i; });
+}
+
+TEST(DepthTiff, LeavesOutWhatGdalStatesAsNoData) {
+  const std::string pixels = pixels_of([](int i) { return i % 3 ? .5F : -3.4028234663852886e+38F; });
+  const auto image = read_tiff({32, 3, 1, 1, "-3.4028234663852886e+38"}, pixels);
+  ASSERT_TRUE(image) << image.error().message();
+  for (std::size_t i = 0; i < image->values.size(); ++i) {
+    if (i % 3 == 0)
+      EXPECT_TRUE(std::isnan(image->values[i])) << i;
+    else
+      EXPECT_EQ(image->values[i], .5F);
+  }
+  const auto whole = read_tiff({16, 2, 1, 1, " -9999 "},
+                               pixels_of([](int i) { return static_cast<std::int16_t>(i ? i : -9999); }));
+  ASSERT_TRUE(whole);
+  EXPECT_TRUE(std::isnan(whole->values[0]));
+  EXPECT_EQ(whole->values[1], 1);
+  const auto none =
+      read_tiff({16, 1, 1, 1, "abc"}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->values[0], 0);
+}
+
+TEST(DepthTiff, NamesWhatItDoesNotRead) {
+  const auto message = [](const TiffTags& tags) {
+    const auto image = read_tiff(tags, std::string(width * height * 8, '\1'));
+    return image ? "no error" : image.error().message();
+  };
+  const std::string numbers =
+      "d.tif: expected whole numbers of 8 to 32 or 64 bits, or fractions of 16, 32 or 64, found ";
+  EXPECT_EQ(message({8, 1, 1, 3}), "d.tif: expected a grey picture of depths, found a palette");
+  EXPECT_EQ(message({16, 2, 1, 32844}),
+            "d.tif: expected a grey picture of depths, found logarithms of brightness");
+  EXPECT_EQ(message({4, 1}), numbers + "4-bit whole numbers");
+  EXPECT_EQ(message({24, 3}), numbers + "24-bit fractions");
+  EXPECT_EQ(message({64, 6}), numbers + "64-bit complex numbers");
+}
+
+TEST(DepthTiff, SaysWhatLibtiffSays) {
+  const std::string whole = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
+  for (const std::size_t size : {std::size_t{60}, whole.size() - 10}) {
+    const auto image = read_depth_image(std::as_bytes(std::span(whole).first(size)), "d.tif");
+    ASSERT_FALSE(image);
+    const std::string message = image.error().message();
+    EXPECT_TRUE(message.starts_with("d.tif: expected the data of a TIFF picture; libtiff says: ")) << message;
+    EXPECT_EQ(message.find("picture: "), std::string::npos) << message;
+    EXPECT_FALSE(message.ends_with("...")) << message;
+  }
+}
+
+}  // namespace
+}  // namespace relievo

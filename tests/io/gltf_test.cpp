@@ -1,0 +1,171 @@
+// glTF whose buffers are in other files, and what is legal in it but rare.
+#include "io/gltf/gltf.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "support/format_samples.h"
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+std::vector<std::byte> bytes_of(const std::string& text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+// Reads the file beside which there are the given files; `asked` gets the names that were asked for.
+Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
+                              std::vector<std::string>* asked = nullptr) {
+  return read_cloud(bytes_of(text), "a.gltf", [&](const std::string& name) -> Result<std::vector<std::byte>> {
+    if (asked) asked->push_back(name);
+    if (const auto found = files.find(name); found != files.end()) return bytes_of(found->second);
+    return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
+  });
+}
+
+std::string with_uri(const std::string& uri) {
+  return gltf_json(R"("uri":")" + uri + R"(",)");
+}
+
+TEST(GltfBeside, TakesBuffersFromOtherFiles) {
+  const std::map<std::string, std::string> files = {{"a.bin", gltf_buffer()},
+                                                    {"two words.bin", gltf_buffer()},
+                                                    {"gr\xC3\xBCn.bin", gltf_buffer()},
+                                                    {"data/a.bin", gltf_buffer()},
+                                                    {"100%.bin", gltf_buffer()}};
+  for (const char* uri : {"a.bin", "two%20words.bin", "two words.bin", "gr%C3%BCn.bin", "gr\xC3\xBCn.bin",
+                          "data/a.bin", "100%.bin", "%61.bin"}) {
+    std::vector<std::string> asked;
+    const auto file = read_beside(with_uri(uri), files, &asked);
+    ASSERT_TRUE(file) << uri << ": " << file.error().message();
+    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles) << uri;
+    EXPECT_EQ(asked.size(), 1U) << uri;
+  }
+}
+
+TEST(GltfBeside, NamesWhatIsMissing) {
+  const std::string missing =
+      "a.gltf, buffer 0: expected the file 'b.bin' beside it, found none that can be read; a .glb needs no "
+      "other file";
+  EXPECT_EQ(read_beside(with_uri("b.bin"), {}).error().message(), missing);
+  EXPECT_EQ(message_of(with_uri("b.bin"), "a.gltf"), missing);
+  EXPECT_EQ(read_beside(with_uri("b.bin"), {{"b.bin", "short"}}).error().message(),
+            "a.gltf, buffer 0: expected as many bytes as its byteLength says, found 5");
+}
+
+TEST(GltfBeside, AsksForNoFileOutsideTheFolder) {
+  for (const char* uri :
+       {"/etc/passwd", "../a.bin", "data/../../a.bin", "%2E%2E/a.bin", "%2Fetc/passwd", "..", "file:///a.bin",
+        "http://a.b/c.bin", "C:/a.bin", "..\\\\a.bin", "", "a%00.bin"}) {
+    std::vector<std::string> asked;
+    const auto file = read_beside(with_uri(uri), {}, &asked);
+    ASSERT_FALSE(file) << uri;
+    EXPECT_TRUE(asked.empty()) << uri;
+    EXPECT_TRUE(file.error().expected.starts_with("expected a file in the same folder, found ")) << uri;
+  }
+}
+
+TEST(GltfBeside, BuffersThatNoMeshUsesMayBeMissing) {
+  const std::string more =
+      replaced(gltf_json(), R"("buffers":[)", R"("buffers":[{"uri":"no.bin","byteLength":9},)");
+  const auto file = read(glb_of(replaced(more, R"("buffer":0)", R"("buffer":1)")), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+}
+
+TEST(Gltf, ReadsMeshesWithoutNodes) {
+  std::string json = gltf_json();
+  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
+  json.erase(begin, end - begin);
+  const auto file = read(glb_of(json), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.points, tetrahedron_points);
+}
+
+TEST(Gltf, ReadsPointsAsACloud) {
+  const auto file = read(glb_of(replaced(gltf_json(), R"("indices":1)", R"("mode":0)")), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_TRUE(file->mesh.empty());
+  EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{10, 0, 0}, {12, 0, 0}, {10, 2, 0}, {10, 0, 2}}));
+}
+
+TEST(Gltf, SkipsPrimitivesWithoutPositions) {
+  const std::string two = replaced(gltf_json(), R"("primitives":[)", R"("primitives":[{"attributes":{}},)");
+  const auto file = read(glb_of(two), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+}
+
+TEST(Gltf, TakesWholeNumbersWrittenAsFractions) {
+  const auto file = read(glb_of(replaced(gltf_json(), R"("nodes":[0])", R"("nodes":[0.0])")), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+}
+
+// The tetrahedron's second and fourth corner replaced by two others.
+std::string sparse_glb(const std::string& base) {
+  std::string json =
+      replaced(gltf_json(), R"({"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"})",
+               R"({)" + base +
+                   R"("componentType":5126,"count":4,"type":"VEC3","sparse":{"count":2,)"
+                   R"("indices":{"bufferView":2,"componentType":5121},"values":{"bufferView":3}}})");
+  json = replaced(json, R"("byteOffset":48,"byteLength":24})",
+                  R"("byteOffset":48,"byteLength":24},{"buffer":1,"byteLength":2},)"
+                  R"({"buffer":1,"byteOffset":4,"byteLength":24})");
+  std::string more = std::string("\1\3\0\0", 4);
+  for (const float x : {5.F, 6.F, 7.F, 8.F, 9.F, 10.F}) more += raw(x);
+  json = replaced(json, R"("byteLength":72}]})",
+                  R"("byteLength":72},{"uri":"data:;base64,)" + base64(more) + R"(","byteLength":28}]})");
+  return glb_of(replaced(replaced(json, "[10,0,0]", "[0,0,0]"), "[2,2,2]", "[1,1,1]"));
+}
+
+TEST(Gltf, ReplacesTheVectorsOfSparseAccessors) {
+  const auto file = read(sparse_glb(R"("bufferView":0,)"), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.points, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 1, 0}, {8, 9, 10}}));
+  const auto zeros = read(sparse_glb(""), "a.glb");
+  ASSERT_TRUE(zeros) << zeros.error().message();
+  EXPECT_EQ(zeros->mesh.points, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 0, 0}, {8, 9, 10}}));
+  EXPECT_EQ(
+      message_of(replaced(sparse_glb(""), R"("count":4,"type":"VEC3")", R"("count":2,"type":"VEC3")"), "a"),
+      "a, mesh 0, accessor 0: expected sparse indices below 2");
+}
+
+TEST(Gltf, NamesOldVersionsAndCompression) {
+  EXPECT_EQ(message_of(replaced(gltf_json(), "\"2.0\"", "\"1.0\""), "a.gltf"),
+            "a.gltf, asset.version: expected version 2 of glTF, found '1.0'");
+  const std::string fallback =
+      replaced(gltf_json(), R"("buffers":[{)",
+               R"("buffers":[{"extensions":{"EXT_meshopt_compression":{"fallback":true}},)");
+  EXPECT_EQ(
+      message_of(fallback, "a.gltf"),
+      "a.gltf, buffer 0: expected meshes that are not compressed, found EXT_meshopt_compression; unpack them "
+      "first");
+  const std::string required =
+      replaced(with_uri("no.bin"), R"("scene":0)", R"("extensionsRequired":["EXT_meshopt_compression"])");
+  EXPECT_EQ(
+      message_of(required, "a.gltf"),
+      "a.gltf, extensionsRequired: expected meshes that are not compressed, found 'EXT_meshopt_compression'; "
+      "unpack them first");
+}
+
+TEST(Gltf, TakesLinearTimeForAChainOfNodesWithoutAScene) {
+  std::string nodes = R"("nodes":[)";
+  const int length = 400000;
+  for (int i = 0; i < length; ++i) nodes += R"({"children":[)" + std::to_string(i + 1) + "]},";
+  nodes += R"({"mesh":0}],)";
+  std::string json = gltf_json();
+  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
+  json.replace(begin, end - begin, nodes);
+  const auto start = std::chrono::steady_clock::now();
+  const auto file = read(glb_of(json), "a.glb");
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.points, tetrahedron_points);
+  EXPECT_LT(seconds.count(), 15);  // a quadratic search takes 30, and this less than 1
+}
+
+}  // namespace
+}  // namespace relievo
