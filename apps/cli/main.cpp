@@ -2,7 +2,7 @@
 #include <new>
 
 #include "cli/commands.h"
-#include "common/files.h"
+#include "common/temporary_file.h"
 #include "relievo/core/version.h"
 
 namespace {

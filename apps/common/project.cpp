@@ -133,13 +133,22 @@ Result<Project> read_project(std::string_view text, std::string_view name) {
   return Project{input, options};
 }
 
-std::string hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+void FileHash::append(std::string_view bytes) {
+  for (const char byte : bytes) hash_ = (hash_ ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+}
+
+std::string FileHash::text() const {
   constexpr char digits[] = "0123456789abcdef";
   std::string text(16, '0');
-  for (int i = 15; i >= 0; --i, hash >>= 4) text[static_cast<std::size_t>(i)] = digits[hash & 15];
+  std::uint64_t rest = hash_;
+  for (int i = 15; i >= 0; --i, rest >>= 4) text[static_cast<std::size_t>(i)] = digits[rest & 15];
   return "fnv1a64:" + text;
+}
+
+std::string hash_of(std::string_view bytes) {
+  FileHash hash;
+  hash.append(bytes);
+  return hash.text();
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // Project files: a relief as work in progress, in JSON. The studio saves and opens them, `make` makes them.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -42,6 +43,14 @@ nlohmann::json to_json(const ScanSource& input);
 Result<ScanSource> input_from_json(const nlohmann::json& json, std::string_view name);
 
 // Tells changed files from unchanged ones: 64 bits of FNV-1a. No protection against intent.
+class FileHash {
+ public:
+  void append(std::string_view bytes);
+  std::string text() const;
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325U;
+};
 std::string hash_of(std::string_view bytes);
 
 // Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative

@@ -1,7 +1,7 @@
 // Connects the parts of the studio's page.
 
 import {about, defaultOf, engine} from "./about.js";
-import {$, Slider, clamp, download, make} from "./controls.js";
+import {$, Slider, clamp, download, fileSize, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./document.js";
 import {ExportDialog} from "./export.js";
@@ -110,10 +110,16 @@ function check(radio, isChecked) {
   radio.tabIndex = isChecked ? 0 : -1;
 }
 
-let keeper = 0;
+let keeper = 0, isKept = !about.notice;
 function keepSoon() {
   clearTimeout(keeper);
-  keeper = setTimeout(() => engine.keepState(doc.keep()).catch(() => {}), KEEP_MS);
+  keeper = setTimeout(() => engine.keepState(doc.keep()).then(() => (isKept = true), notKept), KEEP_MS);
+}
+
+// Says once that work is not kept, unless the engine is gone, which is said elsewhere.
+function notKept({kind, message}) {
+  if (isKept && kind !== "lost") toast(`Your work is not kept: ${message}`);
+  if (kind !== "lost") isKept = false;
 }
 addEventListener("pagehide", () => doc.now.input && engine.keepState(doc.keep(), true).catch(() => {}));
 
@@ -227,6 +233,8 @@ async function openFile(file) {
 
 // Sends the file's bytes to the engine, which takes a moment for large scans.
 async function takeIn(file) {
+  const most = about.most_upload;
+  if (file.size > most) throw new Error(`${file.name} has ${fileSize(file.size)}: expected at most ${fileSize(most)}.`);
   showStart(false);
   showProgress({busy: true, stage: "upload"}, status.model === 0);
   try {
@@ -378,6 +386,7 @@ async function start() {
     failed(error);
     showStart(true);
   }
+  if (about.notice) toast(about.notice, true);
   engine.follow(followed, engineLost);
 }
 

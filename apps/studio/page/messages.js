@@ -4,6 +4,8 @@ import {$} from "./controls.js";
 
 let timer = 0, isLost = false;
 
+$("#toast").onclick = hideToast;
+
 // A line for people, for eight seconds or until the next.
 export function toast(text, isLasting = false) {
   $("#toast").textContent = text;
