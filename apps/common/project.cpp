@@ -107,6 +107,10 @@ Result<ReliefOptions> options_from_json(const Json& json, std::string_view name)
   return parse_options(texts);
 }
 
+bool is_same(const ScanSource& a, const ScanSource& b) {
+  return a.sample == b.sample && a.path == b.path;
+}
+
 Json to_json(const ScanSource& input) {
   if (!input.sample.empty()) return {{"sample", input.sample}, {"name", input.name}};
   return {{"path", input.path}, {"name", input.name}, {"hash", input.hash}};
@@ -159,7 +163,7 @@ Scene scene_of(const std::string& name, CloudFile file) {
 
 }  // namespace
 
-Result<Scene> load_input(ScanSource& input, const std::string& folder) {
+Result<Scene> load_input(ScanSource& input, const std::string& folder, const Progress* progress) {
   if (!input.sample.empty()) {
     Result<Cloud> sample = make_sample(input.sample);
     if (!sample) return std::unexpected(sample.error());
@@ -168,10 +172,12 @@ Result<Scene> load_input(ScanSource& input, const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
+  RELIEVO_CHECK(check_cancelled(progress));
   const std::string hash = hash_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
+  RELIEVO_CHECK(check_cancelled(progress));
   if (is_scene_file(path)) {
     Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
     if (!read) return std::unexpected(read.error());

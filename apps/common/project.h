@@ -39,6 +39,9 @@ Result<OptionTexts> texts_from_json(const nlohmann::json& json, std::string_view
 // The same, read by parse_options(). Errors: also those of it.
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
+// Returns whether both name the same sample or file, whatever is in it.
+bool is_same(const ScanSource& a, const ScanSource& b);
+
 nlohmann::json to_json(const ScanSource& input);
 Result<ScanSource> input_from_json(const nlohmann::json& json, std::string_view name);
 
@@ -54,8 +57,8 @@ class FileHash {
 std::string hash_of(std::string_view bytes);
 
 // Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
-// path starts at `folder`. Errors: kind input, also if the file is not the one that the hash was taken from;
+// path starts at `folder`. The progress is only asked whether it was cancelled. Errors: kind input, also if the file is not the one that the hash was taken from;
 // kind option for an unknown sample.
-Result<Scene> load_input(ScanSource& input, const std::string& folder);
+Result<Scene> load_input(ScanSource& input, const std::string& folder, const Progress* progress = nullptr);
 
 }  // namespace relievo::app

@@ -160,7 +160,13 @@ struct Server::State {
     if (!wanted) return answer(response, wanted.error());
     const Result<int> pixels = pixels_from(json);
     if (!pixels) return answer(response, pixels.error());
-    Result<ExportedFile> file = engine.make_file(*wanted, json.value("format", ""), *pixels);
+    std::optional<ScanSource> source;
+    if (json.contains("input")) {
+      const Result<ScanSource> input = input_from_json(json["input"], "input");
+      if (!input) return answer(response, input.error());
+      source = *input;
+    }
+    Result<ExportedFile> file = engine.make_file({source, *wanted, json.value("format", ""), *pixels});
     if (!file) return answer(response, file.error());
     response.status = 200;
     response.body = std::move(file->bytes);

@@ -32,10 +32,6 @@ std::string variable(const char* name) {
   return value ? value : "";
 }
 
-bool is_same(const ScanSource& a, const ScanSource& b) {
-  return a.sample == b.sample && a.path == b.path;
-}
-
 // Returns the last part of a path, without anything that a file system could read as more than a name.
 std::string plain_name(const std::string& name) {
   std::string plain = fs::path(name).filename().string();

@@ -7,7 +7,7 @@ import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./docu
 import {ExportDialog} from "./export.js";
 import {FIELDS, fillChoices} from "./fields.js";
 import {takeArrowKeys, takeDrops, takeKeys} from "./inputs.js";
-import {engineBack, engineLost, toast} from "./messages.js";
+import {engineBack, engineLost, offer, toast} from "./messages.js";
 import {showProgress} from "./progress.js";
 import {showNumbers, showSection} from "./readouts.js";
 import {Stage, TABLE_LIGHTS} from "./stage.js";
@@ -19,7 +19,7 @@ const doc = new Document((before) => changed(before));
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName()}),
+const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName(), input: doc.now.input}),
   (options) => doc.change({options}));
 
 let facts = null;
@@ -27,6 +27,7 @@ let status = {busy: false, model: 0};
 let last = null; // numbers of the newest picture
 let shownView = null; // the view of the model that is shown
 let fallback = null; // the document before the scan that is being opened
+let asking = 0; // requests for a scan or a view that the engine has not answered yet
 
 // ------------------------------------------------------------------------------------------------- sliders
 
@@ -40,7 +41,7 @@ lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11"
 const sliders = {};
 for (const [name, field] of Object.entries(FIELDS)) {
   const slider = new Slider({...field, extra: name === "height" ? lock : null, otherwise: FIRST.options[name]},
-    (value) => slide(name, value), () => doc.endStroke());
+    (value) => slide(name, value), () => doc.endStroke(), toast);
   sliders[name] = slider;
   $(field.place).append(slider.element);
 }
@@ -72,7 +73,7 @@ function changed(before) {
   const hasNewView = before && !isSameView(viewOf(before), viewOf(now));
   if (hasNewView) {
     stage.await(true);
-    engine.chooseView(viewOf(now)).catch(failed);
+    ask(engine.chooseView(viewOf(now))).catch(failed);
   }
   stage.invalidate();
   keepSoon();
@@ -177,6 +178,7 @@ async function arrived() {
   }
   shownView = status.shown;
   fallback = null;
+  if (doc.now.input && asking === 0) await followOtherTab().catch(failed);
   if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
   stage.isReady = true;
   stage.model = status.model;
@@ -185,6 +187,29 @@ async function arrived() {
   $("#remarks").textContent = facts.remarks.join("  ");
   $("#save").hidden = $("#export").hidden = false;
   stage.invalidate();
+}
+
+async function ask(request) {
+  ++asking;
+  return request.finally(() => --asking);
+}
+
+// Takes over the scan or the view that another tab has asked for, with the document of that tab as far as it is kept.
+async function followOtherTab() {
+  const {input, wanted, shown} = status, mine = doc.keep();
+  if (isSame(doc.now.input, input) || isSame(doc.now.input, wanted)) {
+    if (isSame(doc.now.input, input) && isSame(input, wanted)) doc.note({options: shown});
+    return showDocument();
+  }
+  const {state} = await engine.about();
+  if (!doc.restore(state) || !isSame(doc.now.input, input))
+    doc.begin({...FIRST, input, options: {...FIRST.options, ...shown}});
+  showDocument();
+  const step = mine.steps[mine.at];
+  offer(`Another tab opened ${input.name}, which is shown here, too.`, `Go back to ${step.input.name}`, async () => {
+    await openInput(step.input, step);
+    if (isSame(doc.now.input, step.input) && doc.restore(mine)) showDocument();
+  });
 }
 
 function complain({error, model}) {
@@ -213,7 +238,7 @@ async function openInput(input, step = {...FIRST, input}) {
   doc.begin({...step, input});
   stage.await(true);
   try {
-    await engine.open(input, viewOf(step));
+    await ask(engine.open(input, viewOf(step)));
   } catch (error) {
     failed(error);
   }

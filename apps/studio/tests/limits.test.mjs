@@ -120,7 +120,8 @@ test("writes a dropped scan to the disk as it arrives", async () => {
 
 test("answers while hundreds of others send slowly", async () => {
   const token = engine.url.pathname, {host} = engine.url;
-  const starts = ["", "G", `GET ${token} HTTP/1.1\r\nHost: ${host}\r\nX: `, `GET ${token}icon.svg HTTP/1.1\r\nHost: ${host}\r\n\r\n`];
+  const get = (name) => `GET ${token}${name} HTTP/1.1\r\nHost: ${host}\r\n`;
+  const starts = ["", "G", `${get("")}X: `, `${get("icon.svg")}\r\n`];
   const slow = Array.from({length: 600}, (_, i) => {
     const socket = connect();
     socket.write(starts[i % starts.length]);
@@ -148,6 +149,17 @@ test("keeps many requests on one connection, and two that are sent at once", asy
   await sleep(500);
   assert.equal(text.match(/HTTP\/1\.1 200/g).length, 3);
   socket.destroy();
+});
+
+test("makes no file of another scan than the page shows", async () => {
+  const make = (input) => engine.post("export", {input, options: OPTIONS, format: "stl"});
+  assert.equal((await make({path: scan})).status, 200);
+  for (const other of [{sample: "shell"}, {path: `${scan}.ply`}]) {
+    const answer = await make(other);
+    assert.equal(answer.status, 409);
+    assert.match(JSON.parse(answer.body).error.text, /expected this scan to be open, found scan\.ply/);
+  }
+  assert.equal((await make({path: 3})).status, 400);
 });
 
 test("shares its port with nobody", async () => {

@@ -51,3 +51,35 @@ test("works in nine tabs at once, whichever has the stream of events", {skip}, a
   for (const tab of left) await tab.getByText(`${points.toLocaleString("en-US")} of 20,000 points`).waitFor();
   for (const tab of left) await tab.close();
 });
+
+test("follows another tab to its scan, says so, and goes back", {skip}, async () => {
+  const [tab, other] = [await newTab(), await newTab()], title = tab.locator("#title");
+  const height = (of) => of.getByRole("spinbutton", {name: "Height in mm"});
+  await height(tab).fill("3.25");
+  await height(tab).press("Enter");
+  await other.getByRole("button", {name: "Start page"}).click();
+  await other.getByRole("list", {name: "Try a sample"}).getByRole("button", {name: /shell/i}).click();
+  await height(other).fill("1.5");
+  await height(other).press("Enter");
+  await tab.getByRole("alert").getByText("Another tab opened shell, which is shown here, too.").waitFor();
+  assert.equal(await title.innerText(), "Shell");
+  assert.equal(await height(tab).inputValue(), "1.50");
+  await untilReady(tab);
+  await tab.getByRole("button", {name: "Export", exact: true}).click();
+  const download = tab.waitForEvent("download");
+  await tab.getByRole("dialog", {name: "Export"}).getByRole("button", {name: "Export"}).click();
+  assert.match((await download).suggestedFilename(), /^shell/);
+  await tab.getByRole("button", {name: "Go back to scan.ply"}).click();
+  await tab.getByText("of 20,000 points").waitFor();
+  assert.equal(await title.innerText(), "scan.ply");
+  assert.equal(await height(tab).inputValue(), "3.25");
+  await other.getByText("Another tab opened scan.ply, which is shown here, too.").waitFor();
+  for (const each of [tab, other]) await each.close();
+});
+
+test("follows another tab to its view", {skip}, async () => {
+  const tab = await newTab(), name = tab.locator("#view-name");
+  await engine.post("view", {view: "right"});
+  await name.getByText("Right").waitFor();
+  await tab.close();
+});
