@@ -157,13 +157,18 @@ std::string hash_of(std::string_view bytes) {
 
 namespace {
 
+std::unexpected<Error> unwanted() {
+  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+}
+
 Scene scene_of(const std::string& name, CloudFile file) {
   return {{{name, std::make_shared<const CloudFile>(std::move(file))}}};
 }
 
 }  // namespace
 
-Result<Scene> load_input(ScanSource& input, const std::string& folder, const Progress* progress) {
+Result<Scene> load_input(ScanSource& input, const std::string& folder,
+                         const std::function<bool()>& is_unwanted) {
   if (!input.sample.empty()) {
     Result<Cloud> sample = make_sample(input.sample);
     if (!sample) return std::unexpected(sample.error());
@@ -172,12 +177,12 @@ Result<Scene> load_input(ScanSource& input, const std::string& folder, const Pro
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
-  RELIEVO_CHECK(check_cancelled(progress));
+  if (is_unwanted && is_unwanted()) return unwanted();
   const std::string hash = hash_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
-  RELIEVO_CHECK(check_cancelled(progress));
+  if (is_unwanted && is_unwanted()) return unwanted();
   if (is_scene_file(path)) {
     Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
     if (!read) return std::unexpected(read.error());

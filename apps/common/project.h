@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -57,8 +58,9 @@ class FileHash {
 std::string hash_of(std::string_view bytes);
 
 // Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
-// path starts at `folder`. The progress is only asked whether it was cancelled. Errors: kind input, also if the file is not the one that the hash was taken from;
-// kind option for an unknown sample.
-Result<Scene> load_input(ScanSource& input, const std::string& folder, const Progress* progress = nullptr);
+// path starts at `folder`. Errors: kind input, also if the file is not the one that the hash was taken from;
+// kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
+Result<Scene> load_input(ScanSource& input, const std::string& folder,
+                         const std::function<bool()>& is_unwanted = {});
 
 }  // namespace relievo::app

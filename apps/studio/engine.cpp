@@ -1,6 +1,8 @@
 #include "studio/engine.h"
 
+#include <functional>
 #include <mutex>
+#include <new>
 
 #include "common/wording.h"
 #include "relievo/core/choice.h"
@@ -15,6 +17,16 @@ namespace {
 
 std::unexpected<Error> nothing_open() {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
+}
+
+// A scan that does not fit into memory must not end the program.
+Result<Scene> load_scan(ScanSource& source, const std::function<bool()>& is_unwanted) {
+  try {
+    return load_input(source, {}, is_unwanted);
+  } catch (const std::bad_alloc&) {
+    return std::unexpected(
+        Error{ErrorKind::input, source.name, {}, "expected more free memory for so many points"});
+  }
 }
 
 // Tabs may show what they were opened with while another tab has opened another scan.
@@ -76,9 +88,11 @@ struct Engine::State {
     if (!unread) return {};
     if (auto go = progress.stage("read", 0); !go) return go;
     ScanSource source = *unread;
-    Result<Scene> models = load_input(source, {}, &progress);
+    // Whoever chooses another view cancels the preparation, but not the reading.
+    const auto is_unwanted = [&] { return shared.with([&](const Shared& s) { return s.unread != unread; }); };
+    Result<Scene> models = load_scan(source, is_unwanted);
     std::optional<LoadedScan> scan;
-    if (models && !progress.is_cancelled()) scan.emplace(std::move(source), std::move(*models));
+    if (models && !is_unwanted()) scan.emplace(std::move(source), std::move(*models));
     const bool is_wanted = shared.with([&](Shared& s) {
       if (s.unread != unread) return false;  // another scan was opened meanwhile, or this one cancelled
       s.unread = nullptr;
