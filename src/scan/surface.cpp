@@ -111,7 +111,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
 
   if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
   std::vector<double> k(cloud.size(), 0.0);
-  scatter(mean_curvature(cloud, spacing, visible, options.curvature), visible, k);
+  scatter(mean_curvature(cloud, spacing, visible, options.curvature, progress), visible, k);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Index> shown = along_the_plane(cloud, merged(visible, hole_fill));
   surface.points = pick(cloud.points, shown);
