@@ -4,7 +4,7 @@
 option(RELIEVO_UNITY "Compile the sources of a folder together" ON)
 
 # False alarms of g++ 12, which sees through <string> where that is precompiled; programs and tests are built with these.
-set(RELIEVO_FALSE_ALARMS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow)
+set(RELIEVO_FALSE_ALARMS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
 
 # relievo_precompile(TARGET HEADER...) precompiles cmake/precompiled.h and the given headers for the target;
 # relievo_precompile(TARGET REUSE_FROM OTHER) takes what was precompiled for another target with the same options.

@@ -102,7 +102,7 @@ Result<void> scene_info(const std::vector<std::string>& inputs) {
 Result<void> info(const std::vector<std::string>& inputs) {
   const std::string& input = inputs[0];
   if (inputs.size() > 1 || is_scene_file(input)) return scene_info(inputs);
-  const Result<std::vector<std::byte>> bytes = read_file(input);
+  const Result<std::vector<std::byte>> bytes = read_file(input, true);
   if (!bytes) return std::unexpected(bytes.error());
   if (is_picture(*bytes)) return depth_info(*bytes, input);
   const Result<CloudFile> file = read_cloud_at(*bytes, input);

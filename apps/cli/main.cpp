@@ -3,7 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/terminal.h"
-#include "common/files.h"
+#include "common/temporary_file.h"
 #include "relievo/core/version.h"
 
 namespace {

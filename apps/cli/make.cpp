@@ -75,7 +75,7 @@ Result<void> take_base_image(const std::string& path, BaseOptions& base) {
   if (!is_image)
     return option_error("base-image",
                         cat("expected base image with it, found ", name_in(base_choices, base.kind)));
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path, true));
   RELIEVO_TRY(DepthImage image, read_depth_image(bytes, path));
   base.image = std::make_shared<const Image<float>>(std::move(image.values));
   return {};

@@ -35,7 +35,7 @@ Result<void> studio(const StudioArguments& arguments) {
     const std::string path = std::filesystem::absolute(arguments.input).string();
     const ScanSource input{{}, path, std::filesystem::path(path).filename().string(), {}};
     engine.open(input, {});
-    if (auto kept = store.remember(input); !kept) return kept;
+    (void)store.remember(input);
   }
   studio::Server server(engine, store,
                         {arguments.port, arguments.page, std::chrono::seconds(arguments.linger_s)});
@@ -43,6 +43,7 @@ Result<void> studio(const StudioArguments& arguments) {
   if (!address) return std::unexpected(address.error());
   std::printf("Relievo studio: %s\nCtrl-C ends it; so does closing the page.\n", address->c_str());
   std::fflush(stdout);
+  if (!store.notice().empty()) std::fprintf(stderr, "relievo: %s\n", store.notice().c_str());
   if (arguments.is_browser_wanted) show(*address);
   server.run();
   return {};

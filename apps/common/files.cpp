@@ -5,125 +5,17 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cctype>
 #include <cerrno>
-#include <climits>
-#include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <list>
-#include <utility>
 
+#include "common/temporary_file.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app {
 namespace {
-
-std::unexpected<Error> system_error(ErrorKind kind, const std::string& path, const std::string& expected) {
-  return std::unexpected(Error{kind, path, {}, expected + ": " + std::strerror(errno)});
-}
-
-// Closes a file descriptor at the end of its scope.
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(number_, other.number_);
-    return *this;
-  }
-  ~Descriptor() { close(); }
-
-  int number() const { return number_; }
-  bool is_open() const { return number_ >= 0; }
-  bool close() {
-    const int closed = std::exchange(number_, -1);
-    return closed < 0 || ::close(closed) == 0;
-  }
-
- private:
-  int number_;
-};
-
-bool write_all(int descriptor, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
-// The mode that a plain open() for writing would have given.
-mode_t new_file_mode() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
-}
-
-// A temporary file's name where a signal handler may read it at any time.
-struct TemporaryName {
-  std::atomic<bool> is_used = false;
-  char text[PATH_MAX] = {};
-};
-std::array<TemporaryName, 8> temporary_names;
-
-extern "C" void remove_temporaries(int signal) {
-  for (const TemporaryName& name : temporary_names)
-    if (name.is_used) ::unlink(name.text);
-  ::raise(signal);  // now with its usual effect
-}
-
-// A file beside `path` that takes its place when kept, and is gone otherwise.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const std::string& path) : path_(path) {
-    const auto free = std::find_if(temporary_names.begin(), temporary_names.end(),
-                                   [](const TemporaryName& name) { return !name.is_used; });
-    const std::string pattern = path + ".XXXXXX";
-    if (free == temporary_names.end() || pattern.size() >= sizeof free->text) {
-      errno = free == temporary_names.end() ? EMFILE : ENAMETOOLONG;
-      return;
-    }
-    name_ = &*free;
-    std::copy_n(pattern.c_str(), pattern.size() + 1, name_->text);
-    name_->is_used = true;
-    file_ = Descriptor(::mkstemp(name_->text));
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    if (!name_) return;
-    if (!is_kept_) ::unlink(name_->text);
-    name_->is_used = false;
-  }
-
-  Result<void> write(std::span<const std::byte> bytes) {
-    if (!file_.is_open())
-      return system_error(ErrorKind::output, path_, "expected a place that can be written to");
-    const bool is_written = write_all(file_.number(), bytes) &&
-                            ::fchmod(file_.number(), new_file_mode()) == 0 && ::fsync(file_.number()) == 0 &&
-                            file_.close();
-    if (is_written) return {};
-    return system_error(ErrorKind::output, path_, "expected room to write the file");
-  }
-
-  Result<void> keep() {
-    is_kept_ = ::rename(name_->text, path_.c_str()) == 0;
-    if (is_kept_) return {};
-    return system_error(ErrorKind::output, path_, "expected a file that can be replaced");
-  }
-
- private:
-  const std::string& path_;
-  TemporaryName* name_ = nullptr;
-  Descriptor file_{-1};
-  bool is_kept_ = false;
-};
 
 std::string folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
@@ -154,29 +46,49 @@ Result<void> check_writable(const std::string& path) {
   return {};
 }
 
-}  // namespace
+std::string_view kind_of(mode_t mode) {
+  if (S_ISDIR(mode)) return "a folder";
+  return S_ISFIFO(mode) ? "a pipe" : "a device";
+}
 
-Result<std::vector<std::byte>> read_file(const std::string& path) {
-  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file.is_open()) return system_error(ErrorKind::input, path, "expected a file that can be read");
-  struct stat status {};
-  if (::fstat(file.number(), &status) != 0 || S_ISDIR(status.st_mode)) {
-    errno = EISDIR;
-    return system_error(ErrorKind::input, path, "expected a file");
-  }
-  // One more than the size, so that the end is seen without growing; pipes have no size.
-  std::vector<std::byte> bytes(static_cast<std::size_t>(std::max<off_t>(status.st_size + 1, 1 << 16)));
-  std::size_t filled = 0;
-  for (;;) {
+// Files beyond half of the machine's memory could be read, but nothing could be made of them.
+std::size_t most_bytes() {
+  return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) / 2 *
+         static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+// Reads to the end of the file, whose size is known but for pipes and files that grow.
+Result<std::vector<std::byte>> read_all(const Descriptor& file, std::size_t size, const std::string& path) {
+  const std::size_t most = most_bytes();
+  // One more than the size, so that the end is seen without growing.
+  std::vector<std::byte> bytes(size > most ? 0 : std::max<std::size_t>(size + 1, 1 << 16));
+  for (std::size_t filled = 0; size <= most && filled <= most;) {
     if (filled == bytes.size()) bytes.resize(bytes.size() * 2);
     const ssize_t got = ::read(file.number(), bytes.data() + filled, bytes.size() - filled);
     if (got < 0 && errno == EINTR) continue;
     if (got < 0) return system_error(ErrorKind::input, path, "expected a file that can be read");
-    if (got == 0) break;
     filled += static_cast<std::size_t>(got);
+    if (got > 0) continue;
+    bytes.resize(filled);
+    return bytes;
   }
-  bytes.resize(filled);
-  return bytes;
+  return std::unexpected(
+      Error{ErrorKind::input, path, {}, cat("expected at most ", most >> 20, " MiB, half of the memory")});
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_fine) {
+  // Without O_NONBLOCK the opening of a pipe that nobody writes to would never return.
+  Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | (is_pipe_fine ? 0 : O_NONBLOCK)));
+  if (!file.is_open()) return system_error(ErrorKind::input, path, "expected a file that can be read");
+  struct stat status {};
+  if (::fstat(file.number(), &status) != 0)
+    return system_error(ErrorKind::input, path, "expected a file that can be read");
+  if (!S_ISREG(status.st_mode) && !(is_pipe_fine && S_ISFIFO(status.st_mode)))
+    return std::unexpected(
+        Error{ErrorKind::input, path, {}, cat("expected a file, found ", kind_of(status.st_mode))});
+  return read_all(file, static_cast<std::size_t>(status.st_size), path);
 }
 
 Result<void> check_output(const std::string& path, const std::vector<std::string_view>& endings,
@@ -190,22 +102,15 @@ Result<void> check_output(const std::string& path, const std::vector<std::string
 
 Result<void> write_files(std::span<const OutputFile> files) {
   std::list<TemporaryFile> temporaries;
-  for (const OutputFile& file : files)
-    if (auto ok = temporaries.emplace_back(file.path).write(file.bytes); !ok) return ok;
-  for (TemporaryFile& temporary : temporaries)
-    if (auto ok = temporary.keep(); !ok) return ok;
-  return {};
-}
-
-void remove_temporary_files_on_signals() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) {
-    struct sigaction action {};
-    ::sigaction(signal, nullptr, &action);
-    if (action.sa_handler == SIG_IGN) continue;
-    action.sa_handler = remove_temporaries;
-    action.sa_flags = static_cast<int>(SA_RESETHAND);
-    ::sigaction(signal, &action, nullptr);
+  for (const OutputFile& file : files) {
+    TemporaryFile& temporary = temporaries.emplace_back(file.path);
+    if (auto ok = temporary.append(file.bytes); !ok) return ok;
+    if (auto ok = temporary.finish(); !ok) return ok;
   }
+  auto file = files.begin();
+  for (TemporaryFile& temporary : temporaries)
+    if (auto ok = temporary.keep((file++)->path); !ok) return ok;
+  return {};
 }
 
 std::vector<std::byte> bytes_of(std::string_view text) {

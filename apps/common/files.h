@@ -11,8 +11,9 @@
 
 namespace relievo::app {
 
-// Returns the bytes of a file. Errors: kind input, telling why it cannot be read.
-Result<std::vector<std::byte>> read_file(const std::string& path);
+// Returns the bytes of a file. Errors: kind input, telling why it cannot be read; also for folders, devices, files larger
+// than half of the memory and, unless `is_pipe_fine`, pipes.
+Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_fine = false);
 
 // Checks the path of an output before the work for it begins. Errors: kind option if it has none of the endings,
 // given as ".stl" (any will do if there are none), or leads to one of the files in `taken`; kind output if no file
@@ -30,9 +31,6 @@ struct OutputFile {
 // readers see an old file or the whole new one, and if one cannot be written, all stay as they were. Errors:
 // kind output.
 Result<void> write_files(std::span<const OutputFile> files);
-
-// From now on Ctrl-C and other signals that end the program remove its temporary files first.
-void remove_temporary_files_on_signals();
 
 // Returns the text as the content of a file.
 std::vector<std::byte> bytes_of(std::string_view text);

@@ -108,6 +108,10 @@ Result<ReliefOptions> options_from_json(const Json& json, std::string_view name)
   return parse_options(texts);
 }
 
+bool is_same(const ScanSource& a, const ScanSource& b) {
+  return a.sample == b.sample && a.path == b.path;
+}
+
 Json to_json(const ScanSource& input) {
   if (!input.sample.empty()) return {{"sample", input.sample}, {"name", input.name}};
   return {{"path", input.path}, {"name", input.name}, {"hash", input.hash}};
@@ -136,16 +140,29 @@ Result<Project> read_project(std::string_view text, std::string_view name) {
   return Project{input, options};
 }
 
-std::string hash_of(std::string_view bytes) {
-  std::uint64_t hash = 0xCBF29CE484222325U;
-  for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+void FileHash::append(std::string_view bytes) {
+  for (const char byte : bytes) hash_ = (hash_ ^ static_cast<unsigned char>(byte)) * 0x100000001B3U;
+}
+
+std::string FileHash::text() const {
   constexpr char digits[] = "0123456789abcdef";
   std::string text(16, '0');
-  for (int i = 15; i >= 0; --i, hash >>= 4) text[static_cast<std::size_t>(i)] = digits[hash & 15];
+  std::uint64_t rest = hash_;
+  for (int i = 15; i >= 0; --i, rest >>= 4) text[static_cast<std::size_t>(i)] = digits[rest & 15];
   return "fnv1a64:" + text;
 }
 
+std::string hash_of(std::string_view bytes) {
+  FileHash hash;
+  hash.append(bytes);
+  return hash.text();
+}
+
 namespace {
+
+std::unexpected<Error> unwanted() {
+  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+}
 
 Scene scene_of(const std::string& name, CloudFile file) {
   return {{{name, std::make_shared<const CloudFile>(std::move(file))}}};
@@ -153,7 +170,8 @@ Scene scene_of(const std::string& name, CloudFile file) {
 
 }  // namespace
 
-Result<Scene> load_input(ScanSource& input, const std::string& folder) {
+Result<Scene> load_input(ScanSource& input, const std::string& folder,
+                         const std::function<bool()>& is_unwanted) {
   if (!input.sample.empty()) {
     Result<Cloud> sample = make_sample(input.sample);
     if (!sample) return std::unexpected(sample.error());
@@ -162,10 +180,12 @@ Result<Scene> load_input(ScanSource& input, const std::string& folder) {
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
+  if (is_unwanted && is_unwanted()) return unwanted();
   const std::string hash = hash_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
+  if (is_unwanted && is_unwanted()) return unwanted();
   if (is_scene_file(path)) {
     Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
     if (!read) return std::unexpected(read.error());

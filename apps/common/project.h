@@ -1,6 +1,8 @@
 // Project files: a relief as work in progress, in JSON. The studio saves and opens them, `make` makes them.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <string_view>
@@ -38,15 +40,27 @@ Result<OptionTexts> texts_from_json(const nlohmann::json& json, std::string_view
 // The same, read by parse_options(). Errors: also those of it.
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
 
+// Returns whether both name the same sample or file, whatever is in it.
+bool is_same(const ScanSource& a, const ScanSource& b);
+
 nlohmann::json to_json(const ScanSource& input);
 Result<ScanSource> input_from_json(const nlohmann::json& json, std::string_view name);
 
 // Tells changed files from unchanged ones: 64 bits of FNV-1a. No protection against intent.
+class FileHash {
+ public:
+  void append(std::string_view bytes);
+  std::string text() const;
+
+ private:
+  std::uint64_t hash_ = 0xCBF29CE484222325U;
+};
 std::string hash_of(std::string_view bytes);
 
 // Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
 // path starts at `folder`. Errors: kind input, also if the file is not the one that the hash was taken from;
-// kind option for an unknown sample.
-Result<Scene> load_input(ScanSource& input, const std::string& folder);
+// kind option for an unknown sample; kind cancelled as soon as `is_unwanted` returns true.
+Result<Scene> load_input(ScanSource& input, const std::string& folder,
+                         const std::function<bool()>& is_unwanted = {});
 
 }  // namespace relievo::app

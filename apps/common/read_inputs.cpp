@@ -126,7 +126,7 @@ Result<LoadedFile> read_input(const std::string& path, const InputArguments& arg
   auto large = read_large(path, arguments, seen, progress);
   if (!large) return std::unexpected(large.error());
   if (*large) return std::move(**large);
-  const auto bytes = read_file(path);
+  const auto bytes = read_file(path, arguments.are_pipes_fine);
   if (!bytes) return std::unexpected(bytes.error());
   return parse_input(*bytes, path, arguments, seen.points, progress);
 }

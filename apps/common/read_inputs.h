@@ -16,6 +16,7 @@ struct InputArguments {
   DepthOptions depth;
   std::string camera;            // of a depth image: numbers, or a file with them
   double stream_above_mb = 512;  // larger files are read piece by piece where that is possible
+  bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
 };
 
 // A file that was read, and a line for each thing that the user should know of it.

@@ -1,6 +1,8 @@
 #include "studio/engine.h"
 
+#include <functional>
 #include <mutex>
+#include <new>
 
 #include "common/wording.h"
 #include "relievo/core/choice.h"
@@ -15,6 +17,24 @@ namespace {
 
 std::unexpected<Error> nothing_open() {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
+}
+
+// A scan that does not fit into memory must not end the program.
+Result<Scene> load_scan(ScanSource& source, const std::function<bool()>& is_unwanted) {
+  try {
+    return load_input(source, {}, is_unwanted);
+  } catch (const std::bad_alloc&) {
+    return std::unexpected(
+        Error{ErrorKind::input, source.name, {}, "expected more free memory for so many points"});
+  }
+}
+
+// Tabs may show what they were opened with while another tab has opened another scan.
+std::unexpected<Error> other_scan(const ScanSource& wanted, const LoadedScan& shown) {
+  return std::unexpected(Error{ErrorKind::geometry,
+                               wanted.name,
+                               {},
+                               cat("expected this scan to be open, found ", shown.input().name)});
 }
 
 struct ShownModel {
@@ -68,9 +88,11 @@ struct Engine::State {
     if (!unread) return {};
     if (auto go = progress.stage("read", 0); !go) return go;
     ScanSource source = *unread;
-    Result<Scene> models = load_input(source, {});
+    // Whoever chooses another view cancels the preparation, but not the reading.
+    const auto is_unwanted = [&] { return shared.with([&](const Shared& s) { return s.unread != unread; }); };
+    Result<Scene> models = load_scan(source, is_unwanted);
     std::optional<LoadedScan> scan;
-    if (models) scan.emplace(std::move(source), std::move(*models));
+    if (models && !is_unwanted()) scan.emplace(std::move(source), std::move(*models));
     const bool is_wanted = shared.with([&](Shared& s) {
       if (s.unread != unread) return false;  // another scan was opened meanwhile, or this one cancelled
       s.unread = nullptr;
@@ -182,22 +204,25 @@ Result<std::vector<std::string>> Engine::suggest_views() {
   return names;
 }
 
-Result<ExportedFile> Engine::make_file(const ReliefOptions& options, const std::string& format,
-                                       int heightmap_px) {
-  const FileFormat* const known = find_format(format);
+Result<ExportedFile> Engine::make_file(const FileRequest& request) {
+  const FileFormat* const known = find_format(request.format);
   if (!known) {
     std::vector<std::string_view> names;
     for (const FileFormat& each : file_formats()) names.push_back(each.name);
-    return not_one_of("format", names, format);
+    return not_one_of("format", names, request.format);
   }
-  const std::shared_ptr<const ReliefModel> model = state_->session.model();
+  const ShownModel shown = state_->shared.with([](const Shared& s) { return s.shown; });
+  const auto& model = shown.model;
   if (!model) return nothing_open();
+  if (request.input && !is_same(*request.input, shown.scan.input()))
+    return other_scan(*request.input, shown.scan);
+  const ReliefOptions& options = request.options;
   if (options.view != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected auto, as the model was prepared");
   RELIEVO_TRY(const MadeRelief made, make_relief(*model, options));
-  return export_file(made, *known, heightmap_px);
+  return export_file(made, *known, request.heightmap_px);
 }
 
 }  // namespace relievo::app::studio

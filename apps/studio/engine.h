@@ -26,6 +26,14 @@ struct EngineStatus {
   std::uint64_t model = 0;  // number of the model that is shown; 0 is none yet
 };
 
+// A file to make. Without a source it is made of the scan that is shown, whichever that is.
+struct FileRequest {
+  std::optional<ScanSource> input;
+  ReliefOptions options;
+  std::string format;  // one of file_formats()
+  int heightmap_px = 2048;
+};
+
 // Every method may be called from any thread. Those that draw wait for each other.
 class Engine {
  public:
@@ -57,10 +65,10 @@ class Engine {
   // Returns the names of the six sides, the one that shows most first.
   Result<std::vector<std::string>> suggest_views();
 
-  // Returns a file of the relief, the same bytes as `relievo make` writes; file_formats() names the formats.
-  // Errors: those of make_relief(); kind option for another format, or if the view that the options ask for
-  // is not the one prepared.
-  Result<ExportedFile> make_file(const ReliefOptions& options, const std::string& format, int heightmap_px);
+  // Returns a file of the relief, the same bytes as `relievo make` writes. Errors: those of make_relief(); kind option for
+  // an unknown format, or if the view that the options ask for is not the one prepared; kind geometry if another scan
+  // is shown.
+  Result<ExportedFile> make_file(const FileRequest& request);
 
  private:
   struct State;

@@ -45,7 +45,8 @@ bool flag(const Json& json, const char* key) {
   return found != json.end() && found->is_boolean() && found->get<bool>();
 }
 
-std::optional<Vec3> triple(const Json& json, const char* key) {
+// Returns a direction, scaled so that neither its square nor a float of it can overflow.
+std::optional<Vec3> direction(const Json& json, const char* key) {
   const auto found = json.find(key);
   if (found == json.end() || !found->is_array() || found->size() != 3) return std::nullopt;
   Vec3 v;
@@ -54,7 +55,9 @@ std::optional<Vec3> triple(const Json& json, const char* key) {
     if (!entry.is_number()) return std::nullopt;
     v[i] = entry.get<double>();
   }
-  return v.allFinite() && v.norm() > 1e-9 ? std::optional(v) : std::nullopt;
+  const double largest = v.cwiseAbs().maxCoeff();
+  if (!v.allFinite() || largest == 0) return std::nullopt;
+  return Vec3(v / largest);
 }
 
 Result<Camera> camera_from(const Json& json) {
@@ -75,7 +78,9 @@ Result<RenderOptions> render_from(const Json& json) {
   render.width = static_cast<int>(*width);
   render.height = static_cast<int>(*height);
   render.is_fine = flag(json, "fine") && *width * *height <= most_fine_pixels;
-  if (const auto light = triple(json, "light")) render.light = light->cast<float>();
+  const auto light = direction(json, "light");
+  if (!light && json.contains("light")) return wrong("light", "expected three numbers, not all of them 0");
+  if (light) render.light = light->cast<float>();
   const std::string material = json.value("material", Json("plaster")).is_string()
                                    ? json.value("material", Json("plaster")).get<std::string>()
                                    : "";
@@ -137,7 +142,7 @@ Result<Vec2> place_from(const Json& json, const char* key) {
 }
 
 Result<View> view_from(const Json& json) {
-  const auto towards = triple(json, "towards"), up = triple(json, "up");
+  const auto towards = direction(json, "towards"), up = direction(json, "up");
   if (!towards || !up) return wrong("towards", "expected directions as three numbers");
   return view_towards(*towards, *up);
 }
@@ -146,6 +151,11 @@ ViewTexts view_texts(const Json& json) {
   const ViewTexts none;
   return {json.value("view", none.view), json.value("up", none.up), json.value("crop", none.crop),
           json.value("crumbs", none.crumbs), json.value("denoise", none.denoise)};
+}
+
+Result<int> pixels_from(const Json& json) {
+  if (const auto pixels = number(json, "pixels", {16, 16384, 2048})) return static_cast<int>(*pixels);
+  return wrong("pixels", "expected a number from 16 to 16384");
 }
 
 static Json to_json(const ViewTexts& texts) {

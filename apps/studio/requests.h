@@ -1,4 +1,4 @@
-// The page's requests and the engine's answers as JSON.
+// The page's requests and the engine's answers as JSON. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -15,6 +15,9 @@ Result<nlohmann::json> parse_body(std::string_view body);
 Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<View> view_from(const nlohmann::json& json);
+
+// Returns the longer side of a height map.
+Result<int> pixels_from(const nlohmann::json& json);
 
 // Returns the texts of a view as the page sends them; those that are missing have their defaults.
 ViewTexts view_texts(const nlohmann::json& json);

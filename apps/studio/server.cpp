@@ -1,8 +1,5 @@
 #include "studio/server.h"
 
-#include <httplib.h>
-#include <sys/socket.h>
-
 #include <atomic>
 #include <map>
 #include <mutex>
@@ -16,6 +13,7 @@
 #include "relievo/core/version.h"
 #include "relievo/io/read.h"
 #include "relievo/samples/sample.h"
+#include "studio/http_server.h"
 #include "studio/page_files.h"
 #include "studio/request_guard.h"
 #include "studio/requests.h"
@@ -30,7 +28,6 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_json = 4U << 20, most_scan = std::size_t{4} << 30;
 constexpr int most_waiting = 32, most_pages = 8;
-constexpr std::size_t threads = 64;  // each open connection occupies one while it is kept alive
 
 void answer(Response& response, const Json& json, int status = 200) {
   response.status = status;
@@ -62,11 +59,16 @@ void answer(Response& response, const Picture& picture, const Json& about) {
                        "application/octet-stream");
 }
 
-// A server that lets more than five connections wait to be accepted.
-class PatientServer : public httplib::Server {
- public:
-  void widen_queue() { ::listen(svr_sock_, 1024); }
-};
+// JSON of a wrong type where a text or number belongs ends up here, and files too large to be made.
+void complain(Response& response, const std::exception_ptr& exception) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const std::bad_alloc&) {
+    refuse(response, 507, "expected more free memory for so much");
+  } catch (...) {
+    refuse(response, 400, "expected fields of their types");
+  }
+}
 
 // Raises a counter by one for as long as it lives.
 class ScopedCount {
@@ -94,7 +96,7 @@ struct Server::State {
   RequestGuard guard;
   std::atomic<int> pages = 0, waiting = 0;
   std::atomic<bool> had_page = false, is_stopping = false;
-  PatientServer http;
+  HttpServer http;
 
   State(Engine& e, const Store& s, const ServerOptions& o) : engine(e), store(s), options(o) { set_up(); }
 
@@ -111,7 +113,8 @@ struct Server::State {
     if (!input) return answer(response, input.error());
     engine.open(*input, view_texts(json));
     const std::lock_guard lock(storing);
-    if (auto kept = store.remember(*input); !kept) return answer(response, kept.error());
+    (void)store.remember(
+        *input);  // a scan can be worked on without; that nothing can be kept is said elsewhere
     answer(response, Json::object());
   }
 
@@ -155,8 +158,15 @@ struct Server::State {
   void make_file(const Json& json, Response& response) {
     const Result<ReliefOptions> wanted = options_from_json(json.value("options", Json()), "options");
     if (!wanted) return answer(response, wanted.error());
-    const int pixels = std::clamp(json.value("pixels", 2048), 16, 16384);
-    Result<ExportedFile> file = engine.make_file(*wanted, json.value("format", ""), pixels);
+    const Result<int> pixels = pixels_from(json);
+    if (!pixels) return answer(response, pixels.error());
+    std::optional<ScanSource> source;
+    if (json.contains("input")) {
+      const Result<ScanSource> input = input_from_json(json["input"], "input");
+      if (!input) return answer(response, input.error());
+      source = *input;
+    }
+    Result<ExportedFile> file = engine.make_file({source, *wanted, json.value("format", ""), *pixels});
     if (!file) return answer(response, file.error());
     response.status = 200;
     response.body = std::move(file->bytes);
@@ -198,6 +208,8 @@ struct Server::State {
             {"formats", format_list()},
             {"samples", samples},
             {"recent", recent},
+            {"notice", store.notice()},
+            {"most_upload", most_scan},
             {"status", to_json(engine.status())},
             {"state", state.is_object() ? state : Json()}};
   }
@@ -264,27 +276,37 @@ struct Server::State {
     return Handled;
   }
 
-  // Returns the body, or nothing when the request was refused.
-  std::optional<std::string> body_of(const Request& request, Response& response, std::size_t limit,
-                                     const httplib::ContentReader& read) const {
-    const auto refused = [&]() -> std::optional<std::string> {
+  // Refuses a body by what its head says of it, before any of it is read.
+  static bool is_welcome(const Request& request, Response& response, std::size_t limit) {
+    if (request.get_header_value<std::uint64_t>("Content-Length") > limit)
       refuse(response, 413, cat("expected at most ", limit >> 20, " MiB"));
-      return std::nullopt;
-    };
-    if (request.get_header_value<std::uint64_t>("Content-Length") > limit) return refused();
-    if (request.is_multipart_form_data()) {
+    else if (!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding"))
+      refuse(response, 411, "expected a length");
+    else if (request.is_multipart_form_data())
       refuse(response, 415, "expected plain bytes or JSON");
-      return std::nullopt;
-    }
-    std::string body;
-    const bool is_whole = read([&](const char* data, std::size_t size) {
-      if (body.size() + size > limit) return false;
-      body.append(data, size);
+    else
       return true;
+    return false;
+  }
+
+  // Reads a body piece by piece; returns whether all of it came and was taken, and otherwise refuses it.
+  static bool read_body(const httplib::ContentReader& read, Response& response, std::size_t limit,
+                        const std::function<Result<void>(std::string_view)>& take) {
+    std::size_t size = 0;
+    Result<void> taken;
+    const bool is_whole = read([&](const char* data, std::size_t more) {
+      size += more;
+      if (size <= limit) taken = take({data, more});
+      return size <= limit && taken;
     });
-    if (is_whole) return body;
-    return body.size() > limit / 2 ? refused()
-                                   : (refuse(response, 400, "the request ended early"), std::nullopt);
+    if (is_whole) return true;
+    if (!taken)
+      answer(response, taken.error());
+    else if (size > limit)
+      refuse(response, 413, cat("expected at most ", limit >> 20, " MiB"));
+    else
+      refuse(response, 400, "the request ended early");
+    return false;
   }
 
   void post(const Request& request, Response& response, const httplib::ContentReader& read) {
@@ -292,30 +314,32 @@ struct Server::State {
     if (name == "api/upload") return upload(request, response, read);
     const auto action = actions.find(std::string_view(name).substr(std::min<std::size_t>(name.size(), 4)));
     if (!name.starts_with("api/") || action == actions.end()) return refuse(response, 404, "no such action");
-    const std::optional<std::string> body = body_of(request, response, most_json, read);
-    if (!body) return;
+    if (!is_welcome(request, response, most_json)) return;
+    std::string body;
+    const auto take = [&](std::string_view bytes) {
+      body += bytes;
+      return Result<void>{};
+    };
+    if (!read_body(read, response, most_json, take)) return;
     const ScopedCount count(waiting);
     if (count.number() > most_waiting) return refuse(response, 503, "too much at once");
-    const Result<Json> json = parse_body(*body);
+    const Result<Json> json = parse_body(body);
     if (!json) return answer(response, json.error());
     (this->*action->second)(*json, response);
   }
 
   void upload(const Request& request, Response& response, const httplib::ContentReader& read) {
-    const std::optional<std::string> body = body_of(request, response, most_scan, read);
-    if (!body) return;
+    if (!is_welcome(request, response, most_scan)) return;
+    DroppedScan scan = store.begin_scan(request.get_param_value("name"));
+    const auto take = [&](std::string_view bytes) { return scan.append(bytes); };
+    if (!read_body(read, response, most_scan, take)) return;
     const std::lock_guard lock(storing);
-    const Result<ScanSource> input = store.keep_scan(*body, request.get_param_value("name"));
+    const Result<ScanSource> input = store.keep(scan);
     if (!input) return answer(response, input.error());
     answer(response, {{"input", to_json(*input)}});
   }
 
   void set_up() {
-    http.new_task_queue = [] { return new httplib::ThreadPool(threads); };
-    http.set_keep_alive_max_count(100000);
-    http.set_keep_alive_timeout(1);
-    http.set_read_timeout(10);
-    http.set_write_timeout(10);
     http.set_tcp_nodelay(true);
     http.set_payload_max_length(most_scan);
     http.set_default_headers({{"Cache-Control", "no-store"},
@@ -327,12 +351,12 @@ struct Server::State {
                               {"Cross-Origin-Resource-Policy", "same-origin"},
                               {"X-Content-Type-Options", "nosniff"}});
     http.set_pre_routing_handler([this](const Request& q, Response& s) { return before(q, s); });
+    http.set_expect_100_continue_handler([this](const Request& q, Response& s) {
+      return guard.admit(q, s) && is_welcome(q, s, most_scan) ? 100 : s.status;
+    });
     http.Post(".*",
               [this](const Request& q, Response& s, const httplib::ContentReader& r) { post(q, s, r); });
-    // JSON of a wrong type where a text or number belongs ends up here.
-    http.set_exception_handler([](const Request&, Response& s, std::exception_ptr) {
-      refuse(s, 400, "expected fields of their types");
-    });
+    http.set_exception_handler([](const Request&, Response& s, std::exception_ptr e) { complain(s, e); });
   }
 
   // Stops the server when no page was there for a while.
@@ -356,21 +380,15 @@ Server::Server(Engine& engine, const Store& store, const ServerOptions& options)
 Server::~Server() = default;
 
 Result<std::string> Server::bind() {
-  const std::string host = "127.0.0.1";
-  int port = state_->options.port;
-  if (port == 0)
-    port = state_->http.bind_to_any_port(host);
-  else if (!state_->http.bind_to_port(host, port))
-    port = -1;
-  if (port <= 0) return std::unexpected(Error{ErrorKind::option, "port", {}, "expected a port that is free"});
-  state_->http.widen_queue();
-  state_->guard.set_port(port);
+  const std::optional<int> port = state_->http.bind(state_->options.port);
+  if (!port) return std::unexpected(Error{ErrorKind::option, "port", {}, "expected a port that is free"});
+  state_->guard.set_port(*port);
   return state_->guard.address();
 }
 
 void Server::run() {
   std::thread watcher([this] { state_->watch(); });
-  state_->http.listen_after_bind();
+  state_->http.run();
   state_->is_stopping = true;
   watcher.join();
 }

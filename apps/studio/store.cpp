@@ -1,7 +1,12 @@
 #include "studio/store.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -14,6 +19,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int most_studios = 9;  // that keep their work side by side
+constexpr const char* unfinished_name = "upload";
+
 std::string read_text(const fs::path& path) {
   const auto bytes = read_file(path.string());
   return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
@@ -22,10 +30,6 @@ std::string read_text(const fs::path& path) {
 std::string variable(const char* name) {
   const char* const value = std::getenv(name);
   return value ? value : "";
-}
-
-bool is_same(const ScanSource& a, const ScanSource& b) {
-  return a.sample == b.sample && a.path == b.path;
 }
 
 // Returns the last part of a path, without anything that a file system could read as more than a name.
@@ -46,11 +50,36 @@ std::string Store::default_folder() {
   return (fs::temp_directory_path(ignored) / "relievo").string();
 }
 
+Store::Store(const std::string& folder) : folder_(folder) {
+  for (int i = 1; i <= most_studios; ++i) {
+    folder_ = i == 1 ? folder : cat(folder, "-", i);
+    if (claim(folder_)) {
+      if (i > 1) notice_ = cat("Another studio uses ", folder, ": this one keeps its work in ", folder_, ".");
+      return;
+    }
+    if (errno != EWOULDBLOCK) break;
+  }
+  notice_ = cat("Your work is not kept, as ", folder_, " cannot be written to: ", std::strerror(errno), ".");
+}
+
+// Locks the folder until this program ends; otherwise errno tells why not.
+bool Store::claim(const std::string& folder) {
+  std::error_code ignored;
+  fs::create_directories(folder, ignored);
+  fs::permissions(folder, fs::perms::owner_all, ignored);
+  lock_ = Descriptor(::open((folder + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
+  if (!lock_.is_open() || ::flock(lock_.number(), LOCK_EX | LOCK_NB) != 0) return false;
+  std::vector<fs::path> unfinished;  // of a studio that was killed
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().stem() == unfinished_name) unfinished.push_back(entry.path());
+  for (const fs::path& path : unfinished) fs::remove(path, ignored);
+  return true;
+}
+
 Result<void> Store::write(const std::string& name, std::string_view text) const {
   std::error_code ignored;
   const fs::path path = fs::path(folder_) / name;
   fs::create_directories(path.parent_path(), ignored);
-  fs::permissions(folder_, fs::perms::owner_all, ignored);
   const OutputFile file{path.string(), bytes_of(text)};
   return write_files({&file, 1});
 }
@@ -87,11 +116,27 @@ Result<void> Store::remember(const ScanSource& input) const {
   return write("recent.json", json.dump(1));
 }
 
-Result<ScanSource> Store::keep_scan(std::string_view bytes, const std::string& name) const {
-  const std::string hash = hash_of(bytes), plain = plain_name(name);
-  const std::string place = cat("scans/", hash.substr(hash.find(':') + 1), "/", plain);
-  if (auto ok = write(place, bytes); !ok) return std::unexpected(ok.error());
-  return ScanSource{{}, (fs::path(folder_) / place).string(), plain, hash};
+DroppedScan::DroppedScan(const std::string& folder, const std::string& name)
+    : name_(plain_name(name)), file_((fs::path(folder) / unfinished_name).string()) {}
+
+Result<void> DroppedScan::append(std::string_view bytes) {
+  hash_.append(bytes);
+  return file_.append(std::as_bytes(std::span(bytes)));
+}
+
+DroppedScan Store::begin_scan(const std::string& name) const {
+  return {folder_, name};
+}
+
+Result<ScanSource> Store::keep(DroppedScan& scan) const {
+  const std::string hash = scan.hash_.text();
+  const fs::path path = fs::path(folder_) / "scans" / hash.substr(hash.find(':') + 1) / scan.name_;
+  std::error_code ignored;
+  fs::create_directories(path.parent_path(), ignored);
+  RELIEVO_CHECK(scan.file_.append({}));
+  RELIEVO_CHECK(scan.file_.finish());
+  RELIEVO_CHECK(scan.file_.keep(path.string()));
+  return ScanSource{{}, path.string(), scan.name_, hash};
 }
 
 void Store::remove_old_scans(const std::vector<ScanSource>& recent) const {

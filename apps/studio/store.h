@@ -1,4 +1,5 @@
-// Stores on disk, between runs, the page's state, recent inputs, and scans that were dropped on the page.
+// Stores on disk, between runs, the page's state, recent inputs, and scans that were dropped on the page. Tested by
+// apps/studio/tests/server.test.mjs.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -6,16 +7,35 @@
 #include <vector>
 
 #include "common/project.h"
+#include "common/temporary_file.h"
 
 namespace relievo::app::studio {
+
+// A scan that was dropped on the page and arrives piece by piece. It is gone unless Store::keep() takes it.
+class DroppedScan {
+ public:
+  DroppedScan(const std::string& folder, const std::string& name);
+
+  // Errors: kind output.
+  Result<void> append(std::string_view bytes);
+
+ private:
+  friend class Store;
+  std::string name_;
+  FileHash hash_;
+  TemporaryFile file_;
+};
 
 // Files in one folder, each replaced as a whole. Not for concurrent use.
 class Store {
  public:
   static constexpr std::size_t most_recent = 8;
 
-  // Uses the folder, which is created when something is kept.
-  explicit Store(std::string folder) : folder_(std::move(folder)) {}
+  // Uses the folder alone: while another studio does, this one takes the folder of that name with -2, or -3 and so on.
+  explicit Store(const std::string& folder);
+
+  // Returns what the user should know of the place: that it is another one, or cannot be written to. Usually empty.
+  const std::string& notice() const { return notice_; }
 
   // Returns $XDG_STATE_HOME/relievo, or ~/.local/state/relievo, or without a home a folder for temporary files.
   static std::string default_folder();
@@ -30,14 +50,19 @@ class Store {
   // Puts the input first, and removes dropped scans that are no longer recent.
   Result<void> remember(const ScanSource& input) const;
 
-  // Writes a dropped scan and returns it as an input. The name's folders are ignored.
-  Result<ScanSource> keep_scan(std::string_view bytes, const std::string& name) const;
+  // Begins a dropped scan. Of the name, folders are ignored. May be called from any thread.
+  DroppedScan begin_scan(const std::string& name) const;
+
+  // Keeps a dropped scan that is complete, and returns it as an input. Errors: kind output.
+  Result<ScanSource> keep(DroppedScan& scan) const;
 
  private:
+  bool claim(const std::string& folder);
   Result<void> write(const std::string& name, std::string_view text) const;
   void remove_old_scans(const std::vector<ScanSource>& recent) const;
 
-  std::string folder_;
+  std::string folder_, notice_;
+  Descriptor lock_{-1};
 };
 
 }  // namespace relievo::app::studio

@@ -47,7 +47,8 @@ class Session {
   // model before stays until the new one is ready, and for good if the preparation fails.
   void open(Preparation preparation);
 
-  // Cancels the preparation that runs or waits, if any.
+  // Cancels the preparation that runs or waits, if any. status() says so at once; the work itself ends when it next asks
+  // its Progress, which may take seconds for millions of points, and the next preparation begins after that.
   void cancel();
 
   SessionStatus status() const;

@@ -1,9 +1,11 @@
 #include "relievo/core/length.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "relievo/core/text.h"
@@ -11,18 +13,60 @@
 namespace relievo {
 namespace {
 
-// Removes a number from the beginning of the text and returns it; nothing if there is no finite number.
+void skip_spaces(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
+}
+
+// Nobody can tell whether "1,234" has a decimal comma or a thousand; "0,125" has a comma.
+bool is_ambiguous(std::string_view number) {
+  const std::size_t comma = number.find(',');
+  if (comma == std::string_view::npos || number.size() - comma != 4) return false;
+  const bool has_digits_only = number.find_first_not_of("0123456789", comma + 1) == std::string_view::npos;
+  return has_digits_only && number.find_first_of("123456789") < comma;
+}
+
+// Removes a number without a sign from the beginning of the text and returns it; nothing if there is no finite number.
+// std::from_chars does not depend on the locale, in which a comma might be the only decimal point.
 std::optional<double> take_number(std::string_view& text) {
+  std::string digits(text);
+  std::ranges::replace(digits, ',', '.');
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
-  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto size = static_cast<std::size_t>(end - digits.data());
+  if (error != std::errc() || !std::isfinite(value) || text.front() == '-') return std::nullopt;
+  if (is_ambiguous(text.substr(0, size))) return std::nullopt;
+  text.remove_prefix(size);
   return value;
+}
+
+// Removes a number or a fraction of two.
+std::optional<double> take_term(std::string_view& text) {
+  const std::optional<double> value = take_number(text);
+  if (!value || !text.starts_with('/')) return value;
+  text.remove_prefix(1);
+  const std::optional<double> parts = take_number(text);
+  return parts && *parts > 0 ? std::optional(*value / *parts) : std::nullopt;
+}
+
+// Removes a sum, such as "-3 + 1/2 - 0.5".
+std::optional<double> take_sum(std::string_view& text) {
+  double sum = 0;
+  for (bool is_first = true;; is_first = false) {
+    const bool is_negative = text.starts_with('-');
+    if (is_negative || (!is_first && text.starts_with('+')))
+      text.remove_prefix(1);
+    else if (!is_first)
+      return sum;
+    if (!is_first) skip_spaces(text);
+    const std::optional<double> term = take_term(text);
+    if (!term) return std::nullopt;
+    sum += is_negative ? -*term : *term;
+    skip_spaces(text);
+  }
 }
 
 // Returns the millimetres of a unit, or nothing if the unit is unknown.
 std::optional<double> mm_of(std::string_view unit, LengthUnit bare) {
-  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
   if (unit.empty()) return mm_per(bare);
   constexpr std::array<std::pair<std::string_view, double>, 4> known{
       {{"mm", 1}, {"cm", 10}, {"in", mm_per_inch}, {"\"", mm_per_inch}}};
@@ -40,18 +84,15 @@ Result<LengthUnit> parse_unit(std::string_view name) {
 }
 
 Result<double> parse_length(std::string_view text, LengthUnit bare) {
-  // std::from_chars does not depend on the locale, in which a comma might be the decimal point.
-  std::string_view rest = text;
-  std::optional<double> value = take_number(rest);
-  if (value && rest.starts_with('/')) {
-    rest.remove_prefix(1);
-    const std::optional<double> parts = take_number(rest);
-    value = parts && *parts > 0 ? std::optional(*value / *parts) : std::nullopt;
-  }
-  const std::optional<double> mm = mm_of(rest, bare);
+  std::string_view rest = text.substr(0, text.find_last_not_of(' ') + 1);
+  skip_spaces(rest);
+  const std::optional<double> value = take_sum(rest), mm = mm_of(rest, bare);
   if (value && mm) return *value * *mm;
-  return std::unexpected(Error{
-      ErrorKind::option, {}, {}, cat("expected a length such as 12.5mm, 1cm or 3/8in, found '", text, "'")});
+  return std::unexpected(
+      Error{ErrorKind::option,
+            {},
+            {},
+            cat("expected a length such as 12.5mm, 2,5cm, 3/8in or 3+0.5, found '", text, "'")});
 }
 
 }  // namespace relievo

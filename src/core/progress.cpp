@@ -13,7 +13,7 @@ void Progress::end_stage() {
 
 Result<void> Progress::stage(std::string_view name, double fraction) {
   end_stage();
-  if (is_cancelled_) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  RELIEVO_CHECK(check_cancelled(this));
   running_ = name;
   started_ = Clock::now();
   // Stages whose work turns out smaller than expected must not make the fraction go back.
@@ -26,6 +26,11 @@ void Progress::finish() {
   end_stage();
   fraction_ = 1;
   if (watcher_) watcher_("done", 1);
+}
+
+Result<void> check_cancelled(const Progress* progress) {
+  if (!progress || !progress->is_cancelled()) return {};
+  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
 }  // namespace relievo

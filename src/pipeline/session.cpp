@@ -38,7 +38,8 @@ struct Session::State {
     const Result<std::shared_ptr<const ReliefModel>> made = prepare(*wanted, *progress);
     shared.with([&](Shared& s) {
       s.progress = nullptr;
-      if (s.waiting) return;  // a newer opening has overtaken this one
+      if (s.waiting || progress->is_cancelled())
+        return;  // a newer opening has overtaken this one, or cancel()
       s.status.is_preparing = false;
       if (!made) {
         s.status.error = made.error();
@@ -54,7 +55,7 @@ struct Session::State {
   std::shared_ptr<Progress> watched() {
     return std::make_shared<Progress>([this](std::string_view stage, double fraction) {
       shared.with([&](Shared& s) {
-        if (s.waiting) return;
+        if (s.waiting || s.progress->is_cancelled()) return;
         s.status.stage = stage;
         s.status.fraction = fraction;
       });
@@ -80,9 +81,9 @@ void Session::open(Preparation preparation) {
 void Session::cancel() {
   state_->shared.with([](Shared& s) {
     if (s.progress) s.progress->cancel();
-    if (s.waiting && !s.progress) s.status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
+    if (s.status.is_preparing) s.status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
     s.waiting = std::nullopt;
-    s.status.is_preparing = s.progress != nullptr;
+    s.status.is_preparing = false;
   });
 }
 

@@ -83,12 +83,15 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   std::vector<PointLayers> layers = normal_layers(surface.points, surface.normals);
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
   const std::vector<float> weights = jump_weights(surface);
+  RELIEVO_CHECK(check_cancelled(progress));
   Result<HeightSystem> system =
       HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights);
   if (!system) return std::unexpected(system.error());
+  RELIEVO_CHECK(check_cancelled(progress));
   StepHeights steps = find_step_heights(surface, weights, *system);
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
   HeightCorrection correction(surface, weights);
+  RELIEVO_CHECK(check_cancelled(progress));
   const Result<MembraneTuning> tuning = tune_membrane({surface, layers, correction, *system}, progress);
   if (!tuning) return std::unexpected(tuning.error());
   if (resolve_mode(mode, surface) == Mode::exact)

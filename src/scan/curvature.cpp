@@ -79,13 +79,14 @@ class CurvatureEstimator {
 }  // namespace
 
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
-                                   const CurvatureOptions& options) {
+                                   const CurvatureOptions& options, const Progress* progress) {
   std::vector<double> curvature(queries.size(), 0.0);
   if (!cloud.has_normals() || !(spacing.rho > 0)) return curvature;
   const CurvatureEstimator estimator(cloud, spacing, options);
   parallel_ranges(queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<KdTree<Vec3>::Match> matches;
     std::vector<Neighbour> neighbours;
+    if (progress && progress->is_cancelled()) return;
     for (std::size_t q = begin; q < end; ++q) curvature[q] = estimator.at(queries[q], matches, neighbours);
   });
   return curvature;

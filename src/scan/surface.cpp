@@ -97,6 +97,7 @@ Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progre
   // A fixed order makes the result independent of the file's, and neighbours close in memory make all
   // searches faster.
   const std::vector<Index> order = space_curve_order(viewed.cloud.points);
+  RELIEVO_CHECK(check_cancelled(progress));
   viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order),
                   pick(viewed.cloud.colours, order)};
 
@@ -125,13 +126,15 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
         cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
   surface.visible_points = visible.size();
   surface.removed_points = removed;
+  RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible, options.visible);
   // Flat, as nothing is known of the front there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
 
   if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
   std::vector<double> k(cloud.size(), 0.0);
-  scatter(mean_curvature(cloud, spacing, visible, options.curvature), visible, k);
+  scatter(mean_curvature(cloud, spacing, visible, options.curvature, progress), visible, k);
+  RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Index> shown = along_the_plane(cloud, merged(visible, hole_fill));
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
@@ -183,7 +186,9 @@ Result<Surface> find_surface(const Cloud& whole, const View& view, const Surface
   if (auto go = begin_stage(progress, "boundary", .65); !go) return std::unexpected(go.error());
   surface.boundary =
       find_boundary(xy, surface.triangulation, surface.rho, options.boundary, measures.spacing);
+  RELIEVO_CHECK(check_cancelled(progress));
   put_points_on_outlines(surface, measures);
+  RELIEVO_CHECK(check_cancelled(progress));
   surface.curvature = normalise(average_in_plane(measures.k, in_plane(surface.points), surface.normals,
                                                  surface.triangulation, surface.rho));
   // Only the boundary needs the neighbours; they take as much memory as the triangles.

@@ -117,6 +117,30 @@ TEST(Session, CanBeCancelledWhileItPrepares) {
   EXPECT_EQ(session.model(), nullptr);
 }
 
+// Work that asks rarely must not keep the user waiting, nor may what comes of it appear later.
+TEST(Session, SaysAtOnceThatItIsCancelled) {
+  Session session;
+  std::binary_semaphore has_begun{0}, goes_on{0};
+  Preparation slow = preparation_of();
+  slow.points = [&, points = slow.points](Progress& progress) {
+    has_begun.release();
+    goes_on.acquire();
+    return points(progress);
+  };
+  bool is_ready = false;
+  slow.ready = [&](const Preparation::Model&) { is_ready = true; };
+  session.open(slow);
+  has_begun.acquire();
+  session.cancel();
+  EXPECT_FALSE(session.status().is_preparing);
+  EXPECT_EQ(session.status().error->kind, ErrorKind::cancelled);
+  goes_on.release();
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  EXPECT_FALSE(is_ready);
+  EXPECT_EQ(session.model(), nullptr);
+  EXPECT_EQ(session.status().error->kind, ErrorKind::cancelled);
+}
+
 TEST(Session, CanBeCancelledWhileItWaits) {
   Stuck stuck;
   Session session;

@@ -152,6 +152,15 @@ TEST(Curvature, IsZeroWhereThereIsNothingToFit) {
   EXPECT_TRUE(mean_curvature({}, {}, {}).empty());
 }
 
+TEST(Curvature, EndsEarlyWhenCancelled) {
+  const Cloud cloud = test::torus(5000, 1, .4);
+  const std::vector<Index> queries{0, 1, 2};
+  Progress progress;
+  progress.cancel();
+  EXPECT_EQ(mean_curvature(cloud, measure_spacing(cloud), queries, usual, &progress),
+            (std::vector<double>{0, 0, 0}));
+}
+
 TEST(Normalise, ClipsAtThe99thPercentile) {
   std::vector<double> k(1000);
   for (int i = 0; i < 1000; ++i) k[static_cast<std::size_t>(i)] = (i % 2 ? -1 : 1) * i;

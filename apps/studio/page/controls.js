@@ -1,5 +1,7 @@
 // Sliders with a number beside them, and small helpers for the page's elements.
 
+import {typedNumber} from "./lengths.js";
+
 export const $ = (selector, root = document) => root.querySelector(selector);
 
 // Creates an element: make("button", {class: "quiet", "aria-label": "Undo", onclick: f}, ...children)
@@ -28,15 +30,17 @@ const STEPS = 1000;
 
 // A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
 // spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets `otherwise`. Calls
-// onInput(value) while the slider moves, and onEnd() when a movement is over.
+// onInput(value) while the slider moves, onEnd() when a movement is over, and say(text) if a number is refused.
 export class Slider {
-  constructor(field, onInput, onEnd) {
-    Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd});
+  constructor(field, onInput, onEnd, say) {
+    Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd, say});
     this.value = this.otherwise;
     const unit = this.unit ? ` in ${this.unitName ?? this.unit}` : " value";
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
+    // No input of type number: browsers make 18 of "1/8in" there, and nothing of "2,5".
     this.number = make("input", {
-      type: "number", min: this.min, max: this.max, step: "any", "aria-label": this.label + unit,
+      role: "spinbutton", inputmode: "decimal", autocomplete: "off", "aria-label": this.label + unit,
+      "aria-valuemin": this.min, "aria-valuemax": this.max,
     });
     this.name = make("span", {class: "name", title: this.help}, this.label);
     const shownUnit = make("span", {class: "unit", "aria-hidden": "true"}, this.unit ?? "");
@@ -52,13 +56,8 @@ export class Slider {
     this.range.onchange = () => this.onEnd();
     this.number.oninput = () => (this.isTyping = true);
     this.number.onblur = () => (this.isTyping = false);
-    this.number.onchange = () => {
-      this.isTyping = false;
-      const value = Number.parseFloat(this.number.value);
-      if (Number.isFinite(value)) this.moved(clamp(value, this.least, this.max));
-      else this.show(this.value);
-      this.onEnd();
-    };
+    this.number.onchange = () => this.typed();
+    this.number.onkeydown = (event) => this.step(event, {ArrowUp: 1, ArrowDown: -1});
     const reset = (event) => {
       event.preventDefault();
       this.moved(this.otherwise);
@@ -67,7 +66,17 @@ export class Slider {
     this.range.ondblclick = reset;
     this.name.ondblclick = reset;
     this.element.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
-    this.range.onkeydown = (event) => this.key(event);
+    this.range.onkeydown = (event) => this.step(event, {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1});
+  }
+
+  // Takes the number that was typed, with more decimals than the slider has if they were typed.
+  typed() {
+    this.isTyping = false;
+    const value = typedNumber(this.number.value, this, this.say);
+    this.exact = value === null ? this.exact : Number(value.toFixed(4));
+    if (value === null) this.show(this.value);
+    else this.moved(this.exact);
+    this.onEnd();
   }
 
   wheel(event) {
@@ -80,20 +89,15 @@ export class Slider {
   }
 
   // Arrow keys move the slider by a hundredth of the way, with shift by a thousandth.
-  key(event) {
-    const direction = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1}[event.key];
+  step(event, directions) {
+    const direction = directions[event.key];
     if (!direction) return;
     event.preventDefault();
+    this.isTyping = false;
     const step = direction * (event.shiftKey ? 1 : 10);
     this.moved(this.valueAt(clamp(this.position() + step, 0, STEPS)));
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.onEnd(), 400);
-  }
-
-  // Returns the smallest value that is allowed and not rounded to less.
-  get least() {
-    const digit = 10 ** -this.decimals;
-    return Math.ceil(this.min / digit - 1e-9) * digit;
   }
 
   valueAt(position) {
@@ -106,15 +110,22 @@ export class Slider {
 
   moved(value) {
     this.show(value);
-    this.onInput(Number(this.value.toFixed(this.decimals)));
+    this.onInput(Number(this.text(value)));
+  }
+
+  // Returns the number as it is shown.
+  text(value) {
+    return value === this.exact ? value.toFixed(Math.max(this.decimals, `${value}`.split(".")[1]?.length ?? 0))
+      : value.toFixed(this.decimals);
   }
 
   show(value) {
     this.value = value;
-    const text = value.toFixed(this.decimals);
+    const text = this.text(value);
     this.range.value = this.position();
     this.range.style.setProperty("--filled", `${this.position() / STEPS * 100}%`);
     this.range.setAttribute("aria-valuetext", `${text} ${this.unitName ?? this.unit ?? ""}`.trim());
+    this.number.setAttribute("aria-valuenow", text);
     if (!this.isTyping) this.number.value = text;
   }
 

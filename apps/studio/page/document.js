@@ -1,7 +1,7 @@
 // The document: the options of the relief that is being made, and all its former states. It is plain data, so that
 // it can be stored, undone and saved.
 
-import {defaultOf} from "./about.js";
+import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
 const START = {height: 4, method: "layered", mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
@@ -21,7 +21,7 @@ export const FIRST = Object.freeze({
   light: [-1, 1, 1],
 });
 
-const MOST_STEPS = 200;
+const MOST_STEPS = 200, MOST_U = 1e12; // as the engine takes it
 
 // Documents of older versions call the method `layered` by its former name.
 const renamed = (options) => (options?.method === "ours" ? {...options, method: "layered"} : options);
@@ -130,13 +130,17 @@ export function projectText(step) {
   return JSON.stringify(project, null, 1) + "\n";
 }
 
+// A project file may come from anywhere: what the engine would refuse in each picture is left out.
+const isDirection = (light) =>
+  Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
+
 // Returns the step that a project file describes; `checked` is what the engine read in it.
 export function stepOfProject(text, checked) {
   const {studio = {}} = JSON.parse(text);
   const step = {...FIRST, input: checked.input, options: {...FIRST.options, ...checked.options}};
   if (typeof studio.isHeightLocked === "boolean") step.isHeightLocked = studio.isHeightLocked;
-  if (typeof studio.u === "number") step.u = studio.u;
-  if (typeof studio.material === "string") step.material = studio.material;
-  if (Array.isArray(studio.light) && studio.light.length === 3) step.light = studio.light;
+  if (Number.isFinite(studio.u) && studio.u >= 0 && studio.u <= MOST_U) step.u = studio.u;
+  if (about.materials.some(({id}) => id === studio.material)) step.material = studio.material;
+  if (isDirection(studio.light)) step.light = studio.light;
   return step;
 }

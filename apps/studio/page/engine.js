@@ -3,8 +3,9 @@
 //
 // An Engine has
 //   about()                     -> version, options, readable, endings, formats, views, materials, stages, curve,
-//                                  samples, recent, status, state (as keepState() stored it)
-//   follow(onStatus, onLost)       calls back with each new status; onLost when the engine has gone
+//                                  samples, recent, status, state (as keepState() stored it), notice (about the place
+//                                  where work is kept), most_upload (bytes)
+//   follow(onStatus, onLost)       calls back with each new status, in all tabs; onLost when the engine has gone
 //   open(input, view)              starts to read and prepare; upload(file) -> input for a file of the browser
 //   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise}, as the command line has them
 //   facts(), suggestViews()     -> facts about the model; names of sides, the best first
@@ -53,15 +54,32 @@ async function picture(path, request) {
   return {image: new ImageData(pixels, about.width, about.height), about};
 }
 
+const ASK = "status?"; // of a new tab to the one that has the stream
+
 export class NativeEngine {
   async about() {
     return (await send("api/about")).json();
   }
 
+  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab that has
+  // the lock opens the stream and passes on what it says; when that tab goes, another has the lock.
   follow(onStatus, onLost) {
-    const source = new EventSource("api/events");
-    source.onmessage = (event) => onStatus(JSON.parse(event.data));
-    source.onerror = () => onLost(source.readyState === EventSource.CLOSED);
+    const tabs = new BroadcastChannel(location.pathname);
+    const take = (status) => (status ? onStatus(status) : onLost());
+    const pass = (status) => {
+      tabs.postMessage(status);
+      take(status);
+    };
+    tabs.onmessage = ({data}) => data !== ASK && take(data);
+    tabs.postMessage(ASK);
+    navigator.locks.request(location.pathname, () => {
+      let last = null;
+      const source = new EventSource("api/events");
+      source.onmessage = (event) => pass(last = JSON.parse(event.data));
+      source.onerror = () => pass(null);
+      tabs.onmessage = ({data}) => data === ASK && last && tabs.postMessage(last);
+      return new Promise(() => {}); // for as long as this page lives
+    });
   }
 
   async upload(file) {

@@ -3,8 +3,11 @@
 import {about, optionOf} from "./about.js";
 import {$, download, fileSize, make} from "./controls.js";
 import {fillChoices} from "./fields.js";
+import {typedNumber} from "./lengths.js";
 
-const fields = ["resolution", "tolerance", "draft"]; // empty for none
+const fields = {resolution: "Resolution", tolerance: "Simplify", draft: "Draft angle"}; // empty for none
+const units = {MM: "mm", DEG: "°"};
+const PIXELS = {label: "Longer side in pixels", min: 16, max: 16384};
 
 // Estimates the triangles of the solid: of its samples, or with a draft angle or as a lithophane of the scan's points.
 function solidTriangles(facts, {width, resolution, form, draft, outline}) {
@@ -34,9 +37,9 @@ const sizeText = ({type}, bytes, {tolerance}) => {
 };
 
 export class ExportDialog {
-  // `current` returns {facts, options, name}; `change` takes the options that are chosen here.
+  // `current` returns {facts, options, name, input}; `change` takes the options that are chosen here.
   constructor(engine, current, change) {
-    Object.assign(this, {engine, current, change});
+    Object.assign(this, {engine, current, change, pixels: 2048});
     this.dialog = $("#export-dialog");
     $("#formats").append(...about.formats.map(({name, label, use}, i) => make("label", {},
       make("input", {type: "radio", name: "format", value: name, checked: i === 0}),
@@ -44,10 +47,7 @@ export class ExportDialog {
     fillChoices("form");
     this.dialog.oninput = () => this.show();
     $("#form").onchange = () => this.choose();
-    for (const name of fields) {
-      const {min, max} = optionOf(name);
-      Object.assign($(`#${name}`), {min, max, onchange: () => this.choose()});
-    }
+    for (const name of [...Object.keys(fields), "pixels"]) $(`#${name}`).onchange = () => this.choose();
     $("#export-go").onclick = (event) => {
       event.preventDefault();
       this.go();
@@ -58,20 +58,25 @@ export class ExportDialog {
     return about.formats.find(({name}) => name === $("#formats :checked").value);
   }
 
+  // Takes what was typed; returns false after saying which number was not understood.
   choose() {
-    const chosen = {form: $("#form").value};
-    for (const name of fields) {
-      const value = Number.parseFloat($(`#${name}`).value);
-      chosen[name] = value > 0 ? value : null;
+    let complaint = "";
+    const say = (text) => (complaint ||= text), chosen = {form: $("#form").value};
+    for (const [name, label] of Object.entries(fields)) {
+      const {unit, min, max} = optionOf(name), {value} = $(`#${name}`);
+      chosen[name] = value.trim() === "" ? null : typedNumber(value, {label, unit: units[unit], min, max}, say);
     }
-    this.change(chosen);
+    this.pixels = Math.round(typedNumber($("#pixels").value, PIXELS, say) ?? this.pixels);
+    $("#export-note").textContent = complaint;
+    if (!complaint) this.change(chosen);
     this.show();
+    return !complaint;
   }
 
   open() {
     const {options} = this.current();
     $("#form").value = options.form ?? "relief";
-    for (const name of fields) $(`#${name}`).value = options[name] ?? "";
+    for (const name of Object.keys(fields)) $(`#${name}`).value = options[name] ?? "";
     $("#export-note").textContent = "";
     this.show();
     this.dialog.showModal();
@@ -92,16 +97,13 @@ export class ExportDialog {
     $("#pixels-row").hidden = !["heightmap", "tiff"].includes(this.format.name);
   }
 
-  get pixels() {
-    return Math.min(16384, Math.max(16, Number.parseInt($("#pixels").value) || 2048));
-  }
-
   async go() {
-    const {options, name} = this.current(), {name: format, ending} = this.format, button = $("#export-go");
+    if (!this.choose()) return;
+    const {options, name, input} = this.current(), {name: format, ending} = this.format, button = $("#export-go");
     button.disabled = true;
     $("#export-note").textContent = "Making the file …";
     try {
-      download(await this.engine.exportFile({options, format, pixels: this.pixels}), name + ending);
+      download(await this.engine.exportFile({input, options, format, pixels: this.pixels}), name + ending);
       this.dialog.close("export");
     } catch (error) {
       $("#export-note").textContent = error.message;

@@ -32,7 +32,7 @@ export function takeDrops(veil, open) {
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
-    const isTyping = event.target.matches?.("input[type='number'], select");
+    const isTyping = event.target.matches?.("input:not([type='range'], [type='radio'], [type='checkbox']), select");
     if (event.ctrlKey || event.metaKey) {
       const command = commands[event.key];
       if (!command || (isTyping && "zZy".includes(event.key))) return;

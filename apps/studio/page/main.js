@@ -1,13 +1,13 @@
 // Connects the parts of the studio's page.
 
 import {about, defaultOf, engine} from "./about.js";
-import {$, Slider, clamp, download, make} from "./controls.js";
+import {$, Slider, clamp, download, fileSize, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./document.js";
 import {ExportDialog} from "./export.js";
 import {FIELDS, fillChoices} from "./fields.js";
 import {takeArrowKeys, takeDrops, takeKeys} from "./inputs.js";
-import {engineBack, engineLost, toast} from "./messages.js";
+import {engineBack, engineLost, offer, toast} from "./messages.js";
 import {showProgress} from "./progress.js";
 import {showNumbers, showSection} from "./readouts.js";
 import {Stage, TABLE_LIGHTS} from "./stage.js";
@@ -19,7 +19,7 @@ const doc = new Document((before) => changed(before));
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName()}),
+const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName(), input: doc.now.input}),
   (options) => doc.change({options}));
 
 let facts = null;
@@ -27,6 +27,7 @@ let status = {busy: false, model: 0};
 let last = null; // numbers of the newest picture
 let shownView = null; // the view of the model that is shown
 let fallback = null; // the document before the scan that is being opened
+let asking = 0; // requests for a scan or a view that the engine has not answered yet
 
 // ------------------------------------------------------------------------------------------------- sliders
 
@@ -40,7 +41,7 @@ lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11"
 const sliders = {};
 for (const [name, field] of Object.entries(FIELDS)) {
   const slider = new Slider({...field, extra: name === "height" ? lock : null, otherwise: FIRST.options[name]},
-    (value) => slide(name, value), () => doc.endStroke());
+    (value) => slide(name, value), () => doc.endStroke(), toast);
   sliders[name] = slider;
   $(field.place).append(slider.element);
 }
@@ -72,7 +73,7 @@ function changed(before) {
   const hasNewView = before && !isSameView(viewOf(before), viewOf(now));
   if (hasNewView) {
     stage.await(true);
-    engine.chooseView(viewOf(now)).catch(failed);
+    ask(engine.chooseView(viewOf(now))).catch(failed);
   }
   stage.invalidate();
   keepSoon();
@@ -118,10 +119,16 @@ function check(radio, isChecked) {
   radio.tabIndex = isChecked ? 0 : -1;
 }
 
-let keeper = 0;
+let keeper = 0, isKept = !about.notice;
 function keepSoon() {
   clearTimeout(keeper);
-  keeper = setTimeout(() => engine.keepState(doc.keep()).catch(() => {}), KEEP_MS);
+  keeper = setTimeout(() => engine.keepState(doc.keep()).then(() => (isKept = true), notKept), KEEP_MS);
+}
+
+// Says once that work is not kept, unless the engine is gone, which is said elsewhere.
+function notKept({kind, message}) {
+  if (isKept && kind !== "lost") toast(`Your work is not kept: ${message}`);
+  if (kind !== "lost") isKept = false;
 }
 addEventListener("pagehide", () => doc.now.input && engine.keepState(doc.keep(), true).catch(() => {}));
 
@@ -180,6 +187,7 @@ async function arrived() {
   showNoise(doc.now.options.denoise);
   shownView = status.shown;
   fallback = null;
+  if (doc.now.input && asking === 0) await followOtherTab().catch(failed);
   if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
   stage.isReady = true;
   stage.model = status.model;
@@ -188,6 +196,29 @@ async function arrived() {
   $("#remarks").textContent = facts.remarks.join("  ");
   $("#save").hidden = $("#export").hidden = false;
   stage.invalidate();
+}
+
+async function ask(request) {
+  ++asking;
+  return request.finally(() => --asking);
+}
+
+// Takes over the scan or the view that another tab has asked for, with the document of that tab as far as it is kept.
+async function followOtherTab() {
+  const {input, wanted, shown} = status, mine = doc.keep();
+  if (isSame(doc.now.input, input) || isSame(doc.now.input, wanted)) {
+    if (isSame(doc.now.input, input) && isSame(input, wanted)) doc.note({options: shown});
+    return showDocument();
+  }
+  const {state} = await engine.about();
+  if (!doc.restore(state) || !isSame(doc.now.input, input))
+    doc.begin({...FIRST, input, options: {...FIRST.options, ...shown}});
+  showDocument();
+  const step = mine.steps[mine.at];
+  offer(`Another tab opened ${input.name}, which is shown here, too.`, `Go back to ${step.input.name}`, async () => {
+    await openInput(step.input, step);
+    if (isSame(doc.now.input, step.input) && doc.restore(mine)) showDocument();
+  });
 }
 
 function complain({error, model}) {
@@ -216,7 +247,7 @@ async function openInput(input, step = {...FIRST, input}) {
   doc.begin({...step, input});
   stage.await(true);
   try {
-    await engine.open(input, viewOf(step));
+    await ask(engine.open(input, viewOf(step)));
   } catch (error) {
     failed(error);
   }
@@ -236,6 +267,8 @@ async function openFile(file) {
 
 // Sends the file's bytes to the engine, which takes a moment for large scans.
 async function takeIn(file) {
+  const most = about.most_upload;
+  if (file.size > most) throw new Error(`${file.name} has ${fileSize(file.size)}: expected at most ${fileSize(most)}.`);
   showStart(false);
   showProgress({busy: true, stage: "upload"}, status.model === 0);
   try {
@@ -391,6 +424,7 @@ async function start() {
     failed(error);
     showStart(true);
   }
+  if (about.notice) toast(about.notice, true);
   engine.follow(followed, engineLost);
 }
 

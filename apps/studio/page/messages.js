@@ -1,8 +1,10 @@
 // Lines for people, at the edge of the page.
 
-import {$} from "./controls.js";
+import {$, make} from "./controls.js";
 
 let timer = 0, isLost = false;
+
+$("#toast").onclick = hideToast;
 
 // A line for people, for eight seconds or until the next.
 export function toast(text, isLasting = false) {
@@ -10,6 +12,12 @@ export function toast(text, isLasting = false) {
   $("#toast").hidden = false;
   clearTimeout(timer);
   if (!isLasting) timer = setTimeout(hideToast, 8000);
+}
+
+// A line with a button that does something about it.
+export function offer(text, label, action) {
+  toast(text, true);
+  $("#toast").append(" ", make("button", {onclick: action}, label));
 }
 
 function hideToast() {

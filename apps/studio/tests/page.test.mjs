@@ -144,9 +144,36 @@ test("moves sliders by wheel and double click, too", {skip}, async () => {
   assert.ok((await value("Steepest wall in degrees")) < 76);
   await slider("Steepest wall").dblclick();
   assert.equal(await value("Steepest wall in degrees"), 76);
-  await field("Height in mm").fill("nonsense".replace(/\D/g, ""));
-  await field("Height in mm").press("Enter");
+  await set("Height in mm", "nonsense");
   assert.equal(await value("Height in mm"), height);
+});
+
+test("takes numbers as people type them, and refuses others in one line", {skip}, async () => {
+  const width = await value("Width in mm"), typed = [["1/8in", "3.175"], ["4in", "101.6"], ["2,5", "2.5"],
+    ["3+0.5", "3.5"], ["12 mm", "12.0"], ["1cm", "10.0"]];
+  for (const [text, shown] of typed) {
+    await set("Width in mm", text);
+    assert.equal(await field("Width in mm").inputValue(), shown, text);
+  }
+  const alert = page.getByRole("alert");
+  for (const text of ["4ft", "1,234", "12mmm", "0", "1e9"]) {
+    await set("Width in mm", text);
+    await alert.getByText(`Width: expected a number from 0.1 to 100000 mm, such as`).waitFor();
+    assert.ok((await alert.innerText()).endsWith(`found '${text}'.`), text);
+    assert.equal(await field("Width in mm").inputValue(), "10.0");
+  }
+  await set("Saturation value", "1mm");
+  await alert.getByText("Saturation: expected a number from 0 to 100, such as").waitFor();
+  await field("Width in mm").press("ArrowUp");
+  assert.ok((await value("Width in mm")) > 10);
+  await set("Width in mm", width);
+  await button("Export").click();
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByLabel("Draft angle").fill("15 degrees");
+  await dialog.getByRole("button", {name: "Export"}).click();
+  await dialog.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
+  await dialog.getByLabel("Draft angle").fill("");
+  await dialog.getByRole("button", {name: "Cancel"}).click();
 });
 
 test("keeps a locked height while saturation moves", {skip}, async () => {
@@ -211,7 +238,8 @@ test("has sliders, defaults and units of the engine's options", {skip}, async ()
     assert.ok(first[name] >= hand[0] && first[name] <= hand[1], `${name} ${first[name]}`);
     assert.equal(first[name], Number(first[name].toFixed(decimals)), name);
     const number = page.getByRole("spinbutton", {name: new RegExp(`^${label} `)});
-    assert.deepEqual([await number.getAttribute("min"), await number.getAttribute("max")], [`${min}`, `${max}`], name);
+    const range = [await number.getAttribute("aria-valuemin"), await number.getAttribute("aria-valuemax")];
+    assert.deepEqual(range, [`${min}`, `${max}`], name);
   }
   for (const name of Object.keys(first)) option(name);
   for (const name of Object.keys(fields)) {

@@ -54,6 +54,9 @@ class Progress {
   double fraction_ = 0;
 };
 
+// Returns an error of kind `cancelled` if cancel() was called. For long stages; the pointer may be null.
+Result<void> check_cancelled(const Progress* progress);
+
 // Calls stage() on a pointer that may be null, in which case it does nothing.
 inline Result<void> begin_stage(Progress* progress, std::string_view name, double fraction) {
   return progress ? progress->stage(name, fraction) : Result<void>{};

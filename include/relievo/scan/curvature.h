@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "relievo/core/progress.h"
 #include "relievo/geometry/triangulation.h"
 #include "relievo/scan/cloud.h"
 #include "relievo/scan/spacing.h"
@@ -21,9 +22,9 @@ struct CurvatureOptions {
 // paper's equations (2) and (3), whose second derivatives depend on how unevenly the points lie (see
 // docs/decisions/curvature.md). Neighbours whose normals face away, on the other side of a thin wall, do not
 // count. Returns 0 where there are too few neighbours, and everywhere if the cloud has no normals. Normals must
-// have unit length.
+// have unit length. Ends early with values without meaning once the progress is cancelled.
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
-                                   const CurvatureOptions& options = {});
+                                   const CurvatureOptions& options = {}, const Progress* progress = nullptr);
 
 // Returns each point's value averaged over its neighbours in the view plane, up to about 2 rho away, weighted by
 // the area that each neighbour represents there. At a depth jump, points of the front and of the surface behind

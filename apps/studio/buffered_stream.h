@@ -1,0 +1,41 @@
+// Reads and writes one connection, with limits of time. Tested by apps/studio/tests/server.test.mjs.
+#pragma once
+
+// Before the server's header, which defines a macro _res that Eigen cannot live with.
+#include "relievo/core/types.h"
+
+#include <httplib.h>
+
+#include <string>
+
+namespace relievo::app::studio {
+
+// Reads what was received before and then from the socket, which it does not own. The end of the connection is 0; errors, and waiting for too long, are -1.
+class BufferedStream : public httplib::Stream {
+ public:
+  BufferedStream(int socket, std::string received) : socket_(socket), received_(std::move(received)) {}
+
+  // Returns the number of bytes that were read from this stream.
+  std::uint64_t bytes_read() const { return bytes_read_; }
+
+  // Returns what was received but not read.
+  std::string unread() const { return received_.substr(position_); }
+
+  bool is_readable() const override;
+  bool is_writable() const override;
+  ssize_t read(char* to, std::size_t size) override;
+  ssize_t write(const char* from, std::size_t size) override;
+  void get_remote_ip_and_port(std::string& ip, int& port) const override;
+  void get_local_ip_and_port(std::string& ip, int& port) const override;
+  int socket() const override { return socket_; }
+
+ private:
+  ssize_t receive();
+
+  int socket_;
+  std::string received_;
+  std::size_t position_ = 0;
+  std::uint64_t bytes_read_ = 0;
+};
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,226 @@
+#include "studio/connections.h"
+
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <list>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace relievo::app::studio {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+// Half of the 1024 files that a program may usually have open.
+constexpr std::size_t most_connections = 512;
+// Requests that are answered at the same time: those of a few pages, and uploads that arrive slowly.
+constexpr std::size_t answering_threads = 96;
+constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
+constexpr auto longest_head = 5s;             // from the first byte of a head to its last
+constexpr auto longest_rest = 30s;            // of a connection between two requests
+constexpr auto longest_farewell = 2s;         // for a refused sender to read the answer
+constexpr auto shortest_wait = 1s;            // after which a connection may have to make room
+
+// A connection that no thread works on.
+struct Connection {
+  int socket;
+  std::string received;    // of the next request
+  Clock::time_point last;  // moment to close it at
+  bool is_ending = false;  // an answer was sent; what still arrives is read and forgotten
+  Clock::time_point since = Clock::now();
+};
+
+bool has_whole_head(const Connection& connection) {
+  return connection.received.find("\r\n\r\n") != std::string::npos;
+}
+
+void send_text(int socket, std::string_view text) {
+  (void)!::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+}
+
+// Closing at once would destroy an answer that the other side has not read while it is still sending.
+Connection ending(int socket) {
+  ::shutdown(socket, SHUT_WR);
+  return {socket, {}, Clock::now() + longest_farewell, true};
+}
+
+enum class Arrival { partial, whole, over };
+
+// Takes in what has arrived on a connection that can be read.
+Arrival receive(Connection& connection) {
+  std::array<char, 1U << 14> bytes;
+  const ssize_t got = ::recv(connection.socket, bytes.data(), bytes.size(), MSG_DONTWAIT);
+  if (got < 0 && (errno == EAGAIN || errno == EINTR)) return Arrival::partial;
+  if (got <= 0) return Arrival::over;
+  if (connection.is_ending) return Arrival::partial;
+  if (connection.received.empty()) connection.last = Clock::now() + longest_head;
+  connection.received.append(bytes.data(), static_cast<std::size_t>(got));
+  if (has_whole_head(connection)) return Arrival::whole;
+  if (connection.received.size() < most_head) return Arrival::partial;
+  send_text(connection.socket,
+            "HTTP/1.1 431 Request Header Fields Too Large\r\nConnection: close\r\nContent-Length: 0\r\n\r\n");
+  connection = ending(connection.socket);
+  return Arrival::partial;
+}
+
+}  // namespace
+
+struct Connections::State {
+  Answer answer;
+  int wake = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+  std::mutex mutex;  // guards what follows
+  std::condition_variable has_request, has_room;
+  std::list<Connection> waiting;  // the one that waits longest first
+  std::deque<Connection> ready;
+  std::size_t open = 0;  // waiting, ready, and being answered
+  bool is_stopping = false;
+  std::vector<std::thread> threads;  // last: they use what stands above
+
+  explicit State(Answer how) : answer(std::move(how)) {
+    threads.emplace_back([this] { wait_for_heads(); });
+    for (std::size_t i = 0; i < answering_threads; ++i) threads.emplace_back([this] { answer_requests(); });
+  }
+
+  ~State() { ::close(wake); }
+
+  void interrupt_waiting() const { (void)!::eventfd_write(wake, 1); }
+
+  // With `mutex` locked.
+  void close(int socket) {
+    ::close(socket);
+    --open;
+    has_room.notify_one();
+  }
+
+  // With `mutex` locked.
+  void drop(std::list<Connection>::iterator at) {
+    close(at->socket);
+    waiting.erase(at);
+  }
+
+  void take(int socket) {
+    std::unique_lock lock(mutex);
+    while (open >= most_connections && !is_stopping) {
+      if (!waiting.empty() && Clock::now() - waiting.front().since > shortest_wait)
+        drop(waiting.begin());
+      else
+        has_room.wait_for(lock, shortest_wait / 4);
+    }
+    ++open;
+    if (is_stopping) return close(socket);
+    waiting.push_back({socket, {}, Clock::now() + longest_head});
+    interrupt_waiting();
+  }
+
+  // ------------------------------------------------------------------------------------- the thread that waits
+
+  void wait_for_heads() {
+    std::vector<pollfd> watched;
+    for (std::unique_lock lock(mutex); !is_stopping; lock.lock()) {
+      watched.assign(1, {wake, POLLIN, 0});
+      for (const Connection& connection : waiting) watched.push_back({connection.socket, POLLIN, 0});
+      lock.unlock();
+      ::poll(watched.data(), watched.size(), 250);
+      eventfd_t count = 0;
+      (void)!::eventfd_read(wake, &count);
+      lock.lock();
+      look_at(watched);
+      lock.unlock();
+    }
+  }
+
+  // With `mutex` locked: takes in what arrived, and closes what is over or too late. Both lists have the same order, but
+  // meanwhile connections may have gone from the front of `waiting` and come to its end.
+  void look_at(const std::vector<pollfd>& watched) {
+    const Clock::time_point now = Clock::now();
+    auto found = watched.begin();
+    for (auto at = waiting.begin(); at != waiting.end();) {
+      const auto next = std::next(at);
+      found = std::find_if(found, watched.end(), [&](const pollfd& each) { return each.fd == at->socket; });
+      const bool has_news = found != watched.end() && found->revents != 0;
+      const Arrival arrival = has_news ? receive(*at) : Arrival::partial;
+      if (arrival == Arrival::whole)
+        make_ready(at);
+      else if (arrival == Arrival::over || now > at->last)
+        drop(at);
+      at = next;
+    }
+  }
+
+  void make_ready(std::list<Connection>::iterator at) {
+    ready.push_back(std::move(*at));
+    waiting.erase(at);
+    has_request.notify_one();
+  }
+
+  // ------------------------------------------------------------------------------------ the threads that answer
+
+  void answer_requests() {
+    std::unique_lock lock(mutex);
+    for (;;) {
+      has_request.wait(lock, [this] { return is_stopping || !ready.empty(); });
+      if (is_stopping) return;
+      Connection connection = std::move(ready.front());
+      ready.pop_front();
+      lock.unlock();
+      BufferedStream stream(connection.socket, std::move(connection.received));
+      const bool goes_on = answer(stream);
+      lock.lock();
+      put_back(goes_on ? Connection{connection.socket, stream.unread(), Clock::now() + longest_rest}
+                       : ending(connection.socket));
+    }
+  }
+
+  // With `mutex` locked.
+  void put_back(Connection connection) {
+    if (is_stopping) return close(connection.socket);
+    if (!connection.is_ending && has_whole_head(connection)) {
+      ready.push_back(std::move(connection));
+      return has_request.notify_one();
+    }
+    waiting.push_back(std::move(connection));
+    interrupt_waiting();
+  }
+
+  void stop() {
+    {
+      const std::lock_guard lock(mutex);
+      is_stopping = true;
+      has_request.notify_all();
+      has_room.notify_all();
+    }
+    interrupt_waiting();
+    for (std::thread& thread : threads) thread.join();
+    threads.clear();
+    for (const Connection& connection : waiting) ::close(connection.socket);
+    for (const Connection& connection : ready) ::close(connection.socket);
+    waiting.clear();
+    ready.clear();
+  }
+};
+
+Connections::Connections(Answer answer) : state_(std::make_unique<State>(std::move(answer))) {}
+
+Connections::~Connections() {
+  stop();
+}
+
+void Connections::take(int socket) {
+  state_->take(socket);
+}
+
+void Connections::stop() {
+  state_->stop();
+}
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,33 @@
+// Connections of the studio's server. A thread is given to a request only when its head has arrived, so that connections
+// which send slowly, or nothing, cost no thread. Tested by apps/studio/tests/server.test.mjs.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "studio/buffered_stream.h"
+
+namespace relievo::app::studio {
+
+// Takes sockets, waits for the heads of their requests, and has each request answered in one of its threads. A head has
+// limits of size and time; a socket that waits longest is closed when there are too many.
+class Connections {
+ public:
+  // Answers one request. Returns whether the connection may bring another.
+  using Answer = std::function<bool(BufferedStream&)>;
+
+  explicit Connections(Answer answer);
+  ~Connections();  // see stop()
+
+  // Owns the socket from now on. Waits while all connections are busy with requests.
+  void take(int socket);
+
+  // Closes what waits and returns when all requests that run have been answered.
+  void stop();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,65 @@
+#include "studio/http_server.h"
+
+#include <sys/socket.h>
+
+namespace relievo::app::studio {
+namespace {
+
+using httplib::Request;
+
+// Hands connections over in the thread that accepts them: Connections has the threads that work.
+class DirectQueue : public httplib::TaskQueue {
+ public:
+  void enqueue(std::function<void()> task) override { task(); }
+  void shutdown() override {}
+};
+
+// Returns the size of the body that a request announces; nothing if it does not say.
+std::optional<std::uint64_t> announced_body(const Request& request) {
+  if (request.has_header("Transfer-Encoding")) return std::nullopt;
+  if (!request.has_header("Content-Length")) return 0;
+  return request.get_header_value<std::uint64_t>("Content-Length");
+}
+
+}  // namespace
+
+HttpServer::HttpServer() : connections_([this](BufferedStream& stream) { return answer(stream); }) {
+  new_task_queue = [] { return new DirectQueue; };
+  // The usual options would let another program of this user take some of the connections, and their token with them.
+  set_socket_options([](int socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
+}
+
+std::optional<int> HttpServer::bind(int port) {
+  const std::string host = "127.0.0.1";
+  if (port == 0)
+    port = bind_to_any_port(host);
+  else if (!bind_to_port(host, port))
+    port = -1;
+  if (port <= 0) return std::nullopt;
+  ::listen(svr_sock_, 1024);  // more than the five connections that the library lets wait
+  return port;
+}
+
+void HttpServer::run() {
+  listen_after_bind();
+  connections_.stop();
+}
+
+bool HttpServer::process_and_close_socket(int socket) {
+  connections_.take(socket);
+  return true;
+}
+
+bool HttpServer::answer(BufferedStream& stream) {
+  const std::uint64_t head = stream.unread().find("\r\n\r\n") + 4;
+  std::optional<std::uint64_t> body;
+  bool is_last = false;
+  const bool is_answered =
+      process_request(stream, false, is_last, [&](Request& request) { body = announced_body(request); });
+  return is_answered && !is_last && body && stream.bytes_read() == head + *body;
+}
+
+}  // namespace relievo::app::studio

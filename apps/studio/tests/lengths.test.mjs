@@ -1,0 +1,21 @@
+// Numbers as the page reads them, by the cases that the library is tested by, too.
+import assert from "node:assert/strict";
+import {readFileSync} from "node:fs";
+import {test} from "node:test";
+
+const read = (name) => readFileSync(new URL(name, import.meta.url), "utf8");
+const {parseLength} = await import(`data:text/javascript,${encodeURIComponent(read("../page/lengths.js"))}`);
+const cases = JSON.parse(read("../../../tests/core/lengths.json"));
+
+test("reads lengths as the command line does", () => {
+  assert.ok(cases.length > 50);
+  for (const [text, mm] of cases) {
+    const found = parseLength(text), isRight = mm === null ? Number.isNaN(found) : Math.abs(found - mm) < 1e-12;
+    assert.ok(isRight, `'${text}' is ${found}, expected ${mm}`);
+  }
+});
+
+test("takes units of lengths only", () => {
+  assert.equal(parseLength("2,5", false), 2.5);
+  assert.ok(Number.isNaN(parseLength("2.5mm", false)));
+});

@@ -1,0 +1,196 @@
+// What the studio does with too much, too slow, too large, and with other studios beside it.
+import assert from "node:assert/strict";
+import {spawnSync} from "node:child_process";
+import {readFileSync, readdirSync, writeFileSync} from "node:fs";
+import net from "node:net";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {EngineProcess, PROGRAM, removeFolder, temporaryFolder} from "./support.mjs";
+
+const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), MIB = 2 ** 20;
+let engine;
+
+const OPTIONS = {width: 60, height: 2, view: "front"};
+const FRAME = {options: OPTIONS, width: 200, height: 150};
+
+before(async () => {
+  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "20000"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
+  await engine.open({path: scan});
+});
+
+after(async () => {
+  await engine.stop();
+  removeFolder(folder);
+});
+
+const about = async (of = engine) => JSON.parse((await of.get("api/about")).body);
+const stillWorks = async () => assert.equal((await engine.post("frame", FRAME)).status, 200);
+const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+// Returns the most memory that the engine has used so far, in MiB.
+function mostMemory() {
+  const [, kib] = readFileSync(`/proc/${engine.child.pid}/status`, "utf8").match(/VmHWM:\s+(\d+)/);
+  return kib / 1024;
+}
+
+function connect() {
+  const socket = net.connect(engine.url.port, "127.0.0.1");
+  socket.on("error", () => {});
+  return socket;
+}
+
+// Writes `size` bytes for as long as the other side takes them; returns what it answered.
+function pour(head, size) {
+  return new Promise((resolve) => {
+    const socket = connect(), part = Buffer.alloc(MIB, "x");
+    let answer = "", sent = 0;
+    socket.on("data", (data) => (answer += data));
+    socket.on("close", () => resolve(answer));
+    const more = () => {
+      while (sent < size && !socket.destroyed) {
+        sent += part.length;
+        if (!socket.write(part)) return socket.once("drain", more);
+      }
+    };
+    socket.write(head);
+    more();
+  });
+}
+
+test("takes huge, tiny and negative numbers, or says what was expected", async () => {
+  const values = [1e300, -1e300, 3.5e38, 1e-300, -1, 0, 1e9, -1e5];
+  const parts = (v) => [{light: [v, v, v]}, {light: [0, 0, v]}, {light: [1, 1, v]}, {u: v}, {width: v},
+    ...["yaw", "pitch", "zoom", "x", "y"].map((name) => ({camera: {[name]: v}})),
+    ...["height", "width", "margin", "steps"].map((name) => ({options: {...OPTIONS, [name]: v}}))];
+  const isFine = ({status}, what) => assert.ok([200, 400, 422].includes(status), `${status} ${JSON.stringify(what)}`);
+  for (const v of values) {
+    for (const part of parts(v)) isFine(await engine.post("frame", {...FRAME, ...part}), part);
+    isFine(await engine.post("scan", {...FRAME, towards: [v, 0, v], up: [0, v, 0]}), `scan ${v}`);
+    isFine(await engine.post("profile", {...FRAME, from: [v, v], to: [0, 0]}), `profile ${v}`);
+  }
+  assert.equal((await engine.post("frame", {...FRAME, light: [1e300, 1e300, 1e300]})).status, 200);
+  for (const light of [[0, 0, 0], [1, 2], "left", [1, 2, null]])
+    assert.match(String((await engine.post("frame", {...FRAME, light})).body), /light: expected three numbers/);
+  for (const pixels of [1e300, -5, "many"])
+    assert.equal((await engine.post("export", {options: OPTIONS, format: "heightmap", pixels})).status, 400);
+  await stillWorks();
+});
+
+test("opens files only, and none that does not fit into memory", async () => {
+  const pipe = path.join(folder, "pipe.ply"), huge = path.join(folder, "huge.ply");
+  assert.equal(spawnSync("mkfifo", [pipe]).status, 0);
+  assert.equal(spawnSync("truncate", ["-s", "2T", huge]).status, 0);
+  const wanted = [["/dev/zero", /found a device/], [pipe, /found a pipe/], [folder, /found a folder/],
+    [huge, /at most \d+ MiB/]];
+  for (const [file, text] of wanted) {
+    await engine.post("open", {input: {path: file}});
+    let status;
+    do ({status} = await about()); while (status.busy && !(await sleep(20)));
+    assert.match(status.error?.text ?? "nothing", text);
+  }
+  assert.ok(mostMemory() < 1000, `${mostMemory()} MiB`);
+  await stillWorks();
+});
+
+test("does not read what it refuses", async () => {
+  const before = mostMemory(), {pathname, host} = engine.url, length = `Content-Length: ${600 * MIB}\r\n\r\n`;
+  const heads = [[`POST /wrong/api/upload HTTP/1.1\r\nHost: ${host}\r\n${length}`, /403/],
+    [`POST ${pathname}api/frame HTTP/1.1\r\nHost: ${host}\r\n${length}`, /413/], ["GET /", /431/],
+    [`POST ${pathname}api/gone HTTP/1.1\r\nHost: ${host}\r\nExpect: 100-continue\r\n${length}`, /404/]];
+  for (const [head, status] of heads) assert.match(await pour(head, 600 * MIB), status);
+  assert.ok(mostMemory() - before < 50, `${mostMemory() - before} MiB for refused bodies`);
+  await stillWorks();
+});
+
+test("writes a dropped scan to the disk as it arrives", async () => {
+  const before = mostMemory(), {pathname, host} = engine.url, size = 300 * MIB, state = path.join(folder, "state");
+  const head = `POST ${pathname}api/upload?name=x.ply HTTP/1.1\r\nHost: ${host}\r\nConnection: close\r\n`;
+  const answer = await pour(`${head}Content-Length: ${size}\r\n\r\n`, size);
+  assert.match(answer, /^HTTP\/1.1 200/);
+  assert.ok(mostMemory() - before < 50, `${mostMemory() - before} MiB for a dropped scan`);
+  const cut = connect();
+  cut.write(`${head}Content-Length: ${size}\r\n\r\nply`);
+  await sleep(200);
+  cut.destroy();
+  for (let i = 0; i < 50 && readdirSync(state).some((name) => name.startsWith("upload")); ++i) await sleep(50);
+  assert.deepEqual(readdirSync(state).filter((name) => name.startsWith("upload")), []);
+});
+
+test("answers while hundreds of others send slowly", async () => {
+  const token = engine.url.pathname, {host} = engine.url;
+  const get = (name) => `GET ${token}${name} HTTP/1.1\r\nHost: ${host}\r\n`;
+  const starts = ["", "G", `${get("")}X: `, `${get("icon.svg")}\r\n`];
+  const slow = Array.from({length: 600}, (_, i) => {
+    const socket = connect();
+    socket.write(starts[i % starts.length]);
+    return socket;
+  });
+  const dripping = setInterval(() => slow.forEach((socket) => socket.write("x")), 300);
+  await sleep(1000);
+  for (let i = 0; i < 10; ++i) {
+    const began = performance.now();
+    await stillWorks();
+    assert.ok(performance.now() - began < 2000, `${performance.now() - began} ms`);
+  }
+  clearInterval(dripping);
+  slow.forEach((socket) => socket.destroy());
+});
+
+test("keeps many requests on one connection, and two that are sent at once", async () => {
+  const socket = connect(), {pathname, host} = engine.url;
+  const get = `GET ${pathname}icon.svg HTTP/1.1\r\nHost: ${host}\r\n\r\n`;
+  let text = "";
+  socket.on("data", (data) => (text += data));
+  socket.write(get + get);
+  await sleep(500);
+  socket.write(get);
+  await sleep(500);
+  assert.equal(text.match(/HTTP\/1\.1 200/g).length, 3);
+  socket.destroy();
+});
+
+test("makes no file of another scan than the page shows", async () => {
+  const make = (input) => engine.post("export", {input, options: OPTIONS, format: "stl"});
+  assert.equal((await make({path: scan})).status, 200);
+  for (const other of [{sample: "shell"}, {path: `${scan}.ply`}]) {
+    const answer = await make(other);
+    assert.equal(answer.status, 409);
+    assert.match(JSON.parse(answer.body).error.text, /expected this scan to be open, found scan\.ply/);
+  }
+  assert.equal((await make({path: 3})).status, 400);
+});
+
+test("shares its port with nobody", async () => {
+  const other = new EngineProcess(path.join(folder, "other"), "--port", engine.url.port);
+  await assert.rejects(other.ready(), /expected a port that is free/);
+});
+
+test("keeps apart what two studios keep, and says so", async () => {
+  const state = path.join(folder, "shared"), first = await new EngineProcess(state).ready();
+  const second = await new EngineProcess(state).ready();
+  assert.equal((await about(first)).notice, "");
+  const {notice} = await about(second);
+  assert.match(notice, /Another studio uses .*shared.* keeps its work in .*shared-2/);
+  assert.ok(second.errors.includes(notice), second.errors);
+  await first.post("state", {from: "first"});
+  await second.post("state", {from: "second"});
+  for (const [of, from] of [[first, "first"], [second, "second"]]) assert.equal((await about(of)).state.from, from);
+  await first.stop();
+  const third = await new EngineProcess(state).ready();
+  assert.equal((await about(third)).state.from, "first");
+  await Promise.all([second.stop(), third.stop()]);
+});
+
+test("says when nothing can be kept, and works all the same", async () => {
+  const file = path.join(folder, "file");
+  writeFileSync(file, "");
+  const other = await new EngineProcess(path.join(file, "state"), scan).ready();
+  assert.match((await about(other)).notice, /not kept, as .*file\/state cannot be written to: Not a directory/);
+  assert.match(other.errors, /cannot be written to/);
+  await other.open({path: scan});
+  assert.equal((await other.post("frame", FRAME)).status, 200);
+  assert.equal((await other.post("state", {})).status, 500);
+  await other.stop();
+});
