@@ -10,7 +10,8 @@
 
 namespace relievo::app::studio {
 
-// Reads what was received before and then from the socket, which it does not own. The end of the connection is 0; errors, and waiting for too long, are -1.
+// Reads what was received before and then from the socket, which it does not own. The end of the connection is 0; errors,
+// and waiting for too long, are -1.
 class BufferedStream : public httplib::Stream {
  public:
   BufferedStream(int socket, std::string received) : socket_(socket), received_(std::move(received)) {}

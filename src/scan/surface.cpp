@@ -11,7 +11,7 @@
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/normals.h"
-#include "scan/noise.h"
+#include "scan/noise/noise.h"
 #include "scan/orient_normals.h"
 #include "scan/outline_points.h"
 

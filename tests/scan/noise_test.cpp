@@ -1,4 +1,4 @@
-#include "scan/noise.h"
+#include "scan/noise/noise.h"
 
 #include <gtest/gtest.h>
 

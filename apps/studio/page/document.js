@@ -7,8 +7,8 @@ import {about, defaultOf} from "./about.js";
 const START = {height: 4, method: "layered", mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.
-const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner", "margin",
-  "thickness", "form", "resolution", "tolerance", "draft"];
+const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner",
+  "margin", "thickness", "form", "resolution", "tolerance", "draft"];
 
 export const FIRST = Object.freeze({
   input: null,

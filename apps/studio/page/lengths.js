@@ -18,7 +18,8 @@ export function parseLength(text, mayHaveUnit = true) {
   const [, sum, unit] = text.match(WHOLE) ?? [];
   if (!sum || (unit && !mayHaveUnit)) return NaN;
   let total = 0;
-  for (const [, sign, top, bottom = "1"] of sum.matchAll(TERMS)) total += Number(`${sign}1`) * number(top) / number(bottom);
+  for (const [, sign, top, bottom = "1"] of sum.matchAll(TERMS))
+    total += Number(`${sign}1`) * number(top) / number(bottom);
   const value = total * (MM[unit] ?? 1);
   return Number.isFinite(value) ? value : NaN;
 }

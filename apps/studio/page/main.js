@@ -19,7 +19,8 @@ const doc = new Document((before) => changed(before));
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({facts, options: finalOptions(), name: baseName(), input: doc.now.input}),
+const exporting = new ExportDialog(
+  engine, () => ({facts, options: finalOptions(), name: baseName(), input: doc.now.input}),
   (options) => doc.change({options}));
 
 let facts = null;

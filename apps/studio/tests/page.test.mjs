@@ -248,7 +248,7 @@ test("has sliders, defaults and units of the engine's options", {skip}, async ()
   }
 });
 
-test("names what it reads and offers every outline, form and format of the engine, added ones too", {skip}, async () => {
+test("names what it reads and offers each outline, form and format of the engine, added ones too", {skip}, async () => {
   const added = await page.context().newPage();
   await added.route("**/api/about", async (route) => {
     const response = await route.fetch(), json = await response.json();

@@ -1,4 +1,4 @@
-// A filter against noise. Declared in noise.h, tested by tests/scan/noise_test.cpp.
+// A filter against noise. Declared in noise.h. Tested by tests/scan/noise_test.cpp.
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "core/angle.h"
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
-#include "scan/noise.h"
+#include "scan/noise/noise.h"
 
 namespace relievo {
 namespace {

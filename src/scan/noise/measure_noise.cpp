@@ -1,4 +1,4 @@
-// The noise of a scan. Declared in noise.h, tested by tests/scan/noise_test.cpp.
+// The noise of a scan. Declared in noise.h. Tested by tests/scan/noise_test.cpp.
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include "core/angle.h"
 #include "core/quantile.h"
 #include "relievo/core/parallel.h"
-#include "scan/noise.h"
+#include "scan/noise/noise.h"
 
 namespace relievo {
 namespace {
