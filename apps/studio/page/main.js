@@ -94,7 +94,7 @@ function showDocument() {
   $("#outline").value = options.outline;
   $("#crop").value = options.crop;
   $("#crumbs").checked = options.crumbs === "keep";
-  showNoise(options.denoise);
+  showDenoise(options.denoise);
   $("#outline-note").textContent =
     options.outline === "rectangle" ? "" : "The files have this outline; the picture here keeps the rectangle.";
   sliders.corner.disabled = options.outline !== "round";
@@ -107,9 +107,11 @@ function showDocument() {
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
 }
 
-function showNoise(denoise) {
+function showDenoise(denoise) {
   const isMeasured = denoise === "auto", noise = isMeasured ? facts?.noise ?? 0 : Number(denoise);
-  $("#denoise").value = noise;
+  const slider = $("#denoise");
+  slider.value = noise;
+  slider.style.setProperty("--filled", `${100 * noise}%`);
   $("#denoise-value").textContent = noise.toFixed(2);
   $("#denoise-auto").checked = isMeasured;
 }
@@ -185,7 +187,7 @@ async function arrived() {
   } catch (error) {
     return failed(error);
   }
-  showNoise(doc.now.options.denoise);
+  showDenoise(doc.now.options.denoise);
   shownView = status.shown;
   fallback = null;
   if (doc.now.input && asking === 0) await followOtherTab().catch(failed);
@@ -357,7 +359,7 @@ function wire() {
   $("#method").onchange = (event) => changeMethod(event.target.value);
   $("#crop").onchange = (event) => doc.change({options: {crop: event.target.value.replaceAll(" ", "")}});
   $("#crumbs").onchange = (event) => doc.change({options: {crumbs: event.target.checked ? "keep" : "drop"}});
-  $("#denoise").oninput = (event) => ($("#denoise-value").textContent = Number(event.target.value).toFixed(2));
+  $("#denoise").oninput = (event) => showDenoise(event.target.value);
   $("#denoise").onchange = (event) => doc.change({options: {denoise: event.target.value}});
   $("#denoise-auto").onchange = (event) =>
     doc.change({options: {denoise: event.target.checked ? "auto" : $("#denoise").value}});
