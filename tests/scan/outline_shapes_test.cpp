@@ -1,0 +1,128 @@
+// Outlines of shapes with sharp corners, with two silhouettes, and with noise; all of them have closed forms.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "relievo/scan/surface.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// The boundary of a cloud in the view plane, about the model's origin.
+struct SeenOutline {
+  std::vector<Vec2> places;
+  double rho = 0;
+};
+
+SeenOutline outline_of(const Cloud& cloud, const View& view) {
+  const Surface surface = *find_surface(cloud, view);
+  SeenOutline outline{{}, surface.rho};
+  const Vec3 centre = view.R_view_model * surface.centre;
+  for (std::size_t i = 0; i < surface.points.size(); ++i)
+    if (surface.boundary.is_boundary[i]) outline.places.push_back((surface.points[i] + centre).head<2>());
+  return outline;
+}
+
+// How far places are from where they should be, in rho.
+struct Deviation {
+  double mean = 0, scatter = 0, farthest = 0;
+};
+
+template <typename Offset>
+Deviation deviation(const SeenOutline& outline, Offset offset) {
+  double sum = 0, squares = 0;
+  Deviation result;
+  for (const Vec2& place : outline.places) {
+    const double off = offset(place) / outline.rho;
+    sum += off, squares += off * off;
+    result.farthest = std::max(result.farthest, std::abs(off));
+  }
+  const auto n = static_cast<double>(outline.places.size());
+  result.mean = sum / n;
+  result.scatter = std::sqrt(squares / n - sum * sum / (n * n));
+  return result;
+}
+
+// Returns the distance of a place from the ellipse with those half axes along x and y.
+double distance_from_ellipse(const Vec2& place, double a, double b) {
+  double t = std::atan2(place.y() / b, place.x() / a);
+  for (int step = 0; step < 20; ++step) {  // Newton's method for the foot of the perpendicular
+    const Vec2 p(a * std::cos(t), b * std::sin(t)), tangent(-a * std::sin(t), b * std::cos(t));
+    t -= (p - place).dot(tangent) / (tangent.squaredNorm() - (p - place).dot(p));
+  }
+  return (place - Vec2(a * std::cos(t), b * std::sin(t))).norm();
+}
+
+class OutlinesOfShapes : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
+  // A ball that moves along a circle covers a torus, and the circle is seen as an ellipse.
+  const SeenOutline outline = outline_of(test::torus(GetParam(), 2, .5), *view_towards({0, -1, 1}));
+  const auto inner = std::ranges::count_if(
+      outline.places, [](const Vec2& p) { return Vec2(p.x() / 2, p.y() / std::sqrt(2.)).norm() < 1; });
+  EXPECT_GT(static_cast<std::size_t>(inner), outline.places.size() / 4);
+  const Deviation off =
+      deviation(outline, [](const Vec2& p) { return distance_from_ellipse(p, 2, std::sqrt(2.)) - .5; });
+  EXPECT_LT(off.farthest, .15);
+  EXPECT_LT(off.scatter, .02);
+}
+
+// A flat gear of that many teeth, between two radii.
+constexpr int teeth = 12;
+constexpr double root = .8, tip = 1;
+
+Cloud gear(std::size_t n) {
+  test::Random random(23);
+  Cloud cloud;
+  while (cloud.size() < n) {
+    const Vec2 p(random.uniform(-tip, tip), random.uniform(-tip, tip));
+    const double sector = std::floor(std::atan2(p.y(), p.x()) * teeth / pi);
+    const bool is_tooth = std::fmod(sector + 2 * teeth, 2) == 0;
+    if (p.norm() < (is_tooth ? tip : root)) test::add(cloud, {p.x(), p.y(), 0}, Vec3::UnitZ());
+  }
+  return cloud;
+}
+
+TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
+  // Scattered points leave the last half of a sampling distance to guess at every side of a corner.
+  const SeenOutline outline = outline_of(gear(GetParam()), View{});
+  std::vector<double> off;
+  for (int k = 0; k < 2 * teeth; ++k)
+    for (const double radius : {root, tip}) {
+      const Vec2 corner = radius * Vec2(std::cos(k * pi / teeth), std::sin(k * pi / teeth));
+      double nearest = 1e9;
+      for (const Vec2& place : outline.places) nearest = std::min(nearest, (place - corner).norm());
+      off.push_back(nearest / outline.rho);
+    }
+  std::ranges::sort(off);
+  EXPECT_LT(off[off.size() / 2], .5);
+  EXPECT_LT(off[off.size() * 9 / 10], 1);
+  EXPECT_LT(off.back(), 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, OutlinesOfShapes, testing::Values(20000, 100000));
+
+TEST(NoisyOutlines, AreTooWideUnlessNoiseIsRemoved) {
+  // Of noisy points those that lie outside the true silhouette are the outermost.
+  const Cloud clean = test::button(50000, 1, .15);
+  const double rho = measure_spacing(clean).rho;
+  Cloud noisy = test::noisy(clean, .5 * rho, 0);
+  noisy.normals.clear();
+  const auto off_the_circle = [](const Vec2& p) { return p.norm() - 1.15; };
+  View kept;
+  kept.denoise = 0;
+  const Deviation with_noise = deviation(outline_of(noisy, kept), off_the_circle);
+  const Deviation without = deviation(outline_of(noisy, View{}), off_the_circle);
+  EXPECT_GT(with_noise.mean, .4);
+  EXPECT_LT(without.mean, .3);
+  EXPECT_LT(without.scatter, .3);
+  EXPECT_LT(without.farthest, 1.5);
+}
+
+}  // namespace
+}  // namespace relievo
