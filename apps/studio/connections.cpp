@@ -95,14 +95,14 @@ struct Connections::State {
 
   void interrupt_waiting() const { (void)!::eventfd_write(wake, 1); }
 
-  // With `mutex` locked.
+  // The caller holds `mutex`.
   void close(int socket) {
     ::close(socket);
     --open;
     has_room.notify_one();
   }
 
-  // With `mutex` locked.
+  // The caller holds `mutex`.
   void drop(std::list<Connection>::iterator at) {
     close(at->socket);
     waiting.erase(at);
@@ -139,7 +139,7 @@ struct Connections::State {
     }
   }
 
-  // With `mutex` locked: takes in what arrived, and closes what is over or too late. Both lists have the same order, but
+  // Takes in what arrived, and closes what is over or too late. The caller holds `mutex`. Both lists have the same order, but
   // meanwhile connections may have gone from the front of `waiting` and come to its end.
   void look_at(const std::vector<pollfd>& watched) {
     const Clock::time_point now = Clock::now();
@@ -181,7 +181,7 @@ struct Connections::State {
     }
   }
 
-  // With `mutex` locked.
+  // The caller holds `mutex`.
   void put_back(Connection connection) {
     if (is_stopping) return close(connection.socket);
     if (!connection.is_ending && has_whole_head(connection)) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// The boundary of a cloud in the view plane, about the model's origin.
+// The boundary of a cloud in the view plane, relative to the model's origin.
 struct SeenOutline {
   std::vector<Vec2> places;
   double rho = 0;
@@ -28,7 +28,7 @@ SeenOutline outline_of(const Cloud& cloud, const View& view) {
   return outline;
 }
 
-// How far places are from where they should be, in rho.
+// The distances of places from a curve, in rho.
 struct Deviation {
   double mean = 0, scatter = 0, farthest = 0;
 };
@@ -108,7 +108,7 @@ TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
 INSTANTIATE_TEST_SUITE_P(Sizes, OutlinesOfShapes, testing::Values(20000, 100000));
 
 TEST(NoisyOutlines, AreTooWideUnlessNoiseIsRemoved) {
-  // Of noisy points those that lie outside the true silhouette are the outermost.
+  // The outermost of noisy points lie outside the true silhouette.
   const Cloud clean = test::button(50000, 1, .15);
   const double rho = measure_spacing(clean).rho;
   Cloud noisy = test::noisy(clean, .5 * rho, 0);

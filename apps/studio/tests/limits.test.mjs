@@ -1,4 +1,4 @@
-// What the studio does with too much, too slow, too large, and with other studios beside it.
+// Sends the studio requests that are too many, too slow or too large, and starts other studios beside it.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {readFileSync, readdirSync, writeFileSync} from "node:fs";

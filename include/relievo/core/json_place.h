@@ -1,4 +1,4 @@
-// Where a text that should be JSON is not.
+// The place at which a text stops being JSON.
 #pragma once
 
 #include <string>

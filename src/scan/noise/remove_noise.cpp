@@ -40,7 +40,7 @@ struct LocalSurface {
   }
 };
 
-// What of a neighbour counts.
+// The deviations at which neighbours lose weight.
 struct Tolerances {
   double normals_sq;  // variance of the deviation of normals
   double heights_sq;  // and of heights, in radii^2
