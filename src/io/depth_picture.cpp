@@ -18,13 +18,14 @@ bool is_picture(std::span<const std::byte> bytes) {
                              [&](const auto& format) { return format.is_format(source_of(bytes)); });
 }
 
-Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name) {
+Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
+                                    const PictureChannels& channels) {
   const io::Source source = source_of(bytes, name);
   const auto format =
       std::ranges::find_if(io::picture_formats, [&](const auto& known) { return known.is_format(source); });
   if (format == io::picture_formats.end())
     return source.error({}, "expected a PNG or TIFF picture of depths, found another file");
-  Result<DepthImage> image = format->read(source);
+  Result<DepthImage> image = format->read(source, channels);
   if (!image) return image;
   const auto [width, height] = std::pair(image->values.width, image->values.height);
   if (width < 4 || height < 4)

@@ -3,12 +3,15 @@
 #include <png.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <optional>
 
 #include "io/pictures.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -67,7 +70,9 @@ bool read_rows(png_structp png, png_bytepp rows) {
 
 class Reader {
  public:
-  explicit Reader(const Source& source) : source_(source) { job_.bytes = source.bytes; }
+  Reader(const Source& source, const PictureChannels& wanted) : source_(source), wanted_(wanted) {
+    job_.bytes = source.bytes;
+  }
   Reader(const Reader&) = delete;
   Reader& operator=(const Reader&) = delete;
   ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
@@ -96,27 +101,43 @@ class Reader {
                                  "expected the data of a PNG picture, found " + printable(job_.message));
   }
 
-  // Fails if the channels differ: then the picture is a photograph, or depths were painted in colours.
   Result<DepthImage> as_depths(const std::vector<png_byte>& bytes) const {
     DepthImage image{{}, 1, "PNG, " + std::to_string(job_.bits) + " bits"};
     image.values.resize(static_cast<int>(job_.width), static_cast<int>(job_.height));
+    if (wanted_.channel > job_.channels)
+      return source_.error({}, "expected a channel from 1 to " + std::to_string(job_.channels) + ", found " +
+                                   std::to_string(wanted_.channel));
     const std::size_t value_size = static_cast<std::size_t>(job_.bits / 8);
     const auto channels = static_cast<std::size_t>(job_.channels);
     for (std::size_t i = 0; i < image.values.size(); ++i) {
-      const png_byte* pixel = bytes.data() + i * channels * value_size;
-      for (std::size_t c = 1; c < channels; ++c)
-        if (std::memcmp(pixel, pixel + c * value_size, value_size) != 0)
-          return source_.error(
-              "column " + std::to_string(i % job_.width + 1) + ", row " + std::to_string(i / job_.width + 1),
-              "expected a grey picture of depths, found colours");
-      std::uint16_t value = *pixel;
-      if (value_size == 2) std::memcpy(&value, pixel, 2);
-      image.values[i] = value;
+      const auto value = value_of(bytes.data() + i * channels * value_size);
+      if (!value)
+        return source_.error(
+            "column " + std::to_string(i % job_.width + 1) + ", row " + std::to_string(i / job_.width + 1),
+            cat("expected a grey picture of depths, found colours", way_out_of_colours));
+      image.values[i] = *value;
     }
     return image;
   }
 
+  // Returns the value of a pixel; nothing if its channels differ: then the picture is a photograph, or depths were
+  // painted in colours.
+  std::optional<float> value_of(const png_byte* pixel) const {
+    std::array<float, 4> all{};
+    for (std::size_t c = 0; c < static_cast<std::size_t>(job_.channels); ++c) {
+      std::uint16_t value = pixel[c];
+      if (job_.bits == 16) std::memcpy(&value, pixel + 2 * c, 2);
+      all[c] = value;
+    }
+    if (wanted_.channel > 0) return all[static_cast<std::size_t>(wanted_.channel) - 1];
+    const bool is_grey = job_.channels < 3 || (all[0] == all[1] && all[1] == all[2]);
+    if (is_grey) return all[0];
+    if (!wanted_.is_luminance_wanted) return std::nullopt;
+    return luminance_shares[0] * all[0] + luminance_shares[1] * all[1] + luminance_shares[2] * all[2];
+  }
+
   const Source& source_;
+  const PictureChannels& wanted_;
   Job job_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
@@ -128,8 +149,8 @@ bool is_png(const Source& source) {
   return source.bytes.starts_with("\x89PNG");
 }
 
-Result<DepthImage> read_depth_png(const Source& source) {
-  return Reader(source).read();
+Result<DepthImage> read_depth_png(const Source& source, const PictureChannels& channels) {
+  return Reader(source, channels).read();
 }
 
 }  // namespace relievo::io

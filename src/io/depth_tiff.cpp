@@ -8,6 +8,7 @@
 #include "io/text.h"
 #include "io/tiff_bytes.h"
 #include "io/tiff_samples.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -48,17 +49,27 @@ std::string name_of_colours(std::uint16_t photometric) {
   }
 }
 
+bool takes_luminance(const Layout& layout, const PictureChannels& wanted) {
+  return wanted.is_luminance_wanted && wanted.channel == 0 && layout.colours == PHOTOMETRIC_RGB &&
+         layout.channels >= 3;
+}
+
 // Sets the format of the samples, or says why they are not depths.
-Result<void> check_samples(const Source& source, Layout& layout) {
+Result<void> check_samples(const Source& source, Layout& layout, const PictureChannels& wanted) {
   const bool is_grey = layout.colours <= PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_RGB;
   if (!is_grey)
     return source.error({}, "expected a grey picture of depths, found " + name_of_colours(layout.colours));
-  if (layout.channels < 1 || layout.channels > 2)
-    return source.error({}, "expected one channel of depths, found " + std::to_string(layout.channels));
+  if (wanted.channel > layout.channels)
+    return source.error({},
+                        cat("expected a channel from 1 to ", layout.channels, ", found ", wanted.channel));
+  const bool is_one_enough = wanted.channel > 0 || layout.channels == 1 || layout.channels == 2;
+  if (!is_one_enough && !takes_luminance(layout, wanted))
+    return source.error({},
+                        cat("expected one channel of depths, found ", layout.channels, way_out_of_colours));
   const auto samples = find_sample_format(layout.kind, layout.bits);
   if (!samples)
     return source.error({},
-                        "expected whole numbers of 8 to 32 or 64 bits, or fractions of 16, 32 or 64, found " +
+                        "expected whole numbers of 1 to 32 or 64 bits, or fractions of 16, 32 or 64, found " +
                             describe_samples(layout.kind, layout.bits));
   layout.samples = *samples;
   return {};
@@ -73,18 +84,24 @@ std::size_t row_size(const Layout& layout, std::size_t pixels) {
   return (pixels * samples_per_pixel(layout) * layout.bits + 7) / 8;
 }
 
-bool read_lines(TIFF* tiff, const Layout& layout, DepthImage& image) {
+// Returns a row of the channel, which its plane has alone.
+SampleRow row_of(const Layout& layout, const unsigned char* bytes, std::uint16_t channel) {
+  const bool has_all = layout.planes == PLANARCONFIG_CONTIG;
+  return {bytes, has_all ? std::size_t{channel} : 0, samples_per_pixel(layout)};
+}
+
+bool read_lines(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
   std::vector<unsigned char> line(static_cast<std::size_t>(TIFFScanlineSize64(tiff)));
   if (line.size() < row_size(layout, layout.width)) return false;
   for (std::uint32_t r = 0; r < layout.height; ++r) {
-    if (TIFFReadScanline(tiff, line.data(), r) != 1) return false;
-    decode_samples(layout.samples, line.data(), layout.width, samples_per_pixel(layout),
-                   image.values.pixels.data() + image.values.index(0, static_cast<int>(r)));
+    if (TIFFReadScanline(tiff, line.data(), r, channel) != 1) return false;
+    decode_samples(layout.samples, row_of(layout, line.data(), channel), layout.width,
+                   to.pixels.data() + to.index(0, static_cast<int>(r)));
   }
   return true;
 }
 
-bool read_tiles(TIFF* tiff, const Layout& layout, DepthImage& image) {
+bool read_tiles(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
   const std::size_t row = row_size(layout, layout.tile_width);
   const auto size = static_cast<std::size_t>(TIFFTileSize64(tiff));
   if (layout.tile_width == 0 || layout.tile_height == 0 || size > most_pixels * 4 ||
@@ -93,12 +110,27 @@ bool read_tiles(TIFF* tiff, const Layout& layout, DepthImage& image) {
   std::vector<unsigned char> tile(size);
   for (std::uint32_t y = 0; y < layout.height; y += layout.tile_height)
     for (std::uint32_t x = 0; x < layout.width; x += layout.tile_width) {
-      if (TIFFReadTile(tiff, tile.data(), x, y, 0, 0) < 0) return false;
+      if (TIFFReadTile(tiff, tile.data(), x, y, 0, channel) < 0) return false;
       const std::uint32_t columns = std::min(layout.tile_width, layout.width - x);
       for (std::uint32_t r = 0; r < std::min(layout.tile_height, layout.height - y); ++r)
-        decode_samples(layout.samples, tile.data() + r * row, columns, samples_per_pixel(layout),
-                       &image.values.at(static_cast<int>(x), static_cast<int>(y + r)));
+        decode_samples(layout.samples, row_of(layout, tile.data() + r * row, channel), columns,
+                       &to.at(static_cast<int>(x), static_cast<int>(y + r)));
     }
+  return true;
+}
+
+bool read_channel(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
+  to.resize(static_cast<int>(layout.width), static_cast<int>(layout.height));
+  return (TIFFIsTiled(tiff) ? read_tiles : read_lines)(tiff, layout, channel, to);
+}
+
+bool read_luminance(TIFF* tiff, const Layout& layout, Image<float>& to) {
+  to.resize(static_cast<int>(layout.width), static_cast<int>(layout.height));
+  Image<float> one;
+  for (std::uint16_t c = 0; c < 3; ++c) {
+    if (!read_channel(tiff, layout, c, one)) return false;
+    for (std::size_t i = 0; i < one.size(); ++i) to[i] += luminance_shares[c] * one[i];
+  }
   return true;
 }
 
@@ -135,7 +167,7 @@ bool is_tiff(const Source& source) {
                              [&](std::string_view mark) { return source.bytes.starts_with(mark); });
 }
 
-Result<DepthImage> read_depth_tiff(const Source& source) {
+Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& channels) {
   TiffBytes file(source.bytes);
   const auto broken = [&] {
     const std::string why = printable(file.message(), 120);
@@ -149,12 +181,13 @@ Result<DepthImage> read_depth_tiff(const Source& source) {
     return source.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
   if (pixels / best_packing > source.bytes.size())
     return source.error({}, "expected more data for " + std::to_string(pixels) + " pixels");
-  RELIEVO_CHECK(check_samples(source, layout));
+  RELIEVO_CHECK(check_samples(source, layout, channels));
   const bool is_fraction = layout.samples.kind == SampleKind::fraction;
   DepthImage image{{}, is_fraction ? 0.0 : 1.0, "TIFF, " + std::to_string(layout.bits) + " bits"};
-  image.values.resize(static_cast<int>(layout.width), static_cast<int>(layout.height));
-  const bool is_read = TIFFIsTiled(file.handle()) ? read_tiles(file.handle(), layout, image)
-                                                  : read_lines(file.handle(), layout, image);
+  const auto channel = static_cast<std::uint16_t>(std::max(channels.channel, 1) - 1);
+  const bool is_read = takes_luminance(layout, channels)
+                           ? read_luminance(file.handle(), layout, image.values)
+                           : read_channel(file.handle(), layout, channel, image.values);
   if (!is_read) return broken();
   interpret(layout, no_data(file.handle()), image);
   return image;

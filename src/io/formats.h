@@ -16,7 +16,9 @@ namespace relievo::io {
 // beginning of a file.
 bool is_ply(const Source& source);
 bool is_pcd(const Source& source);
+bool is_laz(const Source& source);
 bool is_las(const Source& source);
+bool is_e57(const Source& source);
 bool is_gltf(const Source& source);
 bool is_off(const Source& source);
 bool is_stl(const Source& source);
@@ -33,17 +35,24 @@ bool is_text(const Source& source);
 // - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
 // - OFF, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the scene,
-//   transformed by its nodes; without nodes, of all meshes. Nothing compressed (Draco, meshopt).
-// - PCD: ascii, binary and binary_compressed; x y z, normal_x normal_y normal_z and rgb.
-// - LAS 1.0 to 1.5, not compressed, with colours.
+//   transformed by its nodes; without nodes, of all meshes. They may be quantised, and
+//   compressed by EXT_meshopt_compression, but not by Draco.
+// - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y normal_z and rgb.
+// - LAS 1.0 to 1.5, with colours, up to its end if it has fewer points than promised; and LAZ, which is LAS
+//   compressed by LASzip 2 or later.
+// - E57: all scans, moved by their poses, of cartesian or spherical coordinates; with colours and normals if
+//   all scans have them. Points that the file calls invalid are NaN. Every checksum must be right.
 // - XYZ, PTS, text: the separator (blank, tab, comma, semicolon) and the columns are detected. x y z come
-//   first; three columns that are unit vectors in nine of ten rows are normals. Allowed are a first line with
-//   the number of points (more may follow, but not fewer), comments (#, //) and a line of column names, which
-//   then decide. Other columns may contain anything. Numbers have a decimal point, or a comma if
-//   semicolons separate them; they may stand in quotation marks.
+//   first; three columns that are unit vectors in nine of ten rows are normals, three of whole numbers from 0
+//   to 255 or of fractions from 0 to 1 are colours. Allowed are a first line with the number of points (more may
+//   follow, but not fewer), comments (#, //) and a line of column names, which then decide. Other columns may
+//   contain anything. Numbers have a decimal point, or a comma if semicolons separate them; they may stand in
+//   quotation marks.
 Result<RawCloud> read_ply(const Source& source);
 Result<RawCloud> read_pcd(const Source& source);
+Result<RawCloud> read_laz(const Source& source);
 Result<RawCloud> read_las(const Source& source);
+Result<RawCloud> read_e57(const Source& source);
 Result<RawCloud> read_gltf(const Source& source);
 Result<RawCloud> read_off(const Source& source);
 Result<RawCloud> read_stl(const Source& source);
@@ -72,7 +81,9 @@ struct Format {
 inline constexpr std::array formats = {
     Format{"PLY", ".ply", Content::both, is_ply, read_ply, find_ply_rows},
     Format{"PCD", ".pcd", Content::points, is_pcd, read_pcd, find_pcd_rows},
+    Format{"LAZ", ".laz", Content::points, is_laz, read_laz},
     Format{"LAS", ".las", Content::points, is_las, read_las, find_las_rows},
+    Format{"E57", ".e57", Content::points, is_e57, read_e57},
     Format{"glTF", ".glb .gltf", Content::both, is_gltf, read_gltf},
     Format{"OFF", ".off", Content::triangles, is_off, read_off},
     Format{"STL", ".stl", Content::triangles, is_stl, read_stl},
@@ -85,8 +96,7 @@ struct ForeignFormat {
   std::string_view what;  // for people
 };
 
-inline constexpr std::array<ForeignFormat, 16> foreign_beginnings = {{{"ASTM-E57", "an E57 file"},
-                                                                      {"\x89PNG", "a PNG picture"},
+inline constexpr std::array<ForeignFormat, 15> foreign_beginnings = {{{"\x89PNG", "a PNG picture"},
                                                                       {"\xFF\xD8\xFF", "a JPEG picture"},
                                                                       {"II*", "a TIFF picture"},
                                                                       {"MM", "a TIFF picture"},
@@ -102,10 +112,8 @@ inline constexpr std::array<ForeignFormat, 16> foreign_beginnings = {{{"ASTM-E57
                                                                       {"\xFF\xFE", "UTF-16 text"},
                                                                       {"\xFE\xFF", "UTF-16 text"}}};
 
-inline constexpr std::array<ForeignFormat, 12> foreign_endings = {
-    {{".laz", "a LAZ file"},
-     {".e57", "an E57 file"},
-     {".ptx", "a PTX file"},
+inline constexpr std::array<ForeignFormat, 10> foreign_endings = {
+    {{".ptx", "a PTX file"},
      {".3ds", "a 3DS file"},
      {".dxf", "a DXF file"},
      {".fbx", "an FBX file"},

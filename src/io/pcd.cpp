@@ -205,6 +205,7 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   Lines lines(source.bytes, header.records.offset, header.lines);
   Cloud cloud;
   std::vector<double> values(header.columns);
+  std::string spaced;  // a line without the commas that some programs put between its numbers
   const auto vector = [&](const std::array<std::size_t, 3>& c) {
     return Vec3(values[c[0]], values[c[1]], values[c[2]]);
   };
@@ -215,7 +216,11 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
                                                           " points, found the end of the file after " +
                                                           std::to_string(cloud.size()));
     if (trim(*line).empty()) continue;
-    Words words(*line);
+    if (line->contains(',')) {
+      spaced = *line;
+      std::ranges::replace(spaced, ',', ' ');
+    }
+    Words words(line->contains(',') ? std::string_view(spaced) : *line);
     for (double& value : values) {
       const std::string_view word = words.next();
       const auto number = parse_number(word);

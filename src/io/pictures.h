@@ -19,14 +19,21 @@ bool is_png(const Source& source);
 bool is_tiff(const Source& source);
 
 // Return the depths of a picture. Errors: kind input.
-Result<DepthImage> read_depth_png(const Source& source);
-Result<DepthImage> read_depth_tiff(const Source& source);
+Result<DepthImage> read_depth_png(const Source& source, const PictureChannels& channels);
+Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& channels);
+
+// Messages about several channels end with this way out.
+inline constexpr std::string_view way_out_of_colours =
+    "; the option channel takes one of them, and depth-values luminance their brightness";
+
+// The shares of red, green and blue in the luminance of Rec. 709.
+inline constexpr std::array luminance_shares = {.2126F, .7152F, .0722F};
 
 struct PictureFormat {
   std::string_view name;     // for people
   std::string_view endings;  // of file names, separated by blanks
   bool (*is_format)(const Source&);
-  Result<DepthImage> (*read)(const Source&);
+  Result<DepthImage> (*read)(const Source&, const PictureChannels&);
 };
 
 inline constexpr std::array picture_formats = {PictureFormat{"PNG", ".png", is_png, read_depth_png},

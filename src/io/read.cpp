@@ -1,26 +1,11 @@
-#include <cmath>
-
+#include "relievo/io/read.h"
 #include "io/formats.h"
 #include "io/text.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/io/read.h"
 #include "relievo/scan/scan_file.h"
 
 namespace relievo {
-namespace io {
-
-Vec3f unit_normal(const Vec3& n) {
-  if (!n.allFinite() || n.isZero(0)) return Vec3f::Zero();
-  const Vec3f rounded = n.cast<float>();
-  const double rounding = 1e-6;  // of the squared length of three floats, several times what rounding makes
-  if (std::abs(rounded.cast<double>().squaredNorm() - 1) <= rounding) return rounded;
-  // Scaled first because squares may overflow.
-  return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
-}
-
-}  // namespace io
-
 namespace {
 
 Result<io::RawCloud> read_by_format(const io::Source& source) {
@@ -82,7 +67,8 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
       {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, beside ? &beside : nullptr};
   auto raw = read_by_format(source);
   if (!raw) return std::unexpected(std::move(raw.error()));
-  CloudFile file{std::move(raw->cloud), std::move(raw->format), 0, 0, std::move(raw->mesh)};
+  CloudFile file{std::move(raw->cloud), std::move(raw->format), 0, 0,
+                 raw->missing_points,   std::move(raw->mesh)};
   const std::size_t points = file.cloud.size();
   drop_unusable(file);
   if (file.cloud.points.empty()) {

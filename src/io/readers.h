@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "relievo/io/read.h"
+#include "relievo/scan/normals.h"
 
 namespace relievo::io {
 
@@ -31,11 +32,8 @@ struct RawCloud {
   Cloud cloud;         // coordinates may be NaN or infinite; each normal is as unit_normal() returns it
   std::string format;  // for people
   Mesh mesh = {};      // a copy of the same points with the file's triangles; empty if it has none
+  std::size_t missing_points = 0;  // promised by the header, beyond the end of the file
 };
-
-// Returns n with unit length, or zero if it has no direction (zero or not finite). A vector that is unit up
-// to float rounding is returned as it is, so that writing and reading again changes no bit.
-Vec3f unit_normal(const Vec3& n);
 
 // Returns true if the first 4,096 bytes contain a control character that no text has.
 bool has_control_bytes(std::string_view bytes);

@@ -30,8 +30,10 @@ struct Records {
 // The rows of a file that can be read piece by piece.
 struct StreamRecords {
   Records records;
-  std::string format;       // for people
-  std::uint64_t faces = 0;  // of a mesh over the points, which is not read so
+  std::string format;              // for people
+  std::uint64_t faces = 0;         // of a mesh over the points, which is not read so
+  bool may_end_early = false;      // the rows that are there are read, if the file has fewer than it promises
+  std::uint64_t missing_rows = 0;  // promised, beyond the end of the file
 };
 
 // Returns a cloud of `points` points, with normals and colours if the records have them; all values are

@@ -5,6 +5,7 @@
 #include "io/formats.h"
 #include "io/numbers.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -93,7 +94,7 @@ class AsciiReader {
 
   Result<void> end_facet() const {
     if (mesh_.points.size() % 3 == 0) return {};
-    return fail("expected 3 vertices in the facet, found " + std::to_string(mesh_.points.size() % 3));
+    return fail(cat("expected 3 vertices in the facet, found ", mesh_.points.size() % 3));
   }
 
   Result<void> fail(std::string expected) const {

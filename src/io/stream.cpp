@@ -248,9 +248,14 @@ Result<io::StreamRecords> open_records(ByteSource& source, std::string_view name
   const io::Source beginning{{reinterpret_cast<const char*>(head.data()), head.size()}, name};
   auto found = find_rows(beginning);
   if (!found) return found;
-  const io::Records& r = found->records;
+  io::Records& r = found->records;
   const std::uint64_t left = source.size() - std::min(source.size(), r.offset);
   if (r.stride > 0 && r.count <= left / r.stride) return found;
+  if (r.stride > 0 && found->may_end_early && left >= r.stride) {
+    found->missing_rows = r.count - left / r.stride;
+    r.count = left / r.stride;
+    return found;
+  }
   return beginning.error_at_byte(
       r.offset, cat("expected ", r.count, " points of ", r.stride, " bytes, found ", left, " bytes"));
 }
@@ -288,7 +293,7 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
   if (auto done = rows.each("means", .4, .6, progress, [&](const Cloud& piece) { front.gather(piece); });
       !done)
     return std::unexpected(done.error());
-  return StreamedCloud{front.means(), found->format, found->records.count, found->faces};
+  return StreamedCloud{front.means(), found->format, found->records.count, found->faces, found->missing_rows};
 }
 
 }  // namespace relievo

@@ -49,7 +49,7 @@ float as_signed(std::uint64_t bits, unsigned size) {
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits) {
   const auto is_one_of = [&](auto... sizes) { return ((bits == sizes) || ...); };
   if (sample_format == SAMPLEFORMAT_UINT || sample_format == SAMPLEFORMAT_VOID) {
-    if ((bits >= 8 && bits <= 32) || bits == 64) return SampleFormat{SampleKind::whole, bits};
+    if ((bits >= 1 && bits <= 32) || bits == 64) return SampleFormat{SampleKind::whole, bits};
   } else if (sample_format == SAMPLEFORMAT_INT) {
     if (is_one_of(8U, 16U, 32U, 64U)) return SampleFormat{SampleKind::signed_whole, bits};
   } else if (sample_format == SAMPLEFORMAT_IEEEFP) {
@@ -65,14 +65,13 @@ std::string describe_samples(unsigned sample_format, unsigned bits) {
   return std::to_string(bits) + "-bit " + (sample_format > 4 ? "complex numbers" : names[known]);
 }
 
-void decode_samples(const SampleFormat& format, const unsigned char* row, std::size_t n, std::size_t step,
-                    float* to) {
+void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to) {
   const unsigned bits = format.bits;
   const bool is_packed = bits % 8 != 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t sample = i * step;
-    const std::uint64_t value =
-        is_packed ? packed(row, sample * bits, bits) : little_endian(row + sample * (bits / 8), bits);
+    const std::size_t sample = row.first + i * row.step;
+    const std::uint64_t value = is_packed ? packed(row.bytes, sample * bits, bits)
+                                          : little_endian(row.bytes + sample * (bits / 8), bits);
     if (format.kind == SampleKind::whole) to[i] = static_cast<float>(value);
     if (format.kind == SampleKind::signed_whole) to[i] = as_signed(value, bits);
     if (format.kind == SampleKind::fraction) to[i] = as_fraction(value, bits);

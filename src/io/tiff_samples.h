@@ -15,7 +15,7 @@ struct SampleFormat {
   unsigned bits = 1;
 };
 
-// Returns the format of the tags SampleFormat and BitsPerSample if it is read: whole numbers of 8 to 32 and
+// Returns the format of the tags SampleFormat and BitsPerSample if it is read: whole numbers of 1 to 32 and
 // of 64 bits, signed ones of 8, 16, 32 and 64, and fractions of 16, 32 and 64. Undefined samples are taken as
 // whole numbers.
 std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned bits);
@@ -23,9 +23,14 @@ std::optional<SampleFormat> find_sample_format(unsigned sample_format, unsigned 
 // Returns what a picture has instead, for messages: "4-bit whole numbers".
 std::string describe_samples(unsigned sample_format, unsigned bits);
 
-// Decodes every `step`-th sample of a row as libtiff returns it: numbers of 8, 16, 24, 32 and 64 bits in the
-// machine's byte order, which is little-endian, and others packed, the most significant bit first.
-void decode_samples(const SampleFormat& format, const unsigned char* row, std::size_t n, std::size_t step,
-                    float* to);
+// A row as libtiff returns it, of which every `step`-th sample is read, from the sample `first` on.
+struct SampleRow {
+  const unsigned char* bytes = nullptr;
+  std::size_t first = 0, step = 1;
+};
+
+// Decodes n samples of a row: numbers of 8, 16, 24, 32 and 64 bits in the
+// machine's byte order, which is little-endian, and all others packed, the most significant bit first.
+void decode_samples(const SampleFormat& format, const SampleRow& row, std::size_t n, float* to);
 
 }  // namespace relievo::io

@@ -1,12 +1,28 @@
 #include "io/xyz.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "io/formats.h"
 
 namespace relievo::io {
 namespace {
+
+// Returns colours whose largest value tells their range: 1, 255 or 65535. None if it is beyond all of these.
+std::vector<Colour> in_bytes(const std::vector<Vec3f>& values) {
+  float largest = 0;
+  for (const Vec3f& value : values) largest = std::max(largest, value.maxCoeff());
+  if (!(largest <= 65535)) return {};
+  const float scale = largest <= 1 ? 255.F : largest <= 255 ? 1.F : 1 / 257.F;
+  std::vector<Colour> colours(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i)
+    for (Eigen::Index c = 0; c < 3; ++c) {
+      const float value = std::clamp(scale * values[i][c], 0.F, 255.F);
+      colours[i][static_cast<std::size_t>(c)] = static_cast<std::uint8_t>(std::lround(value));
+    }
+  return colours;
+}
 
 class XyzReader {
  public:
@@ -15,8 +31,12 @@ class XyzReader {
         layout_(layout),
         lines_(source.bytes, layout.data_offset, layout.first_line - 1),
         slots_(layout.columns, XyzLayout::most_wanted) {
-    const std::size_t wanted = layout.has_normals ? XyzLayout::most_wanted : 3;
-    for (std::size_t i = 0; i < wanted; ++i) slots_[layout.wanted[i]] = i;
+    const auto take_slots = [&](std::size_t first) {
+      for (std::size_t i = first; i < first + 3; ++i) slots_[layout.wanted[i]] = i;
+    };
+    take_slots(0);
+    if (layout.has_normals) take_slots(XyzLayout::first_normal);
+    if (layout.has_colours) take_slots(XyzLayout::first_colour);
   }
 
   Result<Cloud> read() {
@@ -32,6 +52,7 @@ class XyzReader {
                                    std::to_string(layout_.promising_line) +
                                    " says, found the end of the file after " + std::to_string(cloud_.size()));
     }
+    if (layout_.has_colours) cloud_.colours = in_bytes(colours_);
     return std::move(cloud_);
   }
 
@@ -39,6 +60,7 @@ class XyzReader {
   void make_room(std::size_t points) {
     cloud_.points.reserve(points);
     if (layout_.has_normals) cloud_.normals.reserve(points);
+    if (layout_.has_colours) colours_.reserve(points);
   }
 
   Result<void> take(std::string_view line) {
@@ -48,10 +70,11 @@ class XyzReader {
       const std::size_t slot = column < layout_.columns ? slots_[column] : XyzLayout::most_wanted;
       if (slot == XyzLayout::most_wanted) continue;
       const auto value = parse_field(*field, layout_);
-      if (!value)
+      const bool is_colour = slot >= XyzLayout::first_colour;  // a point without colour is black
+      if (!value && !is_colour)
         return fail("expected a number in column " + std::to_string(column + 1) + ", found " +
                     in_quotes(*field));
-      values_[slot] = *value;
+      values_[slot] = value.value_or(0);
     }
     if (column != layout_.columns) {
       return fail("expected " + std::to_string(layout_.columns) + " columns as in line " +
@@ -59,6 +82,7 @@ class XyzReader {
     }
     cloud_.points.emplace_back(values_[0], values_[1], values_[2]);
     if (layout_.has_normals) cloud_.normals.push_back(unit_normal(Vec3(values_[3], values_[4], values_[5])));
+    if (layout_.has_colours) colours_.push_back(Vec3(values_[6], values_[7], values_[8]).cast<float>());
     return {};
   }
 
@@ -72,11 +96,16 @@ class XyzReader {
   std::vector<std::size_t> slots_;  // where the value of each column goes; most_wanted if it is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
   Cloud cloud_;
+  std::vector<Vec3f> colours_;  // as they stand in the file
 };
 
 std::string to_string(const XyzLayout& layout) {
+  const std::string with = layout.has_normals && layout.has_colours ? " with normals and colours"
+                           : layout.has_normals                     ? " with normals"
+                           : layout.has_colours                     ? " with colours"
+                                                                    : "";
   return (layout.promised_points ? "PTS text, " : "XYZ text, ") + std::to_string(layout.columns) +
-         (layout.has_normals ? " columns with normals" : " columns");
+         " columns" + with;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "io/readers.h"
 #include "io/text.h"
@@ -30,13 +31,15 @@ class Fields {
 // Returns the line without comment (# or //) and blanks at its ends.
 std::string_view without_comment(std::string_view line);
 
+using ColumnNames = std::vector<std::string_view>;
+
 struct XyzLayout {
-  static constexpr std::size_t most_wanted = 6;
+  static constexpr std::size_t most_wanted = 9, first_normal = 3, first_colour = 6;
   char separator = ' ';
   bool has_decimal_commas = false;                          // instead of points
   std::size_t columns = 0;                                  // of every line
-  std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz
-  bool has_normals = false;
+  std::array<std::size_t, most_wanted> wanted = {0, 1, 2};  // columns of x y z nx ny nz red green blue
+  bool has_normals = false, has_colours = false;
   std::optional<std::int64_t> promised_points;  // if a first line states their number
   std::size_t promising_line = 0;
   std::size_t first_line = 0;  // of data, counted from 1
@@ -46,8 +49,16 @@ struct XyzLayout {
 // Returns the number that a field spells, with a decimal comma if the layout has them.
 std::optional<double> parse_field(std::string_view field, const XyzLayout& layout);
 
+// Returns true if x, y and z are among the names.
+bool has_coordinates(const ColumnNames& names);
+
+// Sets the columns of coordinates, normals and colours: those of that name, or else those whose values are unit vectors or
+// colours in lines all over the file.
+void take_columns(const ColumnNames& names, XyzLayout& layout);
+void find_columns(const Source& source, XyzLayout& layout);
+
 // Detects the layout: from the names of the columns if the file has any, else from the first line of data
-// (separator, number of columns) and from lines all over the file (normals).
+// (separator, number of columns) and from lines all over the file (normals, colours).
 Result<XyzLayout> find_layout(const Source& source);
 
 }  // namespace relievo::io

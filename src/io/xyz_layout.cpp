@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <vector>
 
@@ -8,38 +7,25 @@
 namespace relievo::io {
 namespace {
 
-using Names = std::vector<std::string_view>;
-
-constexpr std::array<std::string_view, XyzLayout::most_wanted> wanted_names = {"x",  "y",  "z",
-                                                                               "nx", "ny", "nz"};
-
 bool is_comment(std::string_view trimmed) {
   return trimmed.starts_with('#') || trimmed.starts_with("//");
 }
 
-// Returns the words of a line of column names, which may be separated and quoted in any way.
-Names split_names(std::string_view line) {
+// Returns the words of a line of column names, which may be separated and quoted in any way. Units in brackets, as in
+// "X (m)" or "x[mm]", are left out.
+ColumnNames split_names(std::string_view line) {
   const std::string_view separators = " \t\v\f,;\"'/#";
-  Names names;
+  ColumnNames names;
   while (true) {
     line.remove_prefix(std::min(line.find_first_not_of(separators), line.size()));
     if (line.empty()) return names;
-    names.push_back(line.substr(0, line.find_first_of(separators)));
+    if (line[0] == '(' || line[0] == '[') {
+      line.remove_prefix(std::min(line.find_first_of(")]"), line.size() - 1) + 1);
+      continue;
+    }
+    names.push_back(line.substr(0, line.find_first_of(" \t\v\f,;\"'/#([")));
     line.remove_prefix(names.back().size());
   }
-}
-
-std::size_t find_name(const Names& names, std::string_view wanted) {
-  const auto found =
-      std::find_if(names.begin(), names.end(), [&](auto n) { return equals_ignoring_case(n, wanted); });
-  return static_cast<std::size_t>(found - names.begin());
-}
-
-// Returns how many of x y z nx ny nz, counted from the first, are among the names.
-std::size_t count_named(const Names& names) {
-  const auto has_name = [&](std::string_view wanted) { return find_name(names, wanted) < names.size(); };
-  return static_cast<std::size_t>(std::find_if_not(wanted_names.begin(), wanted_names.end(), has_name) -
-                                  wanted_names.begin());
 }
 
 std::size_t count_fields(std::string_view line, char separator) {
@@ -97,7 +83,7 @@ class Preamble {
   // A line of names must have as many as there are columns; a comment is taken for names only if it has as
   // many.
   Result<void> name_columns() {
-    if (names_.empty() && commented_names_.size() == layout_.columns && count_named(commented_names_) >= 3) {
+    if (names_.empty() && commented_names_.size() == layout_.columns && has_coordinates(commented_names_)) {
       names_ = commented_names_;
     }
     if (!names_.empty() && names_.size() != layout_.columns) {
@@ -108,11 +94,11 @@ class Preamble {
     return {};
   }
 
-  const Names& names() const { return names_; }
+  const ColumnNames& names() const { return names_; }
 
  private:
   Result<bool> take(std::string_view line) {
-    const Names words = split_names(line);
+    const ColumnNames words = split_names(line);
     if (line.empty()) return false;
     if (words.size() == 1 && !layout_.promised_points && parse_integer(words[0]).value_or(-1) >= 0) {
       layout_.promised_points = parse_integer(words[0]);
@@ -123,7 +109,7 @@ class Preamble {
     const bool has_number =
         std::ranges::any_of(words, [](auto word) { return parse_number(word).has_value(); });
     if (!words.empty() && (parse_number(words[0]) || (!names_.empty() && has_number))) return true;
-    if (!names_.empty() || count_named(words) < 3) {
+    if (!names_.empty() || !has_coordinates(words)) {
       return source_.error_in_line(
           lines_.number(), "expected numbers, or names of columns with x, y and z, found " + in_quotes(line));
     }
@@ -135,7 +121,7 @@ class Preamble {
   const Source& source_;
   XyzLayout& layout_;
   Lines lines_;
-  Names names_, commented_names_;
+  ColumnNames names_, commented_names_;
   std::size_t names_line_ = 0;
 };
 
@@ -145,48 +131,6 @@ Result<char> find_separator(const Source& source, std::string_view line, std::si
   if (!has_decimal_commas(line)) return ',';
   return source.error_in_line(
       number, "expected numbers with a decimal point, separated in one way, found " + in_quotes(line));
-}
-
-// Returns the line around a byte, or the part of it within 1,000 bytes: without that limit, a file of one
-// long line would be searched once per sample.
-std::string_view line_around(std::string_view data, std::size_t byte) {
-  const std::size_t limit = 1000, first = byte - std::min(byte, limit);
-  const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, limit);
-  const std::size_t begin = left.find_last_of("\r\n") + 1;  // npos + 1 is 0
-  const std::size_t end = std::min(right.find_first_of("\r\n"), right.size());
-  return data.substr(first + begin, byte + end - first - begin);
-}
-
-// Returns rows from all over the file as numbers, without rows that have another number of columns.
-std::vector<std::vector<double>> sample_rows(std::string_view data, const XyzLayout& layout) {
-  const std::size_t samples = 256;
-  std::vector<std::vector<double>> rows;
-  for (std::size_t i = 0; i < samples; ++i) {
-    std::vector<double> row;
-    Fields fields(without_comment(line_around(data, data.size() * i / samples)), layout.separator);
-    while (const auto field = fields.next()) row.push_back(parse_field(*field, layout).value_or(0));
-    if (row.size() == layout.columns) rows.push_back(std::move(row));
-  }
-  return rows;
-}
-
-// Returns true if nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
-// that were written with two decimals, whose length is uncertain by 0.01.
-bool are_unit_vectors(const std::vector<std::vector<double>>& rows, std::size_t column) {
-  const auto is_unit = [&](const std::vector<double>& row) {
-    return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;
-  };
-  const auto units = std::count_if(rows.begin(), rows.end(), is_unit);
-  return units > 0 && static_cast<double>(units) >= 0.9 * static_cast<double>(rows.size());
-}
-
-void find_normals(const Source& source, XyzLayout& layout) {
-  if (layout.columns < XyzLayout::most_wanted) return;
-  const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
-  for (std::size_t column = 3; column + 3 <= layout.columns && !layout.has_normals; ++column) {
-    layout.has_normals = are_unit_vectors(rows, column);
-    for (std::size_t i = 0; i < 3; ++i) layout.wanted[3 + i] = column + i;
-  }
 }
 
 }  // namespace
@@ -237,13 +181,10 @@ Result<XyzLayout> find_layout(const Source& source) {
     return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(*line));
   }
   if (const auto named = preamble.name_columns(); !named) return std::unexpected(named.error());
-  if (preamble.names().empty()) {
-    find_normals(source, layout);
-  } else {
-    layout.has_normals = count_named(preamble.names()) == XyzLayout::most_wanted;
-    std::transform(wanted_names.begin(), wanted_names.end(), layout.wanted.begin(),
-                   [&](std::string_view name) { return find_name(preamble.names(), name); });
-  }
+  if (preamble.names().empty())
+    find_columns(source, layout);
+  else
+    take_columns(preamble.names(), layout);
   return layout;
 }
 

@@ -39,7 +39,7 @@ class HeightScale {
 
   bool is_known(float v) const {
     if (kind_ == DepthValues::depth) return std::isfinite(v) && v > 0;
-    return std::isfinite(v) && (v >= 0 || kind_ == DepthValues::height);
+    return std::isfinite(v) && (v >= 0 || kind_ != DepthValues::inverse);
   }
   double height(double v) const { return scale_ * (is_log_ ? std::log(std::max(v, floor_)) : v); }
 

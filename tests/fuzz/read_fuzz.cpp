@@ -1,20 +1,40 @@
-// Fuzz target of all readers: the first byte chooses the name, the rest is the file. With clang and
-// -DRELIEVO_FUZZ=ON a libFuzzer program; otherwise it runs over the files named on its command line.
+// Fuzz targets of the readers, one per family of formats: RELIEVO_FUZZ_FAMILY chooses the endings of the name. The first
+// byte chooses one of them, the rest is the file.
 #include <array>
 #include <cstdlib>
 #include <string>
 
+#include "fuzz/fuzz_program.h"
 #include "relievo/io/read.h"
 #include "relievo/io/stream.h"
 #include "relievo/scan/depth_image.h"
+#include "support/e57_encoder.h"
 #include "support/read_text.h"
 
 namespace {
 
 using namespace relievo;
 
-constexpr std::array names = {"a.ply",  "a.obj", "a.xyz", "a.stl", "a.off",
-                              "a.gltf", "a.glb", "a.pcd", "a.las", "a.png"};
+#if RELIEVO_FUZZ_FAMILY == 0
+constexpr std::array names = {"a.obj", "a.stl", "a.off", "a.ply"};  // meshes
+#elif RELIEVO_FUZZ_FAMILY == 1
+constexpr std::array names = {"a.gltf", "a.glb"};
+#elif RELIEVO_FUZZ_FAMILY == 2
+constexpr std::array names = {"a.pcd", "a.xyz", "a.pts", "a.csv"};  // clouds
+#elif RELIEVO_FUZZ_FAMILY == 3
+constexpr std::array names = {"a.las", "a.laz", "a.e57"};  // terrestrial and airborne scanners
+#else
+constexpr std::array names = {"a.png", "a.tif"};  // pictures
+#endif
+
+// Returns the file with right checksums, without which no E57 file is read.
+std::string with_checksums(std::string file) {
+  for (std::size_t page = 0; page + 1024 <= file.size(); page += 1024) {
+    const std::uint32_t checksum = bitwise_crc32c(std::string_view(file).substr(page, 1020));
+    file = patched(std::move(file), page + 1020, std::byteswap(checksum));
+  }
+  return file;
+}
 
 class Bytes : public ByteSource {
  public:
@@ -35,9 +55,12 @@ class Bytes : public ByteSource {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string name = names[data[0] % names.size()];
-  const std::span bytes(reinterpret_cast<const std::byte*>(data + 1), size - 1);
+  std::string content(reinterpret_cast<const char*>(data + 1), size - 1);
+  if (name == "a.e57") content = with_checksums(std::move(content));
+  const auto bytes = std::as_bytes(std::span(content));
   if (!check_answer(read_cloud(bytes, name), name).empty()) std::abort();
-  const auto image = read_depth_image(bytes, name);
+  const PictureChannels channels{(data[0] & 64) != 0, data[0] >> 7};
+  const auto image = read_depth_image(bytes, name, channels);
   const bool has_all = !image || image->values.size() == image->values.index(0, image->values.height);
   if (!has_all) std::abort();
   Bytes source(bytes);
@@ -45,15 +68,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-#ifndef RELIEVO_LIBFUZZER
-#include "run_files.h"
-
-int main(int argc, char** argv) {
-  return run_files(argc, argv, [](const std::string& text) {
-    for (std::size_t name = 0; name < names.size(); ++name) {
-      const std::string input = static_cast<char>(name) + text;
-      LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
-    }
-  });
-}
-#endif
+RELIEVO_RUN_FILES

@@ -1,9 +1,9 @@
-// Fuzz target of the scene reader. With clang and -DRELIEVO_FUZZ=ON a libFuzzer program; otherwise it runs
-// over the files named on its command line.
+// Fuzz target of the scene reader.
 #include <cstdlib>
 #include <string_view>
 
 #include "common/scene_file.h"
+#include "fuzz/fuzz_program.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace relievo;
@@ -18,12 +18,4 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   return 0;
 }
 
-#ifndef RELIEVO_LIBFUZZER
-#include "run_files.h"
-
-int main(int argc, char** argv) {
-  return run_files(argc, argv, [](const std::string& text) {
-    LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  });
-}
-#endif
+RELIEVO_RUN_FILES

@@ -49,6 +49,15 @@ TEST(Pcd, NamesOfFieldsMayBeInCapitals) {
   EXPECT_EQ(file->cloud.points[1], Vec3(1, 1.5, -1));
 }
 
+TEST(Pcd, CommasMaySeparateNumbers) {
+  const auto file = read(
+      "VERSION 0.7\nFIELDS X Y Z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ascii\n"
+      "289814.25,4320978.5,170\n1, 2 ,3\n",
+      "a.pcd");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{289814.25, 4320978.5, 170}, {1, 2, 3}}));
+}
+
 TEST(Pcd, CopiesOfLzfMayOverlapThemselves) {
   const std::string head =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 10\nPOINTS 10\nDATA binary_compressed\n";
@@ -127,6 +136,18 @@ TEST(Las, ReadsVersion15AsVersion14) {
   EXPECT_EQ(file->cloud.points, read(las(4), "scan.las")->cloud.points);
 }
 
+TEST(Las, IsReadUpToItsEnd) {
+  const std::string good = las();
+  EXPECT_EQ(read(good, "a.las")->missing_points, 0U);
+  for (const std::string& file : {patched(good, 107, std::uint32_t{3}), good.substr(0, good.size() - 1)}) {
+    const auto got = read(file, "a.las");
+    ASSERT_TRUE(got) << got.error().message();
+    EXPECT_EQ(got->missing_points, 1U);
+    EXPECT_EQ(got->cloud.size(), (file.size() - 227) / 26);
+    EXPECT_EQ(got->cloud.points[0], Vec3(1e6, 2e6, 100));
+  }
+}
+
 TEST(Las, BrokenFieldsAreNamed) {
   const std::string good = las(), newer = las(4);
   expect_messages(
@@ -144,16 +165,15 @@ TEST(Las, BrokenFieldsAreNamed) {
        {patched(good, 96, ~std::uint32_t{0}),
         ", byte 4294967295: expected 2 points of 26 bytes, found room for 0"},
        {patched(good, 104, std::uint8_t{130}),
-        ", byte 104: expected uncompressed points, found LAZ; unpack it first"},
+        ", byte 227: expected a record of LASzip, as the points are compressed, found none"},
        {patched(good, 104, std::uint8_t{11}), ", byte 104: expected a point format from 0 to 10, found 11"},
        {patched(good, 105, std::uint16_t{10}), ", byte 105: expected records of at least 26 bytes, found 10"},
-       {patched(good, 107, std::uint32_t{3}), ", byte 227: expected 3 points of 26 bytes, found room for 2"},
        {patched(newer, 247, ~std::uint64_t{0}),
         ", byte 247: expected fewer than 4294967295 points, found 18446744073709551615"},
        {patched(good, 131, 0.0), ", byte 131: expected a scale that is finite and not 0, found another"},
        {patched(good, 163, std::numeric_limits<double>::quiet_NaN()),
         ", byte 163: expected a finite offset, found another"},
-       {good.substr(0, good.size() - 1), ", byte 227: expected 2 points of 26 bytes, found room for 1"},
+       {good.substr(0, 227 + 25), ", byte 227: expected 2 points of 26 bytes, found room for 0"},
        {patched(good, 107, std::uint32_t{0}), ": expected points, found none"}});
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/numbers.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/text.h"
 #include "support/read_text.h"
@@ -57,22 +58,118 @@ class Corpus : public testing::Test {
   const fs::path folder_ = test::shared_data() / "../corpus";
 };
 
+// Prints how many files of each format are read.
 TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
-  std::size_t clouds = 0, pictures = 0;
-  for (const std::string& ending : readable_endings())
+  for (const std::string& ending : readable_endings()) {
+    std::size_t read = 0, refused = 0;
     for (const fs::path& path : files(".", ending)) {
       const std::string text = content_of(path);
+      bool is_read = false;
       if (is_picture(std::as_bytes(std::span(text)))) {
         const auto image = depths_at(path);
-        pictures += image.has_value() ? 1 : 0;
+        is_read = image.has_value();
         EXPECT_TRUE(image || !image.error().expected.empty()) << path;
       } else {
         const auto file = read_at(path);
-        clouds += file.has_value() ? 1 : 0;
+        is_read = file.has_value();
         EXPECT_EQ(check_answer(file, path.string()), "") << path;
       }
+      ++(is_read ? read : refused);
     }
-  std::printf("read %zu clouds and meshes, %zu depth images\n", clouds, pictures);
+    std::printf("%-6s %4zu read, %4zu refused\n", ending.c_str(), read, refused);
+  }
+}
+
+// Returns the number of the file's points, of which those without coordinates or normals are left out.
+std::size_t all_points(const CloudFile& file) {
+  return file.cloud.size() + file.dropped_points + (file.cloud.has_normals() ? file.dropped_normals : 0);
+}
+
+// Returns the number after the first line that begins so; nothing if there is none.
+std::optional<std::size_t> number_after(const std::string& text, const std::string& beginning) {
+  const std::size_t found = text.find("\n" + beginning);
+  if (found == std::string::npos) return std::nullopt;
+  return std::strtoull(text.c_str() + found + 1 + beginning.size(), nullptr, 10);
+}
+
+TEST_F(Corpus, FilesHaveAsManyPointsAsTheirHeadersSay) {
+  std::size_t counted = 0;
+  const auto expect_count = [&](const fs::path& path, std::optional<std::size_t> count) {
+    const auto file = read_at(path);
+    if (!file || !count) return;
+    EXPECT_EQ(all_points(*file) + file->missing_points, *count) << path;
+    ++counted;
+  };
+  for (const fs::path& path : files(".", ".ply"))
+    expect_count(path, number_after(content_of(path), "element vertex "));
+  for (const fs::path& path : files(".", ".pcd"))
+    expect_count(path, number_after(content_of(path), "POINTS "));
+  for (const char* const ending : {".las", ".laz"})
+    for (const fs::path& path : files(".", ending)) {
+      const std::string text = content_of(path);
+      if (text.size() < 375) continue;
+      const auto few = io::little<std::uint32_t>(text.data() + 107);
+      const auto many = text[25] < 4 ? 0 : io::little<std::uint64_t>(text.data() + 247);
+      expect_count(path, many > 0 ? many : few);
+    }
+  std::printf("counted the points of %zu files\n", counted);
+}
+
+TEST_F(Corpus, LasWithPointsIsRead) {
+  for (const fs::path& path : files(".", ".las")) {
+    const bool has_points = !path.string().contains("no-points");
+    EXPECT_EQ(read_at(path).has_value(), has_points) << path;
+  }
+}
+
+TEST_F(Corpus, BrokenStlIsRefused) {
+  for (const fs::path& path : files("openscad+openscad", ".stl")) {
+    const std::string name = path.filename().string();
+    for (const char* broken : {"empty", "invalidvertex", "toomanyvertices", "unparseable"})
+      EXPECT_FALSE(name.starts_with(broken) && read_at(path)) << name;
+  }
+}
+
+// The pixels of these pictures are numbered, modulo the largest number; the last part of the name is a checksum of them.
+TEST_F(Corpus, TiffOfOneChannelHasItsPixels) {
+  std::size_t judged = 0;
+  for (const fs::path& path : files("image-rs+image-tiff/tests/images/seq", ".tiff")) {
+    const std::string name = path.filename().string();
+    if (!name.starts_with("seq-1c-") || name.contains("palette")) continue;
+    const auto image = depths_at(path);
+    ASSERT_TRUE(image) << image.error().message();
+    const bool is_signed = name[7] == 'i';
+    const int bits = std::atoi(name.c_str() + (is_signed ? 8 : 7));
+    const bool is_fraction = name.starts_with(cat("seq-1c-", bits, "f"));
+    for (std::size_t i = 0; i < image->values.size(); ++i) {
+      const auto number = static_cast<double>(i % 256);
+      const double expected = is_fraction  ? number / 255
+                              : is_signed  ? number - 128
+                              : bits == 24 ? number * 65536
+                                           : std::fmod(number, std::exp2(bits));
+      ASSERT_NEAR(image->values[i], expected, is_fraction ? 1e-6 : 0) << name << i;
+    }
+    ++judged;
+  }
+  std::printf("judged %zu pictures of one channel\n", judged);
+}
+
+TEST_F(Corpus, LuminanceIsThatOfTheChannels) {
+  std::size_t judged = 0;
+  for (const fs::path& path : files("image-rs+image-tiff/tests/images/seq", ".tiff")) {
+    const std::string text = content_of(path);
+    const auto read = [&](bool is_luminance, int channel) {
+      return read_depth_image(std::as_bytes(std::span(text)), path.string(), {is_luminance, channel});
+    };
+    const auto bright = read(true, 0), red = read(false, 1), green = read(false, 2), blue = read(false, 3);
+    if (!path.filename().string().starts_with("seq-3c-") || !bright || !blue) continue;
+    for (std::size_t i = 0; i < bright->values.size(); ++i) {
+      const double expected = .2126 * red->values[i] + .7152 * green->values[i] + .0722 * blue->values[i];
+      ASSERT_NEAR(bright->values[i], expected, 1e-5 * std::abs(expected) + 1e-6) << path << i;
+    }
+    ++judged;
+  }
+  std::printf("judged the luminance of %zu pictures\n", judged);
 }
 
 // The validator's report says whether a file is right and how many triangles it has. Some right files have no data.
@@ -103,6 +200,64 @@ TEST_F(Corpus, BrokenPlyIsRefused) {
   }
   for (const fs::path& path : files("Fluci+ply-rs", ".ply"))
     EXPECT_FALSE(path.string().contains("_err_") && read_at(path)) << path;
+}
+
+// The scans that libE57Format and its reference implementation wrote of one model, in numbers of many sizes.
+TEST_F(Corpus, OneModelHasTheSamePointsInE57OfEveryNumber) {
+  const fs::path rust = folder_ / "cry-inc+e57/testdata";
+  const auto finest = read_at(rust / "bunnyDouble.e57");
+  if (!finest) GTEST_SKIP() << missing_corpus();
+  ASSERT_EQ(finest->cloud.size(), 30571U);
+  for (const char* other : {"bunnyFloat", "bunnyInt19", "bunnyInt21", "bunnyInt24", "bunnyInt32"}) {
+    const auto file = read_at(rust / cat(other, ".e57"));
+    ASSERT_TRUE(file) << other << file.error().message();
+    ASSERT_EQ(file->cloud.size(), finest->cloud.size()) << other;
+    for (std::size_t i = 0; i < finest->cloud.size(); ++i)
+      ASSERT_LT((file->cloud.points[i] - finest->cloud.points[i]).norm(), 1e-6) << other << i;
+  }
+}
+
+TEST_F(Corpus, E57IsReadOrRefusedAsItsNameSays) {
+  if (files("cry-inc+e57", ".e57").empty()) GTEST_SKIP() << missing_corpus();
+  const std::vector<std::pair<const char*, std::size_t>> counts = {{"tiny_spherical", 180},
+                                                                   {"tinyCartesianFloatRgb", 2090},
+                                                                   {"read_error", 2651},
+                                                                   {"las2e57_no_images_tag", 153},
+                                                                   {"tiny_pc_with_extension", 1},
+                                                                   {"tiny_pc_and_images", 2},
+                                                                   {"cartesian_invalid_state_single", 1}};
+  for (const auto& [name, points] : counts) {
+    const auto file = read_at(folder_ / "cry-inc+e57/testdata" / cat(name, ".e57"));
+    ASSERT_TRUE(file) << name << file.error().message();
+    EXPECT_EQ(file->cloud.size(), points) << name;
+  }
+  const fs::path self = folder_ / "asmaloney+libE57Format-test-data/self";
+  for (const char* name : {"ColouredCubeDouble.e57", "ColouredCubeFloat.e57"}) {
+    const auto file = read_at(self / name);
+    ASSERT_TRUE(file) << name;
+    EXPECT_EQ(file->cloud.size(), 7680U);
+    EXPECT_TRUE(file->cloud.has_colours());
+  }
+  for (const char* broken : {"bad-crc.e57", "InvalidCVHeader.e57", "ZeroPointsInvalid.e57"})
+    EXPECT_FALSE(read_at(self / broken)) << broken;
+  EXPECT_FALSE(read_at(folder_ / "cry-inc+e57/testdata/corrupt_crc.e57"));
+}
+
+// Point formats 4 to 10, with extra bytes and wave packets, of several scanners in some.
+TEST_F(Corpus, LazHasThePointsOfItsLas) {
+  std::size_t compared = 0;
+  for (const fs::path& path : files("visgl+loaders.gl", ".laz")) {
+    const auto packed = read_at(path);
+    ASSERT_TRUE(packed) << path << packed.error().message();
+    const fs::path other = fs::path(path).replace_extension(".las");
+    if (!fs::exists(other)) continue;
+    const auto plain = read_at(other);
+    ASSERT_TRUE(plain) << other;
+    EXPECT_EQ(packed->cloud.points, plain->cloud.points) << path;
+    EXPECT_EQ(packed->cloud.colours, plain->cloud.colours) << path;
+    ++compared;
+  }
+  std::printf("compared %zu LAZ files with LAS\n", compared);
 }
 
 TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {

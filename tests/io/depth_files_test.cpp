@@ -65,8 +65,24 @@ TEST(ReadDepthImage, ReadsPngOfAnyDepth) {
   for (const auto v : grey.pixels) colour.pixels.insert(colour.pixels.end(), 3, v);
   EXPECT_EQ(read_depth_image(write_png(colour), "d")->values.pixels, eight->values.pixels);
   colour.pixels[4] = 200;
-  EXPECT_EQ(message_of(as_string(write_png(colour))),
-            "d, column 2, row 1: expected a grey picture of depths, found colours");
+  EXPECT_EQ(
+      message_of(as_string(write_png(colour))),
+      "d, column 2, row 1: expected a grey picture of depths, found colours; the option channel takes one "
+      "of them, and depth-values luminance their brightness");
+}
+
+TEST(ReadDepthImage, TakesOneChannelOfAPngOrItsLuminance) {
+  Image8 colour{4, 4, 3, {}};
+  for (int i = 0; i < 48; ++i) colour.pixels.push_back(static_cast<std::uint8_t>(5 * i));
+  const auto bytes = write_png(colour);
+  for (int c = 1; c <= 3; ++c)
+    EXPECT_EQ(read_depth_image(bytes, "d", {false, c})->values[7], 5 * (3 * 7 + c - 1)) << c;
+  const auto bright = read_depth_image(bytes, "d", {true});
+  ASSERT_TRUE(bright) << bright.error().message();
+  for (std::size_t i = 0; i < 16; ++i)
+    EXPECT_NEAR(bright->values[i], 15. * static_cast<double>(i) + 5 * (.7152 + 2 * .0722), 1e-4);
+  const auto missing = read_depth_image(bytes, "d", {false, 4});
+  EXPECT_EQ(missing.error().message(), "d: expected a channel from 1 to 3, found 4");
 }
 
 TEST(ReadDepthImage, ReadsTiffOfIntegersAndFloats) {
@@ -141,13 +157,15 @@ TEST(ReadDepthImage, BrokenTiffFieldsAreNamed) {
       {patched(good, field(0) + 8, std::uint32_t{1} << 30), ""},
       {patched(patched(good, field(1) + 8, std::uint32_t{1} << 26), field(7) + 8, std::uint32_t{1} << 26),
        ": expected at most 134217728 pixels, found 335544320"},
-      {patched(good, field(2) + 8, std::uint32_t{4}),
-       ": expected whole numbers of 8 to 32 or 64 bits, or fractions of 16, 32 or 64, found 4-bit whole "
+      {patched(good, field(2) + 8, std::uint32_t{48}),
+       ": expected whole numbers of 1 to 32 or 64 bits, or fractions of 16, 32 or 64, found 48-bit whole "
        "numbers"},
       {patched(good, field(3) + 8, std::uint32_t{5}), ""},
       {patched(good, field(3) + 8, std::uint32_t{60000}), ""},
       {patched(good, field(5) + 8, std::uint32_t{99999}), ""},
-      {patched(good, field(6) + 8, std::uint32_t{3}), ": expected one channel of depths, found 3"}};
+      {patched(good, field(6) + 8, std::uint32_t{3}),
+       ": expected one channel of depths, found 3; the option channel takes one of them, and depth-values "
+       "luminance their brightness"}};
   for (const auto& [text, whole] : all) {
     const std::string message = message_of(text);
     if (whole.empty()) {

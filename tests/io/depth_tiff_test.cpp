@@ -39,7 +39,7 @@ std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
                                    {278, 4, 1, height},
                                    {279, 4, 1, static_cast<std::uint32_t>(pixels.size())},
                                    {339, 3, 1, tags.kind}};
-  if (tags.channels > 1) {  // two equal numbers of 16 bits fit into the field
+  if (tags.channels == 2) {  // two equal numbers of 16 bits fit into the field
     fields[2].count = fields[9].count = 2;
     fields[2].value *= 65537, fields[9].value *= 65537;
     fields.insert(fields.end() - 1, {338, 3, 1, 2});
@@ -56,9 +56,10 @@ std::string tiff_of(const TiffTags& tags, const std::string& pixels) {
   return file + raw(std::uint32_t{0}) + text + pixels;
 }
 
-Result<DepthImage> read_tiff(const TiffTags& tags, const std::string& pixels) {
+Result<DepthImage> read_tiff(const TiffTags& tags, const std::string& pixels,
+                             const PictureChannels& channels = {}) {
   const std::string file = tiff_of(tags, pixels);
-  return read_depth_image(std::as_bytes(std::span(file)), "d.tif");
+  return read_depth_image(std::as_bytes(std::span(file)), "d.tif", channels);
 }
 
 // The bytes of all pixels, each made of its number.
@@ -118,9 +119,9 @@ TEST(DepthTiff, ReadsFractions) {
 
 // Each row begins at a byte; the most significant bit of a number comes first.
 TEST(DepthTiff, ReadsPackedNumbers) {
-  for (const std::uint32_t bits : {9U, 10U, 12U, 14U, 17U, 20U, 31U}) {
+  for (const std::uint32_t bits : {1U, 2U, 3U, 4U, 7U, 9U, 10U, 12U, 14U, 17U, 20U, 31U}) {
     const auto number = [&](int i) {
-      return (std::uint64_t{1} << (bits - 1)) + 7 * static_cast<unsigned>(i);
+      return ((std::uint64_t{1} << (bits - 1)) + 7 * static_cast<unsigned>(i)) % (std::uint64_t{1} << bits);
     };
     std::string pixels;
     for (int row = 0; row < height; ++row) {
@@ -145,6 +146,27 @@ TEST(DepthTiff, LeavesOutTransparency) {
   for (int i = 0; i < width * height; ++i)
     pixels += raw(static_cast<std::uint16_t>(i)) + raw(std::uint16_t{65535});
   expect_values({16, 1, 2}, pixels, [](int i) { return i; });
+}
+
+TEST(DepthTiff, TakesOneOfSeveralChannelsOrTheirLuminance) {
+  const TiffTags tags{16, 1, 3, 2};
+  std::string pixels;
+  for (int i = 0; i < width * height; ++i)
+    pixels += raw(static_cast<std::uint16_t>(i)) + raw(static_cast<std::uint16_t>(1000 + i)) +
+              raw(static_cast<std::uint16_t>(60000 - i));
+  const auto second = read_tiff(tags, pixels, {false, 2}), bright = read_tiff(tags, pixels, {true});
+  ASSERT_TRUE(second) << second.error().message();
+  ASSERT_TRUE(bright) << bright.error().message();
+  for (int i = 0; i < width * height; ++i) {
+    EXPECT_EQ(second->values[static_cast<std::size_t>(i)], static_cast<float>(1000 + i));
+    EXPECT_NEAR(bright->values[static_cast<std::size_t>(i)],
+                .2126 * i + .7152 * (1000 + i) + .0722 * (60000 - i), .01);
+  }
+  EXPECT_EQ(read_tiff(tags, pixels).error().message(),
+            "d.tif: expected one channel of depths, found 3; the option channel takes one of them, and "
+            "depth-values luminance their brightness");
+  EXPECT_EQ(read_tiff(tags, pixels, {false, 4}).error().message(),
+            "d.tif: expected a channel from 1 to 3, found 4");
 }
 
 TEST(DepthTiff, InvertsWhereZeroIsWhite) {
@@ -179,11 +201,11 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
     return image ? "no error" : image.error().message();
   };
   const std::string numbers =
-      "d.tif: expected whole numbers of 8 to 32 or 64 bits, or fractions of 16, 32 or 64, found ";
+      "d.tif: expected whole numbers of 1 to 32 or 64 bits, or fractions of 16, 32 or 64, found ";
   EXPECT_EQ(message({8, 1, 1, 3}), "d.tif: expected a grey picture of depths, found a palette");
   EXPECT_EQ(message({16, 2, 1, 32844}),
             "d.tif: expected a grey picture of depths, found logarithms of brightness");
-  EXPECT_EQ(message({4, 1}), numbers + "4-bit whole numbers");
+  EXPECT_EQ(message({48, 1}), numbers + "48-bit whole numbers");
   EXPECT_EQ(message({24, 3}), numbers + "24-bit fractions");
   EXPECT_EQ(message({64, 6}), numbers + "64-bit complex numbers");
 }

@@ -40,6 +40,8 @@ TEST(Formats, AreRecognisedByTheirContent) {
   EXPECT_EQ(format_of("plywood 1 2\n", "a"), "XYZ, PTS");
   EXPECT_EQ(format_of(ascii_pcd(), "a"), "PCD");
   EXPECT_EQ(format_of(las(2), "a"), "LAS");
+  EXPECT_EQ(format_of(patched(las(2), 104, std::uint8_t{130}), "a"), "LAZ");
+  EXPECT_EQ(format_of("ASTM-E57", "a"), "E57");
   EXPECT_EQ(format_of(glb(), "a"), "glTF");
   EXPECT_EQ(format_of("COFF\n", "a"), "OFF");
   EXPECT_EQ(format_of("solid a\n", "a"), "STL");
@@ -58,8 +60,8 @@ TEST(Formats, LeaveForeignFilesToNobody) {
   EXPECT_EQ(format_of("PK\x03\x04", "a.obj"), "none");
   EXPECT_EQ(format_of("newmtl red\n", "a.mtl"), "none");
   EXPECT_EQ(format_of("1 2 3\n", "a.ply"), "none");
-  EXPECT_EQ(io::foreign_format({"ASTM-E57", "a"}), "an E57 file");
-  EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.LAZ"}), "a LAZ file");
+  EXPECT_EQ(io::foreign_format({"Kaydara FBX", "a"}), "an FBX file");
+  EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.PTX"}), "a PTX file");
   EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.xyz"}), "");
 }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "relievo/io/write.h"
+#include "support/e57_encoder.h"
 #include "support/format_samples.h"
 #include "support/ply_encoder.h"
 #include "support/read_text.h"
@@ -182,6 +183,7 @@ std::vector<FileSample> valid_files() {
   const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}}, {{3, 0, 1, 2}, {3, 2, 1, 0}}};
   const PlyTable triangle_strips{"tristrips", {{"short", "vertex_indices", "int"}}, {{5, 0, 1, 2, -1, 0}}};
   std::vector<FileSample> all = format_samples();
+  all.push_back({"scan.e57", e57_sample()});
   for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little_endian, PlyEncoding::big_endian}) {
     all.push_back({"scan.ply", encode_ply({strips, vertex, strips}, encoding)});
     all.push_back({"scan.ply", encode_ply({coloured, faces, triangle_strips}, encoding)});

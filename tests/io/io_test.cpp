@@ -23,7 +23,7 @@ TEST(ReadCloud, UnreadableFormatsAreToldByName) {
       {"\xFF\xD8\xFF\xE0", "scan", "a JPEG picture"},
       {"PK\x03\x04", "scan.zip", "a ZIP archive"},
       {"\x1F\x8B\x08", "scan.ply.gz", "a gzip archive"},
-      {"anything", "scan.laz", "a LAZ file"},
+      {"anything", "scan.ptx", "a PTX file"},
       {"<!doctype html>\n", "scan.ply", "an XML or HTML file"},
       {"1 2 3\n", "scan.ply", "a file that does not begin with the line 'ply'"},
       {std::string("1 2\0 3\n", 7), "scan.xyz", "binary data"},

@@ -271,7 +271,7 @@ TEST(Gltf, BrokenFieldsAreNamed) {
        {json(R"("indices":1)", R"("mode":1)"), ", meshes: expected triangles or points, found lines"},
        {json(R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"])"),
         ", extensionsRequired: expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; "
-        "unpack them first"},
+        "Blender opens the file, and exports it without compression"},
        {patched(good, good.size() - 24, std::uint16_t{4}),
         ", mesh 0: expected numbers of vertices below 4, found others"}});
 }

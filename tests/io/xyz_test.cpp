@@ -40,6 +40,8 @@ TEST(Xyz, FormatNamesTheColumns) {
   EXPECT_EQ(file_of("1 2 3\n").format, "XYZ text, 3 columns");
   EXPECT_EQ(file_of("1 2 3 0 0 1\n").format, "XYZ text, 6 columns with normals");
   EXPECT_EQ(file_of("1\n1 2 3 9\n").format, "PTS text, 4 columns");
+  EXPECT_EQ(file_of("1 2 3 50 60 70\n").format, "XYZ text, 6 columns with colours");
+  EXPECT_EQ(file_of("1 2 3 0 0 1 50 60 70\n").format, "XYZ text, 9 columns with normals and colours");
 }
 
 TEST(Xyz, FirstLineMayPromiseTheNumberOfPoints) {
@@ -70,8 +72,64 @@ TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
 }
 
 TEST(Xyz, SixColumnsAreColoursOtherwise) {
-  EXPECT_FALSE(file_of("1 2.5 -3 255 0 10\n4 5 6e3 0 0 1\n").cloud.has_normals());
-  EXPECT_FALSE(file_of("1 2.5 -3 0.9 0.8 0.1\n4 5 6e3 0.2 0.1 0.3\n").cloud.has_normals());
+  const std::vector<Colour> expected = {{255, 0, 10}, {0, 51, 1}};
+  for (const char* const text : {"1 2.5 -3 255 0 10\n4 5 6e3 0 51 1\n", "1;2,5;-3;255;0;10\n4;5;6e3;0;51;1\n",
+                                 "1 2.5 -3 1.0 0 0.0392\n4 5 6e3 0 0.2 0.00392\n"}) {
+    const CloudFile file = file_of(text);
+    EXPECT_FALSE(file.cloud.has_normals()) << text;
+    EXPECT_EQ(file.cloud.points, two_points) << text;
+    EXPECT_EQ(file.cloud.colours, expected) << text;
+  }
+}
+
+// A point's colour follows from its place, so that a wrong row, column or scale shows.
+TEST(Xyz, ColoursOfARampAreThoseOfItsPlaces) {
+  std::string bytes, fractions, words;
+  std::vector<Colour> expected;
+  for (int i = 0; i < 256; ++i) {
+    const int red = i, green = 255 - i, blue = i * 7 % 256;
+    const std::string place = std::to_string(i) + ",0.5,-2.25,";
+    const auto row = [&](auto value) {
+      return place + std::to_string(value(red)) + "," + std::to_string(value(green)) + "," +
+             std::to_string(value(blue)) + "\n";
+    };
+    bytes += row([](int c) { return c; });
+    fractions += row([](int c) { return c / 255.0; });
+    words += row([](int c) { return c * 257; });
+    expected.push_back(
+        {static_cast<std::uint8_t>(red), static_cast<std::uint8_t>(green), static_cast<std::uint8_t>(blue)});
+  }
+  EXPECT_EQ(file_of(bytes).cloud.colours, expected);
+  EXPECT_EQ(file_of(fractions).cloud.colours, expected);
+  EXPECT_EQ(file_of("X,Y,Z,Red,Green,Blue\n" + words).cloud.colours, expected) << "16 bits, as in LAS";
+  EXPECT_EQ(file_of("//X,Y,Z,Rf,Gf,Bf\n" + fractions).cloud.colours, expected)
+      << "as CloudCompare writes them";
+}
+
+TEST(Xyz, ColoursAreFoundAmongOtherColumns) {
+  const std::vector<Colour> expected = {{255, 0, 10}, {0, 9, 1}};
+  for (const char* const text :
+       {"1 2.5 -3 255 0 10 1 0 0\n4 5 6e3 0 9 1 0 0 1\n", "1 2.5 -3 1 0 0 255 0 10\n4 5 6e3 0 0 1 0 9 1\n",
+        "2\n1 2.5 -3 77 255 0 10 1 0 0\n4 5 6e3 78 0 9 1 0 0 1\n",
+        "nx ny nz B G R x y z\n1 0 0 10 0 255 1 2.5 -3\n0 0 1 1 9 0 4 5 6e3\n"}) {
+    const CloudFile file = file_of(text);
+    EXPECT_EQ(file.cloud.points, two_points) << text;
+    EXPECT_EQ(file.cloud.normals, xz) << text;
+    EXPECT_EQ(file.cloud.colours, expected) << text;
+  }
+}
+
+TEST(Xyz, ColumnsOfOtherNumbersAreNoColours) {
+  for (const char* const text : {"1 2.5 -3 -1 0 10\n4 5 6e3 0 0 1\n", "1 2.5 -3 300 0 10\n4 5 6e3 0 0 1\n",
+                                 "1 2.5 -3 2 1 4\n4 5 6e3 5 2 3\n", "1 2.5 -3 10.5 0 10\n4 5 6e3 0 0 99\n",
+                                 "x y z a b c\n1 2.5 -3 255 0 10\n4 5 6e3 0 0 1\n"})
+    EXPECT_FALSE(file_of(text).cloud.has_colours()) << text;
+}
+
+TEST(Xyz, APointWithoutColourIsBlack) {
+  const CloudFile file = file_of("x,y,z,r,g,b\n1,2.5,-3,none,none,none\n4,5,6e3,0,200,1\n");
+  EXPECT_EQ(file.cloud.points, two_points);
+  EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{0, 0, 0}, {0, 200, 1}}));
 }
 
 TEST(Xyz, AFewRowsWithoutUnitNormalDoNotHideTheOthers) {
@@ -83,9 +141,13 @@ TEST(Xyz, AFewRowsWithoutUnitNormalDoNotHideTheOthers) {
 }
 
 TEST(Xyz, SevenColumnsOfPtsAreIntensityAndColour) {
-  const CloudFile file = file_of("2\n1 2.5 -3 -1023 255 0 10\n4 5 6e3 7 0 0 1\n");
-  EXPECT_EQ(file.cloud.points, two_points);
-  EXPECT_FALSE(file.cloud.has_normals());
+  for (const char* const text :
+       {"2\n1 2.5 -3 -1023 255 0 10\n4 5 6e3 7 0 0 1\n", "2\n1 2.5 -3 102 255 0 10\n4 5 6e3 7 0 0 1\n"}) {
+    const CloudFile file = file_of(text);
+    EXPECT_EQ(file.cloud.points, two_points) << text;
+    EXPECT_FALSE(file.cloud.has_normals()) << text;
+    EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 10}, {0, 0, 1}})) << text;
+  }
 }
 
 TEST(Xyz, NormalsAreFoundBeforeAndAfterOtherColumns) {
@@ -176,6 +238,18 @@ TEST(Xyz, BadLinesAreNamed) {
       {";;;\n", "line 1: expected numbers, or names of columns with x, y and z, found ';;;'"},
   };
   for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, "scan.xyz"), "scan.xyz, " + message);
+}
+
+TEST(Xyz, NamesOfColumnsMayHaveUnits) {
+  const std::vector<Vec3> expected = {{4376914.25, 1, 2}, {3, 4, 5}};
+  for (const char* const text : {"\"X (m)\";\"Y (m)\";\"Z (m)\";\"R\"\n4376914,25;1;2;0,5\n3;4;5;1,0\n",
+                                 "X[m] Y[m] Z[m]\n4376914.25 1 2\n3 4 5\n",
+                                 "Intensity (dB), x (mm), y (mm), z (mm)\n7, 4376914.25, 1, 2\n7, 3, 4, 5\n",
+                                 "x [m], y [m], z [m\n4376914.25,1,2\n3,4,5\n"}) {
+    const auto file = read(text, "a.csv");
+    ASSERT_TRUE(file) << text << file.error().message();
+    EXPECT_EQ(file->cloud.points, expected) << text;
+  }
 }
 
 }  // namespace

@@ -87,8 +87,8 @@ inline std::string gltf_json(const std::string& uri = "") {
          uri + R"("byteLength":72}]})";
 }
 
-inline std::string glb_of(const std::string& json) {
-  const std::string text = padded(json, ' '), binary = padded(gltf_buffer(), '\0');
+inline std::string glb_of(const std::string& json, const std::string& buffer = gltf_buffer()) {
+  const std::string text = padded(json, ' '), binary = padded(buffer, '\0');
   const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };
   return "glTF" + size(2) + size(12 + 8 + text.size() + 8 + binary.size()) + size(text.size()) + "JSON" +
          text + size(binary.size()) + std::string("BIN\0", 4) + binary;

@@ -39,8 +39,8 @@ using FilesBeside = std::function<Result<std::vector<std::byte>>(const std::stri
 // Files that this one names are asked for by `beside`, at most once each; without it such a file is an error.
 //
 // Errors (kind input) state the line or the byte and what was expected there, or the name of a format that is
-// not read, "an E57 file". A file without a point of finite coordinates is an error. A header that promises
-// more than the bytes contain is an error before anything is allocated for it. Reading always ends: there is
+// not read, "a PTX file". A file without a point of finite coordinates is an error. A header that promises
+// more than the bytes contain is an error before anything is allocated for it; but LAS is read as far as it goes. Reading always ends: there is
 // no recursion, and the time is linear in the bytes, but for concave polygons of at most 10,000 corners, for
 // which it grows with the square of their number.
 Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view name,
@@ -49,12 +49,19 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
 // Returns true for the beginning of a PNG or TIFF file.
 bool is_picture(std::span<const std::byte> bytes);
 
+// The values of a picture that has several per pixel.
+struct PictureChannels {
+  bool is_luminance_wanted = false;  // of colours, as Rec. 709 weighs them; of grey, the only values
+  int channel = 0;                   // that is read alone, from 1; 0: the only one
+};
+
 // Returns the depths in a PNG (grey, 8 or 16 bits; colour if all channels are equal) or TIFF (grey; whole
-// numbers of 8 to 32 and 64 bits or fractions of 16, 32 and 64, strips or tiles, any compression that libtiff
+// numbers of 1 to 32 and 64 bits or fractions of 16, 32 and 64, strips or tiles, any compression that libtiff
 // knows). Transparency is not read. What GDAL's tag states as no data is NaN; where 0 is white, whole numbers
 // are inverted, so that bright pixels have large values. Errors: kind input for other or broken pictures,
-// palettes among them, and for more than 2^27 pixels or fewer than 4 x 4.
-Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name);
+// palettes among them, for a channel that is not there, and for more than 2^27 pixels or fewer than 4 x 4.
+Result<DepthImage> read_depth_image(std::span<const std::byte> bytes, std::string_view name,
+                                    const PictureChannels& channels = {});
 
 // Returns the camera given as "FX,FY,CX,CY", or as the nine numbers of its matrix, row by row, separated by
 // commas or white space. Errors: kind option for any other text, or a focal length that is not positive.

@@ -30,10 +30,11 @@ class ByteSource {
 
 // A large cloud, reduced.
 struct StreamedCloud {
-  Cloud cloud;                      // in the frame of the file
-  std::string format;               // for people
-  std::uint64_t input_points = 0;   // in the file
-  std::uint64_t ignored_faces = 0;  // of the file: only its points are read
+  Cloud cloud;                       // in the frame of the file
+  std::string format;                // for people
+  std::uint64_t input_points = 0;    // in the file
+  std::uint64_t ignored_faces = 0;   // of the file: only its points are read
+  std::uint64_t missing_points = 0;  // promised by the header of a file that ends before them
 };
 
 // Returns true if stream_front() reads the file that begins with these bytes: binary PLY without lists in the

@@ -9,6 +9,13 @@
 
 namespace relievo {
 
+// A part of an outline: the visible surface lies on its left, as seen; on its right is nothing, or at a jump a surface
+// farther behind.
+struct OutlineSegment {
+  Vec3 from, to;
+  bool is_jump = false;
+};
+
 // Points in the units of their source, in double precision, so that geo-referenced coordinates (1e6 and more)
 // keep all their digits. `normals` is empty or has one unit vector per point, `colours` is empty or has one
 // colour per point.
@@ -16,6 +23,8 @@ struct Cloud {
   std::vector<Vec3> points;
   std::vector<Vec3f> normals;
   std::vector<Colour> colours = {};
+  // The exact outlines of the mesh that the points are samples of, in the view they were sampled for; else empty.
+  std::vector<OutlineSegment> outlines = {};
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }

@@ -29,13 +29,17 @@ struct DepthCamera {
 
 // The meaning of a depth image's values.
 enum class DepthValues {
-  depth,   // grows away from the viewer, 0 is missing
-  height,  // grows towards the viewer
-  inverse  // one over the depth, up to a factor, as estimators give it; 0 is infinitely far
+  depth,      // grows away from the viewer, 0 is missing
+  height,     // grows towards the viewer
+  luminance,  // brightness, of colours their luminance; what is bright is nearer
+  inverse     // one over the depth, up to a factor, as estimators give it; 0 is infinitely far
 };
 
-inline constexpr std::array<Choice<DepthValues>, 3> depth_value_choices{
-    {{"depth", DepthValues::depth}, {"height", DepthValues::height}, {"inverse", DepthValues::inverse}}};
+inline constexpr std::array<Choice<DepthValues>, 4> depth_value_choices{
+    {{"depth", DepthValues::depth},
+     {"height", DepthValues::height},
+     {"inverse", DepthValues::inverse},
+     {"luminance", DepthValues::luminance}}};
 
 enum class Background {
   keep,
@@ -48,6 +52,7 @@ inline constexpr std::array<Choice<Background>, 3> background_choices{
 
 struct DepthOptions {
   DepthValues values = DepthValues::depth;
+  int channel = 0;  // of a picture with several, from 1; 0: the only one
   std::optional<DepthCamera> camera;
   double range = .5;  // without a camera: depth from the nearest to the farthest, in picture widths
   Background background = Background::automatic;
@@ -60,6 +65,7 @@ Result<void> check(const DepthOptions& options);
 // The options that users type, as texts and numbers.
 struct DepthTexts {
   std::string values = "depth";
+  double channel = 0;
   double range = DepthOptions{}.range;
   std::string background = "auto";
 };
@@ -71,9 +77,16 @@ void visit(Texts& o, F&& f) {
   f(OptionField{.name = "depth-values",
                 .unit = "KIND",
                 .help =
-                    "of a depth image: depth (0 is missing), height, or inverse depth as estimators give it",
+                    "of a depth image: depth (0 is missing), height, inverse depth as estimators give it, or "
+                    "luminance, also of colours, bright being near",
                 .choices = names_of(depth_value_choices)},
     o.values);
+  f(OptionField{.name = "channel",
+                .unit = "N",
+                .help = "of a depth image with several channels: the one with the depths; 0: the only one",
+                .min = 0,
+                .max = 64},
+    o.channel);
   f(OptionField{.name = "depth-range",
                 .unit = "R",
                 .help = "of a depth image without camera: nearest to farthest, in picture widths",

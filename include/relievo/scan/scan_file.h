@@ -16,7 +16,8 @@ struct CloudFile {
   // Number of further points whose normal was zero, not finite or missing. These points are removed, too,
   // unless they are the majority: then all points are kept and the cloud has no normals.
   std::size_t dropped_normals = 0;
-  Mesh mesh = {};  // the file's faces, with points of their own; empty if it has none
+  std::size_t missing_points = 0;  // promised by the header of a file that ends before them
+  Mesh mesh = {};                  // the file's faces, with points of their own; empty if it has none
 };
 
 }  // namespace relievo

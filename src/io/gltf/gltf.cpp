@@ -86,10 +86,8 @@ class GltfReader {
     const auto required = file_.json().find("extensionsRequired");
     if (required == file_.json().end() || !required->is_array()) return {};
     for (const Json& name : *required)
-      if (name == "KHR_draco_mesh_compression" || name == "EXT_meshopt_compression")
-        return source_.error("extensionsRequired", "expected meshes that are not compressed, found " +
-                                                       in_quotes(name.get_ref<const std::string&>()) +
-                                                       "; unpack them first");
+      if (name == "KHR_draco_mesh_compression" || name == "KHR_meshopt_compression")
+        return source_.error("extensionsRequired", expected_plain_meshes(name.get_ref<const std::string&>()));
     return {};
   }
 

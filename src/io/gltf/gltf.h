@@ -54,6 +54,8 @@ class GltfFile {
   Result<void> split_glb(std::string_view& text);
   Result<void> check_version() const;
   Result<std::string_view> buffer(std::size_t i);
+  Result<std::string_view> part_of_buffer(const Json& part, const std::string& place);
+  Result<std::string_view> view(std::size_t i, const std::string& place);
   Result<std::string_view> load(const std::string& uri, const std::string& place);
   Result<Layout> layout_of(const Json& json, const std::string& place) const;
   Result<BufferRows> rows(const Json& in_view, const Layout& layout, const std::string& place);
@@ -62,8 +64,9 @@ class GltfFile {
 
   const Source* source_;
   Json json_;
-  std::string_view binary_;                               // GLB's own buffer
-  std::map<std::string, std::vector<std::byte>> loaded_;  // by uri
+  std::string_view binary_;                                // GLB's own buffer
+  std::map<std::string, std::vector<std::byte>> loaded_;   // by uri
+  std::map<std::size_t, std::vector<std::byte>> decoded_;  // bytes of compressed views, by number
 };
 
 // Returns the non-negative integer that a value is, also if it is written as 4.0; nothing if it is anything
@@ -73,6 +76,12 @@ std::optional<std::size_t> whole_number(const Json& value);
 // Returns a member that is a non-negative integer; `otherwise` if it is missing; nothing if it is anything
 // else.
 std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise);
+
+// Returns a member that is an object, else null.
+const Json* object_in(const Json& json, const char* name);
+
+// Returns the message for meshes that an extension has compressed.
+std::string expected_plain_meshes(std::string_view extension);
 
 // Returns the relative name of a file that a URI states, without escapes (%20). Nothing if it may lead out of
 // the folder: an absolute path, a scheme such as http:, or a part '..'.

@@ -34,17 +34,13 @@ std::size_t components_of(const Json& accessor) {
 
 std::vector<double> decode_vectors(const BufferRows& rows, NumberType type, std::size_t components,
                                    std::size_t count, double scale) {
+  if (count == 0) return {};  // an empty buffer has no address
   std::vector<double> numbers(count * components), column(count);
   for (std::size_t c = 0; c < components; ++c) {
     decoder(type, false)(rows.first + c * size_in_bytes(type), rows.stride, count, column.data());
     for (std::size_t i = 0; i < count; ++i) numbers[i * components + c] = scale * column[i];
   }
   return numbers;
-}
-
-const Json* object_in(const Json& json, const char* name) {
-  const auto found = json.find(name);
-  return found == json.end() || !found->is_object() ? nullptr : &*found;
 }
 
 }  // namespace
@@ -67,17 +63,13 @@ Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, con
   const auto offset = number_in(in_view, "byteOffset", 0),
              view_number = number_in(in_view, "bufferView", no_index);
   if (!offset || !view_number) return fail("expected whole numbers, found others");
-  const Json* view = element("bufferViews", *view_number);
-  if (!view) return fail("expected a bufferView, found none");
-  const auto number = number_in(*view, "buffer", no_index), start = number_in(*view, "byteOffset", 0),
-             length = number_in(*view, "byteLength", 0), stride = number_in(*view, "byteStride", 0);
-  if (!number || !start || !length || !stride || !element("buffers", *number))
-    return fail("expected a bufferView of a buffer, found another");
-  RELIEVO_TRY(const std::string_view bytes, buffer(*number));
-  if (*start > bytes.size() || *length > bytes.size() - *start || *offset > *length || *stride > 252)
+  RELIEVO_TRY(const std::string_view bytes, view(*view_number, place));
+  const auto stride = number_in(*element("bufferViews", *view_number), "byteStride", 0);
+  if (!stride) return fail("expected whole numbers, found others");
+  if (*offset > bytes.size() || *stride > 252)
     return fail("expected a view inside its buffer, found one beyond it");
-  const std::size_t row = layout.components * size_in_bytes(layout.type), room = *length - *offset;
-  const BufferRows found{bytes.data() + *start + *offset, *stride > 0 ? *stride : row};
+  const std::size_t row = layout.components * size_in_bytes(layout.type), room = bytes.size() - *offset;
+  const BufferRows found{bytes.data() + *offset, *stride > 0 ? *stride : row};
   if (layout.count > 0 && (room < row || (room - row) / found.stride < layout.count - 1))
     return fail("expected room for " + std::to_string(layout.count) + " elements, found less");
   return found;

@@ -1,8 +1,10 @@
-// The buffers of a glTF file: the bytes after the JSON of a GLB, base64 text, or files beside it.
+// The buffers of a glTF file: the bytes after the JSON of a GLB, base64 text, or files beside it; and their views, which
+// may be compressed.
 #include <algorithm>
 #include <charconv>
 
 #include "io/gltf/gltf.h"
+#include "io/gltf/meshopt.h"
 #include "io/text.h"
 
 namespace relievo::io {
@@ -52,6 +54,20 @@ bool has_parent_part(std::string_view name) {
   return false;
 }
 
+// Returns a member that is a text; `otherwise` if it is anything else.
+std::string text_in(const Json& object, const char* name, const char* otherwise) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+std::optional<MeshoptLayout> meshopt_layout(const Json& json) {
+  const auto mode = meshopt_mode(text_in(json, "mode", ""));
+  const auto filter = meshopt_filter(text_in(json, "filter", "NONE"));
+  const auto count = number_in(json, "count", 0), stride = number_in(json, "byteStride", 0);
+  if (!mode || !filter || !count || !stride) return std::nullopt;
+  return MeshoptLayout{*mode, *filter, *count, *stride};
+}
+
 }  // namespace
 
 std::optional<std::string> name_in_uri(std::string_view uri) {
@@ -61,6 +77,13 @@ std::optional<std::string> name_in_uri(std::string_view uri) {
   const bool has_scheme = name.find(':') < name.find('/');
   if (name.empty() || leads_out || has_scheme || name.contains('\0')) return std::nullopt;
   return name;
+}
+
+std::string expected_plain_meshes(std::string_view extension) {
+  const bool is_draco = extension == "KHR_draco_mesh_compression";
+  return "expected meshes that are not compressed, found " + in_quotes(extension) +
+         (is_draco ? "; Blender opens the file, and exports it without compression"
+                   : "; export the file without compression");
 }
 
 // Returns the bytes that a URI contains or names.
@@ -97,16 +120,42 @@ Result<std::string_view> GltfFile::buffer(std::size_t i) {
     RELIEVO_TRY(bytes, load(uri->get_ref<const std::string&>(), place));
   }
   const auto promised = number_in(*json, "byteLength", 0);
-  const bool is_fallback =
-      json->value("extensions", Json::object()).contains("EXT_meshopt_compression") && bytes.empty();
-  if (is_fallback)
-    return source_->error(place,
-                          "expected meshes that are not compressed, found EXT_meshopt_compression; "
-                          "unpack them first");
   if (!promised || *promised > bytes.size())
     return source_->error(
         place, "expected as many bytes as its byteLength says, found " + std::to_string(bytes.size()));
   return bytes.substr(0, *promised);
+}
+
+Result<std::string_view> GltfFile::part_of_buffer(const Json& part, const std::string& place) {
+  const auto number = number_in(part, "buffer", no_index), start = number_in(part, "byteOffset", 0),
+             length = number_in(part, "byteLength", 0);
+  if (!number || !start || !length || !element("buffers", *number))
+    return source_->error(place, "expected a bufferView of a buffer, found another");
+  RELIEVO_TRY(const std::string_view bytes, buffer(*number));
+  if (*start > bytes.size() || *length > bytes.size() - *start)
+    return source_->error(place, "expected a view inside its buffer, found one beyond it");
+  return bytes.substr(*start, *length);
+}
+
+// A view that is compressed has the buffer of its bytes in the extension; its own may be missing.
+Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place) {
+  const Json* json = element("bufferViews", i);
+  if (!json) return source_->error(place, "expected a bufferView, found none");
+  const Json* extensions = object_in(*json, "extensions");
+  const Json* meshopt = extensions ? object_in(*extensions, "EXT_meshopt_compression") : nullptr;
+  if (!meshopt) return part_of_buffer(*json, place);
+  const auto known = decoded_.find(i);
+  if (known == decoded_.end()) {
+    RELIEVO_TRY(const std::string_view compressed, part_of_buffer(*meshopt, place));
+    const auto layout = meshopt_layout(*meshopt);
+    auto decoded = layout ? decode_meshopt(compressed, *layout) : std::nullopt;
+    if (!decoded)
+      return source_->error(
+          place, "expected a bufferView as EXT_meshopt_compression compresses it, found other bytes");
+    decoded_[i] = std::move(*decoded);
+  }
+  const auto& bytes = decoded_[i];
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
 }  // namespace relievo::io

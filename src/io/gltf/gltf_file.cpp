@@ -17,6 +17,11 @@ std::optional<std::size_t> number_in(const Json& object, const char* name, std::
   return found == object.end() ? otherwise : whole_number(*found);
 }
 
+const Json* object_in(const Json& json, const char* name) {
+  const auto found = json.find(name);
+  return found == json.end() || !found->is_object() ? nullptr : &*found;
+}
+
 std::optional<std::size_t> whole_number(const Json& value) {
   if (value.is_number_unsigned()) return value.get<std::size_t>();
   if (!value.is_number_float()) return std::nullopt;

@@ -1,11 +1,10 @@
-// LAS 1.0 to 1.5, point formats 0 to 10, not compressed.
-#include "io/formats.h"
+#include "io/las/las_header.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "io/text.h"
+#include "io/numbers.h"
 
 namespace relievo::io {
 namespace {
@@ -18,7 +17,7 @@ class LasHeaderReader {
  public:
   explicit LasHeaderReader(const Source& source) : source_(source), bytes_(source.bytes) {}
 
-  Result<Records> read() {
+  Result<LasHeader> read() {
     if (!bytes_.starts_with("LASF")) return source_.error_at_byte(0, "expected LASF, found other bytes");
     if (bytes_.size() < least_header)
       return source_.error_at_byte(bytes_.size(),
@@ -28,7 +27,9 @@ class LasHeaderReader {
     if (const auto taken = take_count(); !taken) return std::unexpected(taken.error());
     if (const auto taken = take_position(); !taken) return std::unexpected(taken.error());
     take_colours();
-    return records_;
+    header_.minor = at<std::uint8_t>(25);
+    header_.variable_records = at<std::uint32_t>(100);
+    return header_;
   }
 
  private:
@@ -54,8 +55,10 @@ class LasHeaderReader {
       return source_.error_at_byte(
           96, "expected points after the header, found them at byte " + std::to_string(records_.offset));
     format_ = at<std::uint8_t>(104);
-    if (format_ >= 64)
-      return source_.error_at_byte(104, "expected uncompressed points, found LAZ; unpack it first");
+    header_.is_compressed = format_ >= 128;
+    if (header_.is_compressed) format_ -= 128;
+    header_.format = format_;
+    header_.header_size = header;
     if (format_ >= least_record_sizes.size())
       return source_.error_at_byte(104,
                                    "expected a point format from 0 to 10, found " + std::to_string(format_));
@@ -95,9 +98,9 @@ class LasHeaderReader {
   void take_colours() {
     const std::size_t place = colour_places[format_];
     if (place == 0) return;
-    std::uint16_t highest = 0;
+    std::uint16_t highest = header_.is_compressed ? 0xFFFF : 0;
     const std::size_t enough = 4096;
-    for (std::size_t i = 0; i < std::min<std::uint64_t>(records_.count, enough); ++i) {
+    for (std::size_t i = 0; highest < 256 && i < std::min<std::uint64_t>(records_.count, enough); ++i) {
       const std::uint64_t row = records_.offset + i * records_.stride + place;
       if (row + 6 > bytes_.size()) break;
       for (std::size_t c = 0; c < 3; ++c) highest = std::max(highest, at<std::uint16_t>(row + 2 * c));
@@ -110,33 +113,14 @@ class LasHeaderReader {
   const Source& source_;
   std::string_view bytes_;
   std::size_t format_ = 0;
-  Records records_;
+  LasHeader header_;
+  Records& records_ = header_.records;
 };
 
 }  // namespace
 
-bool is_las(const Source& source) {
-  return source.bytes.starts_with("LASF") || has_ending(source.name, ".las");
-}
-
-Result<StreamRecords> find_las_rows(const Source& head) {
-  const auto records = LasHeaderReader(head).read();
-  if (!records) return std::unexpected(records.error());
-  return StreamRecords{*records, "LAS"};
-}
-
-Result<RawCloud> read_las(const Source& source) {
-  const auto records = LasHeaderReader(source).read();
-  if (!records) return std::unexpected(records.error());
-  const std::size_t left = source.bytes.size() - std::min<std::size_t>(source.bytes.size(), records->offset);
-  if (records->count > left / records->stride)
-    return source.error_at_byte(records->offset, "expected " + std::to_string(records->count) +
-                                                     " points of " + std::to_string(records->stride) +
-                                                     " bytes, found room for " +
-                                                     std::to_string(left / records->stride));
-  const int minor = little<std::uint8_t>(source.bytes.data() + 25);
-  return RawCloud{decode_all(*records, source.bytes.data() + records->offset),
-                  "LAS 1." + std::to_string(minor)};
+Result<LasHeader> read_las_header(const Source& source) {
+  return LasHeaderReader(source).read();
 }
 
 }  // namespace relievo::io

@@ -1,0 +1,33 @@
+// Buffer views that the glTF extension EXT_meshopt_compression has compressed. The format is specified in appendices A
+// and B of that extension. Tested by tests/io/meshopt_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace relievo::io {
+
+enum class MeshoptMode { attributes, triangles, indices };
+
+enum class MeshoptFilter { none, octahedral, exponential };
+
+// Describes how a view was compressed, as the JSON of the file states it. The view has `count` elements of `stride` bytes.
+struct MeshoptLayout {
+  MeshoptMode mode = MeshoptMode::attributes;
+  MeshoptFilter filter = MeshoptFilter::none;
+  std::size_t count = 0, stride = 0;
+};
+
+// Returns the mode or filter of that name in JSON; nothing if it is unknown. Of the filters, QUATERNION is for
+// animations alone, and not known here.
+std::optional<MeshoptMode> meshopt_mode(std::string_view name);
+std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
+
+// Returns the count * stride bytes of a view. Nothing if the compressed bytes do not have that many elements, or if the
+// layout is none that the extension allows. The memory it takes is at most 64 times that of the compressed bytes.
+std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
+                                                     const MeshoptLayout& layout);
+
+}  // namespace relievo::io

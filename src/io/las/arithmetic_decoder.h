@@ -1,0 +1,90 @@
+// The adaptive arithmetic decoder of LAZ files (A. Said, "Introduction to Arithmetic Coding", HPL-2004-76): 32-bit
+// intervals, models of symbol frequencies that are updated periodically.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace relievo::io {
+
+// The frequencies of `symbols` different symbols, 2 to 2048, at first all equal.
+class SymbolModel {
+ public:
+  explicit SymbolModel(std::uint32_t symbols);
+
+ private:
+  friend class ArithmeticDecoder;
+  void update();
+
+  std::uint32_t symbols_, table_shift_ = 0;
+  std::uint32_t total_ = 0, cycle_ = 0, until_update_ = 0;
+  std::vector<std::uint32_t> starts_;  // of each symbol's part of the interval, in 2^-15
+  std::vector<std::uint32_t> counts_;
+  std::vector<std::uint32_t>
+      table_;  // the first symbol to try for the highest bits of a number; empty if few
+};
+
+// The frequencies of 0 and 1.
+class BitModel {
+ private:
+  friend class ArithmeticDecoder;
+  void update();
+
+  std::uint32_t zeros_ = 1, total_ = 2, start_of_one_ = 1 << 12, cycle_ = 4, until_update_ = 4;
+};
+
+class ArithmeticDecoder {
+ public:
+  explicit ArithmeticDecoder(std::string_view bytes = {}) : bytes_(bytes) {
+    for (int i = 0; i < 4; ++i) value_ = value_ << 8 | next_byte();
+  }
+
+  std::uint32_t symbol(SymbolModel& model);
+  std::uint32_t bit(BitModel& model);
+  std::uint32_t bits(unsigned count);  // 1 to 32 bits that have no model
+
+  // Returns true if more was decoded than the bytes contain. Zeros are taken for what is missing.
+  bool is_beyond_end() const { return at_ > bytes_.size() + 4; }
+
+ private:
+  std::uint32_t next_byte() {
+    const std::size_t at = at_++;
+    return at < bytes_.size() ? static_cast<unsigned char>(bytes_[at]) : 0;
+  }
+  void renormalise() {
+    while (length_ < 1 << 24) {
+      value_ = value_ << 8 | next_byte();
+      length_ <<= 8;
+    }
+  }
+
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  std::uint32_t value_ = 0, length_ = ~std::uint32_t{0};
+};
+
+inline std::uint32_t ArithmeticDecoder::symbol(SymbolModel& model) {
+  const std::uint32_t whole = length_, part = length_ >> 15, number = value_ / part;
+  std::uint32_t low = 0, high = model.symbols_;
+  if (!model.table_.empty()) {
+    const std::size_t entry = std::min<std::size_t>(number >> model.table_shift_, model.table_.size() - 2);
+    low = model.table_[entry];
+    high = model.table_[entry + 1] + 1;
+  }
+  while (high > low + 1) {
+    const std::uint32_t middle = (low + high) / 2;
+    (model.starts_[middle] > number ? high : low) = middle;
+  }
+  const std::uint32_t start = model.starts_[low] * part,
+                      end = low + 1 == model.symbols_ ? whole : model.starts_[low + 1] * part;
+  value_ -= start;
+  length_ = end - start;
+  renormalise();
+  ++model.counts_[low];
+  if (--model.until_update_ == 0) model.update();
+  return low;
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,199 @@
+// Version 2 of the items (1 of wave packets), which all LASzip since 2011 write.
+#include "io/las/point_items.h"
+
+#include <algorithm>
+
+#include "io/numbers.h"
+
+namespace relievo::io {
+namespace {
+
+// By number of returns and number of the return: a context of returns that are alike.
+constexpr std::uint8_t return_contexts[8][8] = {
+    {15, 14, 13, 12, 11, 10, 9, 8},  {14, 0, 1, 3, 6, 10, 10, 9},   {13, 1, 2, 4, 7, 11, 11, 10},
+    {12, 3, 4, 5, 8, 12, 12, 11},    {11, 6, 7, 8, 9, 13, 13, 12},  {10, 10, 11, 12, 13, 14, 14, 13},
+    {9, 10, 11, 12, 13, 14, 15, 14}, {8, 9, 10, 11, 12, 13, 14, 15}};
+
+int clamped(int byte) {
+  return std::clamp(byte, 0, 255);
+}
+
+int low(std::uint16_t value) {
+  return value & 255;
+}
+int high(std::uint16_t value) {
+  return value >> 8;
+}
+
+}  // namespace
+
+std::uint8_t ColourModels::byte(ArithmeticDecoder& decoder, std::size_t which, int prediction) {
+  return static_cast<std::uint8_t>(decoder.symbol(bytes_[which]) + static_cast<std::uint32_t>(prediction));
+}
+
+void ColourModels::next(ArithmeticDecoder& decoder, LazColour& colour) {
+  const LazColour last = colour;
+  const std::uint32_t changes = decoder.symbol(changes_);
+  const auto has = [&](unsigned bit) { return (changes >> bit & 1) != 0; };
+  const int red_low = has(0) ? byte(decoder, 0, low(last[0])) : low(last[0]);
+  const int red_high = has(1) ? byte(decoder, 1, high(last[0])) : high(last[0]);
+  colour[0] = static_cast<std::uint16_t>(red_high << 8 | red_low);
+  if (!has(6)) {  // grey
+    colour[1] = colour[2] = colour[0];
+    return;
+  }
+  int step = red_low - low(last[0]);
+  const int green_low = has(2) ? byte(decoder, 2, clamped(step + low(last[1]))) : low(last[1]);
+  step = (step + green_low - low(last[1])) / 2;
+  const int blue_low = has(4) ? byte(decoder, 4, clamped(step + low(last[2]))) : low(last[2]);
+  step = red_high - high(last[0]);
+  const int green_high = has(3) ? byte(decoder, 3, clamped(step + high(last[1]))) : high(last[1]);
+  step = (step + green_high - high(last[1])) / 2;
+  const int blue_high = has(5) ? byte(decoder, 5, clamped(step + high(last[2]))) : high(last[2]);
+  colour[1] = static_cast<std::uint16_t>(green_high << 8 | green_low);
+  colour[2] = static_cast<std::uint16_t>(blue_high << 8 | blue_low);
+}
+
+void ColourItem::start(const char* raw) {
+  for (std::size_t c = 0; c < 3; ++c) colour_[c] = little<std::uint16_t>(raw + 2 * c);
+}
+
+void PositionItem::ByteModels::next(ArithmeticDecoder& decoder, std::uint8_t& value) {
+  SymbolModel& model = models_.try_emplace(value, 256U).first->second;
+  value = static_cast<std::uint8_t>(decoder.symbol(model));
+}
+
+void PositionItem::start(const char* raw) {
+  for (std::size_t i = 0; i < 3; ++i) position_[i] = little<std::int32_t>(raw + 4 * i);
+  returns_ = little<std::uint8_t>(raw + 14);
+  classification_ = little<std::uint8_t>(raw + 15);
+  angle_ = little<std::uint8_t>(raw + 16);
+  user_data_ = little<std::uint8_t>(raw + 17);
+  source_ = little<std::uint16_t>(raw + 18);
+}
+
+std::size_t PositionItem::return_context() const {
+  return return_contexts[returns_ >> 3 & 7][returns_ & 7];
+}
+
+void PositionItem::decode_attributes(ArithmeticDecoder& decoder, std::uint32_t changes) {
+  if ((changes & 32) != 0) returns_models_.next(decoder, returns_);
+  if ((changes & 16) != 0) {
+    const std::size_t context = return_context();
+    intensities_[context] = static_cast<std::uint16_t>(intensity_.next(
+        decoder, intensities_[context], static_cast<std::uint32_t>(std::min<std::size_t>(context, 3))));
+  }
+  if ((changes & 8) != 0) classification_models_.next(decoder, classification_);
+  if ((changes & 4) != 0)
+    angle_ = static_cast<std::uint8_t>(angle_ + decoder.symbol(angle_models_[returns_ >> 6 & 1]));
+  if ((changes & 2) != 0) user_data_models_.next(decoder, user_data_);
+  if ((changes & 1) != 0) source_ = static_cast<std::uint16_t>(source_decoder_.next(decoder, source_));
+}
+
+void PositionItem::next(ArithmeticDecoder& decoder) {
+  decode_attributes(decoder, decoder.symbol(changes_));
+  const unsigned number = returns_ & 7U, count = returns_ >> 3 & 7U;
+  const std::size_t context = return_context(), level = number > count ? number - count : count - number;
+  const std::uint32_t is_single = count == 1 ? 1 : 0;
+
+  const std::int32_t dx = x_.next(decoder, median_x_[context].get(), is_single);
+  position_[0] = wrapping_sum(position_[0], dx);
+  median_x_[context].add(dx);
+
+  const std::int32_t dy =
+      y_.next(decoder, median_y_[context].get(), is_single + size_context(x_.last_bits(), 20));
+  position_[1] = wrapping_sum(position_[1], dy);
+  median_y_[context].add(dy);
+
+  position_[2] =
+      z_.next(decoder, heights_[level], is_single + size_context((x_.last_bits() + y_.last_bits()) / 2, 18));
+  heights_[level] = position_[2];
+}
+
+void TimeItem::start(const char* raw) {
+  sequences_[0].time = little<std::uint64_t>(raw);
+}
+
+void TimeItem::next(ArithmeticDecoder& decoder) {
+  while (!decoder.is_beyond_end())
+    if (sequences_[now_].step == 0 ? decode_first_step(decoder) : decode_multiple(decoder)) return;
+}
+
+void TimeItem::decode_whole(ArithmeticDecoder& decoder) {
+  newest_ = (newest_ + 1) & 3;
+  const auto high_word = static_cast<std::int32_t>(sequences_[now_].time >> 32);
+  const auto high_bits = static_cast<std::uint32_t>(steps_.next(decoder, high_word, 8));
+  const std::uint32_t first = decoder.bits(16), second = decoder.bits(16);
+  sequences_[newest_] = {std::uint64_t{high_bits} << 32 | second << 16 | first, 0, 0};
+  now_ = newest_;
+}
+
+// Returns false if the time is one of another sequence, which becomes the current one.
+bool TimeItem::decode_first_step(ArithmeticDecoder& decoder) {
+  const std::uint32_t kind = decoder.symbol(first_steps_);
+  Sequence& now = sequences_[now_];
+  if (kind == 1) {
+    now.step = steps_.next(decoder, 0, 0);
+    now.time += static_cast<std::uint64_t>(std::int64_t{now.step});
+    now.extremes = 0;
+  } else if (kind == 2) {
+    decode_whole(decoder);
+  } else if (kind > 2) {
+    now_ = (now_ + kind - 2) & 3;
+    return false;
+  }
+  return true;
+}
+
+// The step is predicted as a multiple of the usual one; steps far from that become the usual one in time.
+bool TimeItem::decode_multiple(ArithmeticDecoder& decoder) {
+  constexpr std::int32_t most = 500, least = -10, unchanged = most - least + 1, whole = unchanged + 1;
+  const auto kind = static_cast<std::int32_t>(decoder.symbol(multiples_));
+  Sequence& now = sequences_[now_];
+  if (kind == unchanged) return true;
+  if (kind == whole) {
+    decode_whole(decoder);
+    return true;
+  }
+  if (kind > whole) {
+    now_ = (now_ + static_cast<std::size_t>(kind - whole)) & 3;
+    return false;
+  }
+  const std::int32_t multiple = kind <= most ? kind : most - kind;
+  const std::uint32_t context = multiple == 1      ? 1
+                                : multiple == 0    ? 7
+                                : multiple == most ? 4
+                                : multiple >= 10   ? 3
+                                : multiple > 0     ? 2
+                                : multiple > least ? 5
+                                                   : 6;
+  const auto prediction =
+      static_cast<std::int32_t>(static_cast<std::uint32_t>(multiple) * static_cast<std::uint32_t>(now.step));
+  const std::int32_t step = steps_.next(decoder, prediction, context);
+  now.time += static_cast<std::uint64_t>(std::int64_t{step});
+  if (multiple == 1) now.extremes = 0;
+  if (multiple != 0 && multiple != most && multiple != least) return true;
+  if (++now.extremes <= 3) return true;
+  now.step = step;
+  now.extremes = 0;
+  return true;
+}
+
+void WavePacketItem::start(const char* raw) {
+  size_ = little<std::int32_t>(raw + 9);
+  return_point_ = little<std::int32_t>(raw + 13);
+  for (std::size_t i = 0; i < 3; ++i) direction_[i] = little<std::int32_t>(raw + 17 + 4 * i);
+}
+
+void WavePacketItem::next(ArithmeticDecoder& decoder) {
+  decoder.symbol(index_);
+  offset_kind_ = decoder.symbol(offset_kinds_[offset_kind_]);
+  if (offset_kind_ == 2) offset_step_ = offset_.next(decoder, offset_step_);
+  if (offset_kind_ == 3)
+    for (int i = 0; i < 4; ++i) decoder.bits(16);
+  size_ = size_decoder_.next(decoder, size_);
+  return_point_ = return_decoder_.next(decoder, return_point_);
+  for (std::uint32_t i = 0; i < 3; ++i) direction_[i] = direction_decoder_.next(decoder, direction_[i], i);
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,136 @@
+// The parts of points in the point formats 0 to 5: one decoder reads them in turn, point by point.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "io/las/integer_decoder.h"
+
+namespace relievo::io {
+
+// A part of each point. Those that are of no use are decoded, too, because the others stand behind them.
+class PointItem {
+ public:
+  PointItem() = default;
+  PointItem(const PointItem&) = delete;
+  PointItem& operator=(const PointItem&) = delete;
+  virtual ~PointItem() = default;
+
+  virtual void start(const char* raw) = 0;  // takes the first point, which is not compressed
+  virtual void next(ArithmeticDecoder& decoder) = 0;
+};
+
+using LazColour = std::array<std::uint16_t, 3>;
+
+// A colour, as the difference to that of the point before. Layers have colours of the same form.
+class ColourModels {
+ public:
+  ColourModels() : bytes_(6, SymbolModel(256)) {}
+  void next(ArithmeticDecoder& decoder, LazColour& colour);
+
+ private:
+  std::uint8_t byte(ArithmeticDecoder& decoder, std::size_t which, int prediction);
+
+  SymbolModel changes_{128};
+  std::vector<SymbolModel> bytes_;
+};
+
+class ColourItem : public PointItem {
+ public:
+  void start(const char* raw) override;
+  void next(ArithmeticDecoder& decoder) override { models_.next(decoder, colour_); }
+  const LazColour& colour() const { return colour_; }
+
+ private:
+  LazColour colour_{};
+  ColourModels models_;
+};
+
+// Coordinates, intensity, returns and the rest of a point of 20 bytes.
+class PositionItem : public PointItem {
+ public:
+  void start(const char* raw) override;
+  void next(ArithmeticDecoder& decoder) override;
+  const std::array<std::int32_t, 3>& position() const { return position_; }
+
+ private:
+  // Models for the values of a byte that change, by the value before.
+  class ByteModels {
+   public:
+    void next(ArithmeticDecoder& decoder, std::uint8_t& value);
+
+   private:
+    std::map<std::uint8_t, SymbolModel> models_;
+  };
+
+  void decode_attributes(ArithmeticDecoder& decoder, std::uint32_t changes);
+  std::size_t return_context() const;
+
+  std::array<std::int32_t, 3> position_{};
+  std::uint8_t returns_ = 0, classification_ = 0, angle_ = 0, user_data_ = 0;
+  std::uint16_t source_ = 0;
+  std::array<std::uint16_t, 16> intensities_{};
+  std::array<std::int32_t, 8> heights_{};
+  std::array<RunningMedian, 16> median_x_, median_y_;
+
+  SymbolModel changes_{64};
+  ByteModels returns_models_, classification_models_, user_data_models_;
+  std::array<SymbolModel, 2> angle_models_{SymbolModel(256), SymbolModel(256)};
+  IntegerDecoder intensity_{16, 4}, source_decoder_{16, 1};
+  IntegerDecoder x_{32, 2}, y_{32, 22}, z_{32, 20};
+};
+
+class TimeItem : public PointItem {
+ public:
+  void start(const char* raw) override;
+  void next(ArithmeticDecoder& decoder) override;
+
+ private:
+  // Times are of up to four sequences, each with its usual step.
+  struct Sequence {
+    std::uint64_t time = 0;
+    std::int32_t step = 0;
+    int extremes = 0;
+  };
+
+  bool decode_first_step(ArithmeticDecoder& decoder);
+  bool decode_multiple(ArithmeticDecoder& decoder);
+  void decode_whole(ArithmeticDecoder& decoder);
+
+  std::array<Sequence, 4> sequences_{};
+  std::size_t now_ = 0, newest_ = 0;
+  SymbolModel multiples_{516}, first_steps_{6};
+  IntegerDecoder steps_{32, 9};
+};
+
+class WavePacketItem : public PointItem {
+ public:
+  void start(const char* raw) override;
+  void next(ArithmeticDecoder& decoder) override;
+
+ private:
+  std::int32_t offset_step_ = 0, size_ = 0, return_point_ = 0;
+  std::array<std::int32_t, 3> direction_{};
+  std::uint32_t offset_kind_ = 0;
+  SymbolModel index_{256};
+  std::vector<SymbolModel> offset_kinds_{4, SymbolModel(4)};
+  IntegerDecoder offset_{32, 1}, size_decoder_{32, 1}, return_decoder_{32, 1}, direction_decoder_{32, 3};
+};
+
+class ExtraBytesItem : public PointItem {
+ public:
+  explicit ExtraBytesItem(std::size_t count) : models_(count, SymbolModel(256)) {}
+  void start(const char*) override {}
+  void next(ArithmeticDecoder& decoder) override {
+    for (SymbolModel& model : models_) decoder.symbol(model);
+  }
+
+ private:
+  std::vector<SymbolModel> models_;
+};
+
+}  // namespace relievo::io

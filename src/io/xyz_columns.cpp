@@ -1,0 +1,132 @@
+// Which columns of a text cloud are coordinates, normals and colours.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "io/xyz.h"
+
+namespace relievo::io {
+namespace {
+
+using Row = std::vector<double>;
+
+constexpr std::array<std::string_view, XyzLayout::first_colour> vector_names = {"x",  "y",  "z",
+                                                                                "nx", "ny", "nz"};
+
+// Names of red, green and blue in files of other programs.
+constexpr std::array<std::array<std::string_view, 3>, 3> colour_names = {
+    {{"r", "g", "b"}, {"red", "green", "blue"}, {"rf", "gf", "bf"}}};
+
+// Classes of points in LAS go up to 31. Whole numbers that are no larger are rather these, or numbers of echoes.
+constexpr double largest_class = 31;
+
+std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
+  const auto found =
+      std::ranges::find_if(names, [&](auto name) { return equals_ignoring_case(name, wanted); });
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+// Sets the columns of the names, beginning with number `first` of those wanted; returns true if the file has all.
+bool take_named(const ColumnNames& names, std::span<const std::string_view> wanted, std::size_t first,
+                XyzLayout& layout) {
+  for (std::size_t i = 0; i < wanted.size(); ++i) layout.wanted[first + i] = find_name(names, wanted[i]);
+  return std::ranges::all_of(wanted, [&](auto name) { return find_name(names, name) < names.size(); });
+}
+
+// Returns the line around a byte, or the part of it within 1,000 bytes: without that limit, a file of one
+// long line would be searched once per sample.
+std::string_view line_around(std::string_view data, std::size_t byte) {
+  const std::size_t limit = 1000, first = byte - std::min(byte, limit);
+  const std::string_view left = data.substr(first, byte - first), right = data.substr(byte, limit);
+  const std::size_t begin = left.find_last_of("\r\n") + 1;  // npos + 1 is 0
+  const std::size_t end = std::min(right.find_first_of("\r\n"), right.size());
+  return data.substr(first + begin, byte + end - first - begin);
+}
+
+// Returns rows from all over the file as numbers, without rows that have another number of columns. What is no number is
+// NaN.
+std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
+  const std::size_t samples = 256;
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < samples; ++i) {
+    Row row;
+    Fields fields(without_comment(line_around(data, data.size() * i / samples)), layout.separator);
+    while (const auto field = fields.next())
+      row.push_back(parse_field(*field, layout).value_or(std::nan("")));
+    if (row.size() == layout.columns) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Returns true if nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
+// that were written with two decimals, whose length is uncertain by 0.01.
+bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
+  const auto is_unit = [&](const Row& row) {
+    return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;
+  };
+  const auto units = std::ranges::count_if(rows, is_unit);
+  return units > 0 && static_cast<double>(units) >= 0.9 * static_cast<double>(rows.size());
+}
+
+// Returns true if three columns are whole numbers from 0 to 255, some of them above the largest class, or fractions from 0
+// to 1.
+bool are_colours(const std::vector<Row>& rows, std::size_t column) {
+  double largest = 0;
+  bool has_fractions = false;
+  for (const Row& row : rows)
+    for (std::size_t i = column; i < column + 3; ++i) {
+      if (!(row[i] >= 0)) return false;
+      largest = std::max(largest, row[i]);
+      has_fractions |= row[i] != std::trunc(row[i]);
+    }
+  return has_fractions ? largest <= 1 : largest > largest_class && largest <= 255;
+}
+
+// Three columns that follow one another.
+using IsTriple = bool (*)(const std::vector<Row>&, std::size_t column);
+
+bool find_triple(const std::vector<Row>& rows, IsTriple is_triple, std::span<const std::size_t> candidates,
+                 std::span<std::size_t> columns) {
+  for (const std::size_t column : candidates) {
+    if (!is_triple(rows, column)) continue;
+    for (std::size_t i = 0; i < 3; ++i) columns[i] = column + i;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool has_coordinates(const ColumnNames& names) {
+  return std::ranges::all_of(std::span(vector_names).first(3),
+                             [&](auto name) { return find_name(names, name) < names.size(); });
+}
+
+void take_columns(const ColumnNames& names, XyzLayout& layout) {
+  const std::span vectors(vector_names);
+  take_named(names, vectors.first(XyzLayout::first_normal), 0, layout);
+  layout.has_normals =
+      take_named(names, vectors.subspan(XyzLayout::first_normal), XyzLayout::first_normal, layout);
+  layout.has_colours = std::ranges::any_of(colour_names, [&](const auto& wanted) {
+    return take_named(names, wanted, XyzLayout::first_colour, layout);
+  });
+}
+
+void find_columns(const Source& source, XyzLayout& layout) {
+  if (layout.columns < 6) return;
+  const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
+  std::vector<std::size_t> candidates;
+  for (std::size_t column = 3; column + 3 <= layout.columns; ++column) candidates.push_back(column);
+  const std::span wanted(layout.wanted);
+  layout.has_normals =
+      find_triple(rows, are_unit_vectors, candidates, wanted.subspan(XyzLayout::first_normal, 3));
+  // A normal's columns hold no colour. Below a number of points (PTS) the fourth column is the intensity.
+  const std::size_t normal = layout.has_normals ? layout.wanted[XyzLayout::first_normal] : layout.columns + 3;
+  const bool has_intensity = layout.promised_points && layout.columns > 6;
+  std::erase_if(candidates, [&](std::size_t column) {
+    return (column + 3 > normal && column < normal + 3) || (has_intensity && column == 3);
+  });
+  layout.has_colours = find_triple(rows, are_colours, candidates, wanted.subspan(XyzLayout::first_colour, 3));
+}
+
+}  // namespace relievo::io

@@ -1,0 +1,65 @@
+// Fuzz target of whole reliefs: a small cloud and a few options become a solid, which has to be closed and as high as was
+// asked, or an error. The first bytes are the options, the others the points.
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "fuzz/fuzz_program.h"
+#include "relievo/make_relief.h"
+#include "relievo/plate/solid.h"
+#include "relievo/relief/relief.h"
+#include "relievo/scan/cloud.h"
+#include "relievo/scan/view.h"
+
+namespace {
+
+using namespace relievo;
+
+// Each three bytes are a point; a row of a grid makes most of them visible.
+Cloud cloud_of(const std::uint8_t* data, std::size_t size) {
+  Cloud cloud;
+  for (std::size_t i = 0; i + 2 < size && cloud.size() < 400; i += 3) {
+    const std::size_t n = cloud.size();
+    cloud.points.emplace_back(static_cast<double>(n % 20) + data[i] / 256.,
+                              static_cast<double>(n / 20) + data[i + 1] / 256., data[i + 2] / 32.);
+  }
+  return cloud;
+}
+
+ReliefOptions options_of(const std::uint8_t* data) {
+  constexpr Method methods[] = {Method::layered, Method::paper, Method::linear, Method::gradient};
+  constexpr Outline outlines[] = {Outline::rectangle, Outline::circle, Outline::none, Outline::hexagon};
+  ReliefOptions options;
+  options.method = methods[data[0] % 4];
+  options.outline = outlines[data[1] % 4];
+  options.height_mm = .1 + data[2] / 64.;
+  options.resolution_mm = 2;
+  return options;
+}
+
+[[noreturn]] void fail(const char* what, const std::string& why) {
+  std::fprintf(stderr, "%s: %s\n", what, why.c_str());
+  std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size < 4) return 0;
+  const Cloud cloud = cloud_of(data + 3, size - 3);
+  const ReliefOptions options = options_of(data);
+  const auto model = prepare(cloud, *parse_view("front"));
+  if (!model) return 0;
+  const auto made = make_relief(*model, options);
+  if (!made) {
+    if (made.error().expected.empty()) fail("an error without a message", made.error().input);
+    return 0;
+  }
+  if (const std::string why = check_solid(made->solid); !why.empty()) fail("a solid that is not closed", why);
+  if (std::abs(made->report.height_mm - *options.height_mm) > 1e-4)
+    fail("another height", std::to_string(made->report.height_mm));
+  return 0;
+}
+
+RELIEVO_RUN_FILES

@@ -1,0 +1,187 @@
+// Compressed points that the tests write themselves; those of other programs are in corpus_test.cpp.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+#include "io/las/integer_decoder.h"
+#include "io/las/point_layers.h"
+#include "support/laz_encoder.h"
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+// Points as laz_chunk() needs them: every other step in x and y is 0.
+std::vector<LazTestPoint> any_points(std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::vector<LazTestPoint> points = {{-1000, 2000, 500}};
+  while (points.size() < count) {
+    LazTestPoint p = points.back();
+    if (points.size() % 2 == 1) {
+      p[0] += 2 + static_cast<std::int32_t>(random() % 100000 >> random() % 12);
+      p[1] += 2 + static_cast<std::int32_t>(random() % 3000);
+    }
+    p[2] = 3 * static_cast<std::int32_t>(points.size()) + (points.size() % 5 == 0 ? 70000000 : 0);
+    points.push_back(p);
+  }
+  return points;
+}
+
+TEST(Laz, IntegersComeBack) {
+  LazTestEncoder encoder;
+  LazTestIntegers written(3);
+  std::mt19937 random(1);
+  std::vector<std::int32_t> values;
+  for (int i = 0; i < 3000; ++i) {
+    values.push_back(static_cast<std::int32_t>(random()) >> (i % 30));
+    written.write(encoder, values.back(), static_cast<std::size_t>(i % 3));
+  }
+  const std::string bytes = encoder.take();
+  io::ArithmeticDecoder decoder(bytes);
+  io::IntegerDecoder read(32, 3);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    ASSERT_EQ(read.next(decoder, 0, static_cast<std::uint32_t>(i % 3)), values[i]) << i;
+  EXPECT_FALSE(decoder.is_beyond_end());
+}
+
+TEST(Laz, MedianIsBetweenTheLowestAndTheHighestOfFive) {
+  io::RunningMedian median;
+  EXPECT_EQ(median.get(), 0);
+  for (int i = 0; i < 5; ++i) median.add(7);
+  EXPECT_EQ(median.get(), 7);
+  for (int i = 8; i < 60; ++i) {
+    median.add(i);
+    EXPECT_LE(median.get(), i);
+    EXPECT_GE(median.get(), 7);
+  }
+}
+
+TEST(Laz, ChunksOfDifferentSizesAreRead) {
+  for (const bool is_layered : {false, true}) {
+    const std::vector<std::vector<LazTestPoint>> chunks = {any_points(3, 1), any_points(700, 2),
+                                                           any_points(40, 3)};
+    const auto file = read(laz(chunks, is_layered), "a");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->format, "LAZ 1.4");
+    ASSERT_EQ(file->cloud.size(), 743U);
+    std::size_t at = 0;
+    for (const auto& chunk : chunks)
+      for (const LazTestPoint& p : chunk) ASSERT_EQ(file->cloud.points[at++], Vec3(p[0], p[1], p[2])) << at;
+  }
+}
+
+// Writes points at one place, of several scanners and with grey colours, as LASzip's writers of version 3 and 4 do.
+class ScannerLayers {
+ public:
+  explicit ScannerLayers(bool is_version_3) : is_version_3_(is_version_3) {}
+
+  // The first point is not compressed, but starts the models of its scanner.
+  void start(std::size_t scanner, std::uint16_t grey) {
+    scanner_ = context_ = scanner;
+    scanners_.emplace(scanner, Scanner{});
+    colours_.emplace(scanner, Colours{}).first->second.last = grey;
+  }
+
+  void add(std::size_t scanner, std::uint16_t grey) {
+    const bool changes = scanner != scanner_;
+    Scanner& before = scanners_.at(scanner_);
+    xy_.symbol(before.changes, changes ? 64 : 0);
+    if (changes) xy_.symbol(before.step, static_cast<std::uint32_t>((scanner + 3 - scanner_) % 4));
+    scanner_ = scanner;
+    Scanner& now = scanners_.try_emplace(scanner).first->second;
+    now.x.write(xy_, 0, 1);
+    now.y.write(xy_, 0, 1);
+    add_colour(is_version_3_ && !changes ? 0 : scanner, grey);
+  }
+
+  std::pair<std::string, std::string> take() { return {xy_.take(), colour_.take()}; }
+
+ private:
+  struct Scanner {
+    LazTestModel changes{128}, step{3};
+    LazTestIntegers x{2}, y{22};
+  };
+  struct Colours {
+    std::uint16_t last = 0;
+    LazTestModel changes{128}, low{256}, high{256};
+  };
+
+  void add_colour(std::size_t context, std::uint16_t grey) {
+    std::uint16_t* last = &colours_.at(context_).last;
+    const auto [at, is_new] = colours_.try_emplace(context);
+    if (is_new) at->second.last = *last;
+    if (is_new || !is_version_3_) last = &at->second.last;
+    context_ = context;
+    const auto low = static_cast<std::uint8_t>(grey - *last);
+    const auto high = static_cast<std::uint8_t>((grey >> 8) - (*last >> 8));
+    colour_.symbol(at->second.changes, (low != 0 ? 1U : 0U) + (high != 0 ? 2U : 0U));
+    if (low != 0) colour_.symbol(at->second.low, low);
+    if (high != 0) colour_.symbol(at->second.high, high);
+    *last = grey;
+  }
+
+  bool is_version_3_;
+  std::size_t scanner_ = 0, context_ = 0;
+  LazTestEncoder xy_, colour_;
+  std::map<std::size_t, Scanner> scanners_;
+  std::map<std::size_t, Colours> colours_;
+};
+
+TEST(Laz, ColoursOfSeveralScannersComeBack) {
+  for (const bool is_version_3 : {true, false}) {
+    std::mt19937 random(3);
+    std::vector<std::pair<std::size_t, std::uint16_t>> points = {{3, std::uint16_t{1000}}};
+    ScannerLayers layers(is_version_3);
+    layers.start(points[0].first, points[0].second);
+    while (points.size() < 2000) {
+      const std::size_t scanner = random() % 3 == 0 ? random() % 4 : points.back().first;
+      points.emplace_back(scanner, static_cast<std::uint16_t>(random() >> random() % 16));
+      layers.add(points.back().first, points.back().second);
+    }
+    const auto [xy, colours] = layers.take();
+    std::string first(30, '\0');
+    first[14] = '\x11';
+    first[15] = '\x30';
+    const std::string grey = raw(points[0].second) + raw(points[0].second) + raw(points[0].second);
+    io::LayeredPoint point({xy, {}, colours, is_version_3}, first.data(), grey.data());
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      point.next();
+      const std::uint16_t expected = points[i].second;
+      ASSERT_EQ(point.colour(), (io::LazColour{expected, expected, expected})) << i << " " << is_version_3;
+    }
+    EXPECT_FALSE(point.is_beyond_end());
+  }
+}
+
+TEST(Laz, BrokenFilesAreNamed) {
+  const std::string good = laz({any_points(50, 1)}, false);
+  const auto message = [](const std::string& file) { return message_of(file, "a.laz"); };
+  EXPECT_EQ(message(patched(good, 377, 'L')),
+            "a.laz, byte 469: expected a record of LASzip, as the points are compressed, found none");
+  EXPECT_EQ(message(patched(good, 429, std::uint16_t{4})),
+            "a.laz, byte 429: expected a compressor from 1 to 3, found 4");
+  EXPECT_EQ(message(patched(good, 467, std::uint16_t{1})),
+            "a.laz, byte 467: expected items of version 2 to 2, found 1; newer LASzip can convert the file");
+  EXPECT_EQ(
+      message(patched(good, 469, std::uint64_t{1} << 40)),
+      "a.laz, byte 469: expected the table of chunks within the file, found it elsewhere; the file was not "
+      "written to its end");
+  EXPECT_TRUE(
+      message(patched(good, 247, std::uint64_t{51})).ends_with(": expected chunks with 51 points, found 50"));
+  EXPECT_TRUE(message(patched(good, 247, std::uint64_t{1} << 30)).contains(": expected "));
+}
+
+TEST(Laz, AnyByteChangedOrMissingGetsAnAnswer) {
+  for (const bool is_layered : {false, true}) {
+    const std::string good = laz({any_points(5, 1), any_points(20, 2)}, is_layered);
+    for (std::size_t at = 0; at < good.size(); ++at) {
+      ASSERT_EQ(check_answer(read(good.substr(0, at), "a.laz"), "a.laz"), "") << at;
+      for (const char by : {'\0', '\x01', '\x7F', '\xFF'})
+        ASSERT_EQ(check_answer(read(patched(good, at, by), "a.laz"), "a.laz"), "") << at;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,308 @@
+// Buffer views of glTF that EXT_meshopt_compression has compressed: examples of its specification, streams that are put
+// together by hand, and an encoder that is independent of the decoder.
+#include "io/gltf/meshopt.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "support/format_samples.h"
+#include "support/read_text.h"
+
+namespace relievo {
+namespace {
+
+using namespace io;
+
+std::string bytes_of(std::initializer_list<int> values) {
+  std::string bytes;
+  for (const int value : values) bytes += static_cast<char>(value);
+  return bytes;
+}
+
+std::string zigzag(int difference) {
+  const auto byte = static_cast<std::uint8_t>(difference);
+  return bytes_of({(byte & 0x80) != 0 ? ~(byte << 1) : byte << 1});
+}
+
+std::string text_of(const std::optional<std::vector<std::byte>>& bytes) {
+  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "nothing";
+}
+
+std::vector<std::uint32_t> numbers_of(const std::optional<std::vector<std::byte>>& bytes) {
+  if (!bytes) return {0xBAD};
+  std::vector<std::uint32_t> numbers(bytes->size() / 4);
+  std::memcpy(numbers.data(), bytes->data(), 4 * numbers.size());
+  return numbers;
+}
+
+// A group of 16 differences, in as few bits as they need: 0, 2, 4 or 8 each.
+struct Group {
+  int mode = 3;
+  std::string bytes;
+};
+
+Group packed_group(const std::string& stored) {
+  Group best{3, stored};
+  if (stored == std::string(16, '\0')) return {0, ""};
+  for (const int bits : {4, 2}) {
+    std::string packed(static_cast<std::size_t>(2 * bits), '\0'), rest;
+    for (int i = 0; i < 16; ++i) {
+      const int value = static_cast<unsigned char>(stored[static_cast<std::size_t>(i)]),
+                escape = (1 << bits) - 1;
+      if (value >= escape) rest += static_cast<char>(value);
+      char& byte = packed[static_cast<std::size_t>(i * bits / 8)];
+      byte = static_cast<char>(byte | std::min(value, escape) << (8 - bits - i * bits % 8));
+    }
+    if (packed.size() + rest.size() < best.bytes.size()) best = {bits / 2, packed + rest};
+  }
+  return best;
+}
+
+// Returns the differences of one byte of the elements from `first` on, of which there are `count`, filled up to 16.
+std::string differences_of(const std::string& elements, std::size_t stride, std::size_t byte,
+                           std::size_t first, std::size_t count) {
+  std::string stored;
+  for (std::size_t i = first; i < first + count; ++i)
+    stored += zigzag(elements[i * stride + byte] - elements[(i == 0 ? 0 : i - 1) * stride + byte]);
+  return stored + std::string(16 - count, '\0');
+}
+
+std::string compressed_attributes(const std::string& elements, std::size_t stride) {
+  const std::size_t count = elements.size() / stride,
+                    block = std::min<std::size_t>(8192 / stride / 16 * 16, 256);
+  std::string out = "\xA0";
+  for (std::size_t first = 0; first < count; first += block)
+    for (std::size_t byte = 0; byte < stride; ++byte) {
+      const std::size_t end = std::min(first + block, count), groups = (end - first + 15) / 16;
+      std::string modes((groups + 3) / 4, '\0'), bytes;
+      for (std::size_t i = 0; i < groups; ++i) {
+        const std::size_t begin = first + 16 * i;
+        const Group group = packed_group(
+            differences_of(elements, stride, byte, begin, std::min<std::size_t>(16, end - begin)));
+        modes[i / 4] = static_cast<char>(modes[i / 4] | group.mode << 2 * (i % 4));
+        bytes += group.bytes;
+      }
+      out += modes + bytes;
+    }
+  return out + std::string(std::max<std::size_t>(stride, 32) - stride, '\0') + elements.substr(0, stride);
+}
+
+TEST(Meshopt, DecodesTheExampleOfTheSpecification) {
+  // A group with 4 bits per difference, for the first of four bytes; the others do not change.
+  const std::string group = bytes_of({0x17, 0x5f, 0xf0, 0xbc, 0x77, 0xa9, 0x21, 0x00, 0x34, 0xb5});
+  const std::string stream =
+      "\xA0" + bytes_of({2}) + group + bytes_of({0, 0, 0}) + std::string(28, '\0') + bytes_of({100, 1, 2, 3});
+  std::string expected;
+  int value = 100;
+  for (const int difference : {-1, -4, -3, 26, -91, 0, -6, 6, -4, -4, 5, -5, 1, -1, 0, 0})
+    expected += bytes_of({value += difference, 1, 2, 3});
+  EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 16, .stride = 4})), expected);
+}
+
+TEST(Meshopt, DecodesAttributesOfAllSizes) {
+  std::mt19937 random(1);
+  for (const std::size_t stride : {4U, 8U, 12U, 16U, 64U, 256U})
+    for (const std::size_t count : {1U, 15U, 16U, 17U, 64U, 200U, 255U, 256U, 257U, 1000U})
+      for (const int range : {1, 2, 5, 256}) {  // of differences
+        std::string elements;
+        for (std::size_t i = 0; i < count * stride; ++i) {
+          const int before = i < stride ? 0 : elements[i - stride];
+          elements += static_cast<char>(before + static_cast<int>(random() % static_cast<unsigned>(range)));
+        }
+        const std::string stream = compressed_attributes(elements, stride);
+        const MeshoptLayout layout{.count = count, .stride = stride};
+        ASSERT_EQ(text_of(decode_meshopt(stream, layout)), elements)
+            << stride << " " << count << " " << range;
+        EXPECT_FALSE(decode_meshopt(stream + '\0', layout));
+        EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1), layout));
+      }
+}
+
+TEST(Meshopt, RefusesLayoutsThatAreNotAllowed) {
+  const std::string stream = compressed_attributes(std::string(64, '\1'), 4);
+  EXPECT_TRUE(decode_meshopt(stream, {.count = 16, .stride = 4}));
+  for (const std::size_t stride : {0U, 2U, 6U, 260U})
+    EXPECT_FALSE(decode_meshopt(stream, {.count = 16, .stride = stride}));
+  EXPECT_FALSE(decode_meshopt(stream, {.count = std::size_t{1} << 60, .stride = 4})) << "takes no memory";
+  EXPECT_FALSE(decode_meshopt("", {.count = 16, .stride = 4}));
+  EXPECT_FALSE(decode_meshopt('\xA1' + stream.substr(1), {.count = 16, .stride = 4}));
+  EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::triangles, MeshoptFilter::none, 3, 4}));
+  EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::indices, MeshoptFilter::none, 3, 3}));
+  EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::attributes, MeshoptFilter::octahedral, 4, 16}));
+  EXPECT_FALSE(meshopt_mode("POINTS") || meshopt_filter("QUATERNION"));
+}
+
+// Returns the stream of triangles with those codes and that data; number 0 of the table are two new corners, 1 the last
+// vertex and a new one.
+std::string triangle_stream(const std::string& codes, const std::string& data) {
+  return "\xE1" + codes + data + bytes_of({0x00, 0x10}) + std::string(14, '\0');
+}
+
+TEST(Meshopt, DecodesEveryKindOfTriangle) {
+  const std::string codes = bytes_of({
+      0xF0,  // three new corners: 0 1 2; edges, the newest first: 0 2, 2 1, 1 0
+      0x00,  // the newest edge, 0 2, and a new corner
+      0x10,  // the second edge, which is 3 2, and a new corner
+      0x02,  // the newest edge, 3 4, and the vertex before the one before the newest: 4 3 2
+      0x0E,  // the newest edge, 3 2, and the explicit index after the last, which is 0
+      0x0D,  // the newest edge, 3 1, and the one before
+      0x0F,  // the newest edge, 3 0, and an explicit index, 10 after the last
+      0xF1,  // a new corner 5, the last vertex and a new corner
+      0xFF,  // explicit indices: 3 before, 2 after and 300 after
+      0xFE,  // a new corner, the newest vertex and an explicit one
+      0xFE,  // begins anew with 0 1 2
+  });
+  const std::string data = bytes_of({20, 0xFF, 5, 4, 0xD8, 0x04, 0x1F, 1, 0x00});
+  const MeshoptLayout layout{MeshoptMode::triangles, MeshoptFilter::none, 33, 4};
+  const std::vector<std::uint32_t> expected = {0, 1, 2, 0,  2, 3,  3, 2, 4, 3,   4, 2,   3,   2, 1, 3, 1,
+                                               0, 3, 0, 10, 5, 10, 6, 7, 9, 309, 7, 309, 308, 0, 1, 2};
+  EXPECT_EQ(numbers_of(decode_meshopt(triangle_stream(codes, data), layout)), expected);
+  EXPECT_FALSE(decode_meshopt(triangle_stream(codes, data + '\0'), layout));
+  EXPECT_FALSE(decode_meshopt(triangle_stream(codes, data.substr(0, data.size() - 1)), layout));
+  EXPECT_FALSE(
+      decode_meshopt(triangle_stream(codes, data), {MeshoptMode::triangles, MeshoptFilter::none, 32, 4}));
+  const auto small =
+      decode_meshopt(triangle_stream("\xF0", ""), {MeshoptMode::triangles, MeshoptFilter::none, 3, 2});
+  EXPECT_EQ(text_of(small), bytes_of({0, 0, 1, 0, 2, 0}));
+}
+
+TEST(Meshopt, DecodesIndicesAgainstTwoBaselines) {
+  // Differences 5 and -3 to the first baseline, 1000 and 1 to the second.
+  const std::string stream =
+      "\xD1" + bytes_of({5 << 2, 1000 * 4 % 128 + 1 + 128, 1000 * 4 / 128, 2 << 2 | 2, 1 << 2 | 1}) +
+      std::string(4, '\0');
+  const MeshoptLayout layout{MeshoptMode::indices, MeshoptFilter::none, 4, 4};
+  EXPECT_EQ(numbers_of(decode_meshopt(stream, layout)), (std::vector<std::uint32_t>{5, 1000, 2, 1001}));
+  EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::indices, MeshoptFilter::none, 3, 4}));
+  EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::indices, MeshoptFilter::none, 5, 4}));
+}
+
+TEST(Meshopt, UnfoldsTheOctahedron) {
+  // +x, -y, the middle of a side above, and -z, which lies at the corners; 127 and, of fewer bits, 15 stand for 1.
+  const std::string folded = bytes_of({127, 0, 127, 7, 0, -15, 15, 8, 64, 63, 127, 9, 15, 15, 15, 1});
+  const auto unfolded = decode_meshopt(compressed_attributes(folded, 4),
+                                       {MeshoptMode::attributes, MeshoptFilter::octahedral, 4, 4});
+  EXPECT_EQ(text_of(unfolded), bytes_of({127, 0, 0, 7, 0, -127, 0, 8, 91, 89, 0, 9, 0, 0, -127, 1}));
+  std::int16_t words[4] = {0, 0, 511, 5};
+  std::string wide(sizeof words, '\0');
+  std::memcpy(wide.data(), words, sizeof words);
+  const auto up = decode_meshopt(compressed_attributes(wide, 8),
+                                 {MeshoptMode::attributes, MeshoptFilter::octahedral, 1, 8});
+  EXPECT_EQ(text_of(up), bytes_of({0, 0, 0, 0, 0xFF, 0x7F, 5, 0}));
+  EXPECT_FALSE(decode_meshopt(compressed_attributes(std::string(4, '\0'), 4),
+                              {MeshoptMode::attributes, MeshoptFilter::octahedral, 1, 4}));
+}
+
+TEST(Meshopt, ExpandsExponents) {
+  std::string packed;
+  const std::vector<std::pair<int, int>> parts = {{0, 5},    {-3, 13},         {2, -7},
+                                                  {-100, 1}, {-1, -(1 << 23)}, {10, 0}};
+  std::vector<float> expected;
+  for (const auto& [exponent, mantissa] : parts) {
+    packed += bytes_of({mantissa, mantissa >> 8, mantissa >> 16, exponent});
+    expected.push_back(static_cast<float>(std::ldexp(mantissa, exponent)));
+  }
+  const auto expanded =
+      decode_meshopt(compressed_attributes(packed, 4),
+                     {MeshoptMode::attributes, MeshoptFilter::exponential, parts.size(), 4});
+  ASSERT_TRUE(expanded);
+  std::vector<float> values(parts.size());
+  std::memcpy(values.data(), expanded->data(), expanded->size());
+  EXPECT_EQ(values, expected);
+}
+
+// Whatever the bytes are, as many come out as the layout says, or none.
+TEST(Meshopt, SurvivesAnyBytes) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 20000; ++i) {
+    std::string stream = bytes_of({std::array{0xA0, 0xE1, 0xD1}[random() % 3]});
+    for (std::size_t size = random() % 120; stream.size() < size + 1;)
+      stream += static_cast<char>(random() & random());
+    const MeshoptLayout layout{static_cast<MeshoptMode>(random() % 3),
+                               static_cast<MeshoptFilter>(random() % 3), random() % 70, random() % 20};
+    const auto decoded = decode_meshopt(stream, layout);
+    EXPECT_TRUE(!decoded || decoded->size() == layout.count * layout.stride);
+  }
+}
+
+// A compressed view of a glTF file, as its JSON describes it.
+struct TestView {
+  std::string bytes, mode;
+  std::size_t count = 0, stride = 0;
+};
+
+std::string json_of(const TestView& view, std::size_t offset) {
+  const auto number = [](const char* name, std::size_t value) {
+    return "\"" + std::string(name) + "\":" + std::to_string(value) + ",";
+  };
+  return "{" + number("buffer", 1) + number("byteLength", view.count * view.stride) +
+         (view.stride == 8 ? number("byteStride", 8) : "") + R"("extensions":{"EXT_meshopt_compression":{)" +
+         number("buffer", 0) + number("byteOffset", offset) + number("byteLength", view.bytes.size()) +
+         number("byteStride", view.stride) + number("count", view.count) + R"("mode":")" + view.mode +
+         "\"}}}";
+}
+
+// The tetrahedron's corners in thousandths, as four numbers of 16 bits.
+TestView compressed_corners() {
+  std::string positions;
+  for (const Vec3& point : tetrahedron_points) {
+    for (const double coordinate : point) {
+      const int number = static_cast<int>(1000 * coordinate);
+      positions += bytes_of({number, number >> 8});
+    }
+    positions += bytes_of({0, 0});
+  }
+  return {compressed_attributes(positions, 8), "ATTRIBUTES", tetrahedron_points.size(), 8};
+}
+
+// The tetrahedron's triangles with explicit indices alone.
+TestView compressed_triangles() {
+  std::string data;
+  int last = 0;
+  for (const Triangle& triangle : tetrahedron_triangles) {
+    data += '\xFF';
+    for (const std::uint32_t corner : triangle) {
+      data += zigzag(static_cast<int>(corner) - last);
+      last = static_cast<int>(corner);
+    }
+  }
+  const std::size_t triangles = tetrahedron_triangles.size();
+  return {triangle_stream(std::string(triangles, '\xFF'), data), "TRIANGLES", 3 * triangles, 4};
+}
+
+// The tetrahedron in a GLB whose second buffer is not there.
+std::string compressed_glb(const std::string& mode = "TRIANGLES") {
+  const TestView corners = compressed_corners();
+  TestView triangles = compressed_triangles();
+  triangles.mode = mode;
+  const std::string bytes = corners.bytes + triangles.bytes;
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization","EXT_meshopt_compression"],)"
+      R"("buffers":[{"byteLength":)" +
+      std::to_string(bytes.size()) + R"(},{"byteLength":9999}],"bufferViews":[)" + json_of(corners, 0) + "," +
+      json_of(triangles, corners.bytes.size()) +
+      R"(],"accessors":[{"bufferView":0,"componentType":5122,"count":4,"type":"VEC3"},)"
+      R"({"bufferView":1,"componentType":5125,"count":12,"type":"SCALAR"}],)"
+      R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
+      R"("nodes":[{"mesh":0,"scale":[0.001,0.001,0.001]}],"scenes":[{"nodes":[0]}]})";
+  return glb_of(json, bytes);
+}
+
+TEST(Meshopt, IsReadWithoutTheBufferThatItStandsFor) {
+  const auto file = read(compressed_glb(), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+  ASSERT_EQ(file->mesh.points.size(), tetrahedron_points.size());
+  for (std::size_t i = 0; i < tetrahedron_points.size(); ++i)
+    EXPECT_LE((file->mesh.points[i] - tetrahedron_points[i]).norm(), 1e-12);
+  for (const char* const mode : {"INDICES", "ATTRIBUTES", "OTHERS"})
+    EXPECT_EQ(message_of(compressed_glb(mode), "a.glb"),
+              "a.glb, mesh 0, accessor 1: expected a bufferView as EXT_meshopt_compression compresses it, "
+              "found other "
+              "bytes");
+}
+
+}  // namespace
+}  // namespace relievo

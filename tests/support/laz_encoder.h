@@ -1,0 +1,196 @@
+// Writes LAZ files of point formats 0 and 6, independently of the reader's decoder.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "support/format_samples.h"
+
+namespace relievo {
+
+// Frequencies of symbols, adapted as LASzip adapts them.
+class LazTestModel {
+ public:
+  explicit LazTestModel(std::uint32_t symbols) : counts_(symbols, 1), starts_(symbols), cycle_(symbols) {
+    update();
+    cycle_ = left_ = (symbols + 6) / 2;
+  }
+  std::uint64_t start(std::size_t symbol) const { return starts_[symbol]; }
+  bool is_last(std::size_t symbol) const { return symbol + 1 == counts_.size(); }
+  void count(std::size_t symbol) {
+    ++counts_[symbol];
+    if (--left_ == 0) update();
+  }
+
+ private:
+  void update() {
+    total_ += cycle_;
+    if (total_ > 32768) {
+      total_ = 0;
+      for (auto& count : counts_) total_ += count = (count + 1) / 2;
+    }
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < counts_.size(); sum += counts_[i++])
+      starts_[i] = 0x80000000U / total_ * sum >> 16;
+    cycle_ = std::min<std::uint32_t>(5 * cycle_ / 4, static_cast<std::uint32_t>(counts_.size() + 6) * 8);
+    left_ = cycle_;
+  }
+  std::vector<std::uint32_t> counts_, starts_;
+  std::uint32_t total_ = 0, cycle_ = 0, left_ = 0;
+};
+
+struct LazTestBit {
+  std::uint32_t zeros = 1, total = 2, start_of_one = 4096, cycle = 4, left = 4;
+
+  void count(std::uint32_t value) {
+    if (value == 0) ++zeros;
+    if (--left > 0) return;
+    total += cycle;
+    if (total > 8192) {
+      total = (total + 1) / 2;
+      zeros = (zeros + 1) / 2;
+      if (zeros == total) ++total;
+    }
+    start_of_one = zeros * (0x80000000U / total) >> 18;
+    left = cycle = std::min(5 * cycle / 4, 64U);
+  }
+};
+
+class LazTestEncoder {
+ public:
+  void symbol(LazTestModel& model, std::uint32_t symbol) {
+    const std::uint64_t part = length_ >> 15, start = model.start(symbol) * part;
+    const std::uint64_t end = model.is_last(symbol) ? length_ : model.start(symbol + 1) * part;
+    add(start, end - start);
+    model.count(symbol);
+  }
+  void bit(LazTestBit& model, std::uint32_t value) {
+    const std::uint64_t start = (length_ >> 13) * model.start_of_one;
+    value == 0 ? add(0, start) : add(start, length_ - start);
+    model.count(value);
+  }
+  void bits(std::uint32_t value, unsigned count) {
+    if (count > 19) {
+      bits(value & 0xFFFF, 16);
+      return bits(value >> 16, count - 16);
+    }
+    add(value * (length_ >> count), length_ >> count);
+  }
+  std::string take() {
+    add(length_ / 2, 1);
+    return bytes_;
+  }
+
+ private:
+  void add(std::uint64_t start, std::uint64_t length) {
+    base_ += start;
+    if (base_ >> 32 != 0)
+      for (std::size_t i = bytes_.size(); ++bytes_[--i] == 0;) continue;  // carries
+    base_ &= 0xFFFFFFFF;
+    for (length_ = length; length_ < 1 << 24; length_ <<= 8, base_ = base_ << 8 & 0xFFFFFFFF)
+      bytes_ += static_cast<char>(base_ >> 24);
+  }
+  std::string bytes_;
+  std::uint64_t base_ = 0, length_ = 0xFFFFFFFF;
+};
+
+// Writes differences; the prediction and the context are the caller's.
+class LazTestIntegers {
+ public:
+  explicit LazTestIntegers(std::size_t contexts) : sizes_(contexts, LazTestModel(33)) {
+    for (unsigned size = 1; size <= 32; ++size) high_.emplace_back(1U << std::min(size, 8U));
+  }
+  void write(LazTestEncoder& encoder, std::int32_t difference, std::size_t context) {
+    const auto magnitude =
+        static_cast<std::uint32_t>(difference <= 0 ? -std::int64_t{difference} : difference - 1);
+    last_bits = static_cast<std::uint32_t>(std::bit_width(magnitude));
+    encoder.symbol(sizes_[context], last_bits);
+    if (last_bits == 0) return encoder.bit(small_, static_cast<std::uint32_t>(difference));
+    const std::uint32_t number = difference > 0
+                                     ? static_cast<std::uint32_t>(difference - 1)
+                                     : static_cast<std::uint32_t>(difference + ((1LL << last_bits) - 1));
+    const unsigned low = last_bits > 8 ? last_bits - 8 : 0;
+    encoder.symbol(high_[last_bits - 1], number >> low);
+    if (low > 0) encoder.bits(number & ((1U << low) - 1), low);
+  }
+  std::uint32_t last_bits = 0;
+
+ private:
+  std::vector<LazTestModel> sizes_, high_;
+  LazTestBit small_;
+};
+
+using LazTestPoint = std::array<std::int32_t, 3>;
+
+// A chunk of points of one return. x and y have steps of 0 and more, every other step being 0, so that the medians of
+// steps that are predictions stay 0; z is predicted by the z before.
+inline std::string laz_chunk(const std::vector<LazTestPoint>& points, bool is_layered) {
+  std::string first;
+  for (const std::int32_t value : points[0]) first += raw(value);
+  first += std::string(2, '\0') + (is_layered ? std::string("\x11", 1) + std::string(15, '\0')
+                                              : std::string("\x09", 1) + std::string(5, '\0'));
+  LazTestEncoder main, heights;
+  LazTestEncoder& z_encoder = is_layered ? heights : main;
+  LazTestModel changes(is_layered ? 128 : 64);
+  LazTestIntegers x(2), y(22), z(20);
+  std::int32_t z_before = is_layered ? points[0][2] : 0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    main.symbol(changes, 0);
+    x.write(main, points[i][0] - points[i - 1][0], 1);
+    y.write(main, points[i][1] - points[i - 1][1], 1 + (x.last_bits < 20 ? x.last_bits & ~1U : 20));
+    const std::uint32_t bits = (x.last_bits + y.last_bits) / 2;
+    z.write(z_encoder, points[i][2] - z_before, 1 + (bits < 18 ? bits & ~1U : 18));
+    z_before = points[i][2];
+  }
+  if (!is_layered) return first + main.take();
+  const std::string xy = main.take(), z_bytes = heights.take();
+  const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };
+  return first + size(points.size()) + size(xy.size()) + size(z_bytes.size()) + std::string(28, '\0') + xy +
+         z_bytes;
+}
+
+// A file of chunks of any size, of format 0, or layered of format 6. Coordinates are whole numbers.
+inline std::string laz(const std::vector<std::vector<LazTestPoint>>& chunks, bool is_layered) {
+  std::string file(375, '\0'), data;
+  LazTestEncoder table;
+  LazTestIntegers numbers(2);
+  std::uint32_t count = 0;
+  std::int32_t points_before = 0, bytes_before = 0;
+  for (const auto& points : chunks) {
+    const std::string chunk = laz_chunk(points, is_layered);
+    const auto here = static_cast<std::int32_t>(points.size()),
+               bytes = static_cast<std::int32_t>(chunk.size());
+    numbers.write(table, here - points_before, 0);
+    numbers.write(table, bytes - bytes_before, 1);
+    points_before = here;
+    bytes_before = bytes;
+    count += static_cast<std::uint32_t>(points.size());
+    data += chunk;
+  }
+  const std::uint16_t size = is_layered ? 30 : 20;
+  const std::string record = raw(std::uint16_t{is_layered ? std::uint16_t{3} : std::uint16_t{2}}) +
+                             std::string(10, '\0') + raw(~std::uint32_t{0}) + std::string(16, '\0') +
+                             raw(std::uint16_t{1}) +
+                             raw(std::uint16_t{is_layered ? std::uint16_t{10} : std::uint16_t{6}}) +
+                             raw(size) + raw(std::uint16_t{is_layered ? std::uint16_t{3} : std::uint16_t{2}});
+  std::string user = "laszip encoded";
+  user.resize(16);
+  std::string head = std::string(2, '\0') + user + raw(std::uint16_t{22204}) +
+                     raw(static_cast<std::uint16_t>(record.size())) + std::string(32, '\0') + record;
+  file.replace(0, 4, "LASF");
+  file = patched(file, 24, std::uint8_t{1});
+  file = patched(file, 25, std::uint8_t{4});
+  file = patched(file, 94, std::uint16_t{375});
+  file = patched(file, 96, static_cast<std::uint32_t>(375 + head.size()));
+  file = patched(file, 100, std::uint32_t{1});
+  file = patched(file, 104, static_cast<std::uint8_t>(is_layered ? 134 : 128));
+  file = patched(file, 105, size);
+  file = patched(file, 247, std::uint64_t{count});
+  for (std::size_t i = 0; i < 3; ++i) file = patched(file, 131 + 8 * i, 1.0);
+  const std::uint64_t table_at = file.size() + head.size() + 8 + data.size();
+  return file + head + raw(table_at) + data + raw(std::uint32_t{0}) +
+         raw(static_cast<std::uint32_t>(chunks.size())) + table.take();
+}
+
+}  // namespace relievo
