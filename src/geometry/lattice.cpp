@@ -39,11 +39,11 @@ Lattice::Lattice(std::span<const Vec3> points, std::span<const Index> counted, d
 
 void Lattice::set_places(std::span<const Vec3> points, double cell) {
   const Box box = Box::of(points);
-  const auto nodes_along = [&](int axis) { return static_cast<std::size_t>(box.size()[axis] / cell) + 4; };
+  const auto nodes_along = [&](int axis) { return static_cast<std::size_t>(box.size()[axis] / cell) + 6; };
   width_ = nodes_along(0);
   share_.resize(width_ * nodes_along(1));
   parallel_for(points.size(), [&](std::size_t i) {
-    const Vec2 at = (points[i] - box.min).head<2>() / cell, whole = at.array().floor();
+    const Vec2 at = (points[i] - box.min).head<2>() / cell + Vec2(1, 1), whole = at.array().floor();
     const Vec2f share = (at - whole).cast<float>();
     places_[i] = {static_cast<Index>(static_cast<std::size_t>(whole.x()) +
                                      width_ * static_cast<std::size_t>(whole.y())),
@@ -74,11 +74,22 @@ void Lattice::count(std::span<const Index> counted) {
   }
 }
 
-// Returns the position of a point, in cells from the first node.
 Vec2 Lattice::place(std::size_t point) const {
   const SplinePlace& p = places_[point];
   const std::size_t cell = cell_of(p);
   return Vec2(cell % width_, cell / width_) + Vec2f(unpacked_share(p.x), unpacked_share(p.y)).cast<double>();
+}
+
+void Lattice::spread(const Vec2& place, float amount, std::span<float> nodes) const {
+  const Vec2 whole = place.array().floor();
+  const CubicRow x = cubic_basis(static_cast<float>(place.x() - whole.x())),
+                 y = amount * cubic_basis(static_cast<float>(place.y() - whole.y()));
+  const std::size_t first =
+      static_cast<std::size_t>(whole.x()) - 1 + width_ * (static_cast<std::size_t>(whole.y()) - 1);
+  for (std::size_t l = 0; l < 4; ++l) {
+    Eigen::Map<CubicRow> row(&nodes[first + l * width_]);
+    row += y[static_cast<Eigen::Index>(l)] * x;
+  }
 }
 
 void Lattice::mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> marks) const {

@@ -54,6 +54,13 @@ class Lattice {
     return below + y * (above - below);
   }
 
+  // Returns where a point lies, in cells: node n is at (n % width(), n / width()).
+  Vec2 place(std::size_t point) const;
+
+  // Adds an amount to the 4 x 4 nodes around a place, in cells, in the shares that cubic B-splines have there: sums
+  // over a region then hardly depend on where the nodes are.
+  void spread(const Vec2& place, float amount, std::span<float> nodes) const;
+
   // Sets marks[n] to 1 for each node n inside a triangle of points, which must be counter-clockwise. `marks`
   // has one element per node.
   void mark_nodes_in(const Triangle& triangle, std::span<std::uint8_t> marks) const;
@@ -108,7 +115,6 @@ class Lattice {
   float between(const Corners& w, const float* n) const {
     return w[0] * n[0] + w[1] * n[1] + w[2] * n[width_] + w[3] * n[width_ + 1];
   }
-  Vec2 place(std::size_t point) const;
   void set_places(std::span<const Vec3> points, double cell);
   void set_first_nodes();
   void count(std::span<const Index> counted);

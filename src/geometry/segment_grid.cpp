@@ -45,6 +45,19 @@ SegmentGrid::Cells SegmentGrid::cells_of(const Vec2& low, const Vec2& high) cons
 }
 
 NearestSegment SegmentGrid::nearest(const Vec2& place, double radius, Index except) const {
+  return nearest_of(place, radius, [&](const Segment& s) { return s.curve != except; });
+}
+
+NearestSegment SegmentGrid::nearest_along(const Vec2& place, double radius, const Vec2& direction) const {
+  constexpr double least_cosine = -.3;
+  return nearest_of(place, radius, [&](const Segment& s) {
+    const Vec2 step = s.to - s.from;
+    return step.dot(direction) > least_cosine * step.norm();
+  });
+}
+
+template <typename Accept>
+NearestSegment SegmentGrid::nearest_of(const Vec2& place, double radius, Accept&& accepts) const {
   NearestSegment best;
   if (segments_.empty()) return best;
   double least_sq = radius * radius, farthest_line = 0;
@@ -53,7 +66,7 @@ NearestSegment SegmentGrid::nearest(const Vec2& place, double radius, Index exce
     for (int x = c.x0; x <= c.x1; ++x)
       for (const Index i : in_cell_[static_cast<std::size_t>(y) * width_ + x]) {
         const Segment& s = segments_[i];
-        if (s.curve == except) continue;
+        if (!accepts(s)) continue;
         const Vec2 step = s.to - s.from, offset = place - s.from;
         const double length_sq = step.squaredNorm();
         if (!(length_sq > 0)) continue;

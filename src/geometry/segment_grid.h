@@ -34,6 +34,10 @@ class SegmentGrid {
   // segments of a curve meet, the side is that of the segment whose line is farther away.
   NearestSegment nearest(const Vec2& place, double radius, Index except = no_index) const;
 
+  // Returns the nearest segment within the radius that does not lead against a direction of unit length: by at most 107
+  // degrees from it.
+  NearestSegment nearest_along(const Vec2& place, double radius, const Vec2& direction) const;
+
   // Returns true if a segment has points on both sides of the line from a to b, and the line on both of its own.
   bool is_crossed(const Vec2& a, const Vec2& b) const;
 
@@ -42,6 +46,8 @@ class SegmentGrid {
     int x0, y0, x1, y1;
   };
   Cells cells_of(const Vec2& low, const Vec2& high) const;
+  template <typename Accept>
+  NearestSegment nearest_of(const Vec2& place, double radius, Accept&& accepts) const;
 
   std::vector<Segment> segments_;
   Vec2 origin_ = Vec2::Zero();

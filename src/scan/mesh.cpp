@@ -7,6 +7,7 @@
 #include "geometry/raster.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
+#include "scan/outlines/mesh_outlines.h"
 
 namespace relievo {
 namespace {
@@ -246,6 +247,7 @@ void turn_back(Cloud& cloud, const View& view, const Vec3& centre) {
     cloud.points[i] = back * cloud.points[i] + centre;
     cloud.normals[i] = (turn * cloud.normals[i]).normalized();
   });
+  for (OutlineSegment& s : cloud.outlines) s.from = back * s.from + centre, s.to = back * s.to + centre;
 }
 
 }  // namespace
@@ -276,6 +278,7 @@ Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling
         ErrorKind::geometry, {}, {}, "expected triangles that show an area in this view; try another view"});
   if (auto go = begin_stage(progress, "mesh samples", 0); !go) return std::unexpected(go.error());
   Cloud cloud = Sampler(mesh, seen, *pixel).sample();
+  cloud.outlines = seen_outlines(seen.points, seen.triangles, *pixel);
   turn_back(cloud, view, centre);
   return cloud;
 }

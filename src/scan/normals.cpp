@@ -30,6 +30,15 @@ Vec3f plane_normal(std::span<const Vec3> points, std::span<const Index> members)
 
 }  // namespace
 
+Vec3f unit_normal(const Vec3& n) {
+  if (!n.allFinite() || n.isZero(0)) return Vec3f::Zero();
+  const Vec3f rounded = n.cast<float>();
+  const double rounding = 1e-6;  // of the squared length of three floats, several times what rounding makes
+  if (std::abs(rounded.cast<double>().squaredNorm() - 1) <= rounding) return rounded;
+  // Scaled first because squares may overflow.
+  return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
+}
+
 void estimate_normals(Cloud& cloud, std::size_t neighbours) {
   if (cloud.size() < 3) return;
   const std::size_t k = std::min({neighbours, cloud.size(), most_neighbours});

@@ -13,7 +13,7 @@
 #include "relievo/scan/normals.h"
 #include "scan/noise/noise.h"
 #include "scan/orient_normals.h"
-#include "scan/outline_points.h"
+#include "scan/outlines/outline_points.h"
 
 namespace relievo {
 namespace {
@@ -99,7 +99,7 @@ Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progre
   const std::vector<Index> order = space_curve_order(viewed.cloud.points);
   RELIEVO_CHECK(check_cancelled(progress));
   viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order),
-                  pick(viewed.cloud.colours, order)};
+                  pick(viewed.cloud.colours, order), std::move(viewed.cloud.outlines)};
 
   if (auto go = begin_stage(progress, "spacing", .05); !go) return std::unexpected(go.error());
   viewed.spacing = measure_spacing(viewed.cloud);
@@ -187,7 +187,7 @@ Result<Surface> find_surface(const Cloud& whole, const View& view, const Surface
   surface.boundary =
       find_boundary(xy, surface.triangulation, surface.rho, options.boundary, measures.spacing);
   RELIEVO_CHECK(check_cancelled(progress));
-  put_points_on_outlines(surface, measures);
+  put_points_on_outlines(surface, measures, viewed->cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   surface.curvature = normalise(average_in_plane(measures.k, in_plane(surface.points), surface.normals,
                                                  surface.triangulation, surface.rho));

@@ -110,10 +110,15 @@ Cloud cropped(const Cloud& cloud, const View& view) {
   const Crop& crop = view.crop;
   const Vec3 least = box.min + size.cwiseProduct(Vec3(crop.least.x(), crop.least.y(), 1 - crop.farthest));
   const Vec3 most = box.min + size.cwiseProduct(Vec3(crop.most.x(), crop.most.y(), 1 - crop.nearest));
+  const auto is_part = [&](const Vec3& of_cloud) {
+    const Vec3 p = R * of_cloud;
+    return (p.array() >= least.array()).all() && (p.array() <= most.array()).all();
+  };
   Cloud part;
+  for (const OutlineSegment& s : cloud.outlines)
+    if (is_part(s.from) && is_part(s.to)) part.outlines.push_back(s);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    const Vec3 p = R * cloud.points[i];
-    if ((p.array() < least.array()).any() || (p.array() > most.array()).any()) continue;
+    if (!is_part(cloud.points[i])) continue;
     part.points.push_back(cloud.points[i]);
     if (!cloud.normals.empty()) part.normals.push_back(cloud.normals[i]);
     if (!cloud.colours.empty()) part.colours.push_back(cloud.colours[i]);
@@ -137,6 +142,9 @@ Cloud in_view(const Cloud& cloud, const View& view) {
   parallel_for(cloud.size(),
                [&](std::size_t i) { out.points[i] = view.R_view_model * (cloud.points[i] - centre); });
   parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
+  const auto turned = [&](const Vec3& p) -> Vec3 { return view.R_view_model * (p - centre); };
+  for (const OutlineSegment& s : cloud.outlines)
+    out.outlines.push_back({turned(s.from), turned(s.to), s.is_jump});
   return out;
 }
 

@@ -176,6 +176,23 @@ TEST(Lattice, FindsTheNodesInATriangle) {
   }
 }
 
+// Cubic B-splines are a partition of one, and exact for what is linear: amount and centre of what is spread stay.
+TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
+  const Scattered s;
+  for (const Vec2& place : {Vec2(3, 4), Vec2(5.25, 2.9), Vec2(7.999, 8.5)}) {
+    std::vector<float> nodes(s.lattice.nodes());
+    s.lattice.spread(place, 2, nodes);
+    Vec2 moment(0, 0);
+    double sum = 0;
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const auto amount = static_cast<double>(nodes[n]);
+      sum += amount, moment += amount * Vec2(n % s.lattice.width(), n / s.lattice.width());
+    }
+    EXPECT_NEAR(sum, 2, 1e-5);
+    EXPECT_LT((moment / sum - place).norm(), 1e-5);
+  }
+}
+
 TEST(Lattice, HasTheSameBitsForAnyNumberOfThreads) {
   const Scattered s;
   const std::vector<double> values = some_values(s.points.size());

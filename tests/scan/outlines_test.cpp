@@ -1,11 +1,11 @@
-#include "scan/outlines.h"
+#include "scan/outlines/outlines.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "scan/outline_points.h"
+#include "scan/outlines/outline_points.h"
 #include "support/shapes.h"
 
 namespace relievo {

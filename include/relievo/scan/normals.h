@@ -8,6 +8,10 @@
 
 namespace relievo {
 
+// Returns n with unit length, or zero if it has no direction (zero or not finite). A vector that is unit up
+// to float rounding is returned as it is, so that writing and reading again changes no bit.
+Vec3f unit_normal(const Vec3& n);
+
 // Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
 // (principal component analysis). The sign is arbitrary until turn_to_viewer(). Does nothing to a cloud of
 // fewer than 3 points.

@@ -1,4 +1,4 @@
-#include "scan/outline_points.h"
+#include "scan/outlines/outline_points.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "geometry/hilbert.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
-#include "scan/row_points.h"
+#include "scan/outlines/row_points.h"
 
 namespace relievo {
 namespace {
@@ -202,11 +202,14 @@ class NewSurface {
 
 }  // namespace
 
-void put_points_on_outlines(Surface& surface, PointMeasures& measures) {
+void put_points_on_outlines(Surface& surface, PointMeasures& measures,
+                            std::span<const OutlineSegment> known_outlines) {
   Surface before = surface;
+  const ExactOutlines exact(known_outlines, surface.rho);
+  exact.open_gaps(before);
   if (!drop_crumbs(before)) return;
   surface.crumbs = before.crumbs;
-  const std::vector<OutlineCurve> outlines = find_outlines(before);
+  const std::vector<OutlineCurve> outlines = find_outlines(before, exact);
   if (outlines.empty() || outlines.front().is_jump) return;
   NewSurface now(before, measures, outlines);
   now.gather();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "geometry/neighbours.h"
-#include "scan/row_points.h"
+#include "scan/outlines/row_points.h"
 
 namespace relievo {
 

@@ -1,4 +1,4 @@
-#include "scan/outlines.h"
+#include "scan/outlines/outlines.h"
 
 #include <Eigen/Cholesky>
 #include <cmath>
@@ -108,8 +108,19 @@ class EdgeFinder {
   KdTree<Vec2> tree_;
 };
 
-OutlineCurve faired(const std::vector<CurveNode>& nodes, bool is_closed, bool is_jump, double rho) {
-  return {fair_curve(nodes, is_closed, {point_spacing * rho, fair_window * rho}), is_closed, is_jump};
+// Returns the exact outline near places, or a fair curve through guesses if there are no exact outlines.
+template <typename Guess>
+OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, const OutlineCurve& kind,
+                        const ExactOutlines& exact, double rho) {
+  OutlineCurve outline = kind;
+  if (!exact.empty()) {
+    outline.curve = exact.curve(places, kind.is_closed, kind.is_jump, guess);
+    return outline;
+  }
+  std::vector<CurveNode> nodes;
+  for (std::size_t i = 0; i < places.size(); ++i) nodes.push_back(guess(i));
+  outline.curve = fair_curve(nodes, kind.is_closed, {point_spacing * rho, fair_window * rho});
+  return outline;
 }
 
 // The sides of triangles, numbered 3 t + i: side i of triangle t lies opposite its corner i.
@@ -144,18 +155,22 @@ struct Sides {
   }
 };
 
-void add_silhouettes(const Surface& surface, const EdgeFinder& finder, std::vector<OutlineCurve>& outlines) {
+void add_silhouettes(const Surface& surface, const EdgeFinder& finder, const ExactOutlines& exact,
+                     std::vector<OutlineCurve>& outlines) {
   const Sides sides{surface};
   const auto count = static_cast<Index>(3 * surface.triangulation.triangles.size());
   std::vector<std::uint8_t> is_done(count, 0);
   for (Index first = 0; first < count; ++first) {
     if (is_done[first] || !sides.is_boundary(first)) continue;
-    std::vector<CurveNode> nodes;
+    std::vector<Index> chain;
     for (Index side = first; !is_done[side]; side = sides.next_boundary(side)) {
       is_done[side] = 1;
-      nodes.push_back(finder.at(sides.from(side), farthest_edge * surface.rho));
+      chain.push_back(sides.from(side));
     }
-    OutlineCurve outline = faired(nodes, true, false, surface.rho);
+    const auto guess = [&](std::size_t i) { return finder.at(chain[i], farthest_edge * surface.rho); };
+    std::vector<Vec2> places;
+    for (const Index i : chain) places.push_back(finder.plane()[i]);
+    OutlineCurve outline = curve_near(places, guess, {{}, true, false}, exact, surface.rho);
     if (!outline.curve.points.empty()) outlines.push_back(std::move(outline));
   }
 }
@@ -172,15 +187,19 @@ class JumpLines {
       if (surface.boundary.is_inside[t]) cross_triangle(t);
   }
 
-  void add_outlines(const EdgeFinder& finder, std::vector<OutlineCurve>& outlines) {
+  void add_outlines(const EdgeFinder& finder, const ExactOutlines& exact,
+                    std::vector<OutlineCurve>& outlines) {
     std::vector<std::uint8_t> is_done(next_.size(), 0);
     const auto follow = [&](Index first, bool is_closed) {
-      std::vector<CurveNode> nodes;
+      std::vector<Index> chain;
+      std::vector<Vec2> places;
       for (Index side = first; side != no_index && !is_done[side]; side = next_[side]) {
         is_done[side] = 1;
-        nodes.push_back(node_at(side, finder));
+        chain.push_back(side);
+        places.push_back((finder.plane()[sides_.from(side)] + finder.plane()[sides_.to(side)]) / 2);
       }
-      OutlineCurve outline = faired(nodes, is_closed, true, surface_.rho);
+      const auto guess = [&](std::size_t i) { return node_at(chain[i], finder); };
+      OutlineCurve outline = curve_near(places, guess, {{}, is_closed, true}, exact, surface_.rho);
       if (static_cast<double>(outline.curve.points.size()) * point_spacing >= shortest_jump)
         outlines.push_back(std::move(outline));
     };
@@ -266,11 +285,11 @@ bool drop_crumbs(Surface& surface) {
   return is_any;
 }
 
-std::vector<OutlineCurve> find_outlines(const Surface& surface) {
+std::vector<OutlineCurve> find_outlines(const Surface& surface, const ExactOutlines& exact) {
   const EdgeFinder finder(surface);
   std::vector<OutlineCurve> outlines;
-  add_silhouettes(surface, finder, outlines);
-  JumpLines(surface).add_outlines(finder, outlines);
+  add_silhouettes(surface, finder, exact, outlines);
+  JumpLines(surface).add_outlines(finder, exact, outlines);
   return outlines;
 }
 

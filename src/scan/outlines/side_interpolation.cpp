@@ -1,4 +1,4 @@
-#include "scan/side_interpolation.h"
+#include "scan/outlines/side_interpolation.h"
 
 #include <algorithm>
 #include <cmath>

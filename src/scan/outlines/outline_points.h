@@ -3,7 +3,7 @@
 #pragma once
 
 #include "relievo/scan/surface.h"
-#include "scan/side_interpolation.h"
+#include "scan/outlines/side_interpolation.h"
 
 namespace relievo {
 
@@ -11,7 +11,9 @@ namespace relievo {
 // spaced ones, whose normals, depths and measures are interpolated from the points on the same side. Rows lie on
 // the silhouette, on both sides of each jump, and parallel to them. Adds points where sampling leaves gaps inside
 // the surface, and leaves out points outside. Then triangulates anew and sets the boundary: the silhouette's
-// points are on it. Changes nothing if there is no silhouette.
-void put_points_on_outlines(Surface& surface, PointMeasures& measures);
+// points are on it. Outlines that are known exactly, in view coordinates, take the place of those found near them. Changes
+// nothing if there is no silhouette.
+void put_points_on_outlines(Surface& surface, PointMeasures& measures,
+                            std::span<const OutlineSegment> known_outlines = {});
 
 }  // namespace relievo

@@ -7,6 +7,7 @@
 #include "geometry/fair_curve.h"
 #include "geometry/segment_grid.h"
 #include "relievo/scan/surface.h"
+#include "scan/outlines/exact_outlines.h"
 
 namespace relievo {
 
@@ -26,8 +27,9 @@ bool drop_crumbs(Surface& surface);
 // Returns the silhouettes first, which are closed, then the depth jumps, of a surface that has neighbours of
 // triangles. Where a surface turns away from the viewer, the curve is where its normals, continued, are
 // perpendicular to the view; elsewhere it goes through the outermost points, or at jumps between the points in
-// front and those behind. Outlines shorter than 4 rho are left out.
-std::vector<OutlineCurve> find_outlines(const Surface& surface);
+// front and those behind. Where exact outlines are near, it goes along them instead. Outlines shorter than 4 rho are
+// left out.
+std::vector<OutlineCurve> find_outlines(const Surface& surface, const ExactOutlines& exact);
 
 // Returns the segments of outlines; curve numbers are those of the outlines.
 std::vector<Segment> segments_of(const std::vector<OutlineCurve>& outlines);

@@ -5,7 +5,7 @@
 
 #include "geometry/point_set.h"
 #include "geometry/segment_grid.h"
-#include "scan/outlines.h"
+#include "scan/outlines/outlines.h"
 
 namespace relievo {
 

@@ -1,4 +1,4 @@
-#include "scan/row_points.h"
+#include "scan/outlines/row_points.h"
 
 #include <algorithm>
 #include <array>

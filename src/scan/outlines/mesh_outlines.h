@@ -1,0 +1,17 @@
+// The exact outlines of a mesh as it is seen. Tested by tests/scan/mesh_outlines_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/scan/cloud.h"
+
+namespace relievo {
+
+// Returns the outlines of a mesh in view coordinates: the parts of its edges where the visible surface ends before
+// nothing, or before a surface that lies farther behind than `pixel`. All triangles must be counter-clockwise as seen.
+// Where an outline passes behind another surface, it ends within half a pixel of the true place.
+std::vector<OutlineSegment> seen_outlines(std::span<const Vec3> points, std::span<const Triangle> triangles,
+                                          double pixel);
+
+}  // namespace relievo
