@@ -14,7 +14,11 @@ LargeArray make_large_array(std::size_t floats) {
   const std::size_t alignment = bytes >= 4 * page ? page : 64;
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
   void* array = std::aligned_alloc(alignment, rounded);
-  if (array == nullptr) throw std::bad_alloc();
+  if (array == nullptr) {
+    // As operator new does: a program may have set a handler that ends it in order.
+    if (const std::new_handler handler = std::get_new_handler()) handler();
+    throw std::bad_alloc();
+  }
 #if defined(__linux__)
   // Only a request: whether the system grants it affects the speed alone.
   if (alignment == page) static_cast<void>(madvise(array, rounded, MADV_HUGEPAGE));

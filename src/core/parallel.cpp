@@ -18,7 +18,8 @@ struct Job {
   std::size_t blocks = 0;
   std::atomic<std::size_t> next = 0;
 
-  void work() {
+  // An exception that left the caller's block would leave the others working on what no longer exists.
+  void work() noexcept {
     is_inside_parallel_call = true;
     for (std::size_t b = next++; b < blocks; b = next++) f(context, b);
     is_inside_parallel_call = false;

@@ -7,8 +7,17 @@
 #include <limits>
 
 #include "core/root_finding.h"
+#include "relievo/core/error.h"
+#include "relievo/core/text.h"
 
 namespace relievo {
+
+// Returns the error of a height that no relief of the view has; `most_mm` is the largest.
+inline std::unexpected<Error> out_of_reach(double most_mm, double wanted_mm) {
+  return geometry_error(cat("expected a height that can be reached, at most ", most_mm,
+                            " mm for this view and width, found ", wanted_mm, " mm",
+                            most_mm > 0 ? "" : ": this view shows a level face alone; choose another"));
+}
 
 // Every search calls height_at(ln u), which makes the relief and returns its height; the last call made the
 // relief that was found. To end a search early, as after an error, height_at() returns the height asked for.

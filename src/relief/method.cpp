@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "relief/height_search.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/relief.h"
+
 namespace relievo {
 namespace {
 
@@ -47,7 +49,10 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
   if (info.needs_all_points && !model.system())
     return std::unexpected(
         Error{ErrorKind::option, "mode", {}, cat("expected exact for the method ", name_of(method))});
-  return info.make ? info.make(model, height) : model.make_at_height(height, shape, unit_mm, progress);
+  if (!info.make) return model.make_at_height(height, shape, unit_mm, progress);
+  Relief relief = info.make(model, height);
+  if (!(relief.height > 0)) return out_of_reach(0, height * unit_mm);
+  return relief;
 }
 
 }  // namespace relievo

@@ -211,14 +211,7 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
     });
   }
   if (is_cancelled) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
-  if (!is_met)
-    return std::unexpected(
-        Error{ErrorKind::geometry,
-              {},
-              {},
-              cat("expected a height that can be reached, at most ", relief.height * unit_mm,
-                  " mm for this view and width, found ", height * unit_mm, " mm",
-                  relief.height > 0 ? "" : ": this view shows a level face alone; choose another")});
+  if (!is_met) return out_of_reach(relief.height * unit_mm, height * unit_mm);
   maker.finish(relief);
   // The search ends within a part in 10^5 of the height; scaling makes it exact.
   for (double& z : relief.heights) z *= height / relief.height;

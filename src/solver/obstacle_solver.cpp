@@ -16,34 +16,77 @@ constexpr std::array<int, ObstacleSolver::levels> sweeps{8, 14, 30, 40};
 // nodes per side; 1.6 suits the short waves that are left to the finer levels.
 constexpr float over_relaxation = 1.6F;
 
+// Returns the weights of bilinear interpolation at a place within a cell, for its nodes row by row.
+std::array<float, 4> weights(const Vec2f& at) {
+  const float x = at.x(), y = at.y();
+  return {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
+}
+
 }  // namespace
 
 std::size_t ObstacleSolver::Fields::memory() const {
-  return bytes(lowest) + bytes(highest) + bytes(wanted) + bytes(b) + bytes(moment);
+  return bytes(lowest) + bytes(highest) + bytes(wanted) + bytes(b) + bytes(moment) + bytes(at_ties);
 }
 
-ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness)
+ObstacleSolver::Level::Level(std::size_t width, Stiffness stiffness, std::vector<Tie> ties)
     : width_(width),
       stiffness_(std::move(stiffness)),
-      fixed_(stiffness_.bending.size()),
+      ties_(std::move(ties)),
       diagonal_(stiffness_.bending.size()) {
-  for (Index n = 0; n < diagonal_.size(); ++n)
-    if (is_free(n)) couple(n);
+  std::vector<Index> tie_of(size(), no_index);
+  for (std::size_t t = 0; t < ties_.size(); ++t) tie_of[ties_[t].cell] = static_cast<Index>(t);
+  for (Index n = 0; n < size(); ++n)
+    if (is_free(n)) couple(n, tie_of);
 }
 
-void ObstacleSolver::Level::couple(std::size_t n) {
-  nodes_[(n % width_ + 2 * (n / width_)) % nodes_.size()].push_back(static_cast<Index>(n));
+// Joins the ties of the cells that lie in one coarse cell, at their middle.
+std::vector<Tie> ObstacleSolver::Level::coarser_ties(std::size_t width) const {
+  std::vector<Tie> coarse;
+  std::vector<Index> tie_of(diagonal_.size(), no_index);
+  for (const Tie& fine : ties_) {
+    const std::size_t x = fine.cell % width_, y = fine.cell / width_, cell = x / 2 + y / 2 * width;
+    const Vec2f at = (Vec2f(x % 2, y % 2) + fine.at) / 2;
+    if (tie_of[cell] == no_index) {
+      tie_of[cell] = static_cast<Index>(coarse.size());
+      coarse.push_back({cell, Vec2f::Zero(), 0});
+    }
+    Tie& joined = coarse[tie_of[cell]];
+    joined.stiffness += fine.stiffness;
+    joined.at += fine.stiffness / joined.stiffness * (at - joined.at);
+  }
+  return coarse;
+}
+
+// Puts a free node into its colour, with its shares in the ties of the cells around it.
+void ObstacleSolver::Level::couple(std::size_t n, std::span<const Index> tie_of) {
   const auto& [bending, tension] = stiffness_;
   diagonal_[n] = 16 * bending[n];
-  for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_}) {
-    diagonal_[n] += bending[side];
-    (is_free(side) ? diagonal_ : fixed_)[n] += (tension[n] + tension[side]) / 2;
+  for (const std::size_t side : {n - 1, n + 1, n - width_, n + width_})
+    diagonal_[n] += bending[side] + (tension[n] + tension[side]) / 2;
+
+  const std::array<std::size_t, 4> cells{n, n - 1, n - width_, n - width_ - 1};
+  TiedNode tied{static_cast<Index>(n), {}};
+  bool is_tied = false;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const Index t = tie_of[cells[corner]];
+    tied.shares[corner].tie = static_cast<Index>(ties_.size() + tied_nodes_);
+    if (t == no_index) continue;
+    const float weight = weights(ties_[t].at)[corner];
+    tied.shares[corner] = {t, weight, ties_[t].stiffness * weight};
+    is_tied = true;
+  }
+  Colour& colour = colours_[(n % width_ + 2 * (n / width_)) % colours_.size()];
+  if (is_tied) {
+    colour.tied.push_back(tied);
+    ++tied_nodes_;
+  } else {
+    colour.untied.push_back(tied.node);
   }
 }
 
 std::size_t ObstacleSolver::Level::memory() const {
-  std::size_t sum = bytes(stiffness_.bending) + bytes(stiffness_.tension) + bytes(fixed_) + bytes(diagonal_);
-  for (const std::vector<Index>& colour : nodes_) sum += bytes(colour);
+  std::size_t sum = bytes(stiffness_.bending) + bytes(stiffness_.tension) + bytes(diagonal_) + bytes(ties_);
+  for (const Colour& colour : colours_) sum += bytes(colour.untied) + bytes(colour.tied);
   return sum;
 }
 
@@ -63,7 +106,7 @@ ObstacleSolver::Level ObstacleSolver::Level::coarser() const {
       }
       coarse.bending[x + y * width] = least / 4, coarse.tension[x + y * width] = 5 / yielding;
     }
-  return {width, std::move(coarse)};
+  return {width, std::move(coarse), coarser_ties(width)};
 }
 
 void ObstacleSolver::Level::restrict_from(const Level& finer, const Fields& from, Fields& to) const {
@@ -91,50 +134,76 @@ void ObstacleSolver::Level::prolong_from(const Level& coarser, const Fields& fro
   });
 }
 
-// Clamps b to its bounds and computes the moments from it.
+// Clamps b to its bounds and computes the moments and the values at the ties from it.
 void ObstacleSolver::Level::start(Fields& f) const {
   std::vector<float>& b = f.b;
   each_node([&](Index n) { b[n] = std::clamp(b[n], f.lowest[n], f.highest[n]); });
   each_node([&](Index n) {
     f.moment[n] = stiffness_.bending[n] * (b[n - 1] + b[n + 1] + b[n - width_] + b[n + width_] - 4 * b[n]);
   });
+  for (std::size_t t = 0; t < ties_.size(); ++t) {
+    const std::size_t n = ties_[t].cell;
+    const std::array<float, 4> w = weights(ties_[t].at);
+    f.at_ties[t] = w[0] * b[n] + w[1] * b[n + 1] + w[2] * b[n + width_] + w[3] * b[n + width_ + 1];
+  }
 }
 
 // One step of projected over-relaxation: moves a node to the minimum of the energy along it, overshooting by
-// the factor above, clamps it to its bounds and updates the moments of the node and its neighbours.
-inline void ObstacleSolver::Level::move(Index n, const Springs& springs, Fields& f) const {
+// the factor above, clamps it to its bounds and updates the moments of the node and its neighbours. Returns by how much
+// the node moved.
+inline float ObstacleSolver::Level::move(Index n, const Springs& springs, const Slope& ties,
+                                         Fields& f) const {
   float *b = f.b.data() + n, *m = f.moment.data() + n;
   const float *c = stiffness_.bending.data() + n, *t = stiffness_.tension.data() + n;
   const auto row = static_cast<std::ptrdiff_t>(width_);
   const auto pull = [&](std::ptrdiff_t side) { return (t[0] + t[side]) * (b[side] - b[0]); };
   const float tense = (pull(-1) + pull(1) + pull(-row) + pull(row)) / 2;
   const float lap_m = m[-1] + m[1] + m[-row] + m[row] - 4 * m[0];
-  const float held = springs.stiffness + springs.boundary_stiffness * fixed_[n];
-  const float rise = lap_m - tense + (held - fixed_[n]) * b[0] - f.wanted[n];
-  const float step = over_relaxation * rise / (diagonal_[n] + held);
-  const float next = std::clamp(b[0] - step, f.lowest[n], f.highest[n]);
+  const float rise = lap_m - tense + springs.stiffness * b[0] - f.wanted[n] + ties.first;
+  const float diagonal = diagonal_[n] + springs.stiffness + ties.second;
+  const float next = std::clamp(b[0] - over_relaxation * rise / diagonal, f.lowest[n], f.highest[n]);
   const float change = next - b[0];
   b[0] = next;
   m[0] -= 4 * c[0] * change;
   for (const std::ptrdiff_t side : {std::ptrdiff_t{-1}, std::ptrdiff_t{1}, -row, row})
     m[side] += c[side] * change;
+  return change;
+}
+
+// Moves a node beside ties, and updates the values there.
+inline void ObstacleSolver::Level::move_tied(const TiedNode& tied, const Springs& springs, Fields& f) const {
+  float* at_ties = f.at_ties.data();
+  Slope slope;
+  for (const auto& [tie, weight, stiffness] : tied.shares) {
+    const float value = at_ties[tie], below = std::min(value - springs.least_at_ties, 0.F);
+    slope.first += stiffness * (springs.tie_stiffness * value + springs.stop_stiffness * below);
+    slope.second += stiffness * weight * (springs.tie_stiffness + (below < 0 ? springs.stop_stiffness : 0.F));
+  }
+  const float change = move(tied.node, springs, slope, f);
+  for (const Share& share : tied.shares) at_ties[share.tie] += share.weight * change;
 }
 
 void ObstacleSolver::Level::relax(int times, const Springs& springs, Fields& f) const {
   start(f);
-  for (int sweep = 0; sweep < times; ++sweep) each_node([&](Index n) { move(n, springs, f); });
+  for (int sweep = 0; sweep < times; ++sweep)
+    for (const Colour& colour : colours_) {
+      for (const Index n : colour.untied) move(n, springs, {}, f);
+      for (const TiedNode& tied : colour.tied) move_tied(tied, springs, f);
+    }
 }
 
-ObstacleSolver::ObstacleSolver(std::size_t width, Stiffness stiffness) {
-  levels_[0] = Level(width, std::move(stiffness));
+ObstacleSolver::ObstacleSolver(std::size_t width, Stiffness stiffness, std::span<const Tie> ties) {
+  levels_[0] = Level(width, std::move(stiffness), {ties.begin(), ties.end()});
   for (std::size_t l = 1; l < levels; ++l) levels_[l] = levels_[l - 1].coarser();
 }
 
 ObstacleSolver::Workspace ObstacleSolver::make_workspace() const {
   Workspace w;
-  for (std::size_t l = 0; l < levels; ++l)
+  for (std::size_t l = 0; l < levels; ++l) {
     for (std::vector<float>* values : {&w[l].lowest, &w[l].highest, &w[l].wanted, &w[l].b, &w[l].moment})
       values->resize(levels_[l].size());
+    w[l].at_ties.resize(levels_[l].tie_values());
+  }
   return w;
 }
 
@@ -149,10 +218,12 @@ void ObstacleSolver::solve(const Springs& springs, Workspace& w) const {
   std::ranges::fill(w.back().b, 0.F);
   for (std::size_t l = levels; l-- > 0;) {
     if (l + 1 < levels) levels_[l].prolong_from(levels_[l + 1], w[l + 1], w[l]);
-    // A node of level l represents 4^l of the finest nodes and, along a rim, 2^l; the factor of the tension
-    // at the rim cannot exceed 1, which means fixed.
-    const Springs here{springs.stiffness * static_cast<float>(1 << 2 * l),
-                       std::min(springs.boundary_stiffness * static_cast<float>(1 << l), 1.F)};
+    // A node of level l represents 4^l of the finest nodes.
+    Springs here = springs;
+    here.stiffness *= static_cast<float>(1 << 2 * l);
+    // The ties of a coarse cell are joined, and would be too stiff for the sweeps to converge.
+    here.tie_stiffness = std::min(here.tie_stiffness, 1 / static_cast<float>(1 << l));
+    here.stop_stiffness /= static_cast<float>(1 << l);
     levels_[l].relax(sweeps[l], here, w[l]);
   }
 }

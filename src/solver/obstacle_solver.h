@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "relievo/core/types.h"
@@ -10,8 +12,18 @@ namespace relievo::solver {
 
 // Strengths of the terms that pull the field b towards zero.
 struct Springs {
-  float stiffness = 0;           // factor of b^2 at each free node, >= 0
-  float boundary_stiffness = 1;  // factor of the tension to neighbours that are fixed, (0, 1]
+  float stiffness = 0;      // factor of b^2 at each free node, >= 0
+  float tie_stiffness = 1;  // factor of the ties, >= 0
+  // Ties pull b back with stop_stiffness where it falls below this.
+  float least_at_ties = -std::numeric_limits<float>::infinity();
+  float stop_stiffness = 10;  // factor of the ties there, >= 0
+};
+
+// Ties the field to zero at a place within a cell, for curves that pass between the nodes.
+struct Tie {
+  std::size_t cell;  // the number of its first node
+  Vec2f at;          // within the cell, in [0, 1]
+  float stiffness;   // factor of the square of the value that is interpolated bilinearly there, > 0
 };
 
 // The material, per node of a lattice, row by row.
@@ -21,11 +33,12 @@ struct Stiffness {
 };
 
 // Finds approximately the field b with lowest <= b <= highest that minimises
-//   1/2 sum bending (lap b)^2 + 1/2 sum tension (b_i - b_j)^2 + 1/2 sum springs b^2 - sum wanted b,
-// a thin plate under tension on springs, with `wanted` as its load. lap b is the sum of the four neighbours
-// minus 4 b. Nodes on the lattice's rim must be fixed. Projected successive over-relaxation on lattices with
-// cells of 8, 4, 2 and 1, each starting from the solution of the coarser one. Const calls may run
-// concurrently, each with a workspace of its own.
+//   1/2 sum bending (lap b)^2 + 1/2 sum tension (b_i - b_j)^2 + 1/2 sum springs b^2 - sum wanted b
+//   + 1/2 sum ties (tie_stiffness b^2 + stop_stiffness min(b - least_at_ties, 0)^2),
+// a thin plate under tension on springs, with `wanted` as its load, tied down at places between its nodes. lap b
+// is the sum of the four neighbours minus 4 b. Nodes on the lattice's rim must be fixed. Projected successive
+// over-relaxation on lattices with cells of 8, 4, 2 and 1, each starting from the solution of the coarser one.
+// Const calls may run concurrently, each with a workspace of its own.
 class ObstacleSolver {
  public:
   static constexpr std::size_t levels = 4;
@@ -33,7 +46,8 @@ class ObstacleSolver {
   // Data of one level, each vector with one element per node.
   struct Fields {
     std::vector<float> lowest, highest, wanted, b;
-    std::vector<float> moment;  // bending times lap b
+    std::vector<float> moment;   // bending times lap b
+    std::vector<float> at_ties;  // per tie: b at its place; then per tied node a 0, see TiedNode
 
     std::size_t memory() const;
   };
@@ -41,8 +55,9 @@ class ObstacleSolver {
   // One element per level, from fine to coarse.
   using Workspace = std::array<Fields, levels>;
 
-  // The lattice has `width` nodes per row and as many rows as the stiffness has elements for.
-  ObstacleSolver(std::size_t width, Stiffness stiffness);
+  // The lattice has `width` nodes per row and as many rows as the stiffness has elements for. A cell has at most one
+  // tie.
+  ObstacleSolver(std::size_t width, Stiffness stiffness, std::span<const Tie> ties = {});
 
   Workspace make_workspace() const;
 
@@ -64,16 +79,19 @@ class ObstacleSolver {
   class Level {
    public:
     Level() = default;
-    Level(std::size_t width, Stiffness stiffness);
+    Level(std::size_t width, Stiffness stiffness, std::vector<Tie> ties);
 
     std::size_t size() const { return diagonal_.size(); }
+    std::size_t tie_values() const { return ties_.size() + tied_nodes_; }
     std::size_t memory() const;
     Level coarser() const;
     bool is_free(std::size_t node) const { return stiffness_.bending[node] > 0; }
     template <typename F>
     void each_node(F&& f) const {
-      for (const std::vector<Index>& colour : nodes_)
-        for (const Index n : colour) f(n);
+      for (const Colour& colour : colours_) {
+        for (const Index n : colour.untied) f(n);
+        for (const TiedNode& tied : colour.tied) f(tied.node);
+      }
     }
 
     // Computes bounds and load from those of the next finer level. Bounds that cross are set to their mean.
@@ -83,16 +101,38 @@ class ObstacleSolver {
     void relax(int times, const Springs& springs, Fields& f) const;
 
    private:
-    void couple(std::size_t n);
+    struct Slope {
+      float first = 0, second = 0;  // derivatives of the energy by the value of a node
+    };
+    // The share that one node of a tie's cell has in it.
+    struct Share {
+      Index tie;
+      float weight = 0, stiffness = 0;  // of the node; of the tie, times the weight
+    };
+    struct TiedNode {
+      Index node;
+      // A cell without a tie has a share of weight 0. Its value is one that no other node has: with a common one, each
+      // node would have to wait until the one before had written it.
+      std::array<Share, 4> shares;
+    };
+    struct Colour {
+      std::vector<Index> untied;
+      std::vector<TiedNode> tied;
+    };
+
+    void couple(std::size_t n, std::span<const Index> tie_of);
+    std::vector<Tie> coarser_ties(std::size_t width) const;
     void start(Fields& f) const;
-    void move(Index n, const Springs& springs, Fields& f) const;
+    float move(Index n, const Springs& springs, const Slope& ties, Fields& f) const;
+    void move_tied(const TiedNode& tied, const Springs& springs, Fields& f) const;
 
     std::size_t width_ = 0;
     Stiffness stiffness_;
+    std::vector<Tie> ties_;
+    std::size_t tied_nodes_ = 0;
     // The free nodes in five colours. Nodes of one colour are so far apart that none changes what another
     // reads, so the processor can overlap their updates: 2.6 times as fast as row by row.
-    std::array<std::vector<Index>, 5> nodes_;
-    std::vector<float> fixed_;     // per node: tension to neighbours that are fixed
+    std::array<Colour, 5> colours_;
     std::vector<float> diagonal_;  // per node: of the energy's Hessian without springs
   };
 

@@ -52,6 +52,25 @@ TEST(MakeByMethod, RefusesWhatASubspaceCannotSolve) {
   }
 }
 
+// All points of a level face, and of four points, are at the same depth or on the boundary.
+TEST(MakeByMethod, RefusesAHeightThatNothingHas) {
+  Cloud four;
+  four.points = {{0, 0, 0}, {1, 0, 1}, {0, 1, 2}, {1, 1, 0}};
+  for (const Cloud& cloud : {roof(0, 1000), four}) {
+    const ReliefModel model = model_of(cloud);
+    for (const MethodInfo& info : methods) {
+      const auto made = make_by_method(info.method, model, .1, default_shape(info.method), 20);
+      ASSERT_FALSE(made) << info.name;
+      EXPECT_EQ(made.error().kind, ErrorKind::geometry);
+      EXPECT_EQ(made.error().message(),
+                "expected a height that can be reached, at most 0 mm for this view and width, found 2 mm: "
+                "this view "
+                "shows a level face alone; choose another")
+          << info.name;
+    }
+  }
+}
+
 TEST(Linear, IsTheDepthScaled) {
   const Surface surface = find_surface(test::sphere(20000, 1), {}).value();
   const Relief relief = linear_relief(surface, .1);

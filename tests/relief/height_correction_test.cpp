@@ -81,23 +81,51 @@ TEST(HeightCorrection, SolvesItsEquationWhereItHasRoom) {
     worst = std::max(worst, std::abs(u[i] - fit.dot(basis(i))));
   }
   EXPECT_GT(most, 3 * least);
-  EXPECT_LT(worst, .05 * most);  // the cells leave 3.5 %; k and m a quarter off would leave 11 %
+  // The sweeps leave 6.9 %, ten times as many 2.1 %; k and m a quarter off would leave 14.5 %.
+  EXPECT_LT(worst, .08 * most);
 }
 
-// Pulled down inside, it is the further from 0 at the silhouette, the less stiffly it is tied there.
+// Lifted inside, it is the further from 0 on the silhouette, the less stiffly it is tied there.
 TEST(HeightCorrection, KeepsToTheBaseAsStifflyAsAsked) {
   const Surface surface = strip(.4);
   const HeightCorrection correction(surface, jump_weights(surface));
   HeightCorrection::Workspace workspace = correction.make_workspace();
-  const std::vector<double> z(surface.points.size(), .1);
+  const std::vector<double> z(surface.points.size(), -.1);
   double last = 0;
   for (const double stiffness : {1.0, .5, .1}) {
     correction.fit(std::span<const double>(z), {1, pull_length, stiffness}, workspace);
     double off = 0;
     for (std::size_t i = 0; i < z.size(); ++i)
-      if (std::abs(surface.points[i].x()) > .38) off -= static_cast<double>(correction.at(i, workspace));
+      if (surface.boundary.is_boundary[i]) off += static_cast<double>(correction.at(i, workspace));
     EXPECT_GT(off, 1.02 * last) << stiffness;
     last = off;
+  }
+}
+
+// Seen from its axis a dome is the same in all directions, and so must be its correction, though its silhouette crosses
+// the lattice at all angles.
+TEST(HeightCorrection, IsEvenAlongARoundSilhouette) {
+  const Surface surface = surface_of(test::button(60000, 1, .15));
+  const HeightCorrection correction(surface, jump_weights(surface));
+  HeightCorrection::Workspace workspace = correction.make_workspace();
+  std::vector<double> z;
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    const double share = (surface.points[i] + surface.centre).head<2>().norm() / 1.15;
+    z.push_back(surface.boundary.is_boundary[i] ? 0 : .3 * (1 - std::pow(share, 8)));
+  }
+  for (const double stiffness : {1.0, .1}) {
+    constexpr double height = .2;
+    correction.fit(std::span<const double>(z), {height, pull_length, stiffness}, workspace);
+    double sum = 0, squares = 0, points = 0;
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      if (!surface.boundary.is_boundary[i]) continue;
+      const auto b = static_cast<double>(correction.at(i, workspace)) / height;
+      sum += b, squares += b * b, ++points;
+    }
+    const double mean = sum / points;
+    EXPECT_GT(mean, -.02) << stiffness;
+    EXPECT_LT(mean, .1) << stiffness;
+    EXPECT_LT(std::sqrt(squares / points - mean * mean), .004) << stiffness;
   }
 }
 
@@ -234,6 +262,8 @@ TEST(HeightCorrection, GivesHeightsTheirHeight) {
   HeightCorrection::Workspace workspace = correction.make_workspace();
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   std::vector<double> z = depths(surface);
+  for (std::size_t i = 0; i < z.size(); ++i)
+    if (surface.boundary.is_boundary[i]) z[i] = 0;  // as (9) has it
   correction.compress_heights<double>({z, weight, {.15, pull_length}}, workspace);
   const auto [low, high] = std::ranges::minmax(z);
   EXPECT_NEAR(high - std::min(low, 0.0), .15, 1e-12);

@@ -5,6 +5,8 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
 
 namespace relievo::solver {
 namespace {
@@ -44,8 +46,8 @@ struct Problem {
   ObstacleSolver sheet;
   ObstacleSolver::Workspace workspace = sheet.make_workspace();
 
-  Problem(Stiffness stiffness, const Springs& t, float lowest, float highest)
-      : springs(t), sheet(width, std::move(stiffness)) {
+  Problem(Stiffness stiffness, const Springs& t, float lowest, float highest, std::span<const Tie> ties = {})
+      : springs(t), sheet(width, std::move(stiffness), ties) {
     ObstacleSolver::Fields& f = workspace[0];
     std::ranges::fill(f.lowest, lowest), std::ranges::fill(f.highest, highest);
     for (std::size_t n = 0; n < f.wanted.size(); ++n) f.wanted[n] = load(n);
@@ -67,9 +69,8 @@ Eigen::MatrixXd matrix(const Stiffness& stiffness, const Springs& springs) {
     for (const Eigen::Index side :
          {Eigen::Index{-1}, Eigen::Index{1}, -Eigen::Index{width}, Eigen::Index{width}}) {
       const bool is_fixed = !(bending[static_cast<std::size_t>(i + side)] > 0);
-      const float mean =
-          (tensions[static_cast<std::size_t>(i)] + tensions[static_cast<std::size_t>(i + side)]) / 2;
-      const auto tension = static_cast<double>(is_fixed ? springs.boundary_stiffness * mean : mean);
+      const auto tension = static_cast<double>(
+          (tensions[static_cast<std::size_t>(i)] + tensions[static_cast<std::size_t>(i + side)]) / 2);
       a(i, i) += tension;
       if (is_fixed) continue;
       lap(i, i + side) = 1, a(i, i + side) = -tension;
@@ -104,8 +105,7 @@ TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
                                            {even(10), {}},
                                            {yielding(10, width / 3, .1F, 1), {.02F}},
                                            {yielding(10, width / 3, .1F, .2F), {.02F}},
-                                           {yielding(10, width - 3, 10, .2F), {.02F, .1F}},
-                                           {even(10), {.02F, .1F}}}) {
+                                           {yielding(10, width - 3, 10, .2F), {.02F}}}) {
     const Eigen::MatrixXd a = matrix(stiffness, springs);
     const Eigen::VectorXd f = loads(stiffness), exact = a.llt().solve(f);
     Problem problem(stiffness, springs, -far, far);
@@ -172,6 +172,71 @@ TEST(ObstacleSolver, KeepsApartWhatYields) {
   };
   EXPECT_GT(step_at_middle(.01F), .9F);
   EXPECT_LT(step_at_middle(1), .7F);
+}
+
+// Ties along a line that slants across the cells, x + slope y = start.
+std::vector<Tie> slanting_ties(double start, double slope) {
+  std::vector<Tie> ties;
+  for (double y = 3; y < height - 3; ++y) {
+    const double x = start - slope * (y + .5), left = std::floor(x);
+    ties.push_back({static_cast<std::size_t>(left) + width * static_cast<std::size_t>(y),
+                    Vec2f(static_cast<float>(x - left), .5F), 2});
+  }
+  return ties;
+}
+
+// Returns the mean and the deviation of the field at ties.
+std::pair<double, double> at_ties(const std::vector<float>& b, const std::vector<Tie>& ties) {
+  double sum = 0, squares = 0;
+  for (const auto& [cell, at, stiffness] : ties) {
+    const float below = std::lerp(b[cell], b[cell + 1], at.x()),
+                above = std::lerp(b[cell + width], b[cell + width + 1], at.x());
+    const auto value = static_cast<double>(std::lerp(below, above, at.y()));
+    sum += value, squares += value * value;
+  }
+  const double n = static_cast<double>(ties.size()), mean = sum / n;
+  return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean))};
+}
+
+TEST(ObstacleSolver, ComesNearTheLeastEnergyWithTies) {
+  const std::vector<Tie> ties = slanting_ties(20.3, .37);
+  const Stiffness stiffness = even(4);
+  const Springs springs{.02F, 1};
+  Eigen::MatrixXd a = matrix(stiffness, springs);
+  for (const auto& [cell, at, own] : ties) {
+    Eigen::VectorXd w = Eigen::VectorXd::Zero(a.rows());
+    const auto x = static_cast<double>(at.x()), y = static_cast<double>(at.y());
+    const auto n = static_cast<Eigen::Index>(cell), above = n + static_cast<Eigen::Index>(width);
+    w[n] = (1 - x) * (1 - y), w[n + 1] = x * (1 - y), w[above] = (1 - x) * y, w[above + 1] = x * y;
+    a += static_cast<double>(own * springs.tie_stiffness) * w * w.transpose();
+  }
+  const Eigen::VectorXd f = loads(stiffness), exact = a.llt().solve(f);
+  Problem problem(stiffness, springs, -far, far, ties);
+  const double least = -.5 * f.dot(exact);
+  EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
+  EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
+}
+
+// A plate that is pushed down rests on its ties, evenly along the line, though that crosses the cells anywhere.
+TEST(ObstacleSolver, RestsEvenlyOnTies) {
+  const std::vector<Tie> ties = slanting_ties(20.3, .37);
+  const auto resting = [&](std::span<const Tie> held) {
+    Problem problem(even(16), {.005F, 0, 0}, -far, far, held);
+    std::ranges::fill(problem.workspace[0].wanted, -.01F);
+    return at_ties(problem.solved(), ties);
+  };
+  const auto [free, free_deviation] = resting({});
+  const auto [held, deviation] = resting(ties);
+  EXPECT_LT(free, -.1);
+  EXPECT_GT(held, .1 * free);
+  EXPECT_LT(deviation, .05 * std::abs(free));
+}
+
+// A tie without stiffness does nothing while the field is not below the least value.
+TEST(ObstacleSolver, LeavesTiesUpwards) {
+  const std::vector<Tie> ties = slanting_ties(20.3, .37);
+  Problem tied(even(4), {.02F, 0, -10}, -far, far, ties), free(even(4), {.02F}, -far, far);
+  EXPECT_EQ(tied.solved(), free.solved());
 }
 
 TEST(ObstacleSolver, HasNothingToDoWhereAllIsFixed) {

@@ -1,12 +1,14 @@
 #include "relief/membrane/height_correction.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/memory.h"
 #include "geometry/extent.h"
+#include "geometry/plane.h"
 #include "relief/membrane/soft_clip.h"
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
@@ -20,6 +22,15 @@ constexpr double cell_size = .007, least_cell_size = 2;
 // The bending stiffness of a hinge, as a share of that elsewhere: next to none, but the system stays regular.
 constexpr float hinge = .001F;
 constexpr float infinity = std::numeric_limits<float>::infinity();
+// Nodes are free from the first coverage on, and have a lower limit from the second on: nearer to the silhouette the
+// ties there keep the field up. Limits of nodes there jump from one to the next, as heights rise steeply between them.
+constexpr float least_coverage = 1e-4F, limited_coverage = .9F;
+// The tension outside, as a share of that inside: the field goes on evenly there.
+constexpr float least_tension = .1F;
+// The stiffness of ties per length in cells, where tension across a cell is 1.
+constexpr float tie_per_cell = .8F;
+// The least height of the field on the silhouette, as a share of the relief's: ties give way by about as much.
+constexpr float least_at_silhouette = .03F;
 
 std::vector<Index> free_points(const Boundary& boundary) {
   std::vector<Index> found;
@@ -40,13 +51,17 @@ struct Scale {
   }
 };
 
-// Returns, per node, whether it lies near a point or in a gap between points.
-std::vector<std::uint8_t> is_inside(const Surface& surface, const Lattice& lattice) {
-  std::vector<std::uint8_t> inside(lattice.nodes());
-  for (std::size_t n = 0; n < inside.size(); ++n) inside[n] = lattice.is_reached(n);
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-    if (surface.boundary.is_inside[t]) lattice.mark_nodes_in(surface.triangulation.triangles[t], inside);
-  return inside;
+// Returns per node the share of the lattice around it that the surface covers: 1/2 on the silhouette, smoothly rising
+// to 1 within two cells from it, wherever it passes between the nodes.
+std::vector<float> coverage_of(const Surface& surface, const Lattice& lattice) {
+  std::vector<float> coverage(lattice.nodes());
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    const Triangle& c = surface.triangulation.triangles[t];
+    const Vec2 p = lattice.place(c[0]), u = lattice.place(c[1]) - p, v = lattice.place(c[2]) - p;
+    lattice.spread(p + (u + v) / 3, static_cast<float>(cross(u, v) / 2), coverage);
+  }
+  return coverage;
 }
 
 // Returns, per node, whether it lies at a depth jump.
@@ -73,17 +88,63 @@ std::vector<float> tension_of(std::span<const float> weights, const Lattice& lat
   return tension;
 }
 
-std::vector<float> bending_of(const Surface& surface, const Lattice& lattice, const Scale& scale) {
-  const std::vector<std::uint8_t> inside = is_inside(surface, lattice), jump = is_at_jump(surface, lattice);
-  const std::size_t row = lattice.width();
-  const float stiff = scale.in_cells_squared(HeightCorrection::bending_length);
-  std::vector<float> bending(lattice.nodes());
-  for (std::size_t n = 0; n < bending.size(); ++n) {
-    if (!inside[n]) continue;
-    const bool is_rim = !(inside[n - 1] && inside[n + 1] && inside[n - row] && inside[n + row]);
-    bending[n] = is_rim || jump[n] ? hinge * stiff : stiff;
+using Edge = std::array<Index, 2>;
+
+// Returns the edges that only one triangle inside has.
+std::vector<Edge> silhouette_edges(const Surface& surface) {
+  const Boundary& boundary = surface.boundary;
+  std::vector<Edge> edges, single;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3 && boundary.is_inside[t]; ++i) {
+      const Triangle& corners = surface.triangulation.triangles[t];
+      const auto [a, b] = std::minmax(corners[i], corners[(i + 1) % 3]);
+      if (boundary.is_boundary[a] && boundary.is_boundary[b]) edges.push_back({a, b});
+    }
+  std::ranges::sort(edges);
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const bool is_double = i + 1 < edges.size() && edges[i] == edges[i + 1];
+    if (!is_double) single.push_back(edges[i]);
+    i += is_double;
   }
-  return bending;
+  return single;
+}
+
+// Returns a tie for each cell that the silhouette crosses, in its middle there, as stiff as it is long in cells.
+std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& lattice) {
+  std::vector<solver::Tie> ties;
+  std::vector<Index> tie_of(lattice.nodes(), no_index);
+  for (const auto& [a, b] : silhouette_edges(surface)) {
+    const Vec2 from = lattice.place(a), to = lattice.place(b), middle = (from + to) / 2;
+    const Vec2 corner = middle.array().floor();
+    const auto length = static_cast<float>((to - from).norm());
+    if (!(length > 0)) continue;
+    const std::size_t cell =
+        static_cast<std::size_t>(corner.x()) + lattice.width() * static_cast<std::size_t>(corner.y());
+    if (tie_of[cell] == no_index) {
+      tie_of[cell] = static_cast<Index>(ties.size());
+      ties.push_back({cell, Vec2f::Zero(), 0});
+    }
+    solver::Tie& tie = ties[tie_of[cell]];
+    tie.stiffness += tie_per_cell * length;
+    tie.at += tie_per_cell * length / tie.stiffness * ((middle - corner).cast<float>() - tie.at);
+  }
+  return ties;
+}
+
+// Returns the material, which fades where the coverage does. It is hinged at silhouettes and depth jumps.
+solver::Stiffness stiffness_of(const Surface& surface, std::span<const float> weights, const Lattice& lattice,
+                               std::span<const float> coverage) {
+  const std::vector<std::uint8_t> jump = is_at_jump(surface, lattice);
+  const Scale scale(longer_side_of(surface.points), surface.rho);
+  const float stiff = scale.in_cells_squared(HeightCorrection::bending_length);
+  solver::Stiffness s{std::vector<float>(lattice.nodes()), tension_of(weights, lattice)};
+  for (std::size_t n = 0; n < coverage.size(); ++n) {
+    s.tension[n] *= std::clamp(coverage[n], least_tension, 1.F);
+    if (coverage[n] <= least_coverage) continue;
+    const float inside = std::clamp(2 * coverage[n] - 1, 0.F, 1.F);
+    s.bending[n] = stiff * (jump[n] ? hinge : std::max(hinge, inside * inside * (3 - 2 * inside)));
+  }
+  return s;
 }
 
 }  // namespace
@@ -108,8 +169,9 @@ HeightCorrection::HeightCorrection(const Surface& surface, std::span<const float
     : side_(side),
       cell_(Scale(side, surface.rho).cell),
       lattice_(surface.points, free_points(surface.boundary), cell_),
-      sheet_(lattice_.width(),
-             {bending_of(surface, lattice_, Scale(side, surface.rho)), tension_of(jump_weights, lattice_)}),
+      coverage_(coverage_of(surface, lattice_)),
+      sheet_(lattice_.width(), stiffness_of(surface, jump_weights, lattice_, coverage_),
+             silhouette_ties(surface, lattice_)),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
   const std::vector<double> ranks = depth_ranks(surface.points);
@@ -125,7 +187,7 @@ HeightCorrection::Workspace HeightCorrection::make_workspace() const {
 }
 
 std::size_t HeightCorrection::memory() const {
-  return lattice_.memory() + sheet_.memory() + bytes(ranks_);
+  return lattice_.memory() + sheet_.memory() + bytes(ranks_) + bytes(coverage_);
 }
 
 // Returns how far heights lie above and below the lattice's own in the cells around a node.
@@ -144,10 +206,10 @@ void HeightCorrection::set_limits(float height, float pull, Workspace& w) const 
     f.lowest[n] = -infinity, f.highest[n] = infinity, f.wanted[n] = 0;
     if (!lattice_.is_reached(n)) return;  // in a gap: there are no heights to limit
     const Lattice::Extent rest = rest_around(n, w);
-    f.lowest[n] = -w.heights[n] - rest.lowest;
+    if (coverage_[n] > limited_coverage) f.lowest[n] = -w.heights[n] - rest.lowest;
     f.highest[n] = height - w.heights[n] - rest.highest;
     if (f.lowest[n] > f.highest[n]) f.lowest[n] = f.highest[n] = (f.lowest[n] + f.highest[n]) / 2;
-    f.wanted[n] = pull * (height * ranks_[n] - w.heights[n]);
+    f.wanted[n] = coverage_[n] * pull * (height * ranks_[n] - w.heights[n]);
   });
 }
 
@@ -160,8 +222,9 @@ void HeightCorrection::set_heights(std::span<const Real> heights, Workspace& w) 
 void HeightCorrection::solve(const HeightLimits& limits, Workspace& w) const {
   const double cells = cell_ / (limits.pull_length * side_);
   const auto pull = static_cast<float>(side_ > 0 ? cells * cells : 0);
-  set_limits(static_cast<float>(limits.height), pull, w);
-  sheet_.solve({pull, static_cast<float>(limits.boundary_stiffness)}, w.sheet);
+  const auto height = static_cast<float>(limits.height);
+  set_limits(height, pull, w);
+  sheet_.solve({pull, static_cast<float>(limits.boundary_stiffness), least_at_silhouette * height}, w.sheet);
   lattice_.refine(w.sheet[0].b, w.tiles);
 }
 
@@ -179,11 +242,13 @@ template void HeightCorrection::fit(std::span<const double>, const HeightLimits&
 template <typename Real>
 void HeightCorrection::compress_heights(const Heights<Real>& heights, Workspace& workspace) const {
   const std::span<Real> z = heights.values;
-  if (!(heights.limits.height > 0)) return;
+  if (!(heights.limits.height > 0) || std::ranges::all_of(z, [](Real height) { return height == 0; })) return;
   fit<Real>(z, heights.limits, workspace);
-  // b need not be 0 at the silhouette: w_b makes the sum 0 there.
+  // (9) gives 0 at the silhouette, but b need not be 0 there. The few points that stay below the base would take
+  // height from all others.
   parallel_for(z.size(), [&](std::size_t i) {
-    z[i] = static_cast<Real>(heights.boundary_weight[i]) * (z[i] + static_cast<Real>(at(i, workspace)));
+    z[i] += static_cast<Real>(heights.boundary_weight[i]) * static_cast<Real>(at(i, workspace));
+    z[i] = std::max(z[i], Real(0));
   });
   const SoftClip<Real> clip(z);
   if (!(clip.span() > 0)) return;

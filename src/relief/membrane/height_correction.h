@@ -16,7 +16,7 @@ namespace relievo {
 struct HeightLimits {
   double height;                  // > 0: corrected heights lie between 0 and this
   double pull_length;             // MembraneParams::pull_length
-  double boundary_stiffness = 1;  // (0, 1]: share of the tension across the silhouette that counts
+  double boundary_stiffness = 1;  // (0, 1]: how stiffly the field is tied to 0 along the silhouette
 
   // Returns the limits that membrane parameters stand for.
   static HeightLimits of(double height, const MembraneParams& params);
@@ -26,8 +26,10 @@ struct HeightLimits {
 // close to the one with the least energy, which docs/method.md gives under "The height correction".
 //
 // b lives on a lattice with cells of 0.7 % of the longer side, wider where points are sparse. The limits leave
-// room for what the heights do between nodes. b is 0 where there are no points. Const calls may run
-// concurrently, each with a workspace of its own; results are the same bits for any number of threads.
+// room for what the heights do between nodes. Along the silhouette b is tied to 0 on the curve itself, and at least
+// about 0; the lattice goes on beyond it, so that b does not depend on where the silhouette passes between the
+// nodes. Const calls may run concurrently, each with a workspace of its own; results are the same bits for any
+// number of threads.
 class HeightCorrection {
  public:
   // In shares of the longer side. docs/decisions/height-correction.md says what other lengths do.
@@ -77,7 +79,8 @@ class HeightCorrection {
   };
 
   // Adds b to the heights, clips the few highest and lowest softly (SoftClip) and scales the result to exactly
-  // the height of the limits, base included. A height of 0 changes nothing. For float and double.
+  // the height of the limits, base included. A height of 0 changes nothing, and heights of 0 stay. For float and
+  // double.
   template <typename Real>
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 
@@ -88,6 +91,7 @@ class HeightCorrection {
 
   double side_, cell_;
   Lattice lattice_;
+  std::vector<float> coverage_;  // per node: share of the lattice around it that the surface covers
   solver::ObstacleSolver sheet_;
   std::vector<float> ranks_;  // per node
 };
