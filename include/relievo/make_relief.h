@@ -44,7 +44,8 @@ struct ReliefReport {
   std::optional<Tool> tool;        // that was asked for
   std::optional<ToolReach> reach;  // what it reaches of the front
 
-  // Largest difference to the front before it was made simpler, if a tolerance was given.
+  // Largest difference to the front before it was made simpler, if a tolerance or a number of
+  // triangles was given.
   std::optional<double> simplification_error_mm;
   std::size_t front_triangles = 0, full_triangles = 0;  // of the front, and of the full relief
 
@@ -90,7 +91,11 @@ Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progre
 // Returns the shape that the options ask for; where they give a height, its starting point.
 Shape shape_of(const ReliefOptions& options);
 
-// Returns millimetres per unit of the surface at the width asked for.
+// Returns the options with a width: the one asked for, the largest that a plate of the size asked for leaves with margin
+// and rim, or the default. make_relief() does this itself. Errors: kind option if the plate is too small.
+Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
+
+// Returns millimetres per unit of the surface at the width of the options, see with_width().
 double mm_per_unit(const Surface& surface, const ReliefOptions& options);
 
 }  // namespace relievo

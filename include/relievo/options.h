@@ -18,13 +18,14 @@ namespace relievo {
 
 // Those that are plain numbers; option_fields() has their ranges.
 struct NumericOptions {
-  double width_mm = 100;                 // longer side of the relief, without margin
-  std::optional<double> height_mm;       // lowest to highest point of the front; without it alpha rules
-  std::optional<double> alpha;           // the paper's height coefficient; 4
-  std::optional<double> saturation;      // the paper's beta; see effective_saturation()
-  std::optional<double> detail;          // the paper's gamma; see effective_detail()
-  std::optional<double> steepest_deg;    // steepest slope asked of the surface; 76
-  std::optional<double> draft_deg;       // least angle of walls off the vertical, kept by every triangle; any
+  std::optional<double> width_mm;      // longer side of the relief, without margin; see effective_width_mm()
+  std::optional<double> diameter_mm;   // of the plate, which is then a circle; as small as the relief allows
+  std::optional<double> height_mm;     // lowest to highest point of the front; without it alpha rules
+  std::optional<double> alpha;         // the paper's height coefficient; 4
+  std::optional<double> saturation;    // the paper's beta; see effective_saturation()
+  std::optional<double> detail;        // the paper's gamma; see effective_detail()
+  std::optional<double> steepest_deg;  // steepest slope asked of the surface; 76
+  std::optional<double> draft_deg;     // least angle of walls off the vertical, kept by every triangle; any
   std::optional<double> boundary_width;  // of (7), in sampling distances; see effective_boundary_width()
   double steps = 0;                      // least share of the height that depth jumps take, see Shape
   double corner_mm = 5;                  // radius of the corners of Outline::round
@@ -36,6 +37,7 @@ struct NumericOptions {
   double points = 3e5;                   // visible points to take from what is no cloud
   std::optional<double> resolution_mm;   // step of the solid's samples; width / 700 or rho if that is less
   std::optional<double> tolerance_mm;    // largest error of a mesh made simpler; without it all points stay
+  std::optional<double> triangles;       // most triangles of the solid; any number
 };
 
 // The surface that the solid gets.
@@ -53,14 +55,16 @@ struct ReliefOptions : NumericOptions {
   Mode mode = Mode::exact;
   View view;
   Outline outline = Outline::rectangle;
-  BaseOptions base;  // of kind image: with its height map
+  std::optional<Vec2> plate_mm;  // width and height of the plate; as small as the relief allows
+  BaseOptions base;              // of kind image: with its height map
   WrapOptions wrap;
   Form form = Form::relief;
   std::optional<Tool> tool;  // its reach is reported
   Finish finish = Finish::full;
 
   // The values that rule where none was given: the paper's, or for other methods those that keep most of the
-  // model.
+  // model. The width is that for a plate without a size of its own, see with_width().
+  double effective_width_mm() const { return width_mm.value_or(100); }
   Method effective_method() const;
   double effective_alpha() const { return alpha.value_or(4); }
   double effective_saturation() const;
@@ -69,8 +73,8 @@ struct ReliefOptions : NumericOptions {
 };
 
 // Checks every range, and that options do not contradict each other: height and alpha; a method other than
-// the paper's without a height; saturation or detail for a method that has none. Errors: kind option, naming
-// the option.
+// the paper's without a height; saturation or detail for a method that has none; a size of the plate that its outline
+// cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 
 }  // namespace relievo

@@ -68,18 +68,22 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   return body;
 }
 
-ScreenTransform frame_transform(const PlateMesh& mesh, const RenderOptions& options) {
-  const Vec2 size = 2 * half_plate(mesh, options);
+ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options) {
   const double pad = 2 * frame_padding * std::min(options.width, options.height);
   const Camera& camera = options.camera;
   const Mat3 rotation = rotation_of(camera);
-  const Vec3 seen = rotation.cwiseAbs() * Vec3(size.x(), size.y(), 2 * options.thickness_mm);
+  const Vec3 seen = rotation.cwiseAbs() * size;
   const double fit = std::min((options.width - pad) / std::max(size.x(), seen.x()),
                               (options.height - pad) / std::max(size.y(), seen.y()));
   ScreenTransform transform{options.width, options.height, std::max(fit, 1e-3) * camera.zoom, rotation};
   transform.pan << camera.pan, 0;
   transform.is_front = camera.yaw_deg == 0 && camera.pitch_deg == 0;
   return transform;
+}
+
+ScreenTransform frame_transform(const PlateMesh& mesh, const RenderOptions& options) {
+  const Vec2 size = 2 * half_plate(mesh, options);
+  return camera_transform({size.x(), size.y(), 2 * options.thickness_mm}, options);
 }
 
 }  // namespace relievo

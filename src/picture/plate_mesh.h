@@ -22,6 +22,9 @@ PlateMesh plate_mesh(const Surface& surface);
 // Returns a frame on its plate; it refers to the mesh and to `shown`.
 DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOptions& options);
 
+// Returns the transform that fits a box around the origin into the picture, turned and moved by the camera.
+ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options);
+
 // Returns the transform that fits the plate into the picture, turned and moved by the camera.
 ScreenTransform frame_transform(const PlateMesh& mesh, const RenderOptions& options);
 

@@ -13,7 +13,8 @@ namespace {
 
 // Shares of a tolerance: what a curved base may take, and what turning the edges of thin triangles may.
 constexpr double bending_share = .25, turning_share = .01;
-constexpr double rim_bevel = .3;  // of the rim's height: 17 degrees from upright, so dies come off
+constexpr double least_error_mm = 1e-4;  // files hold no less; a limit of triangles alone stops there
+constexpr double rim_bevel = .3;         // of the rim's height: 17 degrees from upright, so dies come off
 
 // The share of the steepest slope that simpler fronts keep. It is more than the 0.999 that limit_draft() keeps, so that
 // simplification has some room, and less than 1, which leaves some for rounding.
@@ -66,29 +67,37 @@ bool is_mirrored(Form form) {
 
 bool is_simplified_as_plate(const ReliefOptions& options) {
   const bool is_made_whole = is_curved(options) || options.finish == Finish::reachable;
-  return options.tolerance_mm && is_made_whole && options.outline != Outline::none;
+  return is_simplified(options) && is_made_whole && options.outline != Outline::none;
 }
 
 SimplifyOptions simplest_front(const ReliefOptions& options) {
   SimplifyOptions simplest{(1 - (is_curved(options) ? bending_share : turning_share)) *
-                           *options.tolerance_mm};
+                           options.tolerance_mm.value_or(least_error_mm)};
+  if (options.triangles) simplest.most_triangles = static_cast<std::size_t>(*options.triangles);
   if (!options.draft_deg) return simplest;
   simplest.max_slope = front_share * slope_at_draft(*options.draft_deg);
   simplest.tolerance_mm -= std::min(.1 * simplest.tolerance_mm, most_held_mm);
   return simplest;
 }
 
+Vec2 plate_size_of(const ReliefOptions& options) {
+  if (options.diameter_mm) return Vec2::Constant(*options.diameter_mm);
+  return options.plate_mm.value_or(Vec2::Zero());
+}
+
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
   PlateOptions plate{options.margin_mm, options.thickness_mm,           options.outline,
                      options.corner_mm, formed_rim(options, relief_mm), formed_base(options),
                      options.wrap};
+  plate.size_mm = plate_size_of(options);
   if (options.finish == Finish::reachable) plate.tool = options.tool;
-  if (!options.tolerance_mm) return plate;
-  plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
+  if (options.tolerance_mm)
+    plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);
   if (!is_simplified_as_plate(options)) return plate;
   const SimplifyOptions simplest = simplest_front(options);
   plate.simplify_mm = simplest.tolerance_mm;
   plate.max_slope = simplest.max_slope;
+  plate.most_triangles = simplest.most_triangles;
   return plate;
 }
 

@@ -10,13 +10,22 @@ namespace relievo {
 // Returns whether left and right are swapped in this form.
 bool is_mirrored(Form form);
 
-// Returns the plate of a relief as high as that. The options have passed check().
+// Returns whether the solid is to have fewer triangles than its samples give.
+inline bool is_simplified(const ReliefOptions& options) {
+  return options.tolerance_mm || options.triangles;
+}
+
+// Returns width and height of the plate in millimetres; 0 where the relief decides them.
+Vec2 plate_size_of(const ReliefOptions& options);
+
+// Returns the plate of a relief as high as that. The options have passed check(); if they ask for simplification,
+// `triangles` limits those of the front.
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm);
 
-// Returns how simple the front may become, with a tolerance; a curved base takes its share of that.
+// Returns how simple the front may become, if that is asked for; a curved base takes its share of the tolerance.
 SimplifyOptions simplest_front(const ReliefOptions& options);
 
-// Returns whether the tolerance is for make_plate() to use: on a curved ground, whose triangles are not the front's.
+// Returns whether make_plate() is to simplify: on a curved ground, whose triangles are not the front's.
 bool is_simplified_as_plate(const ReliefOptions& options);
 
 // A solid, and what it was before it was bent around a body.

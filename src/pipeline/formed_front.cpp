@@ -45,27 +45,9 @@ std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
 // At arm's length the eye separates about a 700th of a plate that it sees as a whole.
 double sample_step(const Surface& surface, const ReliefOptions& options) {
   constexpr double samples = 700;
-  const double finest = std::min(options.width_mm / samples, surface.rho * mm_per_unit(surface, options));
+  const double finest =
+      std::min(options.effective_width_mm() / samples, surface.rho * mm_per_unit(surface, options));
   return options.resolution_mm.value_or(finest);
-}
-
-// The front with all its points, in the form asked for.
-FormedFront full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
-  const double scale = mm_per_unit(surface, options);
-  FormedFront made;
-  if (options.form == Form::lithophane) {
-    made.height_mm = options.height_mm.value_or(default_lithophane_mm);
-    made.front = lithophane(surface, scale, made.height_mm);
-  } else {
-    made.height_mm = relief.height * scale;
-    made.front = front_in_mm(surface, relief.heights, scale);
-  }
-  if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
-  if (is_sampled(options))
-    made.front = sample_front(made.front, smooth_triangles(surface), {sample_step(surface, options)});
-  if (options.form == Form::mirror) made.front = mirrored(std::move(made.front));
-  if (options.form == Form::die) made.front = as_die(std::move(made.front));
-  return made;
 }
 
 }  // namespace
@@ -81,16 +63,33 @@ HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& h
   return front;
 }
 
-Result<FormedFront> form_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
-                               Progress* progress) {
-  FormedFront made = full_front(surface, relief, options);
-  if (options.tolerance_mm && !is_simplified_as_plate(options)) {
-    RELIEVO_TRY(SimplifiedMesh simpler, simplify(made.front, simplest_front(options), progress));
-    made.front = std::move(simpler.front);
-    made.simplification_error_mm = simpler.error_mm;
+FormedFront full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
+  const double scale = mm_per_unit(surface, options);
+  FormedFront made;
+  if (options.form == Form::lithophane) {
+    made.height_mm = options.height_mm.value_or(default_lithophane_mm);
+    made.front = lithophane(surface, scale, made.height_mm);
+  } else {
+    made.height_mm = relief.height * scale;
+    made.front = front_in_mm(surface, relief.heights, scale);
   }
-  if (!made.front.is_relief.empty()) made.front = relief_alone(made.front);
+  if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
+  if (is_sampled(options))
+    made.front = sample_front(made.front, smooth_triangles(surface), {sample_step(surface, options)});
+  made.full_triangles = made.front.triangles.size();
+  if (options.form == Form::mirror) made.front = mirrored(std::move(made.front));
+  if (options.form == Form::die) made.front = as_die(std::move(made.front));
   return made;
+}
+
+Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& options, Progress* progress) {
+  if (is_simplified(options) && !is_simplified_as_plate(options)) {
+    RELIEVO_TRY(SimplifiedMesh simpler, simplify(full.front, simplest_front(options), progress));
+    full.front = std::move(simpler.front);
+    full.simplification_error_mm = simpler.error_mm;
+  }
+  if (!full.front.is_relief.empty()) full.front = relief_alone(full.front);
+  return full;
 }
 
 double depth_below_ground(const HeightFieldMesh& front) {

@@ -11,16 +11,19 @@ namespace relievo {
 struct FormedFront {
   HeightFieldMesh front;
   double height_mm = 0;                // lowest to highest point
-  double simplification_error_mm = 0;  // largest difference to the front with all points
+  double simplification_error_mm = 0;  // largest difference to the front with all samples
+  std::size_t full_triangles = 0;      // of that
 };
 
 // Returns the points at these heights, in millimetres, on the surface's triangles.
 HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
 
-// Returns the front in the form, with the finish and as simple as the options ask for; of outline `none` what of it is
+// Returns the front with all its samples in the form that the options ask for.
+FormedFront full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options);
+
+// Returns the front as simple as the options ask for, unless make_plate() is to simplify; of outline `none` what of it is
 // relief. Errors: those of simplify().
-Result<FormedFront> form_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
-                               Progress* progress);
+Result<FormedFront> simplified_front(FormedFront full, const ReliefOptions& options, Progress* progress);
 
 // Returns how far the lowest point of the front lies below the ground: 0 or more.
 double depth_below_ground(const HeightFieldMesh& front);

@@ -6,7 +6,7 @@
 
 #include "core/angle.h"
 #include "pipeline/body.h"
-#include "pipeline/formed_front.h"
+#include "pipeline/formed_body.h"
 #include "pipeline/report.h"
 #include "relievo/relief/draft.h"
 #include "relievo/relief/relief.h"
@@ -62,13 +62,14 @@ Result<Relief> shape_relief(const ReliefModel& model, ReliefOptions options, Pro
 }
 
 // From a model to its body, by options that have passed check().
-Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
+Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
   const Surface& surface = model.surface();
+  RELIEVO_TRY(const ReliefOptions options, with_width(surface, asked));
   RELIEVO_CHECK(begin_stage(progress, "relief", .85));
   RELIEVO_TRY(const Relief relief, shape_relief(model, options, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .95));
-  RELIEVO_TRY(const FormedFront formed, form_front(surface, relief, options, progress));
-  RELIEVO_TRY(Body body, make_body(formed.front, formed.height_mm, options));
+  RELIEVO_TRY(FormedBody made, make_formed_body(full_front(surface, relief, options), options, progress));
+  auto& [formed, body] = made;
   ReliefReport report = report_on({surface, relief, formed, body, options});
   return MadeRelief{std::move(body.solid), std::move(report), std::move(body.flat)};
 }
@@ -87,7 +88,7 @@ Shape shape_of(const ReliefOptions& options) {
 }
 
 double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
-  return options.width_mm / Box::of(surface.points).longer_side();
+  return options.effective_width_mm() / Box::of(surface.points).longer_side();
 }
 
 Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {

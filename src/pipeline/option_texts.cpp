@@ -8,6 +8,9 @@
 namespace relievo {
 namespace {
 
+double width_of(const ReliefOptions& options) {
+  return options.effective_width_mm();
+}
 double alpha_of(const ReliefOptions& options) {
   return options.effective_alpha();
 }
@@ -39,9 +42,10 @@ std::string_view method_without_one() {
 // Returns the rows of the relief's height and compression.
 std::vector<ReliefField> shape_rows() {
   return {
-      ReliefField{
-          {"width", "MM", "length of the relief's longer side; margin and rim are added to it", .1, 1e5},
-          &OptionTexts::width_mm},
+      ReliefField{{"width", "MM", "length of the relief's longer side; margin and rim are added to it", .1,
+                   1e5, "100, or as much as diameter or plate allow"},
+                  &OptionTexts::width_mm,
+                  width_of},
       ReliefField{{"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4,
                    1e5, "what alpha gives, 2.4 for a lithophane"},
                   &OptionTexts::height_mm},
@@ -155,6 +159,19 @@ std::vector<ReliefField> plate_rows() {
                   &OptionTexts::outline},
       ReliefField{{"corner", "MM", "radius of the corners of outline round", .01, 1e5},
                   &OptionTexts::corner_mm},
+      ReliefField{
+          {"diameter", "MM",
+           "diameter of a round plate with margin and rim, in which the relief is as large as fits, or as "
+           "width says; in a die, of the piece that it makes",
+           .1, 1e5, "what the relief needs"},
+          &OptionTexts::diameter_mm},
+      ReliefField{
+          {.name = "plate",
+           .unit = "WxH",
+           .help = "width and height of the plate with margin and rim, in which the relief is as large as "
+                   "fits, or as width says: 200x150 or 8inx6in, with outline rectangle, round or ellipse",
+           .otherwise = "what the relief needs"},
+          &OptionTexts::plate},
       ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5}, &OptionTexts::margin_mm},
       ReliefField{{"thickness", "MM", "smallest thickness of the plate", .01, 1e5},
                   &OptionTexts::thickness_mm},
@@ -172,7 +189,7 @@ std::vector<ReliefField> plate_rows() {
   };
 }
 
-// Returns the rows by which the solid is bent, formed and made simpler.
+// Returns the rows by which the solid is bent and formed.
 std::vector<ReliefField> body_rows() {
   return {
       ReliefField{{.name = "base",
@@ -215,12 +232,23 @@ std::vector<ReliefField> body_rows() {
                            "base",
                    .choices = names_of(finish_choices)},
                   &OptionTexts::finish},
+  };
+}
+
+// Returns the rows by which the solid's triangles are chosen.
+std::vector<ReliefField> triangle_rows() {
+  return {
       ReliefField{{"resolution", "MM", "step of the samples of which the solid is made", 1e-3, 100,
                    "a 700th of the width, or the sampling distance if that is less"},
                   &OptionTexts::resolution_mm},
       ReliefField{{"tolerance", "MM", "fewer triangles, nowhere further than this from the full relief", 1e-4,
                    100, "all triangles"},
                   &OptionTexts::tolerance_mm},
+      ReliefField{{"triangles", "N",
+                   "most triangles of the solid, which are finest where it curves; with tolerance as many as "
+                   "that needs, at most these",
+                   100, 1e9, "any number"},
+                  &OptionTexts::triangles},
   };
 }
 
@@ -229,7 +257,8 @@ std::vector<ReliefField> body_rows() {
 std::span<const ReliefField> option_fields() {
   static const std::vector<ReliefField> rows = [] {
     std::vector<ReliefField> all;
-    for (const auto& part : {shape_rows(), limit_rows(), view_rows(), plate_rows(), body_rows()})
+    for (const auto& part :
+         {shape_rows(), limit_rows(), view_rows(), plate_rows(), body_rows(), triangle_rows()})
       all.insert(all.end(), part.begin(), part.end());
     return all;
   }();
@@ -259,6 +288,12 @@ Result<ReliefOptions> parse_options(const OptionTexts& texts) {
   RELIEVO_TRY(options.mode, parse_mode(texts.mode));
   RELIEVO_TRY(options.view, parse_view(static_cast<const ViewTexts&>(texts)));
   RELIEVO_TRY(options.outline, parse_outline(texts.outline));
+  if (options.diameter_mm && options.outline == Outline::rectangle) options.outline = Outline::circle;
+  if (!texts.plate.empty()) {
+    Result<Vec2> size = parse_plate_size(texts.plate);
+    if (!size) return option_error("plate", size.error().expected);
+    options.plate_mm = *size;
+  }
   RELIEVO_TRY(options.base, parse_base(texts.base));
   RELIEVO_TRY(options.wrap, parse_wrap(texts.wrap));
   RELIEVO_TRY(options.form, parse_form(texts.form));

@@ -1,5 +1,8 @@
 #include "relievo/options.h"
 
+#include <string>
+#include <utility>
+
 #include "relievo/core/text.h"
 #include "relievo/option_texts.h"
 
@@ -78,6 +81,29 @@ Result<void> check_draft(const ReliefOptions& options) {
   return {};
 }
 
+// Returns the option that gives the plate a size, and the lesser side of it.
+std::pair<std::string, double> size_of_plate(const ReliefOptions& options) {
+  if (options.diameter_mm) return {"diameter", *options.diameter_mm};
+  return {"plate", options.plate_mm ? options.plate_mm->minCoeff() : 0};
+}
+
+Result<void> check_plate_size(const ReliefOptions& options) {
+  if (!options.diameter_mm && !options.plate_mm) return {};
+  if (options.diameter_mm && options.plate_mm)
+    return option_error("plate", "expected either plate or diameter, found both");
+  if (options.diameter_mm && options.outline != Outline::circle)
+    return option_error("diameter",
+                        cat("expected outline circle, found ", name_in(outline_choices, options.outline)));
+  if (options.plate_mm && !has_free_size(options.outline))
+    return option_error("plate", cat("expected outline rectangle, round or ellipse, found ",
+                                     name_in(outline_choices, options.outline)));
+  const auto [name, least_mm] = size_of_plate(options);
+  const double edge_mm = 2 * (options.margin_mm + options.rim_mm.value_or(0));
+  if (least_mm > edge_mm) return {};
+  return option_error(
+      name, cat("expected more than ", edge_mm, " mm, which margin and rim take, found ", least_mm, " mm"));
+}
+
 // Returns the default that rules: the paper's for its method, another one for all others.
 double by_method(const ReliefOptions& options, double paper, double others) {
   return options.effective_method() == Method::paper ? paper : others;
@@ -109,6 +135,7 @@ Result<void> check(const ReliefOptions& options) {
     return option_error("finish", "expected a tool, which tells what is reachable");
   RELIEVO_CHECK(check_draft(options));
   RELIEVO_CHECK(check_rim(options));
+  RELIEVO_CHECK(check_plate_size(options));
   RELIEVO_CHECK(check_base(options));
   return check_method(options);
 }

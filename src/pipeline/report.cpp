@@ -28,7 +28,6 @@ void report_surface(const Surface& surface, ReliefReport& report) {
   report.diagonal = surface.diagonal;
   report.has_estimated_normals = surface.has_estimated_normals;
   report.has_turned_normals = surface.has_flipped_normals;
-  report.full_triangles = surface.triangulation.triangles.size();
 }
 
 void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport& report) {
@@ -68,7 +67,9 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
   if (options.finish == Finish::reachable) report_reachable_heights(plate, report);
   report.steepest_deg = std::atan(steepest_slope(plate)) * 180 / std::numbers::pi;
   report.front_triangles = plate.front_triangles;
-  if (options.tolerance_mm) report.simplification_error_mm = formed.simplification_error_mm + plate.error_mm;
+  report.full_triangles = formed.full_triangles;
+  if (is_simplified(options))
+    report.simplification_error_mm = formed.simplification_error_mm + plate.error_mm;
   report.tool = options.tool;
   if (options.tool) report.reach = measure_reach(plate, *options.tool);
   if (body.wrap) report.wrap = {body.wrap->diameter_mm(), body.wrap->turn_deg(), body.wrap->mm_per_degree()};

@@ -52,6 +52,7 @@ void append(Cloud& to, const Cloud& from) {
   append_colours(to.colours, to.size(), from.colours, from.size());
   append(to.points, from.points);
   append(to.normals, from.normals);
+  append(to.outlines, from.outlines);
 }
 
 void append(Mesh& to, const Mesh& from) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "geometry/plane.h"
+#include "relievo/core/text.h"
 
 namespace relievo {
 namespace {
@@ -116,34 +117,46 @@ std::vector<Vec2> around(Points points, const Vec2& centre, const std::vector<Si
   return to_polygon(sides, centre, size_around(points, centre, sides, margin_mm));
 }
 
+// Returns the box around points, or the one that the size asked for leaves within its margin.
+Frame inner_frame(Points points, const OutlineOptions& options) {
+  Frame frame = frame_around(points);
+  if (options.size_mm.x() > 0) frame.half = options.size_mm / 2 - Vec2::Constant(options.margin_mm);
+  return frame;
+}
+
 std::vector<Vec2> rectangle_around(Points points, const OutlineOptions& options) {
-  const Frame frame = frame_around(points);
+  const Frame frame = inner_frame(points, options);
+  if (options.size_mm.x() > 0) return to_polygon(sides_of_rectangle(frame, options, 0), frame.centre, 0);
   return around(points, frame.centre, sides_of_rectangle(frame, options, 0), options.margin_mm);
 }
 
 std::vector<Vec2> round_rectangle_around(Points points, const OutlineOptions& options) {
-  const Frame frame = frame_around(points);
+  const Frame frame = inner_frame(points, options);
   const Vec2 half = frame.half + Vec2::Constant(options.margin_mm);
   const double corner = std::min(options.corner_mm, half.minCoeff());
+  if (options.size_mm.x() > 0) return to_polygon(sides_of_rectangle(frame, options, corner), frame.centre, 0);
   return around(points, frame.centre, sides_of_rectangle(frame, options, corner), options.margin_mm);
 }
 
 // An ellipse with axes in the ratio of `shape`.
-std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, double margin_mm) {
+std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, const OutlineOptions& options) {
   const Frame frame = frame_around(points);
-  const Vec2 half = frame.half + Vec2::Constant(margin_mm);
+  const Vec2 centre = round_centre(points, frame.centre, shape), wanted = options.size_mm / 2;
+  if (wanted.x() > 0) return to_polygon(sides_of_ellipse(wanted, wanted.maxCoeff()), centre, 1);
+  const Vec2 half = frame.half + Vec2::Constant(options.margin_mm);
   // Twice the box's diagonal is longer than any circle or ellipse that fits the points.
-  return around(points, round_centre(points, frame.centre, shape), sides_of_ellipse(shape, 2 * half.norm()),
-                margin_mm);
+  return around(points, centre, sides_of_ellipse(shape, 2 * half.norm()), options.margin_mm);
 }
 
 std::vector<Vec2> circle_around(Points points, const OutlineOptions& options) {
-  return ellipse_of_shape(points, Vec2(1, 1), options.margin_mm);
+  return ellipse_of_shape(points, Vec2(1, 1), options);
 }
 
 std::vector<Vec2> ellipse_around(Points points, const OutlineOptions& options) {
-  return ellipse_of_shape(points, frame_around(points).half + Vec2::Constant(options.margin_mm),
-                          options.margin_mm);
+  const bool has_size = options.size_mm.x() > 0;
+  return ellipse_of_shape(
+      points, has_size ? options.size_mm : frame_around(points).half + Vec2::Constant(options.margin_mm),
+      options);
 }
 
 std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
@@ -159,13 +172,14 @@ std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
 struct OutlineShape {
   Outline outline;
   std::vector<Vec2> (*around)(Points points, const OutlineOptions& options);
+  bool has_free_size = false;
   bool is_box = false;
 };
 
 constexpr std::array shapes = {
-    OutlineShape{Outline::rectangle, rectangle_around, true},
-    OutlineShape{Outline::round, round_rectangle_around}, OutlineShape{Outline::circle, circle_around},
-    OutlineShape{Outline::ellipse, ellipse_around}, OutlineShape{Outline::hexagon, hexagon_around}};
+    OutlineShape{Outline::rectangle, rectangle_around, true, true},
+    OutlineShape{Outline::round, round_rectangle_around, true}, OutlineShape{Outline::circle, circle_around},
+    OutlineShape{Outline::ellipse, ellipse_around, true}, OutlineShape{Outline::hexagon, hexagon_around}};
 
 const OutlineShape* shape_of(Outline outline) {
   const auto found = std::ranges::find(shapes, outline, &OutlineShape::outline);
@@ -176,6 +190,24 @@ const OutlineShape* shape_of(Outline outline) {
 
 Result<Outline> parse_outline(std::string_view name) {
   return parse_choice("outline", name, outline_choices);
+}
+
+Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
+  if (const std::size_t middle = text.find('x'); middle != std::string_view::npos) {
+    const Result<double> width = parse_length(text.substr(0, middle), bare),
+                         height = parse_length(text.substr(middle + 1), bare);
+    if (width && height && *width > 0 && *height > 0) return Vec2(*width, *height);
+  }
+  return std::unexpected(
+      Error{ErrorKind::option,
+            {},
+            {},
+            cat("expected width and height such as 200x150 or 8in x 6in, found '", text, "'")});
+}
+
+bool has_free_size(Outline outline) {
+  const OutlineShape* const shape = shape_of(outline);
+  return shape && shape->has_free_size;
 }
 
 bool is_box(Outline outline) {

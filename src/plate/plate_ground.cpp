@@ -34,15 +34,17 @@ std::vector<RimProfilePoint> rim_profile(const RimOptions& rim) {
 PlateOutline outline_of_plate(const HeightFieldMesh& front, const Box& box, const PlateOptions& options) {
   const double beyond_rim = rim_profile(options.rim).back().inward_mm - options.rim.width_mm;
   if (is_box(options.outline)) {
-    const Vec2 corner = Vec2::Constant(options.margin_mm + options.rim.width_mm + beyond_rim),
-               size = box.size().head<2>() + corner + corner;
+    const Vec2 inner = box.size().head<2>();
+    Vec2 corner = Vec2::Constant(options.margin_mm + options.rim.width_mm + beyond_rim);
+    if (options.size_mm.x() > 0) corner = (options.size_mm - inner) / 2 + Vec2::Constant(beyond_rim);
+    const Vec2 size = inner + corner + corner;
     return {{{0, 0}, {size.x(), 0}, size, {0, size.y()}}, corner};
   }
   std::vector<Vec2> hull;
   for (const Index i : front.hull) hull.push_back((front.points[i] - box.min).head<2>());
   const double margin = options.margin_mm + options.rim.width_mm;
-  PlateOutline outline{
-      inset(outline_around(hull, {options.outline, options.corner_mm, margin}), -beyond_rim)};
+  PlateOutline outline{inset(
+      outline_around(hull, {options.outline, options.corner_mm, margin, options.size_mm}), -beyond_rim)};
   Vec2 min = outline.polygon[0];
   for (const Vec2& p : outline.polygon) min = min.cwiseMin(p);
   for (Vec2& p : outline.polygon) p -= min;

@@ -169,7 +169,7 @@ Result<void> simplify_flat(PlateSurface& surface, const PlateOptions& options,
                            std::span<const Vec2> rim_inner) {
   if (options.simplify_mm == 0 || surface.outline.empty()) return {};
   const double ground_z = surface.solid.ground_mm;
-  RELIEVO_CHECK(simplify_surface(surface, {options.simplify_mm, options.max_slope}));
+  RELIEVO_CHECK(simplify_surface(surface, {options.simplify_mm, options.max_slope, options.most_triangles}));
   find_regions(surface.solid, rim_inner, ground_z, options.simplify_mm);
   return {};
 }
@@ -185,7 +185,9 @@ Result<void> follow(PlateSurface& surface, const TargetSurface& target, const Pl
   const double ground_z = surface.solid.ground_mm;
   if (is_simplified || target.is_lifted) lift(surface.solid.points, target, 1);
   if (!is_simplified) return {};
-  if (auto good = simplify_surface(surface, {options.simplify_mm, options.max_slope}); !good) return good;
+  if (auto good = simplify_surface(surface, {options.simplify_mm, options.max_slope, options.most_triangles});
+      !good)
+    return good;
   lift(surface.solid.points, target, -1);
   find_regions(surface.solid, rim_inner, ground_z, options.simplify_mm);
   if (target.is_lifted) lift(surface.solid.points, target, 1);

@@ -8,6 +8,7 @@
 
 #include "quality/image_measures.h"
 #include "quality/model_picture.h"
+#include "quality/surface_measures.h"
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
 
@@ -54,13 +55,15 @@ struct ReliefMetrics::Reference : ModelPicture {
     std::vector<Index> rim;   // points next to the boundary, maybe several times
   };
 
+  SurfaceMeasures surface_measures;
   std::vector<Shading> shadings;
   std::vector<MaskedGaussian> smoothing;  // per scale of the detail
   std::array<Image<float>, 3> curvature;  // smoothed
   Steps steps;
   GaussianFilter window{1.5, safe_distance_px};
 
-  explicit Reference(const Surface& surface) : ModelPicture(surface, longer_side_px, margin_px) {
+  explicit Reference(const Surface& surface)
+      : ModelPicture(surface, longer_side_px, margin_px), surface_measures(surface) {
     if (grid.pixels() == 0) return;
     shadings.resize(lights);
     parallel_for(
@@ -185,6 +188,11 @@ Measures ReliefMetrics::measure(std::span<const double> heights) const {
     m.detail[s] = correlation(curvature[s], reference_->curvature[s], reference_->measured);
   m.order = order_kept(z, reference_->depth, reference_->measured, order_pairs);
   reference_->guard(z, n, heights, m);
+  const SurfaceMeasures& triangles = reference_->surface_measures;
+  const auto [silhouette, jump] = triangles.fray(heights);
+  m.silhouette_fray_deg = silhouette, m.jump_fray_deg = jump;
+  m.facet_angle_deg = triangles.facet_angle_deg(heights);
+  m.longest_side = triangles.longest_side();
   return m;
 }
 

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "picture/body.h"
 #include "picture/draw_body.h"
 #include "picture/plate_mesh.h"
 #include "relievo/picture/preview.h"
+#include "relievo/picture/solid_renderer.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -89,6 +91,21 @@ TEST(OneRenderer, DrawsAFrameAsTheSolidThatIsMadeOfIt) {
             << "material " << static_cast<int>(material) << ", fine " << is_fine << ", yaw " << yaw_deg;
         EXPECT_GT(std::ranges::count(live.pixels, 255), live.width * live.height / 5);
       }
+}
+
+// Its cache must not show, and sizes that no picture has give none.
+TEST(OneRenderer, DrawsASolidTheSameEachTime) {
+  SolidRenderer renderer(std::make_shared<const Solid>(bodies().solid));
+  Picture first, other, again;
+  renderer.render(options_for(Material::plaster, true, 0), first);
+  renderer.render(options_for(Material::bronze, false, 30), other);
+  renderer.render(options_for(Material::plaster, true, 0), again);
+  EXPECT_EQ(different_values(first.image, again.image), 0U);
+  EXPECT_GT(different_values(first.image, other.image), 0U);
+  RenderOptions options;
+  options.width = 0;
+  renderer.render(options, other);
+  EXPECT_TRUE(other.image.pixels.empty());
 }
 
 // The preview's front view, on its wall, shows what the studio shows at this size and zoom.

@@ -39,6 +39,54 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
   EXPECT_NEAR(box.size().z(), 1.5 + made->report.height_mm, 1e-9);
 }
 
+// A relief in the plate of that size: as large as the margin allows, so that a point touches it and none lies beyond.
+void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const Vec2& size) {
+  const auto made = make_relief(model, options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(check_solid(made->solid), "");
+  const std::string_view name = name_in(outline_choices, options.outline);
+  EXPECT_LT((box_of(made->solid).size().head<2>() - size).cwiseAbs().maxCoeff(), 1e-9) << name;
+  const double width = with_width(model.surface(), options)->effective_width_mm();
+  ReliefOptions larger = options;
+  larger.width_mm = width * 1.001;
+  const auto refused = make_relief(model, larger);
+  ASSERT_FALSE(refused) << name;
+  EXPECT_EQ(refused.error().input, "width");
+  // Without a size, the plate of this width is no larger, and in one direction as large.
+  ReliefOptions free = options;
+  free.width_mm = width;
+  free.diameter_mm.reset();
+  free.plate_mm.reset();
+  const Vec2 share = box_of(make_relief(model, free)->solid).size().head<2>().cwiseQuotient(size);
+  if (options.outline == Outline::ellipse) return;  // the small one has axes of another ratio
+  EXPECT_NEAR(share.maxCoeff(), 1, 1e-3) << name;
+}
+
+TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
+  const auto model = prepare(test::joined(test::torus(8000, 1.5, .4), test::sphere(4000, .8)), View{});
+  ASSERT_TRUE(model) << model.error().message();
+  ReliefOptions options;
+  options.height_mm = 2;
+  options.margin_mm = 3;
+  options.rim_mm = 2;
+  options.plate_mm = Vec2(120, 70);
+  for (const Outline outline : {Outline::rectangle, Outline::round, Outline::ellipse}) {
+    options.outline = outline;
+    expect_fitted(*model, options, *options.plate_mm);
+  }
+  options.plate_mm.reset();
+  options.diameter_mm = 80;
+  options.outline = Outline::circle;
+  expect_fitted(*model, options, Vec2(80, 80));
+  options.width_mm = 20;  // smaller than would fit: the plate stays
+  const auto made = make_relief(*model, options);
+  EXPECT_NEAR(box_of(made->solid).size().x(), 80, 1e-9);
+  EXPECT_NEAR(made->report.scale * Box::of(model->surface().points).longer_side(), 20, 1e-9);
+  options.form = Form::die;  // the groove of the coin's rim, and around it as much again and the bevel
+  const Vec3 die = box_of(make_relief(*model, options)->solid).size();
+  EXPECT_GT(die.x(), 80 + 2 * 2);
+}
+
 // Heights at which a vertical line crosses the solid, by looking at every triangle.
 std::vector<double> crossings(const Solid& solid, const Vec2& place) {
   std::vector<double> heights;

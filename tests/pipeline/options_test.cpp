@@ -54,6 +54,23 @@ TEST(Options, HeightAndAlphaContradict) {
   EXPECT_NE(complaint(options).find("found both"), std::string::npos);
 }
 
+TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
+  ReliefOptions options;
+  options.diameter_mm = 80;
+  EXPECT_EQ(complaint(options), "diameter: expected outline circle, found rectangle");
+  options.outline = Outline::circle;
+  EXPECT_EQ(complaint(options), "");
+  options.rim_mm = 35;
+  EXPECT_EQ(complaint(options), "diameter: expected more than 80 mm, which margin and rim take, found 80 mm");
+  options.plate_mm = Vec2(80, 80);
+  EXPECT_EQ(complaint(options), "plate: expected either plate or diameter, found both");
+  options.diameter_mm.reset();
+  EXPECT_EQ(complaint(options), "plate: expected outline rectangle, round or ellipse, found circle");
+  options.outline = Outline::ellipse;
+  options.plate_mm = Vec2(200, 81);
+  EXPECT_EQ(complaint(options), "");
+}
+
 TEST(Options, MethodsHaveWhatTheyNeed) {
   ReliefOptions options;
   options.method = Method::gradient;

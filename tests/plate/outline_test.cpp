@@ -32,9 +32,11 @@ double least_ground(const std::vector<Vec2>& polygon, const std::vector<Vec2>& p
 }
 
 Vec2 size_of(const std::vector<Vec2>& polygon) {
-  Vec2 min = polygon[0], max = polygon[0];
-  for (const Vec2& p : polygon) min = min.cwiseMin(p), max = max.cwiseMax(p);
-  return max - min;
+  return Box::of(polygon).size().head<2>();
+}
+Vec2 middle_of(const std::vector<Vec2>& polygon) {
+  const Box box = Box::of(polygon);
+  return ((box.min + box.max) / 2).head<2>();
 }
 
 // Not symmetric: a bent half of an ellipse, far from the origin.
@@ -78,6 +80,27 @@ TEST(OutlineAround, ACirclesPolygonLiesWithinAHundredthOfIt) {
       EXPECT_LE((p - centre).norm(), radius + .01);
     }
   }
+}
+
+TEST(OutlineAround, HasTheSizeAskedForAndItsCentre) {
+  for (const auto& [name, outline] : outline_choices) {
+    if (!has_free_size(outline) && outline != Outline::circle) continue;
+    const Vec2 size = outline == Outline::circle ? Vec2(90, 90) : Vec2(120, 90);
+    const std::vector<Vec2> small = outline_around(lump(), {outline, 12, 3}),
+                            sized = outline_around(lump(), {outline, 12, 3, size});
+    EXPECT_LT((size_of(sized) - size).norm(), 1e-9) << name;
+    const Vec2 shift = middle_of(sized) - middle_of(small);
+    EXPECT_LT(shift.norm(), outline == Outline::ellipse ? .5 : 1e-9)
+        << name;  // of another shape than the small one
+  }
+}
+
+TEST(PlateSize, IsTwoLengthsOfAnyUnit) {
+  for (const char* const text : {"200x150", "20cm x 15cm", "200 mmx150mm", "100+100x150,0"})
+    EXPECT_EQ(parse_plate_size(text).value_or(Vec2::Zero()), Vec2(200, 150)) << text;
+  EXPECT_EQ(parse_plate_size("8x6in", LengthUnit::inch).value_or(Vec2::Zero()), 25.4 * Vec2(8, 6));
+  for (const char* const text : {"", "x", "200", "200x", "x150", "200x150x3", "-200x150", "0x150", "200*150"})
+    EXPECT_FALSE(parse_plate_size(text)) << text;
 }
 
 TEST(OutlineAround, RoundCornersWithinTheMarginKeepTheRectanglesSize) {

@@ -1,11 +1,20 @@
 // The material of a body in a picture, and the direction of its light.
 #pragma once
 
+#include <array>
+
+#include "relievo/core/choice.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
 
 enum class Material { plaster, silver, bronze, walnut, porcelain };  // porcelain is lit from behind
+
+inline constexpr std::array<Choice<Material>, 5> material_choices{{{"plaster", Material::plaster},
+                                                                   {"silver", Material::silver},
+                                                                   {"bronze", Material::bronze},
+                                                                   {"walnut", Material::walnut},
+                                                                   {"porcelain", Material::porcelain}}};
 
 // Towards the lamp, seen from the plate: from the upper left, where people assume light to come from (Kleffner
 // and Ramachandran, On the perception of shape from shading, 1992), and 30 degrees above the plate, which is

@@ -8,6 +8,7 @@
 
 #include "relievo/core/choice.h"
 #include "relievo/core/error.h"
+#include "relievo/core/length.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
@@ -32,10 +33,20 @@ struct OutlineOptions {
   Outline outline = Outline::rectangle;
   double corner_mm = 5;  // radius of the corners of `round`; limited to half the shorter side
   double margin_mm = 5;  // least distance from the enclosed points to the outline
+  // Width and height of the outline, whatever margin they leave; 0: as small as the margin allows. Only of outlines
+  // that has_free_size() names; a circle has its width alone.
+  Vec2 size_mm = Vec2::Zero();
 };
 
 // Returns the outline of that name. Errors: kind option for any other name.
 Result<Outline> parse_outline(std::string_view name);
+
+// Returns width and height in millimetres of a text such as "200x150" or "8in x 6in": two lengths, see parse_length().
+// Errors: kind option for any other text; the error's input is empty, for the caller to fill in.
+Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUnit::mm);
+
+// Returns whether the outline may have any width and height: those with straight sides or axes.
+bool has_free_size(Outline outline);
 
 // Returns true if the outline is the box around the points, grown by the margin: opposite sides are equal,
 // and upright or level.
@@ -46,7 +57,8 @@ bool is_box(Outline outline);
 // curve and nowhere further than 0.01 mm from it. Outlines are centred on the points' box (rectangle, round)
 // or on the smallest enclosing circle or ellipse (others, approximated, so at most 1 % too large), and all
 // but `round` are as small as their centre allows. Rounded corners that would cut into the margin move the
-// sides out. The result is empty for no points and for `none`.
+// sides out. With a size, the outline has that size and keeps its centre. The result is empty for no points and for
+// `none`.
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options);
 
 }  // namespace relievo

@@ -20,11 +20,14 @@ struct SimplifyOptions {
   // Limit of the slopes of the new triangles, unless the front's own are steeper. Needles may exceed it by
   // what a micrometre makes of their slope.
   double max_slope = std::numeric_limits<double>::infinity();
+  // Limit of the number of triangles: when it is reached, the error may exceed the tolerance. The points that are
+  // always kept may need more.
+  std::size_t most_triangles = std::numeric_limits<std::size_t>::max();
 };
 
 // Returns the front with fewer points, nowhere further from the original than `tolerance_mm`: a Delaunay
 // triangulation to which the points of the front, or of its edges, with the largest error are added until
-// none exceeds the tolerance. The highest and the lowest point stay. Flat ground becomes few triangles and
+// none exceeds the tolerance, or the number of triangles its limit. The highest and the lowest point stay. Flat ground becomes few triangles and
 // stays flat: the points on its boundary are kept. If `is_relief` is given, all points on the relief's rim are
 // kept and the result's `is_relief` is set. Errors: kind option for a tolerance that is not positive; kind
 // geometry for a front without triangles, or whose triangles are not a Delaunay triangulation up to rounding,

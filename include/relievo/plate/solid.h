@@ -53,7 +53,11 @@ struct PlateOptions {
   // The tolerance of simplify() for the whole front, ground included; 0, or a plate without ground, keeps all triangles.
   double simplify_mm = 0;
   double max_slope = std::numeric_limits<double>::infinity();  // of the simplified triangles, see simplify()
+  std::size_t most_triangles = std::numeric_limits<std::size_t>::max();  // the same
   std::optional<Tool> tool = {};  // makes the front, on a plane base, as this tool leaves it
+  // Width and height of the outline, which then leaves whatever margin it leaves, see OutlineOptions; 0: none. In a die
+  // that has a groove for the rim they are those of the piece that it makes.
+  Vec2 size_mm = Vec2::Zero();
 };
 
 // The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.

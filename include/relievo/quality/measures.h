@@ -13,7 +13,8 @@ namespace relievo {
 
 // Measured on a picture whose longer side is 512 pixels, inside the silhouette and at least 5 pixels away from it and
 // from the model's depth jumps; halo, steep_share, height_used and the steps use all pixels. The model is given by the
-// scan's own normals and depths. A noisy relief can win on shading, so read the measures together.
+// scan's own normals and depths. Fray, facets and sides are those of the surface's triangles. A noisy relief can win on
+// shading, so read the measures together.
 struct Measures {
   double shading = 0;    // mean SSIM of Lambert shadings under 16 lights, [-1, 1]; 1 equals the model
   double angle_deg = 0;  // mean angle between the relief's and the model's normals
@@ -21,12 +22,16 @@ struct Measures {
       detail{};      // correlation of div n, smoothed by Gaussians of 1, 2 and 4 pixels, [-1, 1]
   double order = 0;  // share of random pairs whose depths differ by more than 1 % that keep their order
 
-  double halo = 0;         // standard deviation of the background, of the height
-  double steep_share = 0;  // of the silhouette's pixels, steeper than 80 degrees
-  double height_used = 0;  // from the 1st to the 99th percentile, of the height
-  double jump_step = 0;    // greatest difference left across a depth jump of the model, of the height
-  double rim_step = 0;     // greatest height next to the silhouette, one edge away, of the height
-  double height = 0;       // lowest to highest, base included, in the surface's units
+  double halo = 0;                 // standard deviation of the background, of the height
+  double steep_share = 0;          // of the silhouette's pixels, steeper than 80 degrees
+  double height_used = 0;          // from the 1st to the 99th percentile, of the height
+  double jump_step = 0;            // greatest difference left across a depth jump of the model, of the height
+  double rim_step = 0;             // greatest height next to the silhouette, one edge away, of the height
+  double silhouette_fray_deg = 0;  // scatter of the tilt beside the silhouette, around its smooth course
+  double jump_fray_deg = 0;        // the same beside depth jumps, on both sides
+  double facet_angle_deg = 0;      // 99 % of neighbouring triangles differ by less where the model is smooth
+  double longest_side = 0;         // of the triangles, in sampling distances
+  double height = 0;               // lowest to highest, base included, in the surface's units
 };
 
 // Measures reliefs against their model. Const calls may run concurrently.
@@ -35,7 +40,7 @@ class ReliefMetrics {
   static constexpr int longer_side_px = 512;
   static constexpr int margin_px = 8;  // of background around it
 
-  // Copies what it needs. No pixels are measured if the surface has no area.
+  // Views the surface, which must outlive it. No pixels are measured if the surface has no area.
   explicit ReliefMetrics(const Surface& surface);
   ReliefMetrics(ReliefMetrics&&) noexcept;
   ~ReliefMetrics();

@@ -187,7 +187,9 @@ class Simplifier {
       const Approximation now(chosen_);
       if (now.mesh().triangles.empty()) break;
       const std::size_t before = chosen_.size();
-      const std::vector<Candidate> worst = find_worst(now);
+      std::vector<Candidate> worst = find_worst(now);
+      if (worst.empty()) return finished(now);
+      limit(worst, now);
       if (worst.empty()) return finished(now);
       for (const Candidate& c : worst) choose(c);
       if (chosen_.size() == before) break;
@@ -202,6 +204,20 @@ class Simplifier {
     chosen_.push_back(candidate.place);
     original_.push_back(candidate.point);
     if (!front_.colours.empty()) colours_.push_back(candidate.colour);
+  }
+
+  // Leaves the candidates that the limit of triangles allows. With a limit the half with the smaller errors waits: when it
+  // is reached, errors are then alike everywhere. A point adds two triangles, one on the hull adds one.
+  void limit(std::vector<Candidate>& worst, const Approximation& now) const {
+    constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
+    const bool is_beyond_hull = worst[0].error == 0;
+    if (options_.most_triangles == unlimited || is_beyond_hull) return;
+    const std::size_t triangles = now.mesh().triangles.size(),
+                      left =
+                          options_.most_triangles > triangles ? (options_.most_triangles - triangles) / 2 : 0;
+    const std::size_t count = std::min(left, (worst.size() + 1) / 2);
+    std::ranges::stable_sort(worst, std::ranges::greater(), &Candidate::error);
+    worst.resize(count);
   }
 
   Candidate at_point(Index triangle, double error, Index i) const {

@@ -1,0 +1,29 @@
+// Pictures of a finished solid from any side, for programs that show what a file contains.
+#pragma once
+
+#include <memory>
+
+#include "relievo/picture/render.h"
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// Draws one solid as render_preview() does, on nothing (opacity 0) but its soft shadow. Not for concurrent use.
+class SolidRenderer {
+ public:
+  // Shares the solid, which has at least one triangle.
+  explicit SolidRenderer(std::shared_ptr<const Solid> solid);
+  SolidRenderer(SolidRenderer&&) noexcept;
+  ~SolidRenderer();
+
+  // Overwrites the picture; leaves it without pixels for a size out of range. Zoom 1 fits the solid into the picture; the
+  // middle of its box, at the height of its ground, is what the camera turns around. Lengths in the options
+  // (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own.
+  void render(const RenderOptions& options, Picture& picture);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace relievo

@@ -1,0 +1,159 @@
+#include "quality/surface_measures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/angle.h"
+#include "core/quantile.h"
+#include "geometry/plane.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t half_window = 12;  // of the moving mean, in triangles
+constexpr double smooth_turn_deg = 10;   // between the model's normals at both ends of an edge
+constexpr double quantile_of_facets = .99;
+
+// Returns the gradient of heights in a triangle.
+Vec2 gradient(const Surface& surface, std::span<const double> heights, Index t) {
+  const auto& [a, b, c] = surface.triangulation.triangles[t];
+  const auto at = [&](Index i) -> Vec2 { return surface.points[i].head<2>(); };
+  const Vec2 u = at(b) - at(a), v = at(c) - at(a);
+  const double p = heights[b] - heights[a], q = heights[c] - heights[a], twice_area = cross(u, v);
+  return Vec2(p * v.y() - q * u.y(), q * u.x() - p * v.x()) / twice_area;
+}
+
+// The squares of what is left of the angles along chains when their moving means are taken off.
+struct Residuals {
+  double sum = 0;
+  std::size_t count = 0;
+
+  void add(const std::vector<double>& values) {
+    const std::size_t n = values.size();
+    if (n <= 2 * half_window) return;
+    for (std::size_t i = half_window; i + half_window < n; ++i) {
+      double mean = 0;
+      for (std::size_t k = i - half_window; k <= i + half_window; ++k) mean += values[k];
+      const double rest = values[i] - mean / (2 * half_window + 1);
+      sum += rest * rest, ++count;
+    }
+  }
+  double deviation() const { return count > 0 ? std::sqrt(sum / static_cast<double>(count)) : 0; }
+};
+
+// Joins sides of triangles to chains.
+template <typename Rim>
+std::vector<std::vector<Rim>> chains_of(const std::vector<Rim>& rims, std::size_t points) {
+  std::vector<Index> next(points, no_index);
+  std::vector<std::uint8_t> is_reached(points), is_used(rims.size());
+  for (Index r = 0; r < rims.size(); ++r) next[rims[r].from] = r, is_reached[rims[r].to] = 1;
+  std::vector<std::vector<Rim>> chains;
+  const auto follow = [&](Index r) {
+    std::vector<Rim> chain;
+    for (; r != no_index && !is_used[r]; r = next[rims[r].to]) is_used[r] = 1, chain.push_back(rims[r]);
+    if (!chain.empty()) chains.push_back(std::move(chain));
+  };
+  for (Index r = 0; r < rims.size(); ++r)
+    if (!is_reached[rims[r].from]) follow(r);
+  for (Index r = 0; r < rims.size(); ++r) follow(r);
+  return chains;
+}
+
+}  // namespace
+
+SurfaceMeasures::SurfaceMeasures(const Surface& surface) : surface_(surface) {
+  find_outlines();
+  find_pairs();
+}
+
+// A side lies on the silhouette if both ends do, and at a jump if both ends are on the same edge of its wall.
+void SurfaceMeasures::find_outlines() {
+  const Boundary& boundary = surface_.boundary;
+  std::vector<Rim> silhouette, front, back;
+  const auto is_on = [&](Index i, WallSide side) {
+    return !boundary.wall_side.empty() && boundary.wall_side[i] == side;
+  };
+  for (Index t = 0; t < surface_.triangulation.triangles.size(); ++t) {
+    if (!boundary.is_inside[t]) continue;
+    const Triangle& corners = surface_.triangulation.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = corners[k], b = corners[(k + 1) % 3], apex = corners[(k + 2) % 3];
+      if (boundary.is_boundary[a] && boundary.is_boundary[b] && !boundary.is_boundary[apex])
+        silhouette.push_back({a, b, t});
+      if (!is_on(apex, WallSide::none)) continue;
+      if (is_on(a, WallSide::front) && is_on(b, WallSide::front)) front.push_back({a, b, t});
+      if (is_on(a, WallSide::back) && is_on(b, WallSide::back)) back.push_back({a, b, t});
+    }
+  }
+  silhouettes_ = chains_of(silhouette, surface_.points.size());
+  jumps_ = chains_of(front, surface_.points.size());
+  for (Chain& chain : chains_of(back, surface_.points.size())) jumps_.push_back(std::move(chain));
+}
+
+void SurfaceMeasures::find_pairs() {
+  const double least_cosine = std::cos(to_radians(smooth_turn_deg));
+  std::vector<std::array<Index, 3>> sides;  // lower point, higher point, triangle
+  for (Index t = 0; t < surface_.triangulation.triangles.size(); ++t) {
+    if (!surface_.boundary.is_inside[t]) continue;
+    const Triangle& corners = surface_.triangulation.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [a, b] = std::minmax(corners[k], corners[(k + 1) % 3]);
+      const bool is_turning =
+          static_cast<double>(surface_.normals[a].dot(surface_.normals[b])) < least_cosine;
+      if (!is_turning && !surface_.boundary.is_across_wall(a, b)) sides.push_back({a, b, t});
+    }
+  }
+  std::ranges::sort(sides);
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i)
+    if (sides[i][0] == sides[i + 1][0] && sides[i][1] == sides[i + 1][1])
+      smooth_pairs_.push_back({sides[i][2], sides[i + 1][2]});
+}
+
+SurfaceMeasures::Fray SurfaceMeasures::fray(std::span<const double> heights) const {
+  const auto deviation = [&](const std::vector<Chain>& chains) {
+    Residuals residuals;
+    for (const Chain& chain : chains) {
+      std::vector<double> across, along;
+      for (const Rim& rim : chain) {
+        const Vec2 side = (surface_.points[rim.to] - surface_.points[rim.from]).head<2>().normalized();
+        const Vec2 slope = gradient(surface_, heights, rim.triangle);
+        across.push_back(to_degrees(std::atan(cross(side, slope))));
+        along.push_back(to_degrees(std::atan(side.dot(slope))));
+      }
+      residuals.add(across);
+      residuals.add(along);
+    }
+    // Both components together: the mean of their squares has half the count.
+    return std::sqrt(2.) * residuals.deviation();
+  };
+  return {deviation(silhouettes_), deviation(jumps_)};
+}
+
+double SurfaceMeasures::facet_angle_deg(std::span<const double> heights) const {
+  if (smooth_pairs_.empty()) return 0;
+  const auto normal = [&](Index t) {
+    const Vec2 g = gradient(surface_, heights, t);
+    return Vec3(-g.x(), -g.y(), 1).normalized();
+  };
+  std::vector<float> angles;
+  angles.reserve(smooth_pairs_.size());
+  for (const Pair& pair : smooth_pairs_)
+    angles.push_back(static_cast<float>(
+        to_degrees(std::acos(std::clamp(normal(pair.left).dot(normal(pair.right)), -1., 1.)))));
+  return static_cast<double>(quantile(angles, quantile_of_facets));
+}
+
+double SurfaceMeasures::longest_side() const {
+  double longest = 0;
+  for (std::size_t t = 0; t < surface_.triangulation.triangles.size(); ++t) {
+    if (!surface_.boundary.is_inside[t]) continue;
+    const Triangle& corners = surface_.triangulation.triangles[t];
+    for (std::size_t k = 0; k < 3; ++k)
+      longest = std::max(
+          longest, (surface_.points[corners[k]] - surface_.points[corners[(k + 1) % 3]]).head<2>().norm());
+  }
+  return surface_.rho > 0 ? longest / surface_.rho : 0;
+}
+
+}  // namespace relievo

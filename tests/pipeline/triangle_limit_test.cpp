@@ -1,0 +1,107 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "relievo/make_relief.h"
+#include "relievo/relief/relief.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+const ReliefModel& model() {
+  static const ReliefModel made =
+      *prepare(test::joined(test::torus(12000, 1.5, .4), test::sphere(8000, .8)), View{});
+  return made;
+}
+
+ReliefOptions options_with(double triangles) {
+  ReliefOptions options;
+  options.width_mm = 50;
+  options.height_mm = 3;
+  options.triangles = triangles;
+  return options;
+}
+
+TEST(TriangleLimit, IsNearlyReachedByAllBodies) {
+  const double most = 60000;
+  for (const Outline outline : {Outline::rectangle, Outline::none})
+    for (const BaseKind base : {BaseKind::plane, BaseKind::wave}) {
+      if (outline == Outline::none && base != BaseKind::plane) continue;
+      ReliefOptions options = options_with(most);
+      options.outline = outline;
+      options.base.kind = base;
+      const auto made = make_relief(model(), options);
+      ASSERT_TRUE(made) << made.error().message();
+      EXPECT_EQ(check_solid(made->solid), "");
+      const auto count = static_cast<double>(made->solid.triangles.size());
+      EXPECT_LE(count, most);
+      EXPECT_GT(count, .9 * most);
+      ASSERT_TRUE(made->report.simplification_error_mm);
+      EXPECT_NEAR(made->report.height_mm, 3, 1e-9);
+    }
+}
+
+TEST(TriangleLimit, CostsLessTheMoreItAllows) {
+  double before = 1;
+  for (const double most : {15000, 30000, 60000}) {
+    const auto made = make_relief(model(), options_with(most));
+    ASSERT_TRUE(made) << made.error().message();
+    EXPECT_LT(*made->report.simplification_error_mm, .7 * before);
+    before = *made->report.simplification_error_mm;
+  }
+}
+
+TEST(TriangleLimit, ChangesNothingWhereFewerAreMade) {
+  ReliefOptions options = options_with(1e6);
+  const auto limited = make_relief(model(), options);
+  options.triangles.reset();
+  const auto whole = make_relief(model(), options);
+  ASSERT_TRUE(limited && whole);
+  EXPECT_EQ(limited->solid.triangles, whole->solid.triangles);
+}
+
+TEST(TriangleLimit, ActsTogetherWithATolerance) {
+  ReliefOptions options = options_with(1e6);
+  options.tolerance_mm = .02;
+  const auto within = make_relief(model(), options);
+  ASSERT_TRUE(within);
+  EXPECT_LE(*within->report.simplification_error_mm, .02);
+  options.triangles = std::floor(.7 * static_cast<double>(within->solid.triangles.size()));
+  const auto fewer = make_relief(model(), options);
+  ASSERT_TRUE(fewer) << fewer.error().message();
+  EXPECT_LE(static_cast<double>(fewer->solid.triangles.size()), *options.triangles);
+  EXPECT_GT(*fewer->report.simplification_error_mm, .02);
+}
+
+TEST(TriangleLimit, GivesFewNeedles) {
+  const auto made = make_relief(model(), options_with(20000));
+  ASSERT_TRUE(made) << made.error().message();
+  const Solid& solid = made->solid;
+  std::vector<double> angles;
+  for (std::size_t t = 0; t < solid.front_triangles; ++t) {
+    std::array<Vec3, 3> p;
+    for (std::size_t i = 0; i < 3; ++i) p[i] = solid.points[solid.triangles[t][i]];
+    const bool is_ground = std::ranges::all_of(p, [&](const Vec3& q) { return q.z() == solid.ground_mm; });
+    if (is_ground) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec2 u = (p[(i + 1) % 3] - p[i]).head<2>(), v = (p[(i + 2) % 3] - p[i]).head<2>();
+      const double angle = std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) * 180 / std::numbers::pi;
+      angles.push_back(angle);
+    }
+  }
+  std::ranges::sort(angles);
+  EXPECT_GT(angles[angles.size() / 100], 3);
+}
+
+TEST(TriangleLimit, RefusesFewerThanTheOutlineNeeds) {
+  const auto made = make_relief(model(), options_with(500));
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().input, "triangles");
+  EXPECT_NE(made.error().message().find("expected at least"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace relievo
