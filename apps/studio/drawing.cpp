@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "common/make_report.h"
 #include "common/wording.h"
+#include "relievo/core/text.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/surface.h"
 
@@ -48,6 +50,7 @@ ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
           .triangles = surface.triangulation.triangles.size(),
           .hull = surface.triangulation.hull.size(),
           .size = box.size().head<2>(),
+          .corner = box.min.head<2>(),
           .area = area_of(surface),
           .noise = surface.removed_noise,
           .rho = surface.rho,
@@ -72,15 +75,38 @@ Shape SharedToneCurve::shape_of(const ReliefOptions& options) {
   return shape;
 }
 
+Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const ReliefOptions& options) {
+  ReliefOptions sized = options;
+  if (!options.diameter_mm && !options.plate_mm) {
+    most_mm_.reset();
+    return sized;
+  }
+  const Vec2 plate = options.plate_mm.value_or(Vec2::Constant(options.diameter_mm.value_or(0)));
+  const std::vector<double> sizes{plate.x(),         plate.y(),
+                                  options.margin_mm, options.rim_mm.value_or(0),
+                                  options.corner_mm, static_cast<double>(options.outline)};
+  if (sizes != sizes_ || !most_mm_) {
+    sized.width_mm.reset();
+    RELIEVO_TRY(const ReliefOptions largest, relievo::with_width(surface, sized));
+    sizes_ = sizes;
+    most_mm_ = largest.width_mm;
+  }
+  sized.width_mm = options.width_mm.value_or(*most_mm_);
+  if (*sized.width_mm > *most_mm_)
+    return relievo::with_width(surface, sized);  // which says why it is refused
+  return sized;
+}
+
 Drawing::Drawing(std::shared_ptr<const ReliefModel> model, std::size_t left_out)
     : model_(std::move(model)),
       facts_(facts_of(model_->surface(), left_out)),
       renderer_(model_),
-      frames_(*model_) {}
+      frames_(*model_),
+      piece_(model_) {}
 
 // The same as relievo::mm_per_unit(), without its walk over all points.
 double Drawing::mm_per_unit(const ReliefOptions& options) const {
-  return options.width_mm / facts_.size.maxCoeff();
+  return options.effective_width_mm() / facts_.size.maxCoeff();
 }
 
 RenderOptions Drawing::render_options(const PictureRequest& request) const {
@@ -113,39 +139,88 @@ std::uint64_t Drawing::number_of_scene(const RenderOptions& render) {
   return ++scene_;
 }
 
-void Drawing::render(const Shown& shown, const RenderOptions& render, PictureAnswer& answer) {
-  const auto start = std::chrono::steady_clock::now();
-  renderer_.render(shown, render, answer.picture);
-  answer.drawing_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+// Returns the corners of the relief's box from the middle of the piece.
+std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
+                                                      const ReliefOptions& options) const {
+  if (options.wrap.kind != WrapKind::none) return std::nullopt;
+  const double scale = mm_per_unit(options);
+  Vec2 corner = facts_.corner * scale;
+  const Vec2 size = facts_.size * scale;
+  if (options.form == Form::mirror || options.form == Form::die) corner.x() = -corner.x() - size.x();
+  const Box box = Box::of(solid.points);
+  const Vec2 low = corner + (solid.shift - (box.min + box.max) / 2).head<2>();
+  return {{low, low + size}};
 }
 
-PictureAnswer Drawing::picture(const PictureRequest& request) {
+// A piece has the height of the frame, which is met or the largest that can be reached.
+Result<SolidRenderer*> Drawing::piece(const PictureRequest& request, const CachedFrame& cached,
+                                      bool is_fine) {
+  constexpr double within = .999;  // of the largest height, so that rounding does not put it out of reach
+  ReliefOptions options = request.options;
+  const Frame& frame = *cached.frame;
+  if (request.u || !frame.is_height_met)
+    options.height_mm = within * frame.height * cached.stretch * mm_per_unit(options);
+  return piece_.renderer(options, cat(request.key, " ", options.height_mm.value_or(0)), is_fine);
+}
+
+Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& render,
+                           const CachedFrame& cached, PictureAnswer& answer) {
+  const auto start = std::chrono::steady_clock::now();
+  if (is_plain(request.options)) {
+    renderer_.render(shown(cached), render, answer.picture);
+    const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
+    answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
+    const Vec2 half = facts_.size * render.mm_per_unit / 2;
+    answer.relief_mm = {-half, half};
+  } else {
+    RELIEVO_TRY(SolidRenderer* const solid, piece(request, cached, render.is_fine));
+    solid->render(render, answer.picture);
+    answer.size_mm = size_mm(*piece_.solid());
+    answer.relief_mm = relief_in(*piece_.solid(), request.options);
+  }
+  answer.drawing_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return {};
+}
+
+Result<PictureAnswer> Drawing::picture(PictureRequest request) {
+  RELIEVO_TRY(request.options, plate_width_.with_width(model_->surface(), request.options));
   RenderOptions options = render_options(request);
   PictureAnswer answer;
   answer.scene = number_of_scene(options);
+  answer.width_mm = request.options.effective_width_mm();
+  answer.most_width_mm = plate_width_.most_mm();
   if (request.is_original) {
     options.has_shadows = false;  // the model's own depth would bury the ground in them
-    render(renderer_.original(), options, answer);
+    renderer_.render(renderer_.original(), options, answer.picture);
     return answer;
   }
   const CachedFrame cached = this->frame(request, options.is_fine);
-  render(shown(cached), options, answer);
   const Frame& frame = *cached.frame;
   answer.compression = frame.options.shape.compression;
   answer.height_mm = frame.height * cached.stretch * options.mm_per_unit;
   answer.is_height_met = frame.is_height_met;
   answer.curve = sample_curve(frame.options.shape, facts_.delta);
   if (cached.is_new) answer.times = frame.times;
+  RELIEVO_CHECK(draw(request, options, cached, answer));
   return answer;
 }
 
-std::vector<float> Drawing::profile(const PictureRequest& request, const SectionLine& line) {
+Result<double> Drawing::reachable_height(const ReliefOptions& asked) {
+  RELIEVO_TRY(const ReliefOptions options, plate_width_.with_width(model_->surface(), asked));
+  return frames_.highest(frame_options({options, {}, std::nullopt, false, {}})) * mm_per_unit(options);
+}
+
+Result<std::vector<float>> Drawing::profile(PictureRequest request, const SectionLine& line) {
+  RELIEVO_TRY(request.options, plate_width_.with_width(model_->surface(), request.options));
   const RenderOptions options = render_options(request);
   const auto along = [&](const Shown& shown) {
     return renderer_.profile(shown, options, line.from, line.to, line.samples);
   };
   if (request.is_original) return along(renderer_.original());
-  return along(shown(frame(request, true)));
+  const CachedFrame cached = frame(request, true);
+  if (is_plain(request.options)) return along(shown(cached));
+  RELIEVO_CHECK(piece(request, cached, false));
+  return section_of(*piece_.solid(), line);
 }
 
 }  // namespace relievo::app::studio

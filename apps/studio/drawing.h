@@ -1,6 +1,7 @@
 // Draws the model that is shown: makes its frames and pictures, and knows its facts.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,15 +11,17 @@
 #include "relievo/picture/render.h"
 #include "studio/curve_samples.h"
 #include "studio/frame_cache.h"
+#include "studio/piece.h"
+#include "studio/solid_section.h"
 
 namespace relievo::app::studio {
 
 // Facts about a model that hold as long as it is shown.
 struct ModelFacts {
   std::size_t input_points = 0, visible_points = 0, points = 0, triangles = 0, hull = 0;
-  Vec2 size = Vec2::Zero();  // of the relief, in the scan's units
-  double area = 0;           // of the relief without its ground, in those units squared
-  double noise = 0;          // that was removed, in sampling distances
+  Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // of the relief's box, in the scan's units
+  double area = 0;   // of the relief without its ground, in those units squared
+  double noise = 0;  // that was removed, in sampling distances
   double rho = 0, delta = 0;
   Mat3 rotation = Mat3::Identity();
   std::vector<std::string> remarks;
@@ -27,6 +30,7 @@ struct ModelFacts {
 
 struct PictureRequest {
   ReliefOptions options;     // its view is ignored
+  std::string key;           // the options as text: equal for equal options
   std::optional<double> u;   // of the compression, in place of a height, which then follows the shape
   bool is_original = false;  // shows the model itself in place of its relief
   RenderOptions render;      // its lengths are set from the options
@@ -36,6 +40,11 @@ struct PictureAnswer {
   Picture picture;
   std::uint64_t scene = 0;  // number of what the picture shows besides the relief: plate, camera, light ...
   double drawing_s = 0;
+  double width_mm = 0;                  // of the relief's longer side
+  Vec3 size_mm = Vec3::Zero();          // of the piece
+  std::optional<double> most_width_mm;  // that fits into a plate of the size asked for
+  std::optional<std::array<Vec2, 2>>
+      relief_mm;  // corners of the relief's box from the middle of the piece; none if bent
 
   // The rest tells how a relief was made; a picture of the model itself leaves it at its defaults.
   Compression compression;  // that was found
@@ -45,10 +54,18 @@ struct PictureAnswer {
   CurveSamples curve;
 };
 
-// A line on the plate, in mm from the middle of the relief.
-struct SectionLine {
-  Vec2 from, to;
-  std::size_t samples = 400;
+// Knows the width that a plate of a given size leaves for a relief, which is the same while neither changes.
+class PlateWidth {
+ public:
+  // Returns the options with their width, see relievo::with_width().
+  Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
+
+  // Returns the largest width that fits into the plate of the last call; nothing if it had no size.
+  std::optional<double> most_mm() const { return most_mm_; }
+
+ private:
+  std::vector<double> sizes_;  // on which the largest width depends
+  std::optional<double> most_mm_;
 };
 
 // Keeps a tone curve as long as its points do, so that frames with the same curve are known to be the same.
@@ -72,11 +89,17 @@ class Drawing {
   // Keeps showing the last frame, whatever is asked for, until another model is drawn.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws a frame, with one solve unless the picture is to be fine.
-  PictureAnswer picture(const PictureRequest& request);
+  // Draws a frame, with one solve unless the picture is to be fine, or the finished piece if the options ask for more than
+  // a rectangular plate. Errors: those of make_relief().
+  Result<PictureAnswer> picture(PictureRequest request);
 
-  // Returns heights in mm, see FrameRenderer::profile().
-  std::vector<float> profile(const PictureRequest& request, const SectionLine& line);
+  // Returns the height in mm of the highest relief that the options allow, see FrameCache::highest().
+  // Errors: those of with_width().
+  Result<double> reachable_height(const ReliefOptions& options);
+
+  // Returns heights above the ground in mm along a line in the picture from the front, of the finished piece where
+  // pictures show it. Errors: those of picture().
+  Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:
   RenderOptions render_options(const PictureRequest& request) const;
@@ -84,13 +107,18 @@ class Drawing {
   FrameOptions frame_options(const PictureRequest& request);
   CachedFrame frame(const PictureRequest& request, bool is_exact);
   std::uint64_t number_of_scene(const RenderOptions& render);
-  void render(const Shown& shown, const RenderOptions& render, PictureAnswer& answer);
+  std::optional<std::array<Vec2, 2>> relief_in(const Solid& solid, const ReliefOptions& options) const;
+  Result<SolidRenderer*> piece(const PictureRequest& request, const CachedFrame& cached, bool is_fine);
+  Result<void> draw(const PictureRequest& request, const RenderOptions& render, const CachedFrame& cached,
+                    PictureAnswer& answer);
 
   std::shared_ptr<const ReliefModel> model_;
   ModelFacts facts_;
   FrameRenderer renderer_;
   FrameCache frames_;
+  Piece piece_;
   SharedToneCurve tone_curve_;
+  PlateWidth plate_width_;
   bool is_frozen_ = false;
   std::uint64_t scene_ = 0;
   RenderOptions scene_options_;  // of the scene of that number

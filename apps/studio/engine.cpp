@@ -1,5 +1,7 @@
 #include "studio/engine.h"
 
+#include <atomic>
+#include <chrono>
 #include <functional>
 #include <mutex>
 #include <new>
@@ -29,12 +31,12 @@ Result<Scene> load_scan(ScanSource& source, const std::function<bool()>& is_unwa
   }
 }
 
-// Tabs may show what they were opened with while another tab has opened another scan.
-std::unexpected<Error> other_scan(const ScanSource& wanted, const LoadedScan& shown) {
-  return std::unexpected(Error{ErrorKind::geometry,
-                               wanted.name,
-                               {},
-                               cat("expected this scan to be open, found ", shown.input().name)});
+// Returns a number that no other model has, of this run or of others: the clock's milliseconds, or more.
+std::uint64_t new_model_number() {
+  using std::chrono::duration_cast, std::chrono::milliseconds, std::chrono::system_clock;
+  static std::atomic<std::uint64_t> next =
+      static_cast<std::uint64_t>(duration_cast<milliseconds>(system_clock::now().time_since_epoch()).count());
+  return next++;
 }
 
 struct ShownModel {
@@ -51,10 +53,28 @@ struct Shared {
   ShownModel shown;
 };
 
+// The making of a piece, for those who watch or cancel it.
+struct Making {
+  std::string stage;
+  double fraction = 0;
+  Progress* progress = nullptr;  // null while nothing is made
+};
+
+// The piece that was made last.
+struct MadePiece {
+  std::shared_ptr<const MadeRelief> made;
+  std::string key;
+  std::uint64_t model = 0;
+};
+
 }  // namespace
 
 struct Engine::State {
   Guarded<Shared> shared;
+
+  Guarded<Making> making;
+  std::mutex making_mutex;  // guards `piece`; pictures are drawn meanwhile
+  MadePiece piece;
 
   std::mutex drawing_mutex;  // guards what follows up to the session
   std::optional<Drawing> drawing;
@@ -70,7 +90,7 @@ struct Engine::State {
     preparation.points = [this, view](Progress& progress) { return points(view, progress); };
     preparation.view = view;
     preparation.ready = [this](const Preparation::Model& model) {
-      shared.with([&](Shared& s) { s.shown = {model, s.scan, s.shown.number + 1}; });
+      shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
     };
     session.open(std::move(preparation));
   }
@@ -138,6 +158,16 @@ void Engine::open(const ScanSource& input, const ViewTexts& view) {
   state_->prepare(parse_view(view).value_or(View{}));
 }
 
+void Engine::show(const ScanSource& input, const ViewTexts& view) {
+  const SessionStatus session = state_->session.status();
+  const auto [is_open, has_view] = state_->shared.with(
+      [&](const Shared& s) { return std::pair(is_same(s.wanted, input), s.view == view); });
+  if (!is_open || session.error)
+    open(input, view);
+  else if (!has_view)
+    (void)choose_view(view);  // a view that cannot be read is refused by the next picture
+}
+
 Result<void> Engine::choose_view(const ViewTexts& view) {
   const Result<View> parsed = parse_view(view);
   if (!parsed) return std::unexpected(parsed.error());
@@ -156,11 +186,24 @@ void Engine::cancel() {
   state_->shared.with([](Shared& s) { s.unread = nullptr; });
 }
 
+bool Engine::is_idle() {
+  return state_->session.wait_until_idle(std::chrono::milliseconds(0));
+}
+
 EngineStatus Engine::status() const {
   const SessionStatus session = state_->session.status();
+  const auto [stage, fraction] =
+      state_->making.with([](const Making& m) { return std::pair(m.stage, m.fraction); });
   return state_->shared.with([&](const Shared& s) {
-    return EngineStatus{session.is_preparing, session.stage, session.fraction, session.error,
-                        s.shown.scan.input(), s.wanted,      s.view,           s.shown.number};
+    return EngineStatus{session.is_preparing,
+                        session.stage,
+                        session.fraction,
+                        session.error,
+                        s.shown.scan.input(),
+                        s.view,
+                        stage,
+                        fraction,
+                        s.shown.number};
   });
 }
 
@@ -183,6 +226,13 @@ Result<std::vector<float>> Engine::profile(const PictureRequest& request, const 
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
   return drawing->profile(request, line);
+}
+
+Result<double> Engine::reachable_height(const ReliefOptions& options) {
+  const std::lock_guard lock(state_->drawing_mutex);
+  Drawing* const drawing = state_->current_drawing();
+  if (!drawing) return nothing_open();
+  return drawing->reachable_height(options);
 }
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
@@ -211,18 +261,40 @@ Result<ExportedFile> Engine::make_file(const FileRequest& request) {
     for (const FileFormat& each : file_formats()) names.push_back(each.name);
     return not_one_of("format", names, request.format);
   }
+  RELIEVO_TRY(const auto made, piece(request.options, request.key));
+  return export_file(*made, *known, request.heightmap_px);
+}
+
+Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options,
+                                                        const std::string& key) {
   const ShownModel shown = state_->shared.with([](const Shared& s) { return s.shown; });
   const auto& model = shown.model;
   if (!model) return nothing_open();
-  if (request.input && !is_same(*request.input, shown.scan.input()))
-    return other_scan(*request.input, shown.scan);
-  const ReliefOptions& options = request.options;
   if (options.view != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected auto, as the model was prepared");
-  RELIEVO_TRY(const MadeRelief made, make_relief(*model, options));
-  return export_file(made, *known, request.heightmap_px);
+  const std::lock_guard lock(state_->making_mutex);
+  MadePiece& last = state_->piece;
+  if (last.made && last.key == key && last.model == shown.number) return last.made;
+  Progress progress([this](std::string_view stage, double fraction) {
+    state_->making.with([&](Making& m) {
+      m.stage = stage;
+      m.fraction = fraction;
+    });
+  });
+  state_->making.with([&](Making& m) { m = {"waiting", 0, &progress}; });
+  Result<MadeRelief> made = make_relief(*model, options, &progress);
+  state_->making.with([](Making& m) { m = {}; });
+  if (!made) return std::unexpected(made.error());
+  last = {std::make_shared<const MadeRelief>(std::move(*made)), key, shown.number};
+  return last.made;
+}
+
+void Engine::cancel_making() {
+  state_->making.with([](Making& m) {
+    if (m.progress) m.progress->cancel();
+  });
 }
 
 }  // namespace relievo::app::studio

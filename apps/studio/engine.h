@@ -21,15 +21,17 @@ struct EngineStatus {
   double fraction = 0;
   std::optional<Error> error;  // of the last opening or change of view
   ScanSource input;            // of the scan that is shown
-  ScanSource wanted;           // of the scan that was last asked for, and its view
-  ViewTexts view;
-  std::uint64_t model = 0;  // number of the model that is shown; 0 is none yet
+  ViewTexts view;              // that was last asked for
+  std::string making_stage;    // of the file that is being made; empty if there is none
+  double making_fraction = 0;
+  std::uint64_t model =
+      0;  // number of the model that is shown, of no other model of any engine; 0 is none yet
 };
 
-// A file to make. Without a source it is made of the scan that is shown, whichever that is.
+// A file to make of the scan that is shown.
 struct FileRequest {
-  std::optional<ScanSource> input;
   ReliefOptions options;
+  std::string key;     // the options as text: equal for equal options
   std::string format;  // one of file_formats()
   int heightmap_px = 2048;
 };
@@ -44,11 +46,17 @@ class Engine {
   // and for good if that fails.
   void open(const ScanSource& input, const ViewTexts& view);
 
+  // Does what of open() and choose_view() is needed to show the scan in that view: nothing, if it is shown already.
+  void show(const ScanSource& input, const ViewTexts& view);
+
   // Prepares another view of the scan that was opened last or, if that failed, of the one that is shown.
   // Errors: those of parse_view(); kind geometry if there is no scan.
   Result<void> choose_view(const ViewTexts& view);
 
   void cancel();
+
+  // Returns whether nothing runs, not even work that was cancelled.
+  bool is_idle();
 
   EngineStatus status() const;
 
@@ -59,15 +67,22 @@ class Engine {
   Result<PictureAnswer> picture(const PictureRequest& request);
   Result<std::vector<float>> profile(const PictureRequest& request, const SectionLine& line);
 
+  // See Drawing.
+  Result<double> reachable_height(const ReliefOptions& options);
+
   // Draws the scan itself as it looks in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);
 
   // Returns the names of the six sides, the one that shows most first.
   Result<std::vector<std::string>> suggest_views();
 
+  // Returns the finished relief as export writes it, and keeps it for the next call with these options. Errors: see
+  // make_file(); kind cancelled after cancel_making().
+  Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options, const std::string& key);
+  void cancel_making();
+
   // Returns a file of the relief, the same bytes as `relievo make` writes. Errors: those of make_relief(); kind option for
-  // an unknown format, or if the view that the options ask for is not the one prepared; kind geometry if another scan
-  // is shown.
+  // an unknown format, or if the view that the options ask for is not the one prepared.
   Result<ExportedFile> make_file(const FileRequest& request);
 
  private:

@@ -9,6 +9,9 @@ namespace {
 // A first guess within this factor of the last height is worth a solve; farther away it would miss.
 constexpr double farthest_guess = 1.5;
 
+// From here on weights are 1 to the last bit.
+constexpr double uncompressed_u = 1e12;
+
 // Stretching by less than this is not seen while things move.
 constexpr double largest_stretch = .03;
 
@@ -44,6 +47,13 @@ CachedFrame FrameCache::quick(const FrameOptions& wanted) {
   const double stretch = made.frame->height > 0 ? *wanted.height / made.frame->height : 0;
   if (!(std::abs(stretch - 1) < largest_stretch)) return exact(wanted);
   return last_ = {made.frame, stretch, made.is_new};
+}
+
+double FrameCache::highest(FrameOptions wanted) {
+  wanted.height = std::nullopt;
+  wanted.shape.compression.u = uncompressed_u;
+  maker_.make(wanted, spare_);
+  return spare_.height;
 }
 
 std::optional<FrameOptions> FrameCache::guess(const FrameOptions& wanted) const {

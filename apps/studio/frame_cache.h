@@ -27,6 +27,10 @@ class FrameCache {
   // last frame's height suggests. The stretch makes up for what that misses, at most 3 %.
   CachedFrame quick(const FrameOptions& wanted);
 
+  // Returns the height of the highest relief of that shape: that without compression. Steps at depth jumps, which a locked
+  // height may add, are left out.
+  double highest(FrameOptions wanted);
+
   // Returns what the last call returned; a null frame before the first.
   CachedFrame last() const { return last_; }
 
@@ -37,6 +41,7 @@ class FrameCache {
   FrameMaker maker_;
   std::array<Frame, 2> frames_;  // the newest, and the one before, which the next overwrites
   std::size_t newest_ = 0;
+  Frame spare_;                       // of highest()
   std::optional<FrameOptions> made_;  // options of the newest frame; none before the first
   CachedFrame last_;
   double elasticity_ = 1;  // d ln height / d ln u, estimated from the last two frames

@@ -44,7 +44,8 @@ void refuse(Response& response, int status, const std::string& text) {
   response.set_header("Connection", "close");
 }
 
-RequestGuard::RequestGuard() : token_(random_token()) {}
+RequestGuard::RequestGuard(const std::string& former_token)
+    : token_(former_token.size() == 32 ? former_token : random_token()) {}
 
 std::string RequestGuard::address() const {
   return cat("http://127.0.0.1:", port_, "/", token_, "/");

@@ -15,10 +15,11 @@ namespace relievo::app::studio {
 // request.
 void refuse(httplib::Response& response, int status, const std::string& text);
 
-// Draws a random token for the page's address and checks that requests know it and come from there.
+// Has a random token for the page's address and checks that requests know it and come from there.
 class RequestGuard {
  public:
-  RequestGuard();
+  // Takes the token of a former run, or draws one if there is none.
+  explicit RequestGuard(const std::string& former_token);
 
   void set_port(int port) { port_ = port; }
   const std::string& token() const { return token_; }

@@ -122,7 +122,8 @@ Result<PictureRequest> picture_request(const Json& json) {
   if (!options) return std::unexpected(options.error());
   Result<RenderOptions> render = render_from(json);
   if (!render) return std::unexpected(render.error());
-  PictureRequest request{std::move(*options), std::nullopt, flag(json, "original"), *render};
+  PictureRequest request{std::move(*options), json.value("options", Json::object()).dump(), std::nullopt,
+                         flag(json, "original"), *render};
   if (json.contains("u")) {
     request.u = number(json, "u", {0, 1e12, 1});
     if (!request.u) return wrong("u", "expected a number that is not negative");
@@ -173,10 +174,9 @@ Json to_json(const EngineStatus& status) {
             {"model", status.model},
             {"error", nullptr},
             {"input", nullptr},
-            {"wanted", nullptr},
+            {"making", {{"stage", status.making_stage}, {"fraction", status.making_fraction}}},
             {"shown", to_json(status.view)}};
   if (status.error) json["error"] = error_json(*status.error);
-  if (!status.wanted.name.empty()) json["wanted"] = to_json(status.wanted);
   if (status.model > 0) json["input"] = to_json(status.input);
   return json;
 }
@@ -200,12 +200,19 @@ Json to_json(const ModelFacts& facts) {
 }
 
 Json to_json(const PictureAnswer& answer) {
+  Json relief;
+  if (answer.relief_mm)
+    for (const Vec2& corner : *answer.relief_mm) relief.push_back({corner.x(), corner.y()});
   return {{"width", answer.picture.image.width},
           {"height", answer.picture.image.height},
           {"pixels_per_mm", answer.picture.pixels_per_mm},
           {"scene", answer.scene},
           {"curve", {{"share", rounded(answer.curve.share)}, {"kept", rounded(answer.curve.kept)}}},
           {"height_mm", answer.height_mm},
+          {"width_mm", answer.width_mm},
+          {"size_mm", to_json(answer.size_mm)},
+          {"most_width_mm", answer.most_width_mm ? Json(*answer.most_width_mm) : Json()},
+          {"relief_mm", relief},
           {"is_height_met", answer.is_height_met},
           {"u", number_or_null(answer.compression.u)},
           {"beta", answer.compression.beta},

@@ -1,17 +1,17 @@
-// The studio's web server: the page's files and the engine behind it, for this machine alone.
+// The studio's web server: the page's files and the engines behind it, for this machine alone.
 #pragma once
 
 #include <chrono>
 #include <memory>
 #include <string>
 
-#include "studio/engine.h"
+#include "studio/actions.h"
 #include "studio/store.h"
 
 namespace relievo::app::studio {
 
 struct ServerOptions {
-  int port = 0;  // 0 takes a free one
+  int port = 0;  // 0 takes that of the last run, or if it is taken a free one
   std::string
       page_folder;  // where page files are read from instead of the program itself; for work on the page
   std::chrono::seconds linger{15};  // how long to go on when the last page has gone
@@ -21,7 +21,7 @@ struct ServerOptions {
 // were sent to this machine by name, and that no other web site sent.
 class Server {
  public:
-  Server(Engine& engine, const Store& store, const ServerOptions& options);
+  Server(Actions& actions, const Store& store, const ServerOptions& options);
   ~Server();
 
   // Opens the port and returns the page's address. Errors: kind option if the port is taken.

@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <span>
 
 #include "common/files.h"
@@ -18,9 +20,11 @@ namespace relievo::app::studio {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 constexpr int most_studios = 9;  // that keep their work side by side
 constexpr const char* unfinished_name = "upload";
+constexpr const char* documents = "documents";  // the folder
 
 std::string read_text(const fs::path& path) {
   const auto bytes = read_file(path.string());
@@ -40,6 +44,28 @@ std::string plain_name(const std::string& name) {
   return plain.empty() || plain == "." || plain == ".." ? "scan" : plain;
 }
 
+bool is_id(std::string_view id) {
+  return id.size() == 16 && id.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+Result<void> check_id(const std::string& id) {
+  if (is_id(id)) return {};
+  return std::unexpected(Error{ErrorKind::input, "document", {}, "expected the name of a document"});
+}
+
+// Returns the scan of a document's present step.
+std::optional<ScanSource> input_of(const std::string& state) {
+  const Json json = Json::parse(state, nullptr, false);
+  if (!json.is_object() || !json.value("steps", Json()).is_array() ||
+      !json.value("at", Json()).is_number_unsigned())
+    return std::nullopt;
+  const Json& steps = json["steps"];
+  const auto at = json["at"].get<std::size_t>();
+  if (at >= steps.size() || !steps[at].is_object()) return std::nullopt;
+  const Result<ScanSource> input = input_from_json(steps[at].value("input", Json()), "document");
+  return input ? std::optional(*input) : std::nullopt;
+}
+
 }  // namespace
 
 std::string Store::default_folder() {
@@ -54,6 +80,8 @@ Store::Store(const std::string& folder) : folder_(folder) {
   for (int i = 1; i <= most_studios; ++i) {
     folder_ = i == 1 ? folder : cat(folder, "-", i);
     if (claim(folder_)) {
+      take_former_state();
+      remove_old_scans();
       if (i > 1) notice_ = cat("Another studio uses ", folder, ": this one keeps its work in ", folder_, ".");
       return;
     }
@@ -72,48 +100,96 @@ bool Store::claim(const std::string& folder) {
   std::vector<fs::path> unfinished;  // of a studio that was killed
   for (const auto& entry : fs::directory_iterator(folder, ignored))
     if (entry.path().stem() == unfinished_name) unfinished.push_back(entry.path());
+  for (const auto& entry : fs::directory_iterator(fs::path(folder) / documents, ignored))
+    if (entry.path().extension() != ".json" && entry.path().extension() != ".picture")
+      unfinished.push_back(entry.path());
   for (const fs::path& path : unfinished) fs::remove(path, ignored);
   return true;
 }
 
-Result<void> Store::write(const std::string& name, std::string_view text) const {
+Result<void> Store::write(const std::string& name, std::string_view text, bool is_durable) const {
   std::error_code ignored;
   const fs::path path = fs::path(folder_) / name;
   fs::create_directories(path.parent_path(), ignored);
-  const OutputFile file{path.string(), bytes_of(text)};
-  return write_files({&file, 1});
+  TemporaryFile file(path.string());
+  RELIEVO_CHECK(file.append(std::as_bytes(std::span(text))));
+  RELIEVO_CHECK(file.finish(is_durable));
+  return file.keep(path.string());
 }
 
-std::string Store::state() const {
-  return read_text(fs::path(folder_) / "state.json");
+std::string document_of(const ScanSource& input) {
+  const bool is_sample = !input.sample.empty();
+  const std::string hash = hash_of(is_sample ? cat("sample:", input.sample) : cat("path:", input.path));
+  return hash.substr(hash.find(':') + 1);
 }
 
-Result<void> Store::keep_state(std::string_view state) const {
-  return write("state.json", state);
+std::string Store::document(const std::string& id) const {
+  return is_id(id) ? read_text(fs::path(folder_) / documents / (id + ".json")) : std::string();
 }
 
-std::vector<ScanSource> Store::recent() const {
-  std::vector<ScanSource> inputs;
-  const nlohmann::json json =
-      nlohmann::json::parse(read_text(fs::path(folder_) / "recent.json"), nullptr, false);
-  if (!json.is_array()) return inputs;
-  for (const nlohmann::json& entry : json) {
-    Result<ScanSource> input = input_from_json(entry, "recent.json");
+Result<void> Store::keep_document(const std::string& id, std::string_view state, bool is_moving) const {
+  RELIEVO_CHECK(check_id(id));
+  return write(cat(documents, "/", id, ".json"), state, !is_moving);
+}
+
+Result<void> Store::keep_picture(const std::string& id, std::string_view picture) const {
+  RELIEVO_CHECK(check_id(id));
+  return write(cat(documents, "/", id, ".picture"), picture, false);
+}
+
+void Store::touch(const std::string& id) const {
+  std::error_code ignored;
+  if (is_id(id))
+    fs::last_write_time(fs::path(folder_) / documents / (id + ".json"), fs::file_time_type::clock::now(),
+                        ignored);
+}
+
+std::vector<std::string> Store::newest_documents() const {
+  std::vector<std::pair<fs::file_time_type, std::string>> found;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder_) / documents, ignored))
+    if (entry.path().extension() == ".json" && is_id(entry.path().stem().string()))
+      found.emplace_back(entry.last_write_time(ignored), entry.path().stem().string());
+  std::ranges::sort(found, std::greater());
+  if (found.size() > most_recent) found.resize(most_recent);
+  std::vector<std::string> ids;
+  for (auto& [time, id] : found) ids.push_back(std::move(id));
+  return ids;
+}
+
+std::vector<KeptDocument> Store::recent() const {
+  std::vector<KeptDocument> all;
+  for (const std::string& id : newest_documents()) {
+    const std::optional<ScanSource> input = input_of(document(id));
+    if (!input) continue;
     std::error_code ignored;
-    if (input && (!input->sample.empty() || fs::exists(input->path, ignored))) inputs.push_back(*input);
+    const bool is_there = !input->sample.empty() || fs::exists(input->path, ignored);
+    all.push_back({id, *input, is_there, read_text(fs::path(folder_) / documents / (id + ".picture"))});
   }
-  return inputs;
+  return all;
 }
 
-Result<void> Store::remember(const ScanSource& input) const {
-  std::vector<ScanSource> inputs = recent();
-  std::erase_if(inputs, [&](const ScanSource& other) { return is_same(other, input); });
-  inputs.insert(inputs.begin(), input);
-  if (inputs.size() > most_recent) inputs.resize(most_recent);
-  nlohmann::json json = nlohmann::json::array();
-  for (const ScanSource& entry : inputs) json.push_back(to_json(entry));
-  remove_old_scans(inputs);
-  return write("recent.json", json.dump(1));
+// Versions before kept one document only.
+void Store::take_former_state() const {
+  const fs::path former = fs::path(folder_) / "state.json";
+  const std::string state = read_text(former);
+  const std::optional<ScanSource> input = input_of(state);
+  if (!input || !keep_document(document_of(*input), state, false)) return;
+  std::error_code ignored;
+  fs::remove(former, ignored);
+}
+
+StudioAddress Store::address() const {
+  const Json json = Json::parse(read_text(fs::path(folder_) / "address.json"), nullptr, false);
+  if (!json.is_object() || !json.value("port", Json()).is_number_integer() ||
+      !json.value("token", Json()).is_string())
+    return {};
+  return {json["port"].get<int>(), json["token"].get<std::string>()};
+}
+
+// Who knows the address may use the studio: nobody else can read the folder.
+void Store::keep_address(const StudioAddress& address) const {
+  (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump());
 }
 
 DroppedScan::DroppedScan(const std::string& folder, const std::string& name)
@@ -139,15 +215,22 @@ Result<ScanSource> Store::keep(DroppedScan& scan) const {
   return ScanSource{{}, path.string(), scan.name_, hash};
 }
 
-void Store::remove_old_scans(const std::vector<ScanSource>& recent) const {
+std::optional<ScanSource> Store::find_scan(const std::string& hash) const {
+  const std::string digits = hash.substr(hash.find(':') + 1);
+  if (!is_id(digits)) return std::nullopt;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(fs::path(folder_) / "scans" / digits, ignored))
+    return ScanSource{{}, entry.path().string(), entry.path().filename().string(), hash};
+  return std::nullopt;
+}
+
+void Store::remove_old_scans() const {
+  std::set<fs::path> used;
+  for (const KeptDocument& kept : recent()) used.insert(fs::path(kept.input.path).parent_path());
   std::error_code ignored;
   std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(fs::path(folder_) / "scans", ignored)) {
-    const auto is_in_it = [&](const ScanSource& input) {
-      return fs::path(input.path).parent_path() == entry.path();
-    };
-    if (std::ranges::none_of(recent, is_in_it)) old.push_back(entry.path());
-  }
+  for (const auto& entry : fs::directory_iterator(fs::path(folder_) / "scans", ignored))
+    if (!used.contains(entry.path())) old.push_back(entry.path());
   for (const fs::path& path : old) fs::remove_all(path, ignored);
 }
 

@@ -1,6 +1,6 @@
 // Sliders with a number beside them, and small helpers for the page's elements.
 
-import {typedNumber} from "./lengths.js";
+import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "./lengths.js";
 
 export const $ = (selector, root = document) => root.querySelector(selector);
 
@@ -17,6 +17,12 @@ export function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+// Checks a radio button, and lets only the checked one of its group be reached with the Tab key.
+export function check(radio, isChecked) {
+  radio.setAttribute("aria-checked", isChecked);
+  radio.tabIndex = isChecked ? 0 : -1;
+}
+
 export const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 
 // Ways to spread values over a slider.
@@ -27,6 +33,16 @@ export const spread = {
 };
 
 const STEPS = 1000;
+const UPWARDS = {ArrowUp: 1, ArrowDown: -1}, FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
+
+// Returns the next value in a direction that has one digit less than `value`, or with `isFine` as many, but no step is
+// smaller than `least`.
+export function nextValue(value, direction, isFine, least) {
+  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // 10 is left downwards by 0.1
+  const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
+  const steps = value / step;
+  return (direction > 0 ? Math.floor(steps + 1e-6) + 1 : Math.ceil(steps - 1e-6) - 1) * step;
+}
 
 // A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
 // spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets `otherwise`. Calls
@@ -35,29 +51,41 @@ export class Slider {
   constructor(field, onInput, onEnd, say) {
     Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd, say});
     this.value = this.otherwise;
-    const unit = this.unit ? ` in ${this.unitName ?? this.unit}` : " value";
     this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
     // No input of type number: browsers make 18 of "1/8in" there, and nothing of "2,5".
-    this.number = make("input", {
-      role: "spinbutton", inputmode: "decimal", autocomplete: "off", "aria-label": this.label + unit,
-      "aria-valuemin": this.min, "aria-valuemax": this.max,
-    });
+    this.number = make("input", {role: "spinbutton", inputmode: "decimal", autocomplete: "off"});
     this.name = make("span", {class: "name", title: this.help}, this.label);
-    const shownUnit = make("span", {class: "unit", "aria-hidden": "true"}, this.unit ?? "");
-    const boxed = make("span", {class: "number"}, this.number, shownUnit);
+    this.shownUnit = make("span", {class: "unit", "aria-hidden": "true"});
+    this.mark = make("span", {class: "reach", hidden: true});
+    const boxed = make("span", {class: "number"}, this.number, this.shownUnit);
     this.row = make("div", {class: "row"}, this.name, ...(this.extra ? [this.extra] : []), boxed);
-    this.element = make("div", {class: "slider"}, this.row, this.range);
+    this.element = make("div", {class: "slider"}, this.row, make("div", {class: "way"}, this.range, this.mark));
     this.listen();
+    this.showUnit();
+  }
+
+  get isLength() {
+    return this.unit === "mm";
+  }
+
+  // Shows the unit of lengths, which may have changed.
+  showUnit() {
+    const unit = shownUnit(this.unit), scale = this.isLength ? millimetresPerUnit() : 1;
+    const name = unit === "in" ? "inches" : this.unitName ?? unit;
+    this.shownUnit.textContent = unit ?? "";
+    this.number.setAttribute("aria-label", `${this.label}${name ? ` in ${name}` : " value"}`);
+    this.number.setAttribute("aria-valuemin", Number((this.min / scale).toPrecision(6)));
+    this.number.setAttribute("aria-valuemax", Number((this.max / scale).toPrecision(6)));
     this.show(this.value);
   }
 
   listen() {
     this.range.oninput = () => this.moved(this.valueAt(this.range.value));
     this.range.onchange = () => this.onEnd();
-    this.number.oninput = () => (this.isTyping = true);
-    this.number.onblur = () => (this.isTyping = false);
+    this.number.oninput = () => this.setTyping(true);
+    this.number.onblur = () => this.setTyping(false);
     this.number.onchange = () => this.typed();
-    this.number.onkeydown = (event) => this.step(event, {ArrowUp: 1, ArrowDown: -1});
+    this.number.onkeydown = (event) => (event.key === "Escape" ? this.takeBack(event) : this.step(event, UPWARDS));
     const reset = (event) => {
       event.preventDefault();
       this.moved(this.otherwise);
@@ -66,12 +94,18 @@ export class Slider {
     this.range.ondblclick = reset;
     this.name.ondblclick = reset;
     this.element.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
-    this.range.onkeydown = (event) => this.step(event, {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1});
+    this.range.onkeydown = (event) => this.step(event, FORWARDS);
+  }
+
+  // While something is typed and not entered, Ctrl Z belongs to the field.
+  setTyping(isTyping) {
+    this.isTyping = isTyping;
+    this.number.classList.toggle("typing", isTyping);
   }
 
   // Takes the number that was typed, with more decimals than the slider has if they were typed.
   typed() {
-    this.isTyping = false;
+    this.setTyping(false);
     const value = typedNumber(this.number.value, this, this.say);
     this.exact = value === null ? this.exact : Number(value.toFixed(4));
     if (value === null) this.show(this.value);
@@ -79,23 +113,38 @@ export class Slider {
     this.onEnd();
   }
 
+  // Escape: the number is again what it was before something was typed.
+  takeBack(event) {
+    if (!this.isTyping) return;
+    event.stopPropagation();
+    this.setTyping(false);
+    this.show(this.value);
+    this.number.select();
+  }
+
   wheel(event) {
     if (this.range.disabled || event.ctrlKey) return;
     event.preventDefault();
     const step = -Math.sign(event.deltaY) * (event.shiftKey ? 1 : 8);
     this.moved(this.valueAt(clamp(this.position() + step, 0, STEPS)));
-    clearTimeout(this.rest);
-    this.rest = setTimeout(() => this.onEnd(), 400);
+    this.endSoon();
   }
 
-  // Arrow keys move the slider by a hundredth of the way, with shift by a thousandth.
+  // Arrow keys go to the next round number, with shift finely.
   step(event, directions) {
     const direction = directions[event.key];
     if (!direction) return;
     event.preventDefault();
-    this.isTyping = false;
-    const step = direction * (event.shiftKey ? 1 : 10);
-    this.moved(this.valueAt(clamp(this.position() + step, 0, STEPS)));
+    if (this.isTyping) this.typed();
+    const scale = this.isLength ? millimetresPerUnit() : 1;
+    const decimals = this.isLength && shown.unit === "in" ? 3 : this.decimals;
+    const least = Math.max(10 ** -decimals, 10 ** Math.ceil(Math.log10(this.hand[1] / scale / 1000)));
+    const isFine = event.shiftKey && least > 10 ** -decimals;
+    this.moved(clamp(nextValue(this.value / scale, direction, isFine, least) * scale, this.min, this.max));
+    this.endSoon();
+  }
+
+  endSoon() {
     clearTimeout(this.rest);
     this.rest = setTimeout(() => this.onEnd(), 400);
   }
@@ -104,19 +153,26 @@ export class Slider {
     return this.spread.from(position / STEPS, ...this.hand);
   }
 
-  position() {
-    return Math.round(this.spread.to(clamp(this.value, ...this.hand), ...this.hand) * STEPS);
+  position(value = this.value) {
+    return Math.round(this.spread.to(clamp(value, ...this.hand), ...this.hand) * STEPS);
   }
 
   moved(value) {
     this.show(value);
-    this.onInput(Number(this.text(value)));
+    this.onInput(value === this.exact ? value : this.rounded(value));
+  }
+
+  // Returns the value that the shown number stands for.
+  rounded(value) {
+    const number = Number(this.text(value));
+    return this.isLength ? Number((number * millimetresPerUnit()).toFixed(4)) : number;
   }
 
   // Returns the number as it is shown.
   text(value) {
-    return value === this.exact ? value.toFixed(Math.max(this.decimals, `${value}`.split(".")[1]?.length ?? 0))
-      : value.toFixed(this.decimals);
+    const typed = value === this.exact ? `${value}`.split(".")[1]?.length ?? 0 : 0;
+    const decimals = Math.max(this.decimals, typed);
+    return this.isLength ? lengthText(value, decimals) : value.toFixed(decimals);
   }
 
   show(value) {
@@ -124,9 +180,17 @@ export class Slider {
     const text = this.text(value);
     this.range.value = this.position();
     this.range.style.setProperty("--filled", `${this.position() / STEPS * 100}%`);
-    this.range.setAttribute("aria-valuetext", `${text} ${this.unitName ?? this.unit ?? ""}`.trim());
+    this.range.setAttribute("aria-valuetext", `${text} ${shownUnit(this.unitName ?? this.unit) ?? ""}`.trim());
     this.number.setAttribute("aria-valuenow", text);
     if (!this.isTyping) this.number.value = text;
+  }
+
+  // Marks a value on the slider, such as the largest that can be reached; none for null.
+  showMark(value, title = "") {
+    this.mark.hidden = value === null || value > this.hand[1];
+    if (value === null) return;
+    this.mark.style.setProperty("--at", this.position(value) / STEPS);
+    this.mark.title = title;
   }
 
   set disabled(is) {

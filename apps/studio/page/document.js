@@ -8,7 +8,8 @@ const START = {height: 4, method: "layered", mode: "auto", tone: "", up: "", cro
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner",
-  "margin", "thickness", "form", "resolution", "tolerance", "draft"];
+  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "base", "wrap", "form",
+  "tool", "finish", "resolution", "tolerance", "triangles", "draft"];
 
 export const FIRST = Object.freeze({
   input: null,
@@ -31,25 +32,36 @@ export class Document {
     this.onChange = onChange;
     this.steps = [FIRST];
     this.at = 0;
+    this.changedAt = 0; // in milliseconds since 1970: of two states of a document the one that changed last wins
+  }
+
+  stamp() {
+    this.changedAt = Math.max(Date.now(), this.changedAt + 1);
   }
 
   get now() {
     return this.steps[this.at];
   }
 
-  // A new document begins; nothing of the old one can be undone any more.
+  // Begins a document, without a call of onChange().
   begin(step) {
     this.steps = [step];
     this.at = 0;
+    this.changedAt = 0; // anything that is kept is newer
     this.stroke = null;
-    this.onChange(null);
   }
 
   // Changes the document. Changes of one stroke, such as a drag, are undone together.
   change(part, stroke = null) {
-    const next = {...this.now, ...part, options: {...this.now.options, ...part.options}};
-    if (JSON.stringify(next) === JSON.stringify(this.now)) return;
     const before = this.now;
+    if (this.append(part, stroke)) this.onChange(before);
+  }
+
+  // The same without a call of onChange(). Returns whether anything is new.
+  append(part, stroke = null) {
+    if (stroke !== null && stroke === this.cancelled) return false;
+    const next = {...this.now, ...part, options: {...this.now.options, ...part.options}};
+    if (JSON.stringify(next) === JSON.stringify(this.now)) return false;
     if (stroke !== null && stroke === this.stroke) {
       this.steps[this.at] = next;
     } else {
@@ -57,7 +69,8 @@ export class Document {
       this.at = this.steps.length - 1;
     }
     this.stroke = stroke;
-    this.onChange(before);
+    this.stamp();
+    return true;
   }
 
   // Enters what the engine found out, which is no step of its own.
@@ -66,7 +79,19 @@ export class Document {
   }
 
   endStroke() {
+    this.stroke = this.cancelled = null;
+  }
+
+  // Takes back what the running stroke has changed, and lets the rest of it change nothing. Returns whether one ran.
+  cancelStroke() {
+    if (this.stroke === null) return false;
+    const before = this.now;
+    this.cancelled = this.stroke;
     this.stroke = null;
+    this.steps.splice(this.at--, 1);
+    this.stamp();
+    this.onChange(before);
+    return true;
   }
 
   get canUndo() {
@@ -86,11 +111,13 @@ export class Document {
     const before = this.now;
     this.at += by;
     this.stroke = null;
+    this.stamp();
     this.onChange(before);
   }
 
+  // Returns all of it as plain data.
   keep() {
-    return {version: 1, steps: this.steps, at: this.at};
+    return {version: 1, changed: this.changedAt, steps: this.steps, at: this.at};
   }
 
   // Returns whether the kept state could be used.
@@ -98,46 +125,43 @@ export class Document {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
     this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...renamed(step.options)}}));
     this.at = kept.at;
+    this.changedAt = kept.changed ?? 0;
+    this.stroke = null;
     return true;
   }
 }
 
+// The options that the engine always gets. The others rule by their absence, or go without saying.
+const ALWAYS = new Set(["height", "width", "method", "mode", "view", "saturation", "detail", "boundary", "steps",
+  "margin", "thickness"]);
+
 // Returns the options as the engine and `relievo make` take them.
 export function engineOptions(step) {
-  const {
-    steepest, tone, up, crop, crumbs, denoise, form, outline, corner, resolution, tolerance, draft, ...rest
-  } = step.options;
-  const options = {...rest, height: Math.round(rest.height * 1e4) / 1e4};
-  if (steepest !== FIRST.options.steepest) options.steepest = steepest; // without it the paper's bound rules
-  if (tone) options.tone = tone;
-  if (form !== FIRST.options.form) options.form = form;
-  if (outline !== FIRST.options.outline) options.outline = outline;
-  if (outline === "round") options.corner = corner;
-  if (resolution) options.resolution = resolution;
-  if (tolerance) options.tolerance = tolerance;
-  if (draft && form !== "lithophane") options.draft = draft;
-  if (up) options.up = up;
-  if (crop) options.crop = crop;
-  if (crumbs !== START.crumbs) options.crumbs = crumbs;
-  if (denoise !== START.denoise) options.denoise = denoise;
+  const {outline, form} = step.options, options = {};
+  for (const [name, value] of Object.entries(step.options)) {
+    const isThere = value !== null && value !== "" && value !== undefined;
+    if (isThere && (ALWAYS.has(name) || value !== FIRST.options[name])) options[name] = value;
+  }
+  options.height = Math.round(options.height * 1e4) / 1e4;
+  if (outline === "round") options.corner = step.options.corner;
+  else delete options.corner;
+  if (form === "lithophane") delete options.draft;
   return options;
 }
 
-// Returns the text of a project file.
-export function projectText(step) {
+// Returns a project file's content.
+export function projectOf(step) {
   const {input, isHeightLocked, u, material, light} = step;
-  const project = {relievo: 1, input, options: engineOptions(step), studio: {isHeightLocked, u, material, light}};
-  return JSON.stringify(project, null, 1) + "\n";
+  return {relievo: 1, input, options: engineOptions(step), studio: {isHeightLocked, u, material, light}};
 }
 
 // A project file may come from anywhere: what the engine would refuse in each picture is left out.
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 
-// Returns the step that a project file describes; `checked` is what the engine read in it.
-export function stepOfProject(text, checked) {
-  const {studio = {}} = JSON.parse(text);
-  const step = {...FIRST, input: checked.input, options: {...FIRST.options, ...checked.options}};
+// Returns the step that a project file describes, as the engine has read it.
+export function stepOfProject({input, options = {}, studio = {}}) {
+  const step = {...FIRST, input, options: {...FIRST.options, ...options}};
   if (typeof studio.isHeightLocked === "boolean") step.isHeightLocked = studio.isHeightLocked;
   if (Number.isFinite(studio.u) && studio.u >= 0 && studio.u <= MOST_U) step.u = studio.u;
   if (about.materials.some(({id}) => id === studio.material)) step.material = studio.material;

@@ -3,17 +3,26 @@
 //
 // An Engine has
 //   about()                     -> version, options, readable, endings, formats, views, materials, stages, curve,
-//                                  samples, recent, status, state (as keepState() stored it), notice (about the place
+//                                  samples, recent, first (what the program was started with), notice (about the place
 //                                  where work is kept), most_upload (bytes)
-//   follow(onStatus, onLost)       calls back with each new status, in all tabs; onLost when the engine has gone
-//   open(input, view)              starts to read and prepare; upload(file) -> input for a file of the browser
+//   follow(onStatus, onLost)       calls back with each new status of each open document, in all tabs, and once with
+//                                  {run} alone when an engine is found; onLost when it has gone
+//   find(input)                 -> {document, input, is_there, kept}: the document of a scan, and its state
+//                                  if it is kept
+//   open(input, view)              makes that scan's document the one that all of the following concern
+//   upload(file)                -> input for a file of the browser; readProject(file) -> {input, is_there,
+//                                  options, studio}
 //   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise}, as the command line has them
 //   facts(), suggestViews()     -> facts about the model; names of sides, the best first
 //   frame(request), scan(request)-> {image: ImageData, about}
 //   profile(request)            -> heights in mm
-//   exportFile(request)         -> Blob
-//   readProject(name, text)     -> {input, options}
-//   keepState(state)
+//   reach(options)              -> the largest height in mm
+//   check(options)                 throws unless the options can be read
+//   piece(options)              -> {triangles, points, size_mm, height_mm} of the finished piece, which is
+//                                  then at hand for exportFile(); cancelPiece()
+//   exportFile(request)         -> Blob; packProject(project) -> Blob of a project file with its scan
+//   recent()                    -> documents that were changed last: {document, input, is_there, picture}
+//   keep(document, state, isMoving), keepPicture(document, picture), leave()
 // and throws EngineError with a text for people.
 
 export class EngineError extends Error {
@@ -38,6 +47,7 @@ async function send(path, options) {
   try {
     response = await fetch(path, options);
   } catch {
+    if (options?.signal?.aborted) throw new EngineError("cancelled", "Cancelled.");
     throw new EngineError("lost", "The engine does not answer. Start relievo studio again.");
   }
   if (!response.ok) await complain(response);
@@ -56,7 +66,15 @@ async function picture(path, request) {
 
 const ASK = "status?"; // of a new tab to the one that has the stream
 
+export const TAB = Math.random().toString(36).slice(2); // the name of this page among those that are open
+
 export class NativeEngine {
+  document = "";
+
+  post(path, body = {}, options = {}) {
+    return post(path, {document: this.document, ...body}, options);
+  }
+
   async about() {
     return (await send("api/about")).json();
   }
@@ -66,69 +84,124 @@ export class NativeEngine {
   follow(onStatus, onLost) {
     const tabs = new BroadcastChannel(location.pathname);
     const take = (status) => (status ? onStatus(status) : onLost());
-    const pass = (status) => {
-      tabs.postMessage(status);
-      take(status);
-    };
     tabs.onmessage = ({data}) => data !== ASK && take(data);
     tabs.postMessage(ASK);
     navigator.locks.request(location.pathname, () => {
-      let last = null;
-      const source = new EventSource("api/events");
-      source.onmessage = (event) => pass(last = JSON.parse(event.data));
-      source.onerror = () => pass(null);
-      tabs.onmessage = ({data}) => data === ASK && last && tabs.postMessage(last);
+      const last = new Map(); // by document; by nothing the run
+      const pass = (status) => {
+        if (!status || !status.document) last.clear();
+        if (status) last.set(status.document, status);
+        tabs.postMessage(status);
+        take(status);
+      };
+      tabs.onmessage = ({data}) => data === ASK && [...last.values()].forEach((status) => tabs.postMessage(status));
+      this.listen(pass);
       return new Promise(() => {}); // for as long as this page lives
     });
   }
 
+  // A stream that broke off connects again by itself, one that was refused does not.
+  listen(pass) {
+    const source = new EventSource("api/events");
+    source.onmessage = (event) => pass(JSON.parse(event.data));
+    source.onerror = () => {
+      pass(null);
+      if (source.readyState === EventSource.CLOSED) setTimeout(() => this.listen(pass), 1000);
+    };
+  }
+
+  async find(input) {
+    return (await post("document", {input})).json();
+  }
+
+  async open(input, view) {
+    const {document} = await (await post("open", {input, tab: TAB, ...view})).json();
+    this.document = document;
+  }
+
+  // Sends the bytes of a file of the browser.
   async upload(file) {
     const answer = await send(`api/upload?name=${encodeURIComponent(file.name)}`, {method: "POST", body: file});
     return (await answer.json()).input;
   }
 
-  async open(input, view) {
-    await post("open", {input, ...view});
+  async readProject(file) {
+    return (await send(`api/project?name=${encodeURIComponent(file.name)}`, {method: "POST", body: file})).json();
   }
 
   async chooseView(view) {
-    await post("view", view);
+    await this.post("view", view);
   }
 
   async cancel() {
-    await post("cancel", {});
+    await this.post("cancel");
   }
 
   async facts() {
-    return (await send("api/facts")).json();
+    return (await this.post("facts")).json();
   }
 
   async suggestViews() {
-    return (await (await send("api/views")).json()).views;
+    return (await (await this.post("views")).json()).views;
   }
 
   frame(request) {
-    return picture("frame", request);
+    return picture("frame", {document: this.document, ...request});
   }
 
   scan(request) {
-    return picture("scan", request);
+    return picture("scan", {document: this.document, ...request});
   }
 
   async profile(request) {
-    return (await (await post("profile", request)).json()).heights_mm;
+    return (await (await this.post("profile", request)).json()).heights_mm;
+  }
+
+  async reach(options) {
+    return (await (await this.post("reach", {options})).json()).height_mm;
+  }
+
+  async check(options) {
+    await this.post("check", {options});
+  }
+
+  async piece(options) {
+    return (await this.postMaking("piece", {options})).json();
+  }
+
+  // Gives up the request for the piece or its file as well: what the engine answers then is of no use.
+  async cancelPiece() {
+    this.making?.abort();
+    await this.post("cancel_piece");
   }
 
   async exportFile(request) {
-    return (await post("export", request)).blob();
+    return (await this.postMaking("export", request)).blob();
   }
 
-  async readProject(name, text) {
-    return (await post("project", {name, text})).json();
+  postMaking(path, body) {
+    this.making = new AbortController();
+    return this.post(path, body, {signal: this.making.signal});
   }
 
-  // `isLast` when the page goes: then the request outlives it.
-  async keepState(state, isLast = false) {
-    await post("state", state, {keepalive: isLast});
+  async packProject(project) {
+    return (await post("save", {project})).blob();
+  }
+
+  async recent() {
+    return (await (await post("recent", {})).json()).recent;
+  }
+
+  async keep(document, state, isMoving) {
+    await post("state", {document, state, tab: TAB, is_moving: isMoving});
+  }
+
+  async keepPicture(document, picture) {
+    await post("picture", {document, picture});
+  }
+
+  // The page goes: this request outlives it.
+  leave() {
+    post("leave", {tab: TAB}, {keepalive: true}).catch(() => {});
   }
 }

@@ -1,7 +1,7 @@
-// The sliders: options of the engine, each with a label, a place, and the range that a hand needs. And the lists.
+// The sliders: options of the engine, each with a label, a place, and the range that a hand needs.
 
 import {optionOf} from "./about.js";
-import {$, make, spread} from "./controls.js";
+import {spread} from "./controls.js";
 
 // `hand` is what the slider spans. A number may be typed within the whole range of the option.
 const SLIDERS = {
@@ -11,10 +11,10 @@ const SLIDERS = {
   boundary: {label: "Soft rim", hand: [0.25, 60], decimals: 1, spread: spread.log, place: "#shape"},
   steepest: {label: "Steepest wall", hand: [5, 85], decimals: 0, spread: spread.linear, place: "#shape"},
   steps: {label: "Steps", hand: [0, 0.95], decimals: 2, spread: spread.linear, place: "#shape"},
-  width: {label: "Width", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#plate"},
-  margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate"},
-  corner: {label: "Corner radius", hand: [0.1, 100], decimals: 1, spread: spread.root, place: "#plate"},
-  thickness: {label: "Thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate"},
+  width: {label: "Width", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#plate-sliders"},
+  margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
+  corner: {label: "Corner radius", hand: [0.1, 100], decimals: 1, spread: spread.root, place: "#plate-sliders"},
+  thickness: {label: "Thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
 };
 
 // The engine's units as the page shows them, and as it reads them out.
@@ -30,10 +30,3 @@ export const FIELDS = Object.fromEntries(Object.entries(SLIDERS).map(([name, sli
   const {unit, help, min, max} = optionOf(name);
   return [name, {...slider, ...UNITS[unit], min, max, help: sentence(help)}];
 }));
-
-// Fills the list of an option with the words that may stand there; the option's help explains them.
-export function fillChoices(name) {
-  const {choices, help} = optionOf(name), list = $(`#${name}`);
-  list.append(...choices.map((choice) => make("option", {value: choice}, sentence(choice))));
-  list.parentElement.title = sentence(help);
-}

@@ -35,7 +35,8 @@ export function takeKeys({commands, always, keys, isReady, hold}) {
     const isTyping = event.target.matches?.("input:not([type='range'], [type='radio'], [type='checkbox']), select");
     if (event.ctrlKey || event.metaKey) {
       const command = commands[event.key];
-      if (!command || (isTyping && "zZy".includes(event.key))) return;
+      const isUnfinished = isTyping && event.target.matches(".typing, :not([role='spinbutton'], select)");
+      if (!command || (isUnfinished && "zZy".includes(event.key))) return;
       event.preventDefault();
       return command();
     }

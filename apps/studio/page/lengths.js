@@ -13,22 +13,41 @@ function number(text) {
 }
 
 // Returns the millimetres of "2,5", "4in", "1/8 in" or "3+0.5", or the number of a text that may have no unit; NaN of
-// any other text.
-export function parseLength(text, mayHaveUnit = true) {
+// any other text. Lengths without a unit are in units of `mm` millimetres.
+export function parseLength(text, mayHaveUnit = true, mm = 1) {
   const [, sum, unit] = text.match(WHOLE) ?? [];
   if (!sum || (unit && !mayHaveUnit)) return NaN;
   let total = 0;
   for (const [, sign, top, bottom = "1"] of sum.matchAll(TERMS))
     total += Number(`${sign}1`) * number(top) / number(bottom);
-  const value = total * (MM[unit] ?? 1);
+  const value = total * (MM[unit] ?? mm);
   return Number.isFinite(value) ? value : NaN;
+}
+
+// The unit in which the page shows lengths. Documents and the engine have millimetres.
+export const shown = {unit: "mm"};
+
+export const millimetresPerUnit = () => MM[shown.unit];
+
+// Returns the unit of an option as the page shows it.
+export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
+
+// Returns a length with so many decimals of a millimetre, and without its unit. Inches have three, or four for a length
+// that needs them.
+export function lengthText(mm, decimals = 2) {
+  if (shown.unit === "mm") return mm.toFixed(decimals);
+  const text = (mm / MM.in).toFixed(4);
+  return decimals <= 2 || text.endsWith("0") ? (mm / MM.in).toFixed(3) : text;
 }
 
 // Returns the number that was typed into a field; null if there is none in its range, after saying what was expected.
 export function typedNumber(text, {label, unit, min, max}, say) {
-  const value = parseLength(text, unit === "mm"), range = `from ${min} to ${max}${unit ? ` ${unit}` : ""}`;
+  const isLength = unit === "mm", scale = isLength ? millimetresPerUnit() : 1, value = parseLength(text, isLength,
+    scale);
   if (value >= min && value <= max) return value;
-  const examples = unit === "mm" ? "12.5, 2,5, 3/8in or 3+0.5" : "0.5, 2,5, 3/8 or 3+0.5";
+  const [from, to] = [min, max].map((x) => Number((x / scale).toPrecision(4)));
+  const range = `from ${from} to ${to}${unit ? ` ${shownUnit(unit)}` : ""}`;
+  const examples = isLength ? "12.5, 2,5, 3/8in or 3+0.5" : "0.5, 2,5, 3/8 or 3+0.5";
   say(`${label}: expected a number ${range}, such as ${examples}, found '${text.trim()}'.`);
   return null;
 }

@@ -1,34 +1,53 @@
 // Connects the parts of the studio's page.
 
 import {about, defaultOf, engine} from "./about.js";
-import {$, Slider, clamp, download, fileSize, make} from "./controls.js";
+import {$, Slider, clamp, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
-import {Document, FIRST, engineOptions, projectText, stepOfProject} from "./document.js";
+import {Document, FIRST, engineOptions} from "./document.js";
 import {ExportDialog} from "./export.js";
-import {FIELDS, fillChoices} from "./fields.js";
-import {takeArrowKeys, takeDrops, takeKeys} from "./inputs.js";
-import {engineBack, engineLost, offer, toast} from "./messages.js";
+import {FIELDS} from "./fields.js";
+import {takeDrops, takeKeys} from "./inputs.js";
+import {Keeper} from "./keeper.js";
+import {lengthText, shown} from "./lengths.js";
+import {engineLost, toast} from "./messages.js";
+import {Modes} from "./modes.js";
+import {PieceRows} from "./pieces.js";
+import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
+import {Projects} from "./projects.js";
+import {Reach} from "./reach.js";
 import {showNumbers, showSection} from "./readouts.js";
-import {Stage, TABLE_LIGHTS} from "./stage.js";
+import {Stage} from "./stage.js";
+import {nameOf, showRecent, showSamples, smallPicture} from "./start.js";
 import {ViewDialog, viewName} from "./views.js";
 
-const KEEP_MS = 400;
+const PICTURE_MS = 600; // from the fine picture to the small one of the document
 
 const doc = new Document((before) => changed(before));
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(
-  engine, () => ({facts, options: finalOptions(), name: baseName(), input: doc.now.input}),
-  (options) => doc.change({options}));
+const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
+const modes = new Modes({stage, doc});
+const pieces = new PieceRows({engine, doc, say: toast, shownWidth});
+
+const keeper = new Keeper({
+  send: (...state) => engine.keep(...state), storage: localStorage, prefix: `${location.pathname}document:`,
+  onOlder: () => opened.adopt().then((isNew) =>
+    isNew && toast("Newer work of another page is shown here.")).catch(failed),
+  onFailed: notKept, onKept: () => (isKept = true),
+});
+const opened = new OpenDocument({engine, doc, keeper, on: {
+  begun, arrived, failed, refused, changed: stateCame, progress,
+  missing: (input, work) => projects.askFor(input, work), closed: () => showStart(true),
+}});
+const reach = new Reach({engine, doc, slider: () => sliders.height, chooseView: () => views.show(doc.now.options)});
+const projects = new Projects({engine, open: openInput, take, failed});
 
 let facts = null;
-let status = {busy: false, model: 0};
 let last = null; // numbers of the newest picture
 let shownView = null; // the view of the model that is shown
-let fallback = null; // the document before the scan that is being opened
-let asking = 0; // requests for a scan or a view that the engine has not answered yet
+let isKept = !about.notice;
 
 // ------------------------------------------------------------------------------------------------- sliders
 
@@ -47,10 +66,24 @@ for (const [name, field] of Object.entries(FIELDS)) {
   $(field.place).append(slider.element);
 }
 
+function shownWidth() {
+  return Number((doc.now.options.width ?? last?.width_mm ?? defaultOf("width")).toFixed(4));
+}
+
+// Marks the width that a plate of a given size leaves.
+function showWidth() {
+  const most = last?.most_width_mm ?? null;
+  sliders.width.show(shownWidth());
+  sliders.width.showMark(most, most && `The plate leaves ${lengthText(most)} ${shown.unit}`);
+}
+
 function slide(name, value) {
-  const part = {options: {[name]: value}};
+  const part = {options: {[name]: value}}, most = last?.most_width_mm ?? Infinity;
+  if (name === "width" && value >= most) part.options.width = null; // as wide as the plate leaves
   if (name === "height") part.u = null; // to be found anew
   doc.change(part, name);
+  if (name === "width") showWidth();
+  else if (doc.now.options[name] !== value) sliders[name].show(doc.now.options[name]); // the drag was taken back
 }
 
 // Changes the method. A soft rim that was not touched becomes the one that the new method starts from.
@@ -59,6 +92,14 @@ function changeMethod(method) {
   const isUntouched = options.boundary === defaultOf("boundary", options.method);
   const boundary = isUntouched ? defaultOf("boundary", method) : options.boundary;
   doc.change({options: {method, boundary}});
+}
+
+function chooseUnit(unit) {
+  shown.unit = unit;
+  localStorage.setItem("unit", unit);
+  for (const slider of Object.values(sliders)) slider.showUnit();
+  pieces.show();
+  if (last) stage.invalidate();
 }
 
 function toggleLock() {
@@ -70,40 +111,40 @@ function toggleLock() {
 
 function changed(before) {
   const {now} = doc;
+  opened.keep(doc.stroke !== null);
   showDocument();
-  const hasNewView = before && !isSameView(viewOf(before), viewOf(now));
-  if (hasNewView) {
+  if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);
-    ask(engine.chooseView(viewOf(now))).catch(failed);
+    engine.chooseView(viewOf(now)).catch(failed);
   }
   stage.invalidate();
-  keepSoon();
 }
 
-const viewOf = ({options: {view, up, crop, crumbs, denoise}}) => ({view, up, crop, crumbs, denoise});
-
-const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
+// Shows a state that another tab or another engine has kept.
+function stateCame() {
+  showDocument();
+  stage.invalidate();
+}
 
 function showDocument() {
   const {options, isHeightLocked, material, input} = doc.now;
-  for (const [name, slider] of Object.entries(sliders)) slider.show(options[name]);
+  for (const [name, slider] of Object.entries(sliders)) slider.show(options[name] ?? shownWidth());
+  showWidth();
   sliders.saturation.disabled = options.tone !== "";
   lock.setAttribute("aria-pressed", isHeightLocked);
   curve.show({tone: options.tone});
   $("#method").value = options.method;
-  $("#outline").value = options.outline;
   $("#crop").value = options.crop;
   $("#crumbs").checked = options.crumbs === "keep";
   showDenoise(options.denoise);
-  $("#outline-note").textContent =
-    options.outline === "rectangle" ? "" : "The files have this outline; the picture here keeps the rectangle.";
+  pieces.show();
   sliders.corner.disabled = options.outline !== "round";
   sliders.margin.disabled = options.outline === "none";
   $("#undo").disabled = !doc.canUndo;
   $("#redo").disabled = !doc.canRedo;
   $("#view-name").textContent = viewName(options.view);
-  for (const swatch of $("#materials").children) check(swatch, swatch.dataset.material === material);
-  $("#title").textContent = input?.sample ? sampleName(input.sample) : input?.name ?? "";
+  modes.showMaterial(material);
+  $("#title").textContent = nameOf(input);
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
 }
 
@@ -116,24 +157,15 @@ function showDenoise(denoise) {
   $("#denoise-auto").checked = isMeasured;
 }
 
-// Checks a radio button, and lets only the checked one of its group be reached with the Tab key.
-function check(radio, isChecked) {
-  radio.setAttribute("aria-checked", isChecked);
-  radio.tabIndex = isChecked ? 0 : -1;
-}
-
-let keeper = 0, isKept = !about.notice;
-function keepSoon() {
-  clearTimeout(keeper);
-  keeper = setTimeout(() => engine.keepState(doc.keep()).then(() => (isKept = true), notKept), KEEP_MS);
-}
-
 // Says once that work is not kept, unless the engine is gone, which is said elsewhere.
-function notKept({kind, message}) {
-  if (isKept && kind !== "lost") toast(`Your work is not kept: ${message}`);
-  if (kind !== "lost") isKept = false;
+function notKept({message}) {
+  if (isKept) toast(`Your work is not kept: ${message}`);
+  isKept = false;
 }
-addEventListener("pagehide", () => doc.now.input && engine.keepState(doc.keep(), true).catch(() => {}));
+addEventListener("pagehide", () => {
+  keeper.flush();
+  engine.leave();
+});
 
 // Returns the options of the files: a height that the view does not reach is replaced by the one that it does.
 function finalOptions() {
@@ -146,16 +178,24 @@ const baseName = () => (doc.now.input?.name ?? "relief").replace(/\.[a-z0-9]+$/i
 
 // --------------------------------------------------------------------------------------------------- pictures
 
+let pictureTimer = 0;
+async function keepPicture() {
+  const {id} = opened, small = opened.isReady ? smallPicture($("#picture")) : "";
+  if (small) await engine.keepPicture(id, small).catch(() => {}); // it is not missed where nothing can be kept
+}
+
 function pictured(frame, ms, isFine) {
   last = frame;
-  if (!doc.now.isHeightLocked && !status.busy) {
+  if (!doc.now.isHeightLocked && !opened.status.busy) {
     const height = Math.round(frame.height_mm * 1e4) / 1e4;
     doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
     sliders.height.show(doc.now.options.height);
-    keepSoon();
   }
+  showWidth();
+  clearTimeout(pictureTimer);
+  if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
-  $("#reach").textContent = frame.is_height_met ? "" : `This view reaches ${frame.height_mm.toFixed(2)} mm at most.`;
+  if (isFine) reach.pictured(frame);
   const {detail} = doc.now.options;
   const words = Object.entries({alpha: frame.alpha, beta: frame.beta, gamma: detail, u: frame.u})
     .map(([name, value]) => `${name} ${number(value)}`);
@@ -170,28 +210,41 @@ const number = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString())
 const shownHeight = ({height_mm, is_height_met}) =>
   (doc.now.isHeightLocked && is_height_met ? doc.now.options.height : height_mm);
 
-// ----------------------------------------------------------------------------------------------------- status
+// --------------------------------------------------------------------------------------------------- documents
 
-function followed(next) {
-  const before = status;
-  status = next;
-  engineBack();
+function progress(status) {
   showProgress(status, status.model === 0);
-  if (next.error && JSON.stringify(next.error) !== JSON.stringify(before.error)) complain(next);
-  if (next.model !== before.model && next.model > 0) arrived();
+  exporting.progress(status);
 }
 
-async function arrived() {
+// Another document is shown, whose model is not ready yet: no picture of the one before stays under its name.
+function begun() {
+  facts = shownView = last = null;
+  $("#picture").width = $("#before").width = 1;
+  $("#remarks").textContent = "";
+  reach.clear();
+  $("#numbers").textContent = "";
+  stage.isReady = false;
+  stage.await(true);
+  $("#save").hidden = $("#export").hidden = true;
+  showStart(false);
+  showDocument();
+  showProgress({busy: true, stage: "waiting"}, true);
+}
+
+async function arrived(status) {
+  const {id} = opened;
   try {
-    facts = await engine.facts();
+    const found = await engine.facts();
+    if (id !== opened.id || status.model !== opened.model) return; // another one has come meanwhile
+    facts = found;
   } catch (error) {
     return failed(error);
   }
   showDenoise(doc.now.options.denoise);
   shownView = status.shown;
-  fallback = null;
-  if (doc.now.input && asking === 0) await followOtherTab().catch(failed);
-  if (isSame(doc.now.input, status.input)) doc.note({input: status.input}); // now with its hash
+  if (!isSameView(shownView, viewOf(doc.now))) doc.note({options: shownView}); // another page has chosen it
+  showDocument();
   stage.isReady = true;
   stage.model = status.model;
   stage.await(false);
@@ -201,140 +254,60 @@ async function arrived() {
   stage.invalidate();
 }
 
-async function ask(request) {
-  ++asking;
-  return request.finally(() => --asking);
-}
-
-// Takes over the scan or the view that another tab has asked for, with the document of that tab as far as it is kept.
-async function followOtherTab() {
-  const {input, wanted, shown} = status, mine = doc.keep();
-  if (isSame(doc.now.input, input) || isSame(doc.now.input, wanted)) {
-    if (isSame(doc.now.input, input) && isSame(input, wanted)) doc.note({options: shown});
-    return showDocument();
-  }
-  const {state} = await engine.about();
-  if (!doc.restore(state) || !isSame(doc.now.input, input))
-    doc.begin({...FIRST, input, options: {...FIRST.options, ...shown}});
-  showDocument();
-  const step = mine.steps[mine.at];
-  offer(`Another tab opened ${input.name}, which is shown here, too.`, `Go back to ${step.input.name}`, async () => {
-    await openInput(step.input, step);
-    if (isSame(doc.now.input, step.input) && doc.restore(mine)) showDocument();
-  });
-}
-
-function complain({error, model}) {
+// A view was cancelled or could not be prepared: the one before stays.
+function refused() {
   stage.await(false);
-  if (error.kind !== "cancelled") toast(error.text);
-  if (model === 0) return showStart(true);
-  if (fallback && doc.restore(fallback)) {
-    fallback = null; // the old relief is still there: go on with it
-    showDocument();
-    keepSoon();
-    return;
-  }
   if (shownView && !isSameView(shownView, viewOf(doc.now))) doc.change({options: shownView});
 }
 
+let reopening = 0;
 function failed(error) {
-  if (error.kind === "geometry" && status.busy) return; // not ready yet: the next status will show it
-  toast(error.message);
+  if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
+  if (error.kind !== "closed") return toast(error.message);
+  clearTimeout(reopening);
+  reopening = setTimeout(() => opened.reopen().catch(failed), 200);
 }
 
-// ------------------------------------------------------------------------------------------------ open and save
+function openInput(input, work) {
+  return opened.open(input, work).catch(failed);
+}
 
-async function openInput(input, step = {...FIRST, input}) {
+const openFile = (file) => file && projects.openFile(file).catch(failed);
+
+// Shows that bytes are on their way to the engine or back, which takes a moment for large scans.
+async function take(bytes) {
+  const isStart = !$("#start").hidden;
   showStart(false);
-  fallback = status.model > 0 ? doc.keep() : null;
-  doc.begin({...step, input});
-  stage.await(true);
+  showProgress({busy: true, stage: "upload"}, !opened.isReady);
   try {
-    await ask(engine.open(input, viewOf(step)));
+    return await bytes;
   } catch (error) {
-    failed(error);
-  }
-}
-
-async function openFile(file) {
-  if (!file) return;
-  try {
-    if (!file.name.endsWith(".relievo")) return await openInput(await takeIn(file));
-    const text = await file.text(), checked = await engine.readProject(file.name, text);
-    const step = stepOfProject(text, checked);
-    await openInput(step.input, step);
-  } catch (error) {
-    failed(error);
-  }
-}
-
-// Sends the file's bytes to the engine, which takes a moment for large scans.
-async function takeIn(file) {
-  const most = about.most_upload;
-  if (file.size > most) throw new Error(`${file.name} has ${fileSize(file.size)}: expected at most ${fileSize(most)}.`);
-  showStart(false);
-  showProgress({busy: true, stage: "upload"}, status.model === 0);
-  try {
-    return await engine.upload(file);
-  } catch (error) {
-    showProgress(status, status.model === 0);
-    showStart(status.model === 0);
+    showStart(isStart);
     throw error;
+  } finally {
+    showProgress(opened.status, !opened.isReady);
   }
 }
 
-function saveProject() {
-  const step = {...doc.now, options: {...doc.now.options, height: finalOptions().height}};
-  download(new Blob([projectText(step)], {type: "application/json"}), `${baseName()}.relievo`);
-}
+const saveProject = () =>
+  projects.save({...doc.now, options: {...doc.now.options, height: finalOptions().height}}, baseName());
 
 // ------------------------------------------------------------------------------------------------------- modes
 
 function showStart(isShown) {
   $("#start").hidden = !isShown;
   $("#studio").hidden = isShown;
-  $("#back").hidden = !(doc.now.input && status.model > 0);
-  if (!isShown) stage.invalidate();
+  $("#back").hidden = !opened.id;
+  if (isShown) showRecentNow().catch(failed);
+  else stage.invalidate();
 }
 
-function setTool(tool) {
-  for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
-  $("#section").hidden = tool !== "section";
-  if (tool !== "light") setTable(false);
-  stage.setTool(tool);
+async function showRecentNow() {
+  await keepPicture();
+  showRecent(await engine.recent(), openInput);
 }
-
-function setTable(isShown) {
-  $("#light-table").setAttribute("aria-pressed", isShown);
-  $("#table").hidden = !isShown;
-  stage.setTable(isShown);
-}
-
-function setComparing(isComparing) {
-  $("#compare").setAttribute("aria-pressed", isComparing);
-  $("#split").hidden = $("#labels").hidden = !isComparing;
-  stage.setComparing(isComparing);
-}
-
-const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "true";
 
 // ------------------------------------------------------------------------------------------------------- wiring
-
-function buildTools() {
-  fillChoices("outline");
-  $("#materials").append(...about.materials.map(({id, name}) => make("button", {
-    role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
-  })));
-  $("#table").append(...TABLE_LIGHTS.map(({name, light}, i) => make("button", {
-    "data-cell": i, "aria-label": `Light from: ${name}`, onclick: () => {
-      doc.change({light});
-      setTable(false);
-    },
-  }, make("canvas", {"aria-hidden": "true"}), make("span", {"aria-hidden": "true"}, name))));
-  for (const button of $("#tools").children) button.onclick = () => setTool(button.dataset.tool);
-  takeArrowKeys($("#tools"));
-  takeArrowKeys($("#materials"));
-}
 
 function wire() {
   const click = (selector, action) => ($(selector).onclick = action);
@@ -349,13 +322,11 @@ function wire() {
   click("#back", () => showStart(false));
   click("#cancel", () => engine.cancel().catch(failed));
   click("#choose-view", () => views.show(doc.now.options));
-  click("#light-table", () => setTable(!isPressed("#light-table")));
-  click("#compare", () => setComparing(!isPressed("#compare")));
-  click("#fit", () => stage.fit());
   $("#file").onchange = (event) => {
     openFile(event.target.files[0]);
     event.target.value = "";
   };
+  $("#unit").onchange = (event) => chooseUnit(event.target.value);
   $("#method").onchange = (event) => changeMethod(event.target.value);
   $("#crop").onchange = (event) => doc.change({options: {crop: event.target.value.replaceAll(" ", "")}});
   $("#crumbs").onchange = (event) => doc.change({options: {crumbs: event.target.checked ? "keep" : "drop"}});
@@ -363,8 +334,6 @@ function wire() {
   $("#denoise").onchange = (event) => doc.change({options: {denoise: event.target.value}});
   $("#denoise-auto").onchange = (event) =>
     doc.change({options: {denoise: event.target.checked ? "auto" : $("#denoise").value}});
-  $("#outline").onchange = (event) => doc.change({options: {outline: event.target.value}});
-  $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
   takeDrops($("#veil"), openFile);
   takeKeys({
     commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
@@ -377,58 +346,40 @@ const COMMANDS = {
   s: () => facts && saveProject(), e: () => facts && exporting.open(),
 };
 const KEYS = {
-  l: () => setTool("light"), o: () => setTool("turn"), h: () => setTool("pan"), s: () => setTool("section"),
-  f: () => stage.fit(), t: () => setTable(!isPressed("#light-table")), Escape: () => setTable(false),
-  c: () => setComparing(!isPressed("#compare")), v: () => views.show(doc.now.options),
+  l: () => modes.setTool("light"), o: () => modes.setTool("turn"), h: () => modes.setTool("pan"),
+  s: () => modes.setTool("section"), m: () => modes.setTool("measure"), f: () => stage.fit(),
+  t: () => modes.toggleTable(),
+  Escape: () => doc.cancelStroke() || modes.setTable(false),
+  c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
   ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),
 };
 
 // ------------------------------------------------------------------------------------------------------- start
 
-function fillStart() {
-  const card = ({name, description}) => make("button", {onclick: () => openInput({sample: name, name})},
-    make("img", {src: `sample-${name}.jpg`, alt: "", width: 320, height: 200}),
-    make("span", {}, make("b", {}, sampleName(name)), make("small", {}, description)));
-  $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
-  const recent = about.recent.filter(({sample}) => !sample);
-  $("#recent-shelf").hidden = recent.length === 0;
-  const entry = (input) => make("button", {title: input.path, onclick: () => openInput(input)}, input.name);
-  $("#recent").append(...recent.map((input) => make("li", {}, entry(input))));
-}
-
-const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
-
-const isSame = (a, b) => a && b && (a.sample ?? "") === (b.sample ?? "") && (a.path ?? "") === (b.path ?? "");
-
-// Goes on where the last page or the last run ended, unless the program was started with another scan.
-async function resume({state, status: {wanted, model, shown}}) {
-  const hasState = doc.restore(state);
-  if (wanted && !(hasState && isSame(doc.now.input, wanted))) doc.begin({...FIRST, input: wanted});
-  showDocument();
-  if (!doc.now.input) return showStart(true);
-  showStart(false);
-  if (!wanted) return engine.open(doc.now.input, viewOf(doc.now));
-  if (!isSameView(shown, viewOf(doc.now))) {
-    if (model > 0) await engine.chooseView(viewOf(doc.now));
-    else await engine.open(doc.now.input, viewOf(doc.now));
-  }
+// Shows the document that the address names, or what the program was started with, or the one that was changed last.
+async function resume({first, recent}) {
+  const mine = recent.find(({document}) => `#${document}` === location.hash);
+  if (mine) return opened.open(mine.input);
+  if (first?.options) return projects.openProject(first);
+  const input = first?.input ?? recent[0]?.input;
+  return input ? opened.open(input) : showStart(true);
 }
 
 async function start() {
-  buildTools();
   wire();
-  setTool("light");
+  $("#unit").value = localStorage.getItem("unit") === "in" ? "in" : "mm";
+  chooseUnit($("#unit").value);
   try {
     $("#readable").textContent = about.readable;
-    $("#file").accept = [...about.endings, ".relievo"].join();
-    fillStart();
+    $("#file").accept = [...about.endings, ".zip", ".relievo"].join();
+    showSamples(openInput);
+    engine.follow((status) => opened.followed(status), engineLost);
     await resume(about);
   } catch (error) {
     failed(error);
     showStart(true);
   }
   if (about.notice) toast(about.notice, true);
-  engine.follow(followed, engineLost);
 }
 
 start();

@@ -27,7 +27,7 @@ function hideToast() {
 
 export function engineLost() {
   isLost = true;
-  toast("The engine has stopped. Start relievo studio again: your work is kept.", true);
+  toast("The engine has stopped. Start relievo studio again: this page keeps your work, and goes on by itself.", true);
 }
 
 export function engineBack() {

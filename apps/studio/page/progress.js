@@ -8,8 +8,8 @@ export function showProgress({busy, stage, fraction = 0}, isAlone) {
   const box = $("#progress"), percent = Math.round(fraction * 100), name = about.stages[stage] ?? stage;
   box.hidden = !busy;
   box.classList.toggle("alone", isAlone);
-  box.setAttribute("aria-valuenow", percent);
-  box.setAttribute("aria-valuetext", `${name}, ${percent} percent`);
+  $(".track", box).setAttribute("aria-valuenow", percent);
+  $(".track", box).setAttribute("aria-valuetext", `${name}, ${percent} percent`);
   $(".fill", box).style.width = `${Math.max(4, percent)}%`;
   $("#stage-name").textContent = `${name} …`;
 }

@@ -1,6 +1,7 @@
 // The numbers in the status line, and the chart of the section.
 
 import {$, count, make} from "./controls.js";
+import {lengthText, millimetresPerUnit, shown} from "./lengths.js";
 
 let times = [], frames = ""; // of the newest pictures
 
@@ -10,7 +11,9 @@ export function showNumbers({about, ms, isFine, height, facts}) {
   if (!isFine) times = [...times.filter((time) => now - time < 1000), now];
   if (!isFine && times.length > 5) frames = `${times.length} frames/s`;
   const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
-    `height ${height.toFixed(2)} mm`, frames, !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
+    `height ${lengthText(height)} ${shown.unit}`,
+    `piece ${about.size_mm.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`, frames,
+    !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
   $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
   const spent = [`${time("heights", about.heights_ms)} in ${about.solves} solves`, time("detail", about.detail_ms),
@@ -18,16 +21,36 @@ export function showNumbers({about, ms, isFine, height, facts}) {
   $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
 
+// Returns round values between two, about so many.
+function ticks(low, high, count) {
+  const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((x) => x * power).find((x) => x >= rough), all = [];
+  for (let i = Math.ceil(low / step); i * step <= high; ++i) all.push(i * step);
+  return {all, decimals: Math.max(0, -Math.floor(Math.log10(step)))};
+}
+
+const LEFT = 44, BOTTOM = 18, TOP = 6, RIGHT = 12; // pixels around the chart
+
 export function showSection(heights, from, to) {
-  const svg = $("#section-chart"), {width, height} = svg.getBoundingClientRect();
-  if (!width) return;
+  const svg = $("#section-chart"), box = svg.getBoundingClientRect();
+  if (!box.width) return;
+  const width = box.width - LEFT - RIGHT, height = box.height - TOP - BOTTOM, scale = millimetresPerUnit();
   const low = Math.min(0, ...heights), high = Math.max(0.01, ...heights);
-  const length = Math.hypot(to[0] - from[0], to[1] - from[1]), mm = (z) => z.toFixed(2);
-  const x = (i) => i / (heights.length - 1) * width, y = (z) => height - 4 - (z - low) / (high - low) * (height - 8);
-  const points = heights.map((z, i) => `${x(i).toFixed(1)} ${y(z).toFixed(1)}`).join("L");
-  svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+  const x = (mm) => LEFT + mm / length * width, y = (z) => TOP + height * (1 - (z - low) / (high - low));
+  const place = (z, i) => `${x(i / (heights.length - 1) * length).toFixed(1)} ${y(z).toFixed(1)}`;
+  const points = heights.map(place).join("L");
+  const across = ticks(0, length / scale, 8), upwards = ticks(low / scale, high / scale, 3), end = LEFT + width;
+  const bottom = TOP + height;
+  svg.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
   svg.replaceChildren(
-    make("path", {class: "area", d: `M0 ${y(low)}L${points}L${width} ${y(low)}Z`}),
-    make("path", {class: "ground", d: `M0 ${y(0)}H${width}`}), make("path", {class: "line", d: `M${points}`}));
-  $("#section-text").textContent = `Section, ${length.toFixed(1)} mm long, from ${mm(low)} to ${mm(high)} mm`;
+    make("path", {class: "area", d: `M${LEFT} ${y(low)}L${points}L${end} ${y(low)}Z`}),
+    ...upwards.all.flatMap((z) => [make("path", {class: "ground", d: `M${LEFT} ${y(z * scale)}H${end}`}),
+      make("text", {x: LEFT - 6, y: y(z * scale) + 4, "text-anchor": "end"}, z.toFixed(upwards.decimals))]),
+    ...across.all.flatMap((mm) => [make("path", {class: "ground", d: `M${x(mm * scale)} ${bottom}v4`}),
+      make("text", {x: x(mm * scale), y: bottom + 15, "text-anchor": "middle"}, mm.toFixed(across.decimals))]),
+    make("path", {class: "line", d: `M${points}`}));
+  const times = (height / (high - low)) / (width / length), text = (z) => lengthText(z);
+  $("#section-text").textContent = `Section, ${lengthText(length, 1)} ${shown.unit} long, ` +
+    `from ${text(low)} to ${text(high)} ${shown.unit}; heights are drawn ${times.toFixed(1)} times as large as lengths`;
 }

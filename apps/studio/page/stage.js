@@ -3,6 +3,7 @@
 
 import {$, clamp, make} from "./controls.js";
 import {engineOptions} from "./document.js";
+import {Measure} from "./measure.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
@@ -45,6 +46,7 @@ export class Stage {
     this.wanted = this.shown = this.fine = 0;
     this.isReady = false;
     this.pixelsPerMm = 1;
+    this.measure = new Measure(this);
     this.listen();
   }
 
@@ -113,13 +115,17 @@ export class Stage {
   }
 
   async drawRelief(isFine, changedAt) {
+    const {model} = this;
     const {image, about} = await this.engine.frame(this.request({...this.pixels(isFine), fine: isFine}));
+    if (!this.isReady || model !== this.model) return; // another document or view is shown by now
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
+    this.about = about;
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
     if (this.isComparing || this.isHolding) await this.drawBefore(isFine, `${this.model} ${about.scene}`);
     if (this.tool === "section") await this.cut();
+    if (this.tool === "measure") this.measure.pictured();
   }
 
   // Draws the model itself, unless it was drawn in the same scene before.
@@ -133,11 +139,12 @@ export class Stage {
 
   async drawTable(isFine) {
     const half = (n) => Math.max(1, Math.round(n / 2));
-    const {width, height} = this.pixels(isFine);
+    const {width, height} = this.pixels(isFine), {model} = this;
     for (const [i, {light}] of TABLE_LIGHTS.entries()) {
       const cell = $(`#table [data-cell="${i}"] canvas`);
       const {image, about} = await this.engine.frame(
         this.request({width: half(width), height: half(height), fine: isFine, light}));
+      if (!this.isReady || model !== this.model) return;
       paint(cell, image);
       if (i === 0) this.on.picture(about, 0, isFine);
     }
@@ -158,12 +165,11 @@ export class Stage {
     this.element.dataset.tool = tool;
     const does = {
       light: "move the light", turn: "turn the relief", pan: "move the picture", section: "move the section",
+      measure: "measure",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
-    if (tool === "section") {
-      this.camera = {...this.camera, yaw: 0, pitch: 0};
-      this.line ??= this.middleLine();
-    }
+    if (tool === "section" || tool === "measure") this.camera = {...this.camera, yaw: 0, pitch: 0};
+    if (tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.invalidate();
   }
@@ -202,14 +208,14 @@ export class Stage {
 
   // --------------------------------------------------------------------- section
 
-  middleLine() {
-    const half = this.doc.now.options.width / 2;
-    return {from: [-half, 0], to: [half, 0]};
+  // Returns heights in mm along a line.
+  heights(from, to) {
+    return this.engine.profile(this.request({from, to}));
   }
 
   async cut() {
     const {from, to} = this.line;
-    this.on.section(await this.engine.profile(this.request({from, to})), from, to);
+    this.on.section(await this.heights(from, to), from, to);
   }
 
   // ------------------------------------------------------------------- positions
@@ -231,11 +237,8 @@ export class Stage {
       const x = this.split * width;
       marks.push(make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height}));
     }
-    if (this.tool === "section" && this.line) {
-      const [x1, y1] = this.toPixels(this.line.from), [x2, y2] = this.toPixels(this.line.to);
-      marks.push(make("line", {class: "cut", x1, y1, x2, y2}), make("circle", {class: "end", cx: x1, cy: y1, r: 5}),
-        make("circle", {class: "end", cx: x2, cy: y2, r: 5}));
-    }
+    if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
+    if (this.tool === "measure") marks.push(...this.measure.marks());
     if (this.sun) {
       const [x, y] = this.sun;
       marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}),
@@ -249,7 +252,8 @@ export class Stage {
   listen() {
     const stage = this.element;
     stage.onpointerdown = (event) => this.press(event);
-    stage.onpointermove = (event) => this.drag && this.move(event);
+    stage.onpointermove = (event) => (this.drag ? this.move(event) : this.hover(event));
+    stage.onpointerleave = () => this.tool === "measure" && this.measure.point(null);
     stage.onpointerup = stage.onpointercancel = () => this.release();
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
@@ -262,17 +266,27 @@ export class Stage {
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
-    this.drag = {tool, x: event.offsetX, y: event.offsetY, from: this.toPlace(event.offsetX, event.offsetY)};
+    const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
+    this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
   }
 
   move(event) {
-    const {tool, x, y, from} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
+    const {tool, x, y} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
     if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
     if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
     if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
-    if (tool === "section" && Math.hypot(dx, dy) > 3) this.setLine(from, this.toPlace(event.offsetX, event.offsetY));
+    const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
+    if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
+    if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
     if (tool === "turn" || tool === "pan") Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+  }
+
+  // The cursor tells what a drag would take.
+  hover({offsetX: x, offsetY: y}) {
+    const line = {section: this.line, measure: this.measure.line}[this.tool];
+    this.element.classList.toggle("at-end", Boolean(line && this.measure.endAt(line, x, y)));
+    if (this.tool === "measure") this.measure.point(this.toPlace(x, y));
   }
 
   release() {
@@ -308,8 +322,8 @@ export class Stage {
     this.invalidate();
   }
 
-  setLine(from, to) {
-    this.line = {from, to};
+  setLine(line) {
+    this.line = line;
     this.drawOverlay();
     this.invalidate();
   }
@@ -341,7 +355,7 @@ export class Stage {
     if (this.tool === "pan") this.shift(x * 20 * size / this.pixelsPerMm, y * 20 * size / this.pixelsPerMm);
     if (this.tool === "section") {
       const moved = ([px, py]) => [px + x * size, py + y * size];
-      this.setLine(moved(this.line.from), moved(this.line.to));
+      this.setLine({from: moved(this.line.from), to: moved(this.line.to)});
     }
   }
 }

@@ -85,9 +85,9 @@ test("opens files only, and none that does not fit into memory", async () => {
   const wanted = [["/dev/zero", /found a device/], [pipe, /found a pipe/], [folder, /found a folder/],
     [huge, /at most \d+ MiB/]];
   for (const [file, text] of wanted) {
-    await engine.post("open", {input: {path: file}});
+    const {document} = await engine.json("open", {input: {path: file}});
     let status;
-    do ({status} = await about()); while (status.busy && !(await sleep(20)));
+    do status = await engine.json("status", {document}); while (status.busy && !(await sleep(20)));
     assert.match(status.error?.text ?? "nothing", text);
   }
   assert.ok(mostMemory() < 1000, `${mostMemory()} MiB`);
@@ -151,17 +151,6 @@ test("keeps many requests on one connection, and two that are sent at once", asy
   socket.destroy();
 });
 
-test("makes no file of another scan than the page shows", async () => {
-  const make = (input) => engine.post("export", {input, options: OPTIONS, format: "stl"});
-  assert.equal((await make({path: scan})).status, 200);
-  for (const other of [{sample: "shell"}, {path: `${scan}.ply`}]) {
-    const answer = await make(other);
-    assert.equal(answer.status, 409);
-    assert.match(JSON.parse(answer.body).error.text, /expected this scan to be open, found scan\.ply/);
-  }
-  assert.equal((await make({path: 3})).status, 400);
-});
-
 test("shares its port with nobody", async () => {
   const other = new EngineProcess(path.join(folder, "other"), "--port", engine.url.port);
   await assert.rejects(other.ready(), /expected a port that is free/);
@@ -174,12 +163,15 @@ test("keeps apart what two studios keep, and says so", async () => {
   const {notice} = await about(second);
   assert.match(notice, /Another studio uses .*shared.* keeps its work in .*shared-2/);
   assert.ok(second.errors.includes(notice), second.errors);
-  await first.post("state", {from: "first"});
-  await second.post("state", {from: "second"});
-  for (const [of, from] of [[first, "first"], [second, "second"]]) assert.equal((await about(of)).state.from, from);
+  const kept = async (of) => (await of.json("document", {input: {sample: "shell"}})).kept.from;
+  const {document} = await first.json("document", {input: {sample: "shell"}});
+  for (const [of, from] of [[first, "first"], [second, "second"]]) {
+    await of.post("state", {document, state: {from}});
+    assert.equal(await kept(of), from);
+  }
   await first.stop();
   const third = await new EngineProcess(state).ready();
-  assert.equal((await about(third)).state.from, "first");
+  assert.equal(await kept(third), "first");
   await Promise.all([second.stop(), third.stop()]);
 });
 
@@ -191,6 +183,6 @@ test("says when nothing can be kept, and works all the same", async () => {
   assert.match(other.errors, /cannot be written to/);
   await other.open({path: scan});
   assert.equal((await other.post("frame", FRAME)).status, 200);
-  assert.equal((await other.post("state", {})).status, 500);
+  assert.equal((await other.post("state", {state: {}})).status, 500);
   await other.stop();
 });

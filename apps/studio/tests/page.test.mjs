@@ -22,7 +22,8 @@ before(async () => {
   page = await (await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true})).newPage();
   page.setDefaultTimeout(60000);
   page.on("pageerror", (error) => complaints.push(error.message));
-  page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
+  page.on("console", (message) => message.type() === "error" &&
+    complaints.push(`${message.text()} ${message.location().url}`));
   await start();
 });
 
@@ -167,13 +168,11 @@ test("takes numbers as people type them, and refuses others in one line", {skip}
   await field("Width in mm").press("ArrowUp");
   assert.ok((await value("Width in mm")) > 10);
   await set("Width in mm", width);
-  await button("Export").click();
-  const dialog = page.getByRole("dialog", {name: "Export"});
-  await dialog.getByLabel("Draft angle").fill("15 degrees");
-  await dialog.getByRole("button", {name: "Export"}).click();
-  await dialog.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
-  await dialog.getByLabel("Draft angle").fill("");
-  await dialog.getByRole("button", {name: "Cancel"}).click();
+  await page.locator("details", {hasText: "Making"}).locator("summary").click();
+  await page.getByLabel("Draft angle").fill("15 degrees");
+  await page.getByLabel("Draft angle").press("Enter");
+  await alert.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
+  assert.equal(await page.getByLabel("Draft angle").inputValue(), "");
 });
 
 test("keeps a locked height while saturation moves", {skip}, async () => {
@@ -204,9 +203,10 @@ test("undoes and redoes, step by step", {skip}, async () => {
   await untilHeight(3, 0.01);
   const before = await picture();
   assertOther(before, last);
-  await button("Undo").click();
+  let steps = 0; // more than one if the machine is so slow that the keys were pressed with pauses
+  do await button("Undo").click(); while (++steps < 30 && (await value("Saturation value")) > 0);
   assert.equal(await value("Saturation value"), 0);
-  await button("Redo").click();
+  while (steps-- > 0) await button("Redo").click();
   assertSame(await picture(), before);
 });
 
@@ -260,7 +260,6 @@ test("names what it reads and offers each outline, form and format of the engine
   await added.goto(engine.address);
   await added.getByText(/points.*height/).waitFor();
   assert.equal(await added.locator("#readable").textContent(), "point cloud (ADDED)");
-  await added.getByRole("button", {name: "Export", exact: true}).click();
   const {options, formats} = JSON.parse((await engine.get("api/about")).body);
   for (const name of ["outline", "form"]) {
     const values = await added.locator(`#${name} option`).evaluateAll((all) => all.map(({value}) => value));
@@ -336,7 +335,33 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   await change(() => press(stage, "ArrowLeft", 5));
   await button("Fit").click();
   await page.getByRole("radio", {name: "Section"}).click();
-  await page.getByText(/Section, 100\.0 mm long, from -?[\d.]+ to [\d.]+ mm/).waitFor();
+  await page.getByText(/Section, 110\.0 mm long, from -?[\d.]+ to [\d.]+ mm/).waitFor();
+  const box = await stage.boundingBox(), middle = [box.x + box.width / 2, box.y + box.height / 2];
+  const overlay = page.locator("#overlay"), drag = async (from, to) => {
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(...to, {steps: 3});
+    await page.mouse.up();
+  };
+  const ends = async () => overlay.locator("circle.end").evaluateAll((all) =>
+    all.map((circle) => ["cx", "cy"].map((name) => Number(circle.getAttribute(name)))));
+  const [[x1, y1], [x2, y2]] = await ends();
+  await drag([box.x + x2, box.y + y2], middle); // takes that end, and leaves the other where it is
+  const [[x, y], [x3]] = await ends();
+  assert.ok(Math.hypot(x - x1, y - y1) < 2, `${x} ${y} for ${x1} ${y1}`); // pictures have a whole number of pixels
+  assert.ok(Math.abs(x3 - box.width / 2) < 2, `${x3} of ${x2}`);
+  await page.getByText(/Section, 55\.\d mm long.* heights are drawn [\d.]+ times as large as lengths/).waitFor();
+  assert.ok((await page.locator("#section-chart text").count()) > 6);
+  await page.getByRole("radio", {name: "Measure"}).click();
+  await overlay.getByText("110.00 mm", {exact: true}).waitFor();
+  await overlay.getByText("100.00 mm", {exact: true}).waitFor();
+  await page.mouse.move(...middle);
+  await overlay.getByText(/^Height [\d.]+ mm$/).waitFor();
+  await drag([middle[0] - 50, middle[1]], [middle[0] + 50, middle[1]]);
+  const told = await overlay.getByText(/^[\d.]+ mm, [+−][\d.]+ mm$/).textContent();
+  const plate = Math.max(...await overlay.locator("line.dimension").evaluateAll((all) =>
+    all.map((line) => line.getAttribute("x2") - line.getAttribute("x1")))); // pixels of 110 mm
+  assert.ok(Math.abs(Number(told.match(/^[\d.]+/)[0]) - 110 * 100 / plate) < 0.6, told);
   await page.getByRole("radio", {name: "Light", exact: true}).click();
   await button("Compare").click();
   await page.getByRole("slider", {name: "Divider between model and relief"}).press("ArrowRight");
@@ -362,7 +387,9 @@ test("saves a project, opens it again, and makes the same bytes of it", {skip}, 
   await set("Height in mm", 2.5);
   await untilHeight(2.5, 0.01);
   const shown = await picture(), file = path.join(folder, "work.relievo");
-  const saved = JSON.parse(await saveAs(() => button("Save project").click(), file));
+  await button("Save project").click();
+  await page.getByRole("radio", {name: /^Settings alone/}).check();
+  const saved = JSON.parse(await saveAs(() => button("Save").click(), file));
   assert.equal(saved.options.height, 2.5);
   await set("Height in mm", 5);
   await choose("Front");
@@ -375,7 +402,7 @@ test("saves a project, opens it again, and makes the same bytes of it", {skip}, 
 
   await button("Export").click();
   const dialog = page.getByRole("dialog", {name: "Export"});
-  await dialog.getByRole("radio", {name: /^STL/}).check();
+  await dialog.getByRole("checkbox", {name: /^STL/}).check();
   const stl = await saveAs(() => dialog.getByRole("button", {name: "Export"}).click(), path.join(folder, "studio.stl"));
   const made = spawnSync(PROGRAM, ["make", file, "-o", path.join(folder, "make.stl")]);
   assert.equal(made.status, 0, String(made.stderr));
@@ -389,17 +416,17 @@ test("saves a project, opens it again, and makes the same bytes of it", {skip}, 
 test("tells the size of the file beforehand", {skip}, async () => {
   await button("Export").click();
   const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByText(/triangles/).waitFor();
   const told = (await dialog.getByText(/^STL/).locator("xpath=ancestor::label").innerText())
     .match(/([\d.]+) (kB|MB)/);
   const bytes = readFileSync(path.join(folder, "studio.stl")).length, unit = told[2] === "MB" ? 1e6 : 1e3;
-  const ratio = Number(told[1]) * unit / bytes;
-  assert.ok(ratio > 0.6 && ratio < 1.6, `${told[0]} for ${bytes} bytes`);
+  assert.ok(Math.abs(Number(told[1]) * unit / bytes - 1) < 0.06, `${told[0]} for ${bytes} bytes`);
   await dialog.getByRole("button", {name: "Cancel"}).click();
 });
 
 test("cuts a round plate", {skip}, async () => {
   await page.getByRole("combobox", {name: "Outline"}).selectOption("Circle");
-  await page.getByText("The files have this outline").waitFor();
+  await picture();
   await button("Export").click();
   const dialog = page.getByRole("dialog", {name: "Export"});
   const stl = await saveAs(() => dialog.getByRole("button", {name: "Export"}).click(), path.join(folder, "round.stl"));
@@ -409,6 +436,34 @@ test("cuts a round plate", {skip}, async () => {
   assert.ok(size[0] > Math.max(...before.size.slice(0, 2)), `${size}, the rectangle ${before.size}`);
   await button("Undo").click();
   assert.equal(await page.getByRole("combobox", {name: "Outline"}).inputValue(), "rectangle");
+});
+
+test("fits the relief into a plate of the size that is asked for", {skip}, async () => {
+  const size = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
+  const enter = async (label, text) => {
+    await page.getByLabel(label, {exact: true}).fill(text);
+    await page.getByLabel(label, {exact: true}).press("Enter");
+  };
+  const width = await value("Width in mm");
+  await enter("Plate size", "20cm x 150");
+  await page.getByText(/piece 200\.00 × 150\.00/).waitFor();
+  assert.notEqual(await value("Width in mm"), width);
+  await page.getByLabel("Kind of work").selectOption("Coin or medal");
+  await enter("Diameter", "80");
+  await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
+  const most = await value("Width in mm");
+  await set("Width in mm", 30);
+  await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
+  assert.equal(await value("Width in mm"), 30);
+  await set("Width in mm", 500); // the plate leaves less
+  assert.equal(await value("Width in mm"), most);
+  await page.getByLabel("Kind of work").selectOption("Die");
+  assert.equal(await page.getByLabel("Diameter", {exact: true}).inputValue(), "80");
+  await picture();
+  assert.ok((await size())[0] > 80, "the die is larger than its coin");
+  while (await page.getByLabel("Kind of work").inputValue() !== "relief") await button("Undo").click();
+  await button("Undo").click();
+  assert.equal(await value("Width in mm"), width);
 });
 
 test("goes on after a reload and after a new start of the engine", {skip}, async () => {
@@ -444,7 +499,7 @@ test("says in plain words what is wrong with a file", {skip}, async () => {
 });
 
 test("cancels", {skip}, async () => {
-  await button("Start page").click();
+  await button("Relievo, start page").click();
   await page.getByRole("button", {name: /still life/i}).first().click();
   await button("Cancel").click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor({state: "hidden"});
@@ -463,6 +518,52 @@ test("helps at the press of a key, and names all it has", {skip}, async () => {
     return [...all].filter((e) => !hasName(e)).map((e) => e.outerHTML.slice(0, 80));
   });
   assert.deepEqual(nameless, []);
+});
+
+// Returns what axe finds on the page as it is, as its rules and the elements that break them.
+async function findings(axe) {
+  await page.evaluate(axe);
+  return page.evaluate(async () => (await window.axe.run(document, {resultTypes: ["violations"]})).violations
+    .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
+}
+
+test("has no findings of axe, light and dark and in forced colours", {skip}, async (context) => {
+  const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
+  if (!axe) return context.skip("axe-core is not installed (npm ci --prefix apps/studio/tests)");
+  for (const media of [{colorScheme: "dark"}, {colorScheme: "light", forcedColors: "active"},
+    {colorScheme: "light", forcedColors: "none"}]) {
+    await page.emulateMedia(media);
+    assert.deepEqual(await findings(axe), [], JSON.stringify(media));
+  }
+  for (const name of ["Choose view", "Export", "Help", "Relievo, start page"]) {
+    await button(name).click();
+    if (name === "Export") await page.getByText(/triangles$/).waitFor();
+    assert.deepEqual(await findings(axe), [], name);
+    await page.keyboard.press("Escape");
+  }
+  await button("Back to the relief").click();
+});
+
+test("has everything within reach on a phone", {skip}, async () => {
+  await page.setViewportSize({width: 390, height: 844});
+  await untilReady();
+  const beyond = () => page.evaluate(() => [...document.querySelectorAll(
+    "header button, #stage, .inspector summary, dialog[open] button, dialog[open] input, #drop, .cards button")]
+    .filter((element) => element.checkVisibility()).filter((element) => {
+      const {left, right} = element.getBoundingClientRect();
+      return left < 0 || right > innerWidth;
+    }).map((element) => element.outerHTML.slice(0, 80)));
+  assert.deepEqual(await beyond(), []);
+  const stage = await page.locator("#stage").boundingBox();
+  assert.ok(stage.width === 390 && stage.height > 300, JSON.stringify(stage));
+  for (const summary of await page.locator(".inspector summary").all()) await summary.scrollIntoViewIfNeeded();
+  for (const name of ["Export", "Choose view", "Relievo, start page"]) {
+    await button(name).click();
+    assert.deepEqual(await beyond(), [], name);
+    await page.keyboard.press("Escape");
+  }
+  await button("Back to the relief").click();
+  await page.setViewportSize({width: 1280, height: 800});
 });
 
 test("complains about nothing", {skip}, () => assert.deepEqual(complaints, []));

@@ -28,13 +28,18 @@ after(async () => {
 
 const status = async (answer) => (await answer).status;
 const about = async () => JSON.parse((await engine.get("api/about")).body);
-const facts = async () => JSON.parse((await engine.get("api/facts")).body);
+const facts = () => engine.json("facts");
 
 // Returns what is sent along with a picture's pixels; `part` replaces parts of the usual request.
 async function frame(part = {}) {
   const answer = await engine.post("frame", {...FRAME, ...part});
   assert.equal(answer.status, 200, String(answer.body));
   return JSON.parse(answer.headers["x-relievo"]);
+}
+// Returns the shorter side of the relief's box by the longer one.
+async function shape() {
+  const {size} = await facts();
+  return size[1] / size[0];
 }
 const stillWorks = async () => assert.equal(await status(engine.post("frame", FRAME)), 200);
 
@@ -94,12 +99,11 @@ test("refuses what is too large", async () => {
 test("refuses malformed requests and says what was expected", async () => {
   const bodies = ["", "{", "[]", "null", "\"x\"", "{\"options\":", "\xff\xfe", "[".repeat(100000), "{\"options\": 3}"];
   for (const body of bodies)
-    for (const action of ["frame", "export", "open", "state", "project", "profile", "scan"]) {
+    for (const action of ["frame", "export", "open", "document", "state", "project", "save", "profile", "scan"]) {
       const answer = await engine.post(action, Buffer.from(body, "latin1"));
-      const isFine = action === "state" && body.startsWith("{\"options\": 3");
       const isRefused = answer.status >= 400 && answer.status < 500;
-      assert.ok(isFine || isRefused, `${action} ${body.slice(0, 20)} ${answer.status}`);
-      if (!isFine) assert.ok(JSON.parse(answer.body).error.text.length > 5);
+      assert.ok(isRefused, `${action} ${body.slice(0, 20)} ${answer.status}`);
+      assert.ok(JSON.parse(answer.body).error.text.length > 5);
     }
   const wrong = [{width: "wide"}, {width: -1}, {width: 1e9}, {material: "cheese"}, {material: 3}, {camera: []},
     {camera: {zoom: 0}}, {options: {heigth: 2}}, {options: {height: "2"}}, {options: {height: -1}},
@@ -175,6 +179,30 @@ test("samples the tone curve and the paper's formula", async () => {
   assert.deepEqual(drawn.curve.kept, drawn.curve.share);
 });
 
+test("tells the size of the piece, and cuts the piece that the file will be", async () => {
+  const plain = await frame();
+  assert.deepEqual(plain.size_mm.map((mm) => mm.toFixed(1)), ["70.0", (60 * (await shape()) + 10).toFixed(1), "5.0"]);
+  assert.equal(plain.most_width_mm, null);
+  const coin = {height: 2, view: "front", outline: "circle", diameter: 80, rim: 3, "rim-height": 1.5};
+  const {size_mm: size, width_mm: width, most_width_mm: most, relief_mm: relief} =
+    await frame({options: coin, fine: true});
+  assert.deepEqual(size.slice(0, 2).map((mm) => mm.toFixed(6)), ["80.000000", "80.000000"]);
+  assert.equal(width, most);
+  for (const [x, y] of [relief[0], relief[1]]) assert.ok(Math.hypot(x, y) < 40 * Math.SQRT2, `${x} ${y}`);
+  assert.ok(Math.abs(Math.max(relief[1][0] - relief[0][0], relief[1][1] - relief[0][1]) - width) < 0.01);
+  const line = {from: [-40.5, 0], to: [40.5, 0]};
+  const {heights_mm: heights} = await engine.json("profile", {...FRAME, options: coin, ...line});
+  assert.equal(heights.length, 400);
+  const at = (mm) => heights[Math.round((mm + 40.5) / 81 * 399)];
+  for (const mm of [-39, 39]) assert.ok(Math.abs(at(mm) - 1.5) < 1e-3, `rim ${at(mm)}`);
+  for (const mm of [-36, 36]) assert.ok(Math.abs(at(mm)) < 1e-3, `ground ${at(mm)}`);
+  for (const mm of [-40.5, 40.5]) assert.ok(at(mm) <= -3 + 1e-3, `beside the coin ${at(mm)}`);
+  assert.ok(Math.max(...heights) <= 2.01 && Math.max(...heights) > 1.6, `${Math.max(...heights)}`);
+  const wide = await engine.post("frame", {...FRAME, options: {...coin, width: most + 1}});
+  assert.equal(wide.status, 422);
+  assert.match(String(wide.body), /width: expected at most [\d.]+ mm, which the plate leaves/);
+});
+
 test("numbers what a picture shows besides the relief", async () => {
   const {scene} = await frame();
   assert.equal((await frame({options: {...OPTIONS, saturation: 0.3, height: 1, method: "paper"}})).scene, scene);
@@ -193,11 +221,12 @@ test("makes a frame once", async () => {
 });
 
 test("takes a view that is chosen while the scan is read", async () => {
-  await engine.post("open", {input: {sample: "still_life", name: "still_life"}});
-  await engine.post("view", {view: "left"});
-  const {input, shown} = await engine.untilIdle();
-  assert.equal(input.sample, "still_life");
-  assert.equal(shown.view, "left");
+  const input = {sample: "still_life", name: "still_life"}, {document} = await engine.json("open", {input});
+  await engine.post("view", {document, view: "left"});
+  engine.document = document;
+  const status = await engine.untilIdle();
+  assert.equal(status.input.sample, "still_life");
+  assert.equal(status.shown.view, "left");
   assert.equal((await facts()).rotation[6], -1);
   await engine.open({path: scan});
 });
@@ -225,20 +254,21 @@ test("removes as much noise as is measured or asked for", async () => {
   assert.equal((await facts()).noise, measured);
 });
 
-test("goes on with the old scan when the new one is cancelled", async () => {
-  const {model} = (await about()).status;
-  await engine.post("open", {input: {sample: "still_life", name: "still_life"}});
-  await engine.post("cancel", {});
+test("keeps a document as it is while the opening of another is cancelled", async () => {
+  const before = await engine.json("status");
+  const {document} = await engine.json("open", {input: {sample: "green_man", name: "green_man"}});
+  await engine.post("cancel", {document});
   let now;
-  do now = (await about()).status; while (now.busy);
+  do now = await engine.json("status", {document}); while (now.busy);
   assert.equal(now.error.kind, "cancelled");
-  assert.equal(now.model, model);
-  assert.equal(now.input.path, scan);
+  assert.equal(now.model, 0);
+  assert.deepEqual(await engine.json("status"), before);
   await stillWorks();
   await engine.post("view", {view: "left"});
   await engine.untilIdle();
   assert.equal((await facts()).input_points, 20000);
-  await engine.open({path: scan});
+  await engine.post("view", {view: "front"});
+  await engine.untilIdle();
 });
 
 test("opens scenes, and exports what make makes of them", async () => {
@@ -284,7 +314,7 @@ test("survives a page that closes during an export, and half a request", async (
 test("exports the very bytes that make writes", async () => {
   const options = {
     ...OPTIONS, saturation: 0.3, detail: 0.05, tone: "0,0.2;0.6,0.5;1,0.9", steepest: 60, boundary: 4, margin: 2,
-    thickness: 1.5, form: "mirror", resolution: 0.2, tolerance: 0.02, draft: 40,
+    thickness: 1.5, form: "mirror", resolution: 0.2, tolerance: 0.02, triangles: 900000, draft: 40,
   };
   const project = path.join(folder, "p.relievo");
   writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "scan.ply"}, options}));
@@ -313,13 +343,19 @@ test("opens a mesh and looks at it from where the view is", async () => {
   await other.stop();
 });
 
-test("tells why a scan cannot be opened and keeps the old one", async () => {
-  await engine.post("open", {input: {path: path.join(folder, "gone.ply")}});
-  const deadline = Date.now() + 5000;
-  let about;
-  do about = JSON.parse((await engine.get("api/about")).body); while (!about.status.error && Date.now() < deadline);
-  assert.match(about.status.error.text, /gone\.ply/);
+test("tells why a scan cannot be opened, and keeps the others", async () => {
+  const {document} = await engine.json("open", {input: {path: path.join(folder, "gone.ply")}});
+  let now;
+  do now = await engine.json("status", {document}); while (now.busy);
+  assert.match(now.error.text, /gone\.ply/);
   await stillWorks();
+});
+
+test("says that a document is not open", async () => {
+  for (const document of ["", "0123456789abcdef", "../../etc/passwd", 3]) {
+    const answer = await engine.post("frame", {...FRAME, document});
+    assert.ok([400, 409].includes(answer.status), `${document} ${answer.status}`);
+  }
 });
 
 test("ends when the last page has gone, and not before", async () => {

@@ -19,7 +19,8 @@ export const removeFolder = (folder) => rmSync(folder, {recursive: true, force: 
 // `relievo studio` with its own state folder.
 export class EngineProcess {
   constructor(state, ...args) {
-    this.child = spawn(PROGRAM, ["studio", "--no-browser", "--state", state, ...args]);
+    const page = process.env.RELIEVO_PAGE ? ["--page", process.env.RELIEVO_PAGE] : []; // for work on the page
+    this.child = spawn(PROGRAM, ["studio", "--no-browser", "--state", state, ...page, ...args]);
     this.errors = "";
     this.child.stderr.on("data", (data) => (this.errors += data));
     this.ended = new Promise((resolve) => this.child.on("exit", (code, signal) => resolve({code, signal})));
@@ -55,8 +56,10 @@ export class EngineProcess {
     });
   }
 
+  // Concerns the document that was opened last, unless the body names another or is a text.
   post(action, json, options = {}) {
-    const body = typeof json === "string" || Buffer.isBuffer(json) ? json : JSON.stringify(json);
+    const isText = typeof json === "string" || Buffer.isBuffer(json);
+    const body = isText ? json : JSON.stringify({document: this.document, ...json});
     return this.request(`${this.url.pathname}api/${action}`, {method: "POST", body, ...options});
   }
 
@@ -64,17 +67,21 @@ export class EngineProcess {
     return this.request(this.url.pathname + name);
   }
 
+  async json(action, body = {}) {
+    return JSON.parse((await this.post(action, body)).body);
+  }
+
   // Opens an input and waits until its relief can be drawn.
   async open(input) {
-    await this.post("open", {input});
+    ({document: this.document} = await this.json("open", {input, tab: "test"}));
     return this.untilIdle();
   }
 
   async untilIdle() {
     for (let i = 0; i < 600; ++i) {
-      const {status} = JSON.parse((await this.get("api/about")).body);
+      const status = await this.json("status");
       if (status.model > 0 && !status.busy) return status;
-      if (status.error) throw new Error(status.error.text);
+      if (status.error && !status.busy) throw new Error(JSON.stringify(status.error));
       await new Promise((resolve) => setTimeout(resolve, 50));
     }
     throw new Error("the scan was not ready in time");

@@ -1,24 +1,28 @@
 // Several tabs of one browser on one studio.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
+import {readFileSync, renameSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
 if (skip) console.log(`SKIPPED: ${skip}`);
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
+const folder = temporaryFolder(), state = path.join(folder, "state"), scan = path.join(folder, "scan.ply");
+const fileOf = (sample) => (sample === "still_life" ? scan : path.join(folder, `${sample}.ply`));
 let browser, context, engine;
 
 before(async () => {
   if (skip) return;
-  const made = spawnSync(PROGRAM, ["sample", "still_life", "-o", scan, "--points", "20000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  for (const [sample, points] of [["still_life", 20000], ["shell", 6000], ["green_man", 5000]]) {
+    const made = spawnSync(PROGRAM, ["sample", sample, "-o", fileOf(sample), "--points", String(points)]);
+    assert.equal(made.status, 0, String(made.stderr));
+  }
   browser = await found.launch();
   context = await browser.newContext({viewport: {width: 1000, height: 700}, acceptDownloads: true});
-  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
+  engine = await new EngineProcess(state, scan).ready();
 });
 
 after(async () => {
@@ -29,7 +33,7 @@ after(async () => {
 
 async function newTab() {
   const tab = await context.newPage();
-  tab.setDefaultTimeout(20000);
+  tab.setDefaultTimeout(60000);
   await tab.goto(engine.address);
   await untilReady(tab);
   return tab;
@@ -45,41 +49,147 @@ test("works in nine tabs at once, whichever has the stream of events", {skip}, a
   for (let i = 0; i < 9; ++i) tabs.push(await newTab());
   for (const closed of [0, 4]) await tabs[closed].close(); // the first has the stream
   const left = tabs.filter((tab) => !tab.isClosed());
+  ({document: engine.document} = await engine.json("document", {input: {path: scan}}));
   await engine.post("view", {view: "left"});
   await engine.untilIdle();
-  const {visible_points: points} = JSON.parse((await engine.get("api/facts")).body);
+  const {visible_points: points} = await engine.json("facts");
   for (const tab of left) await tab.getByText(`${points.toLocaleString("en-US")} of 20,000 points`).waitFor();
   for (const tab of left) await tab.close();
 });
 
-test("follows another tab to its scan, says so, and goes back", {skip}, async () => {
-  const [tab, other] = [await newTab(), await newTab()], title = tab.locator("#title");
-  const height = (of) => of.getByRole("spinbutton", {name: "Height in mm"});
-  await height(tab).fill("3.25");
-  await height(tab).press("Enter");
-  await other.getByRole("button", {name: "Start page"}).click();
-  await other.getByRole("list", {name: "Try a sample"}).getByRole("button", {name: /shell/i}).click();
-  await height(other).fill("1.5");
-  await height(other).press("Enter");
-  await tab.getByRole("alert").getByText("Another tab opened shell, which is shown here, too.").waitFor();
-  assert.equal(await title.innerText(), "Shell");
-  assert.equal(await height(tab).inputValue(), "1.50");
-  await untilReady(tab);
+const title = (of) => of.locator("#title");
+const height = (of) => of.getByRole("spinbutton", {name: "Height in mm"});
+const setHeight = async (of, text) => {
+  await height(of).fill(text);
+  await height(of).press("Enter");
+};
+const untilHeight = async (of, text) => {
+  for (let i = 0; i < 400 && (await height(of).inputValue()) !== text; ++i) await of.waitForTimeout(50);
+  assert.equal(await height(of).inputValue(), text);
+};
+const openScan = async (of, sample) => {
+  const chooser = of.waitForEvent("filechooser");
+  await of.getByRole("button", {name: "Open", exact: true}).click();
+  await (await chooser).setFiles(fileOf(sample));
+  await of.getByText(/of [56],000 points/).waitFor();
+  await untilReady(of);
+};
+
+async function exported(tab) {
   await tab.getByRole("button", {name: "Export", exact: true}).click();
   const download = tab.waitForEvent("download");
   await tab.getByRole("dialog", {name: "Export"}).getByRole("button", {name: "Export"}).click();
-  assert.match((await download).suggestedFilename(), /^shell/);
-  await tab.getByRole("button", {name: "Go back to scan.ply"}).click();
+  const file = path.join(folder, "exported.stl");
+  await (await download).saveAs(file);
+  return {name: (await download).suggestedFilename(), height: readStl(readFileSync(file)).size[2]};
+}
+
+test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
+  const [tab, other] = [await newTab(), await newTab()];
+  await setHeight(tab, "3.25");
+  await openScan(other, "shell");
+  await setHeight(other, "1.5");
+  await tab.waitForTimeout(300);
+  assert.deepEqual([await title(tab).innerText(), await title(other).innerText()], ["scan.ply", "shell.ply"]);
+  assert.deepEqual([await height(tab).inputValue(), await height(other).inputValue()], ["3.25", "1.50"]);
   await tab.getByText("of 20,000 points").waitFor();
-  assert.equal(await title.innerText(), "scan.ply");
-  assert.equal(await height(tab).inputValue(), "3.25");
-  await other.getByText("Another tab opened scan.ply, which is shown here, too.").waitFor();
+  for (const [of, name, mm] of [[tab, /^scan/, 3.25], [other, /^shell/, 1.5]]) {
+    const file = await exported(of);
+    assert.match(file.name, name);
+    assert.ok(Math.abs(file.height - 3 - mm) < 0.01, `${file.height}`);
+  }
+  for (const each of [tab, other]) await each.reload().then(() => untilReady(each)); // each stays with its document
+  assert.deepEqual([await title(tab).innerText(), await title(other).innerText()], ["scan.ply", "shell.ply"]);
   for (const each of [tab, other]) await each.close();
 });
 
-test("follows another tab to its view", {skip}, async () => {
-  const tab = await newTab(), name = tab.locator("#view-name");
-  await engine.post("view", {view: "right"});
-  await name.getByText("Right").waitFor();
+test("comes back to each scan as it was left, with its steps, and shows recent ones at once", {skip}, async () => {
+  const tab = await newTab(), {document} = await engine.json("document", {input: {path: scan}});
+  await tab.goto(`${engine.address}#${document}`);
+  await tab.reload();
+  await untilReady(tab);
+  await setHeight(tab, "2.75");
+  await openScan(tab, "green_man");
+  await setHeight(tab, "6");
+  await untilReady(tab);
+  await tab.getByRole("button", {name: "Start page"}).click();
+  const recent = tab.getByRole("list", {name: "Go on with"});
+  await recent.getByRole("button", {name: "green_man.ply"}).waitFor();
+  const picture = recent.getByRole("button", {name: "green_man.ply"}).locator("img");
+  for (let i = 0; i < 60 && !(await picture.getAttribute("src")).startsWith("data:"); ++i) await tab.waitForTimeout(50);
+  assert.match(await picture.getAttribute("src"), /^data:image\/jpeg/);
+  await recent.getByRole("button", {name: /^scan\.ply/}).click();
+  await untilReady(tab);
+  assert.equal(await title(tab).innerText(), "scan.ply");
+  assert.equal(await height(tab).inputValue(), "2.75");
+  await tab.getByRole("button", {name: "Undo"}).click();
+  assert.equal(await height(tab).inputValue(), "3.25");
+  await tab.close();
+});
+
+test("is one document in two tabs", {skip}, async () => {
+  const [tab, other] = [await newTab(), await newTab()], before = await height(tab).inputValue();
+  await setHeight(tab, "4.5");
+  await untilHeight(other, "4.50");
+  await other.getByRole("button", {name: "Undo"}).click();
+  await untilHeight(tab, before);
+  await tab.getByRole("button", {name: "Redo"}).click();
+  await untilHeight(other, "4.50");
+  for (const each of [tab, other]) await each.close();
+});
+
+test("loses nothing when the engine is killed in a drag, and finds the next one by itself", {skip}, async () => {
+  const tab = await newTab(), slider = tab.getByRole("slider", {name: "Height", exact: true});
+  const box = await slider.boundingBox(), y = box.y + box.height / 2;
+  await tab.mouse.move(box.x + box.width / 2, y);
+  await tab.mouse.down();
+  for (let i = 0; i < 20; ++i) {
+    await tab.mouse.move(box.x + box.width / 2 - 2 * i, y);
+    if (i === 12) await engine.stop("SIGKILL");
+  }
+  await tab.mouse.up();
+  await tab.getByRole("alert").getByText(/engine has stopped/).waitFor();
+  const dragged = await height(tab).inputValue();
+  await tab.getByRole("spinbutton", {name: "Margin in mm"}).fill("8");
+  await tab.getByRole("spinbutton", {name: "Margin in mm"}).press("Enter");
+  const address = engine.address;
+  engine = await new EngineProcess(state).ready();
+  assert.equal(engine.address, address);
+  await tab.getByRole("alert").getByText(/engine is back/).waitFor();
+  await untilReady(tab);
+  assert.equal(await height(tab).inputValue(), dragged);
+  await tab.waitForTimeout(200);
+  const {kept} = await engine.json("document", {input: {path: scan}}), {options} = kept.steps[kept.at];
+  assert.equal(options.height.toFixed(2), dragged);
+  assert.equal(options.margin, 8);
+  await tab.close();
+});
+
+test("shows what another page kept later, and says so", {skip}, async () => {
+  const tab = await newTab(), {document, kept} = await engine.json("document", {input: {path: scan}});
+  kept.steps[kept.at].options.height = 5.5;
+  await engine.post("state", {document, state: {...kept, changed: Date.now() + 1000}, tab: "another"});
+  await untilHeight(tab, "5.50");
+  await engine.stop("SIGKILL");
+  await tab.getByRole("alert").getByText(/engine has stopped/).waitFor();
+  engine = await new EngineProcess(state).ready();
+  kept.steps[kept.at].options.height = 6.5;
+  await engine.post("state", {document, state: {...kept, changed: Date.now() + 20000}, tab: "another"});
+  await untilHeight(tab, "6.50");
+  await tab.close();
+});
+
+test("asks for a scan that has moved, and goes on with it", {skip}, async () => {
+  const tab = await newTab(), moved = path.join(folder, "elsewhere.ply");
+  await openScan(tab, "shell");
+  renameSync(scan, moved);
+  await tab.getByRole("button", {name: "Start page"}).click();
+  await tab.getByRole("list", {name: "Go on with"}).getByRole("button", {name: /^scan\.ply/}).click();
+  const chooser = tab.waitForEvent("filechooser");
+  await tab.getByRole("alert").getByRole("button", {name: "Locate it"}).click();
+  await (await chooser).setFiles(moved);
+  await tab.getByText("of 20,000 points").waitFor();
+  await untilReady(tab);
+  assert.equal(await height(tab).inputValue(), "6.50");
   await tab.close();
 });

@@ -1,0 +1,244 @@
+#include "studio/actions.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+
+#include "common/files.h"
+#include "common/project_file.h"
+#include "relievo/core/text.h"
+#include "studio/request_guard.h"
+#include "studio/requests.h"
+
+namespace relievo::app::studio {
+namespace {
+
+using Json = nlohmann::json;
+using httplib::Request;
+using httplib::Response;
+
+constexpr std::size_t most_picture = 200'000;  // bytes
+
+double time_of(const Json& state) {
+  const Json time = state.value("changed", Json());
+  return time.is_number() ? time.get<double>() : 0;
+}
+
+// Returns whether the scan lies where it is said to.
+bool is_there(const ScanSource& input) {
+  std::error_code ignored;
+  return !input.sample.empty() || std::filesystem::is_regular_file(input.path, ignored);
+}
+
+Result<ScanSource> input_in(const Json& json) {
+  return input_from_json(json.value("input", Json()), "input");
+}
+
+}  // namespace
+
+const std::map<std::string, Actions::Action, std::less<>> Actions::actions_{
+    {"document", &Actions::document},
+    {"open", &Actions::open},
+    {"leave", &Actions::leave},
+    {"state", &Actions::keep},
+    {"picture", &Actions::keep_picture},
+    {"recent", &Actions::recent},
+    {"save", &Actions::save},
+    {"view", &Actions::view},
+    {"cancel", &Actions::cancel},
+    {"facts", &Actions::facts},
+    {"views", &Actions::views},
+    {"status", &Actions::status},
+    {"frame", &Actions::frame},
+    {"scan", &Actions::scan},
+    {"profile", &Actions::profile},
+    {"reach", &Actions::reach},
+    {"export", &Actions::make_file},
+    {"check", &Actions::check},
+    {"piece", &Actions::piece},
+    {"cancel_piece", &Actions::cancel_piece}};
+
+Actions::Actions(OpenDocuments& documents, const Store& store) : documents_(documents), store_(store) {}
+
+bool Actions::has(std::string_view name) const {
+  return actions_.contains(name);
+}
+
+void Actions::run(std::string_view name, const Json& json, Response& response) {
+  (this->*actions_.find(name)->second)(json, response);
+}
+
+// Returns a document as the page kept it; null if it did not.
+Json Actions::kept_state(const std::string& id) const {
+  const Json state = Json::parse(store_.document(id), nullptr, false);
+  return state.is_object() ? state : Json();
+}
+
+// With `storing_` locked.
+Actions::Change& Actions::change_of(const std::string& id) {
+  const auto [found, is_new] = changes_.try_emplace(id);
+  if (!is_new) return found->second;
+  const Json state = kept_state(id);
+  if (state.is_object()) found->second.time_ms = time_of(state);
+  return found->second;
+}
+
+// Tells the document of a scan, and all that is kept of it. A scan that is gone may be among those that were dropped.
+void Actions::document(const Json& json, Response& response) {
+  Result<ScanSource> input = input_in(json);
+  if (!input) return answer(response, input.error());
+  const std::lock_guard lock(storing_);
+  if (!is_there(*input)) input = store_.find_scan(input->hash).value_or(*input);
+  const std::string id = document_of(*input);
+  answer(response, {{"document", id},
+                    {"input", to_json(*input)},
+                    {"is_there", is_there(*input)},
+                    {"kept", kept_state(id)}});
+}
+
+void Actions::open(const Json& json, Response& response) {
+  const Result<ScanSource> input = input_in(json);
+  if (!input) return answer(response, input.error());
+  const std::string id = document_of(*input);
+  documents_.open(id, json.value("tab", ""))->show(*input, view_texts(json));
+  const std::lock_guard lock(storing_);
+  store_.touch(id);
+  answer(response, {{"document", id}});
+}
+
+void Actions::leave(const Json& json, Response& response) {
+  documents_.leave(json.value("tab", ""));
+  answer(response, Json::object());
+}
+
+// The newer state of a document wins: who comes with an older one gets the newer.
+void Actions::keep(const Json& json, Response& response) {
+  const std::string id = json.value("document", "");
+  const Json state = json.value("state", Json());
+  if (!state.is_object()) return refuse(response, 400, "expected a state");
+  const std::lock_guard lock(storing_);
+  Change& change = change_of(id);
+  if (time_of(state) < change.time_ms)
+    return answer(response, {{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
+  const auto ok = store_.keep_document(id, state.dump(), json.value("is_moving", false));
+  if (!ok) return answer(response, ok.error());
+  change = {time_of(state), json.value("tab", "")};
+  answer(response, Json::object());
+}
+
+void Actions::keep_picture(const Json& json, Response& response) {
+  const std::string picture = json.value("picture", "");
+  if (!picture.starts_with("data:image/jpeg;base64,") || picture.size() > most_picture)
+    return refuse(response, 400, "expected a small picture");
+  const std::lock_guard lock(storing_);
+  const auto ok = store_.keep_picture(json.value("document", ""), picture);
+  ok ? answer(response, Json::object()) : answer(response, ok.error());
+}
+
+void Actions::recent(const Json&, Response& response) {
+  const std::lock_guard lock(storing_);
+  answer(response, {{"recent", recent_list()}});
+}
+
+Json Actions::recent_list() const {
+  Json list = Json::array();
+  for (const KeptDocument& kept : store_.recent())
+    list.push_back({{"document", kept.id},
+                    {"input", to_json(kept.input)},
+                    {"is_there", kept.is_scan_there},
+                    {"picture", kept.picture}});
+  return list;
+}
+
+// Makes a project file that contains its scan.
+void Actions::save(const Json& json, Response& response) {
+  const Json project = json.value("project", Json());
+  const Result<ScanSource> input = input_in(project);
+  if (!input) return answer(response, input.error());
+  if (!input->sample.empty() || ending_of(input->path) == "json")
+    return refuse(response, 400, "expected a scan of one file");
+  const Result<std::vector<std::byte>> scan = read_file(input->path);
+  if (!scan) return answer(response, scan.error());
+  const auto file = pack_project(project.dump(1) + "\n", input->name, *scan);
+  if (!file) return answer(response, file.error());
+  response.status = 200;
+  response.set_content(reinterpret_cast<const char*>(file->data()), file->size(), "application/zip");
+}
+
+void Actions::take_scan(const Request& request, Response& response, const httplib::ContentReader& read) {
+  if (!is_welcome(request, response, most_scan)) return;
+  DroppedScan scan = store_.begin_scan(request.get_param_value("name"));
+  const auto take = [&](std::string_view bytes) { return scan.append(bytes); };
+  if (!read_body(read, response, most_scan, take)) return;
+  const std::lock_guard lock(storing_);
+  const Result<ScanSource> input = store_.keep(scan);
+  input ? answer(response, {{"input", to_json(*input)}}) : answer(response, input.error());
+}
+
+void Actions::take_project(const Request& request, Response& response, const httplib::ContentReader& read) {
+  if (!is_welcome(request, response, most_scan)) return;
+  std::vector<std::byte> body;
+  const auto take = [&](std::string_view bytes) {
+    const auto more = std::as_bytes(std::span(bytes));
+    body.insert(body.end(), more.begin(), more.end());
+    return Result<void>{};
+  };
+  if (!read_body(read, response, most_scan, take)) return;
+  const Result<Json> project = project_in(body, request.get_param_value("name"), {});
+  project ? answer(response, *project) : answer(response, project.error());
+}
+
+// Returns what the page needs of a project file. A relative path starts at `folder`.
+Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::string& name,
+                                 const std::string& folder) {
+  RELIEVO_TRY(const ProjectFile file, unpack_project(bytes, name));
+  RELIEVO_TRY(Project project, read_project(file.text, name));
+  RELIEVO_CHECK(parse_options(project.options));
+  ScanSource& input = project.input;
+  const std::lock_guard lock(storing_);
+  if (file.scan) {
+    DroppedScan scan = store_.begin_scan(file.scan->name);
+    RELIEVO_CHECK(
+        scan.append({reinterpret_cast<const char*>(file.scan->bytes.data()), file.scan->bytes.size()}));
+    RELIEVO_TRY(input, store_.keep(scan));
+  }
+  if (!folder.empty() && input.sample.empty())
+    input.path = (std::filesystem::path(folder) / input.path).lexically_normal().string();
+  if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
+  return Json{{"input", app::to_json(input)},
+              {"is_there", is_there(input)},
+              {"options", app::to_json(project.options)},
+              {"studio", Json::parse(file.text).value("studio", Json::object())}};
+}
+
+Result<void> Actions::begin_with(const std::string& path) {
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
+  const std::filesystem::path full = std::filesystem::absolute(path);
+  if (ending_of(path) == "relievo") {
+    RELIEVO_TRY(first_, project_in(bytes, path, full.parent_path().string()));
+    return {};
+  }
+  const ScanSource input{{}, full.lexically_normal().string(), full.filename().string(), {}};
+  first_ = {{"input", to_json(input)}, {"is_there", true}};
+  // The page prepares a kept document in its own view.
+  if (store_.document(document_of(input)).empty()) documents_.open(document_of(input), {})->open(input, {});
+  return {};
+}
+
+// With `storing_` locked.
+Json Actions::status_of(const OpenDocuments::Entry& entry) {
+  const Change& change = change_of(entry.document);
+  Json json = to_json(entry.engine->status());
+  json["document"] = entry.document;
+  json["kept"] = {{"changed", change.time_ms}, {"tab", change.tab}};
+  return json;
+}
+
+std::vector<Json> Actions::statuses() {
+  std::vector<Json> all;
+  const std::lock_guard lock(storing_);
+  for (const OpenDocuments::Entry& entry : documents_.all()) all.push_back(status_of(entry));
+  return all;
+}
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,65 @@
+#include "studio/open_documents.h"
+
+#include <algorithm>
+
+namespace relievo::app::studio {
+
+std::shared_ptr<Engine> OpenDocuments::find(const std::string& document) {
+  const std::lock_guard lock(mutex_);
+  const auto found = std::ranges::find(entries_, document, &Entry::document);
+  if (found == entries_.end()) return nullptr;
+  entries_.splice(entries_.begin(), entries_, found);
+  return found->engine;
+}
+
+std::shared_ptr<Engine> OpenDocuments::open(const std::string& document, const std::string& tab) {
+  const std::lock_guard lock(mutex_);
+  if (!tab.empty()) tabs_[tab] = document;
+  const auto found = std::ranges::find(entries_, document, &Entry::document);
+  if (found == entries_.end())
+    entries_.push_front({document, std::make_shared<Engine>()});
+  else
+    entries_.splice(entries_.begin(), entries_, found);
+  close_others();
+  return entries_.front().engine;
+}
+
+void OpenDocuments::leave(const std::string& tab) {
+  const std::lock_guard lock(mutex_);
+  tabs_.erase(tab);
+}
+
+std::vector<OpenDocuments::Entry> OpenDocuments::all() {
+  const std::lock_guard lock(mutex_);
+  forget_idle();
+  return {entries_.begin(), entries_.end()};
+}
+
+bool OpenDocuments::is_shown(const std::string& document) const {
+  return std::ranges::any_of(tabs_, [&](const auto& tab) { return tab.second == document; });
+}
+
+// With `mutex_` locked; the one that was used last stays.
+void OpenDocuments::close_others() {
+  std::size_t open = 1, hidden = 0;
+  for (auto entry = std::next(entries_.begin()); entry != entries_.end();) {
+    const bool is_hidden = !is_shown(entry->document);
+    if (open < most_open && (!is_hidden || hidden < most_hidden)) {
+      ++open;
+      hidden += is_hidden ? 1 : 0;
+      ++entry;
+      continue;
+    }
+    entry->engine->cancel();
+    closing_.push_back(entry->engine);
+    entry = entries_.erase(entry);
+  }
+  forget_idle();
+}
+
+// An engine that still works would make whoever destroys it wait.
+void OpenDocuments::forget_idle() {
+  std::erase_if(closing_, [](const std::shared_ptr<Engine>& engine) { return engine->is_idle(); });
+}
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,51 @@
+// The documents that are open: each has its scan, and an engine of its own. Tested by apps/studio/tests/tabs.test.mjs.
+#pragma once
+
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "studio/engine.h"
+
+namespace relievo::app::studio {
+
+// Every method may be called from any thread.
+class OpenDocuments {
+ public:
+  // So many documents may be open that no tab shows, and so many in all. Beyond, the one that was used least recently is
+  // closed: a tab that shows it opens it anew.
+  static constexpr std::size_t most_hidden = 1, most_open = 6;
+
+  struct Entry {
+    std::string document;
+    std::shared_ptr<Engine> engine;
+  };
+
+  // Returns the document's engine; null if the document is not open.
+  std::shared_ptr<Engine> find(const std::string& document);
+
+  // Opens the document if it is not open, and returns its engine. From now on the tab shows this document and no other; no
+  // tab does if `tab` is empty.
+  std::shared_ptr<Engine> open(const std::string& document, const std::string& tab);
+
+  // The tab is closed.
+  void leave(const std::string& tab);
+
+  // Returns all, the one that was used last first.
+  std::vector<Entry> all();
+
+ private:
+  bool is_shown(const std::string& document) const;
+  void close_others();
+  void forget_idle();
+
+  std::mutex mutex_;
+  std::list<Entry> entries_;
+  std::map<std::string, std::string> tabs_;       // by tab, the document that it shows
+  std::vector<std::shared_ptr<Engine>> closing_;  // whose cancelled work has yet to end
+};
+
+}  // namespace relievo::app::studio

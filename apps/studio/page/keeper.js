@@ -1,0 +1,72 @@
+// Keeps documents: each state goes to the engine while things still move. What no engine has confirmed also stays in
+// the
+// browser, so that it outlives the engine and the page. This file knows no page, so that tests can run it alone.
+
+const PAUSE_MS = 25; // between two states, so that the engine has time for pictures
+
+export class Keeper {
+  // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers and "older" if a
+  // newer state is kept already; onOlder(document); onFailed(error); onKept(). `storage` is as localStorage.
+  constructor({send, storage, prefix, onOlder, onFailed, onKept}) {
+    Object.assign(this, {send, storage, prefix, onOlder, onFailed, onKept});
+    this.waiting = new Map(); // by document, the newest state that is not yet sent
+  }
+
+  keep(document, state, isMoving) {
+    this.waiting.set(document, {state, isMoving});
+    this.pump();
+  }
+
+  // Sends what waits, when the engine is back.
+  retry() {
+    if (!this.isSending) this.pump();
+  }
+
+  // Stores what waits in the browser, when the page goes.
+  flush() {
+    for (const [document, {state}] of this.waiting) this.copy(document, JSON.stringify(state));
+  }
+
+  // Returns the state that stayed in the browser; null if there is none.
+  copyOf(document) {
+    try {
+      return JSON.parse(this.storage.getItem(this.prefix + document));
+    } catch {
+      return null;
+    }
+  }
+
+  async pump() {
+    if (this.isSending || this.waiting.size === 0) return;
+    this.isSending = true;
+    const [document, {state, isMoving}] = this.waiting.entries().next().value, text = JSON.stringify(state);
+    this.waiting.delete(document);
+    this.copy(document, text);
+    let mustWait = false;
+    try {
+      await this.send(document, state, isMoving);
+      if (this.storage.getItem(this.prefix + document) === text) this.storage.removeItem(this.prefix + document);
+      this.onKept();
+    } catch (error) {
+      mustWait = error.kind === "lost";
+      if (mustWait && !this.waiting.has(document)) this.waiting.set(document, {state, isMoving});
+      if (error.kind === "older") {
+        this.storage.removeItem(this.prefix + document);
+        this.onOlder(document);
+      } else if (!mustWait) this.onFailed(error);
+    }
+    await new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
+    this.isSending = false;
+    if (!mustWait) return this.pump();
+    // The next change or the engine's return tries again; until then the newest state stays in the browser.
+    this.flush();
+  }
+
+  copy(document, text) {
+    try {
+      this.storage.setItem(this.prefix + document, text);
+    } catch {
+      // no room: the page itself still has it
+    }
+  }
+}

@@ -1,0 +1,128 @@
+// Measures on the picture from the front: dimensions of the piece, the height under the pointer, distances, and the
+// line of the section. Places are in mm from the middle of the piece.
+
+import {make} from "./controls.js";
+import {lengthText, shown} from "./lengths.js";
+
+const NEAR = 12; // pixels from an end of a line at which the pointer takes it
+const GAP = 14; // pixels from the piece to its dimensions
+
+const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
+const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
+
+// Returns a line between two pixels with the text in its middle, on a ground that keeps it readable.
+function labelled([x1, y1], [x2, y2], text, kind) {
+  const x = (x1 + x2) / 2, y = (y1 + y2) / 2, width = 7.2 * text.length + 10;
+  const label = make("text", {x, y: y + 4, "text-anchor": "middle"}, text);
+  return [make("line", {class: kind, x1, y1, x2, y2}),
+    make("rect", {class: "ground", x: x - width / 2, y: y - 10, width, height: 20, rx: 5}), label];
+}
+
+// Returns a dimension with its two end strokes.
+function dimension(from, to, text) {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]], size = Math.hypot(dx, dy) || 1;
+  const [ax, ay] = [-dy / size * 5, dx / size * 5];
+  const strokes = [from, to].map(([x, y]) =>
+    make("line", {class: "dimension", x1: x - ax, y1: y - ay, x2: x + ax, y2: y + ay}));
+  return [...strokes, ...labelled(from, to, text, "dimension")];
+}
+
+export class Measure {
+  // `stage` turns places into pixels and back, and has the newest picture's {size_mm, relief_mm}.
+  constructor(stage) {
+    this.stage = stage;
+    this.line = null; // from one point to another, with their heights
+    this.pointer = null;
+  }
+
+  // ------------------------------------------------------------------------------------------------- the section
+
+  middleLine() {
+    const half = (this.stage.about?.size_mm[0] ?? this.stage.doc.now.options.width) / 2;
+    return {from: [-half, 0], to: [half, 0]};
+  }
+
+  // Returns the end of the line that is under a pixel: "from", "to" or null.
+  endAt(line, x, y) {
+    const near = (end) => line && length(this.stage.toPixels(line[end]), [x, y]) < NEAR;
+    return ["from", "to"].find(near) ?? null;
+  }
+
+  // Returns the line while it is drawn or one of its ends is dragged.
+  dragged(line, {end, from}, place) {
+    return end ? {...line, [end]: place} : {from, to: place};
+  }
+
+  lineMarks({from, to}, kind = "cut") {
+    const [x1, y1] = this.stage.toPixels(from), [x2, y2] = this.stage.toPixels(to);
+    return [make("line", {class: kind, x1, y1, x2, y2}), make("circle", {class: "end", cx: x1, cy: y1, r: 5}),
+      make("circle", {class: "end", cx: x2, cy: y2, r: 5})];
+  }
+
+  // --------------------------------------------------------------------------------------------------- dimensions
+
+  // Returns the marks of plate and relief.
+  dimensionMarks() {
+    const {about} = this.stage;
+    if (!about) return [];
+    const [width, height] = about.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
+    const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
+    const marks = [...dimension([left, bottom + GAP], [right, bottom + GAP], withUnit(width)),
+      ...dimension([right + GAP, bottom], [right + GAP, top], withUnit(height))];
+    if (!about.relief_mm) return marks;
+    const [low, high] = about.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);
+    if (x1 - left < 2 && right - x2 < 2) return marks; // there is no ground around the relief
+    return [make("rect", {class: "bounds", x: x1, y: y2, width: x2 - x1, height: y1 - y2}),
+      ...dimension([x1, y2 - 8], [x2, y2 - 8], withUnit(high[0] - low[0])),
+      ...dimension([x1 - 8, y1], [x1 - 8, y2], withUnit(high[1] - low[1])), ...marks];
+  }
+
+  marks() {
+    const marks = this.dimensionMarks(), {line, pointer} = this;
+    if (line) {
+      const [from, to] = [line.from, line.to].map((place) => this.stage.toPixels(place));
+      const rise = line.heights ? `, ${line.heights[1] >= line.heights[0] ? "+" : "−"}` +
+        withUnit(Math.abs(line.heights[1] - line.heights[0])) : "";
+      marks.push(...this.lineMarks(line), ...labelled(from, to, withUnit(length(line.from, line.to)) + rise, "cut"));
+    }
+    if (pointer?.height !== undefined) {
+      const [x, y] = this.stage.toPixels(pointer.place), text = `Height ${withUnit(pointer.height)}`;
+      marks.push(make("circle", {class: "point", cx: x, cy: y, r: 3}),
+        ...labelled([x, y - 20], [x, y - 20], text, "none"));
+    }
+    return marks;
+  }
+
+  // -------------------------------------------------------------------------------------------------- the pointer
+
+  // Asks for the height under the pointer, one place at a time, always of the newest one; null: the pointer has left.
+  async point(place) {
+    this.wanted = place;
+    if (!place) this.pointer = null;
+    if (this.isAsking || !place) return this.stage.drawOverlay();
+    this.isAsking = true;
+    while (this.wanted) {
+      const place = this.wanted;
+      this.wanted = null;
+      const [height] = await this.stage.heights(place, place).catch(() => []);
+      if (this.stage.tool !== "measure") break;
+      this.pointer = {place, height};
+      this.stage.drawOverlay();
+    }
+    this.isAsking = false;
+  }
+
+  async setLine(line) {
+    this.line = line;
+    this.stage.drawOverlay();
+    const heights = await this.stage.heights(line.from, line.to).catch(() => []);
+    if (this.line !== line || heights.length === 0) return; // another one is drawn by now
+    line.heights = [heights[0], heights.at(-1)];
+    this.stage.drawOverlay();
+  }
+
+  // Called for each new picture, whose heights are new, too.
+  pictured() {
+    if (this.line) this.setLine({...this.line, heights: null});
+  }
+}

@@ -1,0 +1,59 @@
+// The modes of the picture: tool, light table, comparison, and the material that it shows.
+
+import {about} from "./about.js";
+import {$, check, make} from "./controls.js";
+import {takeArrowKeys} from "./inputs.js";
+import {TABLE_LIGHTS} from "./stage.js";
+
+const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "true";
+
+export class Modes {
+  constructor({stage, doc}) {
+    Object.assign(this, {stage, doc});
+    $("#materials").append(...about.materials.map(({id, name}) => make("button", {
+      role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
+    })));
+    $("#table").append(...TABLE_LIGHTS.map(({name, light}, i) => make("button", {
+      "data-cell": i, "aria-label": `Light from: ${name}`, onclick: () => {
+        doc.change({light});
+        this.setTable(false);
+      },
+    }, make("canvas", {"aria-hidden": "true"}), make("span", {"aria-hidden": "true"}, name))));
+    for (const button of $("#tools").children) button.onclick = () => this.setTool(button.dataset.tool);
+    takeArrowKeys($("#tools"));
+    takeArrowKeys($("#materials"));
+    $("#light-table").onclick = () => this.toggleTable();
+    $("#compare").onclick = () => this.toggleComparing();
+    $("#fit").onclick = () => stage.fit();
+    $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
+    this.setTool("light");
+  }
+
+  setTool(tool) {
+    for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
+    $("#section").hidden = tool !== "section";
+    if (tool !== "light") this.setTable(false);
+    this.stage.setTool(tool);
+  }
+
+  setTable(isShown) {
+    $("#light-table").setAttribute("aria-pressed", isShown);
+    $("#table").hidden = !isShown;
+    this.stage.setTable(isShown);
+  }
+
+  toggleTable() {
+    this.setTable(!isPressed("#light-table"));
+  }
+
+  toggleComparing() {
+    const isComparing = !isPressed("#compare");
+    $("#compare").setAttribute("aria-pressed", isComparing);
+    $("#split").hidden = $("#labels").hidden = !isComparing;
+    this.stage.setComparing(isComparing);
+  }
+
+  showMaterial(material) {
+    for (const swatch of $("#materials").children) check(swatch, swatch.dataset.material === material);
+  }
+}

@@ -1,0 +1,140 @@
+// The document that this page shows: opens scans and projects, follows what the engine says of the document, and goes
+// on
+// when another engine or another tab has news of it.
+
+import {FIRST} from "./document.js";
+import {TAB} from "./engine.js";
+import {engineBack, toast} from "./messages.js";
+
+export const viewOf = ({options: {view, up, crop, crumbs, denoise}}) => ({view, up, crop, crumbs, denoise});
+
+export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
+
+const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps.map((step) => ({...step, input})),
+  at});
+
+export class OpenDocument {
+  // Calls on.begun() when another document is shown, on.progress(status), on.arrived(status) when its model is ready,
+  // on.changed() when its state came from elsewhere, on.missing(input, kept) if its scan is not there,
+  // on.failed(error),
+  // and on.closed() when there is no document left to show.
+  constructor({engine, doc, keeper, on}) {
+    Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
+    this.statuses = new Map(); // of all documents that are open
+  }
+
+  get input() {
+    return this.doc.now.input;
+  }
+
+  get isReady() {
+    return this.model > 0;
+  }
+
+  // Shows the document of a scan. `work` is {steps, at} of a project, or of a document whose scan has moved: it becomes
+  // the document's, or its newest step if it has a state already.
+  async open(input, work = null) {
+    const found = await this.engine.find(input);
+    if (!found.is_there) return this.on.missing(found.input, work ?? found.kept);
+    const former = this.isReady && this.id !== found.document ? this.input : null;
+    const copy = this.keeper.copyOf(found.document), {kept} = found;
+    const newest = copy && copy.changed > (kept?.changed ?? -1) ? copy : kept;
+    this.former = former;
+    this.id = this.engine.document = found.document;
+    this.takeState(newest, found.input, work);
+    if (work || newest === copy) this.keep();
+    this.isKept = Boolean(newest);
+    this.model = 0;
+    this.status = {busy: true, model: 0, stage: "waiting"};
+    history.replaceState(null, "", `#${this.id}`);
+    this.on.begun();
+    await this.engine.open(found.input, viewOf(this.doc.now));
+    const status = this.statuses.get(this.id);
+    if (status && this.id === found.document) this.take(status);
+  }
+
+  takeState(newest, input, work) {
+    const {doc} = this;
+    if (newest && doc.restore(newest)) {
+      if (work) doc.append({...work.steps[work.at], input});
+    } else if (!(work && doc.restore(withInput(work, input)))) doc.begin({...FIRST, input});
+  }
+
+  keep(isMoving = false) {
+    if (this.id) this.keeper.keep(this.id, this.doc.keep(), isMoving);
+  }
+
+  // ------------------------------------------------------------------------------------------- the engine's news
+
+  followed(status) {
+    const isOtherRun = status.run !== this.run, isFirst = this.run === "";
+    if (isOtherRun) this.statuses.clear();
+    this.run = status.run;
+    engineBack();
+    if (isOtherRun && !isFirst) this.resume().catch(this.on.failed);
+    if (!status.document) return this.keeper.retry();
+    this.statuses.set(status.document, status);
+    if (status.document === this.id) this.take(status);
+  }
+
+  take(status) {
+    const before = this.status;
+    this.status = status;
+    this.on.progress(status);
+    if (status.model > 0 && status.model !== this.model && this.isWanted(status)) this.arrive(status);
+    else if (status.error && JSON.stringify(status.error) !== JSON.stringify(before.error)) this.complain(status);
+    if (status.kept.changed > this.doc.changedAt && status.kept.tab !== TAB) this.adopt().catch(this.on.failed);
+  }
+
+  // Returns whether the model is one to show: at first only that of the view that was asked for, or none can be made.
+  isWanted({busy, error, shown}) {
+    return this.model > 0 || (!busy && (error || isSameView(shown, viewOf(this.doc.now))));
+  }
+
+  arrive(status) {
+    this.model = status.model;
+    const {hash: known} = this.input, {hash} = status.input;
+    if (hash !== known) this.doc.note({input: status.input});
+    if (known && hash !== known)
+      toast(`${status.input.name} has changed since you worked on it: your settings are applied to it as it is now.`,
+        true);
+    if (!this.isKept || hash !== known) this.keep();
+    this.isKept = true;
+    this.on.arrived(status);
+  }
+
+  complain({error, model}) {
+    if (error.kind !== "cancelled") toast(error.text);
+    if (model > 0) return this.on.refused();
+    const {former} = this;
+    this.former = null;
+    this.id = this.engine.document = "";
+    if (!former) return this.on.closed();
+    this.open(former).catch(this.on.failed);
+  }
+
+  // Takes over a state of this document that is newer than the one shown. Returns whether there was one.
+  async adopt() {
+    const {id} = this, {kept} = await this.engine.find(this.input);
+    if (id !== this.id || !(kept?.changed > this.doc.changedAt) || !this.doc.restore(kept)) return false;
+    this.on.changed();
+    return true;
+  }
+
+  // Another engine has taken the place of the one before.
+  async resume() {
+    if (!this.id) return;
+    if (await this.adopt()) toast("The engine is back. It had newer work on this scan, which is shown here.");
+    else {
+      this.keep();
+      toast("The engine is back, and goes on with what this page shows.");
+    }
+    await this.reopen();
+  }
+
+  // Opens the document anew where the engine has it no longer.
+  async reopen() {
+    this.model = 0;
+    await this.engine.open(this.input, viewOf(this.doc.now));
+  }
+}

@@ -1,0 +1,147 @@
+// The piece around the relief: kinds of work, and all options of the engine that are no sliders.
+
+import {defaultOf, optionOf} from "./about.js";
+import {$, make} from "./controls.js";
+import {engineOptions} from "./document.js";
+import {lengthText, millimetresPerUnit, parseLength, typedNumber} from "./lengths.js";
+
+const sentence = (text) => text[0].toUpperCase() + text.slice(1);
+
+const PLAIN = {outline: "rectangle", diameter: null, plate: "", rim: null, "rim-height": null, "rim-bevel": null,
+  base: "plane", wrap: "none", form: "relief", draft: null};
+
+// The kinds of work: each sets these options when it is chosen, and shows these rows besides those of all kinds.
+export const KINDS = {
+  relief: {label: "Plaque", part: PLAIN, rows: ["plate", "base", "form"]},
+  coin: {label: "Coin or medal", part: {...PLAIN, outline: "circle", rim: 2}, rows: ["diameter", "rim", "rim-height",
+    "rim-bevel", "base"]},
+  die: {label: "Die", part: {...PLAIN, outline: "circle", rim: 2, form: "die", draft: 15},
+    rows: ["diameter", "rim", "rim-height", "rim-bevel", "draft"]},
+  shell: {label: "Shell around a body", part: {...PLAIN, wrap: "cylinder:turn=180"}, rows: ["plate", "wrap", "form"]},
+  lithophane: {label: "Lithophane", part: {...PLAIN, form: "lithophane", thickness: 0.8, height: 2.4}, rows: ["plate"]},
+};
+
+// Returns the kind of work that a document's options make.
+export function kindOf({form, wrap, rim, outline}) {
+  if (form === "lithophane" || form === "die") return form;
+  if (wrap !== "none") return "shell";
+  return rim || outline === "circle" ? "coin" : "relief";
+}
+
+const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size", rim: "Rim width",
+  "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
+  draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
+  finish: "Finish"};
+const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
+const PLACES = Object.fromEntries(Object.keys(LABELS).map((name) =>
+  [name, MAKING.includes(name) ? "#making" : "#piece"]));
+const SUGGESTED = {
+  base: ["plane", "dome:height=5", "wave:height=4,length=40", "fold:angle=15", "cylinder:diameter=200"],
+  wrap: ["cylinder:turn=180", "cylinder:turn=360", "cylinder:diameter=60", "cone:turn=90,angle=8",
+    "sphere:diameter=80"],
+  tool: ["ball:3", "ball:1", "flat:3", "v:60", "v:30:0.5"],
+};
+const PLACEHOLDERS = {diameter: "as needed", plate: "as needed"};
+const UNITS = {MM: "mm", DEG: "°"};
+export const ROWS = Object.keys(LABELS);
+
+// Returns the size of a plate such as "200x150" with each length as typed(length) has it; the text itself if it is no
+// such size, which the engine then refuses.
+function plateText(text, typed) {
+  const lengths = text.toLowerCase().split(/[x×]/).map(typed);
+  return lengths.length === 2 && lengths.every(Number.isFinite) ? lengths.join("x") : text;
+}
+const plateInMm = (text) => plateText(text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
+const plateAsShown = (text) => plateText(text, (side) => Number(shortLength(Number(side))));
+
+// Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, until a width
+// is asked for; an outline that cannot have that size is as large as the relief needs.
+function besides(name, value, {outline, diameter, plate}, shownWidth) {
+  if ((name === "diameter" || name === "plate") && value) {
+    const circle = name === "diameter" ? {outline: "circle", plate: ""} : {diameter: null};
+    const straight = name === "plate" && outline === "circle" ? {outline: "rectangle"} : {};
+    return {width: null, ...circle, ...straight};
+  }
+  const isFree = {diameter: value === "circle", plate: ["rectangle", "round", "ellipse"].includes(value)};
+  if (name === "outline" && ((diameter && !isFree.diameter) || (plate && !isFree.plate)))
+    return {diameter: null, plate: "", width: shownWidth};
+  return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth} : {};
+}
+
+export class PieceRows {
+  // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
+  constructor({engine, doc, say, shownWidth}) {
+    Object.assign(this, {engine, doc, say, shownWidth, rows: {}});
+    const kinds = Object.entries(KINDS).map(([value, {label}]) => make("option", {value}, label));
+    this.kind = make("select", {id: "kind", "aria-label": "Kind of work"}, ...kinds);
+    this.kind.onchange = () => this.choose(this.kind.value);
+    $("#kind-row").append(this.kind);
+    for (const name of ROWS) $(PLACES[name]).append((this.rows[name] = this.row(name)).element);
+  }
+
+  // Begins another kind of work. A coin and its die have the same diameter.
+  choose(kind) {
+    const {part} = KINDS[kind], {diameter, width} = this.doc.now.options;
+    const size = diameter && part.outline === "circle" ? {diameter, width} : {width: width ?? this.shownWidth()};
+    this.doc.change({options: {...part, ...size}, ...(kind === "lithophane" ? {material: "porcelain"} : {})});
+  }
+
+  // Returns {element, input, isNumber, unit, min, max} of an option.
+  row(name) {
+    const {choices, help, min, max, unit, default: otherwise} = optionOf(name);
+    const isList = Boolean(choices) && !SUGGESTED[name];
+    const attributes = {id: name, autocomplete: "off", "aria-label": LABELS[name]};
+    const input = isList
+      ? make("select", attributes, ...choices.map((choice) => make("option", {value: choice}, sentence(choice))))
+      : make("input", {
+        ...attributes, inputmode: min === undefined ? "text" : "decimal",
+        placeholder: PLACEHOLDERS[name] ?? String(otherwise || "none"),
+        list: SUGGESTED[name] && `${name}-list`,
+      });
+    const label = UNITS[unit] === "°" ? `${LABELS[name]} (°)` : LABELS[name];
+    const element = make("label", {class: "pair", title: sentence(help)}, make("span", {}, label), input);
+    if (SUGGESTED[name])
+      element.append(make("datalist", {id: `${name}-list`},
+        ...SUGGESTED[name].map((value) => make("option", {value}))));
+    input.onchange = () => this.take(name);
+    input.onkeydown = (event) => {
+      if (event.key === "Escape") this.show(name);
+    };
+    return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
+  }
+
+  // Takes what was chosen or typed, unless the engine cannot read it.
+  async take(name) {
+    const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
+    let value = text === "" ? defaultOf(name, this.doc.now.options.method) : text;
+    if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
+    if (isNumber && text !== "" && value === null) return this.show(name);
+    if (name === "plate") value = plateInMm(value ?? "");
+    const {options} = this.doc.now;
+    const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
+    try {
+      await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
+      this.doc.change({options: part});
+    } catch (error) {
+      this.say(error.message);
+    }
+    this.show(name);
+  }
+
+  // Shows the document's values, but not in a field in which something is typed, unless it is that of option `entered`.
+  show(entered = "") {
+    const {options} = this.doc.now, kind = kindOf(options);
+    this.kind.value = kind;
+    for (const [name, {element, input, unit}] of Object.entries(this.rows)) {
+      const value = options[name] ?? "", isNumber = typeof value === "number";
+      const text = name === "plate" ? plateAsShown(value) : value;
+      const shown = isNumber && unit === "mm" ? shortLength(value) : text;
+      if (document.activeElement !== input || input.matches("select") || name === entered) input.value = shown;
+      if (PLACES[name] === "#piece" && name !== "outline")
+        element.hidden = !KINDS[kind].rows.includes(name) && value === (PLAIN[name] ?? "");
+    }
+    this.rows.finish.element.hidden = !options.tool || options.tool === "none";
+  }
+}
+
+const shortLength = (mm) => String(Number(lengthText(mm, 4)));

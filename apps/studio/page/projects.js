@@ -1,0 +1,66 @@
+// Project files: opens them, asks for scans that they do not find, and saves them with or without the scan.
+
+import {about} from "./about.js";
+import {$, download, fileSize} from "./controls.js";
+import {projectOf, stepOfProject} from "./document.js";
+import {offer} from "./messages.js";
+
+export class Projects {
+  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way.
+  constructor({engine, open, take, failed}) {
+    Object.assign(this, {engine, open, take, failed});
+    $("#locate").onchange = (event) => {
+      const [file] = event.target.files;
+      event.target.value = "";
+      if (file) this.located(file).catch(failed);
+    };
+  }
+
+  // Opens a scan or a project that was dropped or chosen.
+  async openFile(file) {
+    const most = about.most_upload;
+    if (file.size > most)
+      throw new Error(`${file.name} has ${fileSize(file.size)}: expected at most ${fileSize(most)}.`);
+    if (!file.name.endsWith(".relievo")) return this.open(await this.take(this.engine.upload(file)));
+    const project = await this.take(this.engine.readProject(file));
+    return this.openProject(project);
+  }
+
+  async openProject(project) {
+    const work = {steps: [stepOfProject(project)], at: 0};
+    if (project.is_there) return this.open(project.input, work);
+    this.askFor(project.input, work);
+  }
+
+  // Asks for a scan that is not where it was.
+  askFor(input, work) {
+    this.wanted = {input, work};
+    offer(`${input.name} is not found at ${input.path}.`, "Locate it", () => $("#locate").click());
+  }
+
+  async located(file) {
+    const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload(file));
+    if (!hash || input.hash === hash) return this.open(input, work);
+    offer(`${file.name} is not ${name} as it was when this work was kept.`, "Use it all the same",
+      () => this.open(input, work).catch(this.failed));
+  }
+
+  // Saves the document's present step, at once if there is nothing to choose.
+  save(step, name) {
+    const {input} = step, project = projectOf(step), text = JSON.stringify(project, null, 1) + "\n";
+    const saveText = () => download(new Blob([text], {type: "application/json"}), `${name}.relievo`);
+    if (input.sample || /\.json$/i.test(input.path)) return saveText();
+    const dialog = $("#save-dialog");
+    dialog.onclose = async () => {
+      if (dialog.returnValue !== "save") return;
+      if (!$("#with-scan").checked) return saveText();
+      try {
+        download(await this.take(this.engine.packProject(project)), `${name}.relievo`);
+      } catch (error) {
+        this.failed(error);
+      }
+    };
+    dialog.returnValue = "cancel";
+    dialog.showModal();
+  }
+}

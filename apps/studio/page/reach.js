@@ -1,0 +1,61 @@
+// The largest height that can be reached: marks it on the slider, and names what limits it where a height is out of
+// reach, with a button that loosens it.
+
+import {$, make} from "./controls.js";
+import {engineOptions} from "./document.js";
+import {lengthText, shown} from "./lengths.js";
+
+// Changes that may let a relief be higher, with the words for what limits it, the mildest first.
+const LOOSER = [
+  {limit: "the steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
+  {limit: "the tone curve", action: "Drop the tone curve", part: {tone: ""}},
+];
+const WORTH = 1.02; // so many times the height
+
+export class Reach {
+  constructor({engine, doc, slider, chooseView}) {
+    Object.assign(this, {engine, doc, slider, chooseView, key: ""});
+  }
+
+  clear() {
+    this.key = "";
+    this.slider().showMark(null);
+    $("#reach").replaceChildren();
+  }
+
+  // Called when things rest. The reach does not depend on the height: it is asked for when something else changes.
+  async pictured(frame) {
+    const {height, ...rest} = engineOptions(this.doc.now), key = JSON.stringify(rest);
+    if (key !== this.key) {
+      this.key = key;
+      try {
+        const reach = await this.engine.reach({...rest, height});
+        if (key !== this.key) return;
+        this.reach = reach;
+      } catch {
+        return this.clear(); // another view is being prepared
+      }
+    }
+    const most = frame.is_height_met ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
+    this.slider().showMark(most, `Reachable: ${lengthText(most)} ${shown.unit}`);
+    if (frame.is_height_met) return $("#reach").replaceChildren();
+    await this.explain(most, {...rest, height}, key);
+  }
+
+  async explain(most, options, key) {
+    let best = null;
+    for (const looser of LOOSER) {
+      if (Object.entries(looser.part).every(([name, value]) => (this.doc.now.options[name] ?? "") === value)) continue;
+      const changed = engineOptions({...this.doc.now, options: {...this.doc.now.options, ...looser.part}});
+      const reach = await this.engine.reach(changed).catch(() => 0);
+      if (key !== this.key) return; // something else is shown, perhaps another document
+      if (reach > this.reach * WORTH && !best) best = looser;
+    }
+    const at = `${lengthText(most)} ${shown.unit}`;
+    const text = best ? `${best.limit[0].toUpperCase()}${best.limit.slice(1)} keeps it at ${at}.`
+      : `This view reaches ${at} at most.`;
+    const act = best ? () => this.doc.change({options: best.part}) : this.chooseView;
+    const button = make("button", {class: "quiet", onclick: act}, best?.action ?? "Choose view");
+    $("#reach").replaceChildren(text, " ", button);
+  }
+}

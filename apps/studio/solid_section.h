@@ -1,0 +1,21 @@
+// Sections of a finished solid.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "relievo/plate/solid.h"
+
+namespace relievo::app::studio {
+
+// A line seen from the front, in mm from the middle of the relief or, of a finished piece, of that piece.
+struct SectionLine {
+  Vec2 from, to;
+  std::size_t samples = 400;  // at least 2
+};
+
+// Returns the heights of the solid's highest surface above its ground in mm, in equal steps along the line; beside the
+// solid those of its lowest point.
+std::vector<float> section_of(const Solid& solid, const SectionLine& line);
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,245 @@
+// Documents: kept by scan, by the engine and by the page, through crashes; and projects that hold their scans.
+import assert from "node:assert/strict";
+import {spawnSync} from "node:child_process";
+import {copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {Keeper} from "../page/keeper.js";
+import {EngineProcess, PROGRAM, removeFolder, temporaryFolder} from "./support.mjs";
+
+const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
+let engine;
+
+before(async () => {
+  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "5000"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  engine = await new EngineProcess(state).ready();
+});
+
+after(async () => {
+  await engine.stop();
+  removeFolder(folder);
+});
+
+const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+const stateOf = (input, height, changed) => ({version: 1, changed, at: 0, steps: [{input, options: {height}}]});
+const keep = (of, document, kept, tab = "a") => of.post("state", {document, state: kept, tab});
+const upload = async (name, bytes, action = "upload") => {
+  const target = `${engine.url.pathname}api/${action}?name=${name}`;
+  const answer = await engine.request(target, {method: "POST", body: bytes});
+  return {status: answer.status, ...JSON.parse(answer.body)};
+};
+
+test("keeps a document for each scan, and the newer state of each", async () => {
+  const inputs = [{sample: "shell"}, {sample: "green_man"}, {path: scan}], ids = [];
+  for (const [i, input] of inputs.entries()) {
+    const {document, kept, is_there: isThere} = await engine.json("document", {input});
+    assert.equal(kept, null);
+    assert.equal(isThere, true);
+    assert.equal((await keep(engine, document, stateOf(input, i + 1, 100))).status, 200);
+    ids.push(document);
+  }
+  assert.equal(new Set(ids).size, 3);
+  for (const [i, input] of inputs.entries()) {
+    assert.equal((await keep(engine, ids[i], stateOf(input, 50, 99), "b")).status, 409);
+    const {document, kept} = await engine.json("document", {input});
+    assert.equal(document, ids[i]);
+    assert.equal(kept.steps[0].options.height, i + 1);
+  }
+  const picture = "data:image/jpeg;base64,AAAA";
+  assert.equal((await engine.post("picture", {document: ids[0], picture})).status, 200);
+  assert.equal((await engine.post("picture", {document: ids[0], picture: "javascript:alert()"})).status, 400);
+  const {recent} = await engine.json("recent");
+  assert.deepEqual(recent.map((entry) => entry.document), ids.toReversed());
+  assert.equal(recent[2].picture, picture);
+  for (const document of ["../x", "", "0123", 3])
+    assert.ok((await keep(engine, document, {changed: 1})).status >= 400, `${document}`);
+});
+
+test("takes over the one document that versions before have kept", async () => {
+  const former = path.join(folder, "former");
+  mkdirSync(former);
+  const kept = {version: 1, at: 0, steps: [{input: {path: scan, name: "scan.ply"}, options: {height: 7}}]};
+  writeFileSync(path.join(former, "state.json"), JSON.stringify(kept));
+  const other = await new EngineProcess(former).ready();
+  assert.deepEqual((await other.json("document", {input: {path: scan}})).kept, kept);
+  assert.equal((await other.json("recent")).recent.length, 1);
+  await other.stop();
+});
+
+test("is found at the same address after it was killed", async () => {
+  const place = path.join(folder, "again"), first = await new EngineProcess(place).ready();
+  await first.stop("SIGKILL");
+  const second = await new EngineProcess(place).ready();
+  assert.equal(second.address, first.address);
+  await second.stop();
+  assert.equal(statSync(path.join(place, "address.json")).mode & 0o077 & ~0o044, 0);
+  assert.equal(statSync(place).mode & 0o077, 0); // nobody else comes near the token
+  const other = await new EngineProcess(path.join(folder, "elsewhere")).ready();
+  assert.notEqual(other.url.pathname, first.url.pathname);
+  await other.stop();
+});
+
+// A page that changes its document every few milliseconds.
+class ScriptedPage {
+  constructor(document, storage) {
+    Object.assign(this, {document, changed: 0, times: [], slowest: 0, confirmed: 0});
+    this.keeper = new Keeper({
+      send: (...args) => this.send(...args), prefix: "", storage, onOlder: () => (this.isOlder = true),
+      onFailed: (error) => (this.failure = error), onKept: () => {},
+    });
+  }
+
+  async send(document, kept, isMoving) {
+    const began = performance.now();
+    let answer;
+    try {
+      answer = await this.engine.post("state", {document, state: kept, tab: "page", is_moving: isMoving});
+    } catch {
+      throw Object.assign(new Error("lost"), {kind: "lost"});
+    } finally {
+      this.slowest = Math.max(this.slowest, performance.now() - began);
+    }
+    if (answer.status === 200) this.confirmed = kept.changed;
+    if (answer.status !== 200) throw Object.assign(new Error(String(answer.body)), {kind: "refused"});
+  }
+
+  change() {
+    this.times.push(performance.now());
+    const steps = Array.from({length: 60}, () => ({input: {sample: "shell"}, options: {height: this.changed}}));
+    this.keeper.keep(this.document, {version: 1, changed: ++this.changed, at: 59, steps}, true);
+  }
+
+  async drag(ms) {
+    for (const end = performance.now() + ms; performance.now() < end; await sleep(8)) this.change();
+  }
+}
+
+class MapStorage extends Map {
+  getItem(key) {
+    return this.get(key) ?? null;
+  }
+  setItem(key, text) {
+    this.set(key, text);
+  }
+  removeItem(key) {
+    this.delete(key);
+  }
+}
+
+// Kills the engine `times` times in the middle of a session; returns the most that it lost at a time, in milliseconds
+// beyond those that it took to answer at its slowest, which is what a busy machine adds.
+async function killAtRandom(place, times) {
+  const document = "00000000000000aa", storage = new MapStorage(), page = new ScriptedPage(document, storage);
+  const file = path.join(place, "documents", `${document}.json`);
+  let most = 0;
+  for (let i = 0; i < times; ++i) {
+    page.engine = await new EngineProcess(place).ready();
+    page.keeper.retry();
+    const begun = performance.now(), dragging = page.drag(150 + Math.random() * 150);
+    await sleep(60 + Math.random() * 200);
+    const killedAt = performance.now(), {changed: known, confirmed} = page;
+    await page.engine.stop("SIGKILL");
+    await dragging;
+    const kept = JSON.parse(readFileSync(file, "utf8")); // whole, whenever the engine was killed
+    assert.ok(kept.changed >= confirmed, `${kept.changed} of ${confirmed}`);
+    const firstLost = Math.max(begun, page.times[kept.changed] ?? killedAt); // what came before had no engine
+    if (kept.changed < known) most = Math.max(most, killedAt - firstLost);
+    await sleep(40);
+    const copy = JSON.parse(storage.getItem(document) ?? "{}");
+    assert.equal(Math.max(copy.changed ?? 0, kept.changed), page.changed); // with the page nothing is lost
+  }
+  page.engine = await new EngineProcess(place).ready();
+  page.keeper.retry();
+  for (let i = 0; i < 200 && storage.size > 0; ++i) await sleep(50);
+  assert.equal(JSON.parse(readFileSync(file, "utf8")).changed, page.changed);
+  assert.deepEqual(readdirSync(path.join(place, "documents")), [`${document}.json`]);
+  assert.equal(storage.size, 0);
+  await page.engine.stop();
+  console.log(`lost at most ${most.toFixed(0)} ms; the slowest answer took ${page.slowest.toFixed(0)} ms`);
+  return most - 2 * page.slowest;
+}
+
+test("loses at most the last 100 ms when it is killed, at 50 moments, and the page loses nothing", async () => {
+  const places = Array.from({length: 5}, (_, i) => path.join(folder, `killed-${i}`));
+  const most = await Promise.all(places.map((place) => killAtRandom(place, 10)));
+  assert.ok(Math.max(...most) <= 100, `${most.map((ms) => ms.toFixed(0))} ms`);
+});
+
+test("packs a scan into a project, from which make and another machine make the same", async () => {
+  const options = {height: 2, width: 40}, make = (project, ...args) =>
+    spawnSync(PROGRAM, ["make", project, "-o", path.join(folder, "out.stl"), "--quiet", ...args]);
+  const input = {path: scan, name: "scan.ply"}, project = {relievo: 1, input, options, studio: {material: "silver"}};
+  const linked = path.join(folder, "linked.relievo"), packed = path.join(folder, "packed.relievo");
+  writeFileSync(linked, JSON.stringify(project));
+  assert.equal(make(linked).status, 0);
+  const wanted = readFileSync(path.join(folder, "out.stl"));
+  const saved = await engine.post("save", {project});
+  assert.equal(saved.status, 200, String(saved.body));
+  writeFileSync(packed, saved.body);
+  assert.ok(saved.body.length < statSync(scan).size, `${saved.body.length} bytes`);
+
+  const bytes = readFileSync(scan), moved = path.join(folder, "moved.ply");
+  copyFileSync(scan, moved);
+  rmSync(scan);
+  assert.equal(make(packed).status, 0);
+  assert.ok(readFileSync(path.join(folder, "out.stl")).equals(wanted));
+  const lost = make(linked);
+  assert.notEqual(lost.status, 0);
+  assert.match(String(lost.stderr), /scan\.ply.*name the place of scan\.ply with --scan/);
+  assert.equal(make(linked, "--scan", moved).status, 0);
+  assert.ok(readFileSync(path.join(folder, "out.stl")).equals(wanted));
+
+  const unpacked = await upload("packed.relievo", saved.body, "project");
+  assert.equal(unpacked.is_there, true);
+  assert.deepEqual(readFileSync(unpacked.input.path), bytes);
+  assert.deepEqual(unpacked.studio, project.studio);
+  const asked = await upload("linked.relievo", JSON.stringify(project), "project");
+  assert.equal(asked.is_there, false);
+  project.input.hash = unpacked.input.hash; // known by its content, it is found among the scans that were dropped
+  const found = await upload("linked.relievo", JSON.stringify(project), "project");
+  assert.equal(found.input.path, unpacked.input.path);
+  for (let cut = 0; cut < saved.body.length; cut += Math.ceil(saved.body.length / 40))
+    assert.equal((await upload("cut.relievo", saved.body.subarray(0, cut), "project")).status, 400, `${cut}`);
+  writeFileSync(scan, bytes);
+});
+
+test("keeps dropped scans for as long as it runs and their documents are recent", async () => {
+  const place = path.join(folder, "dropped"), other = await new EngineProcess(place).ready(), inputs = [];
+  for (let i = 0; i < 12; ++i) {
+    const target = `${other.url.pathname}api/upload?name=${i}.xyz`;
+    inputs.push(JSON.parse((await other.request(target, {method: "POST", body: `${i} 0 0\n`})).body).input);
+  }
+  for (const input of inputs) assert.ok(existsSync(input.path));
+  const {document} = await other.json("document", {input: inputs[0]});
+  await keep(other, document, stateOf(inputs[0], 3, 5));
+  await other.stop();
+  const next = await new EngineProcess(place).ready();
+  assert.deepEqual(inputs.map((input) => existsSync(input.path)), inputs.map((_, i) => i === 0));
+  rmSync(inputs[0].path);
+  assert.equal((await next.json("recent")).recent[0].is_there, false);
+  assert.equal((await next.json("document", {input: inputs[0]})).kept.steps[0].options.height, 3);
+  await next.stop();
+});
+
+test("shows several documents at once, each with its own scan, settings and files", async () => {
+  const options = {width: 60, height: 2, view: "front"}, frame = (document) =>
+    engine.post("frame", {document, options, width: 60, height: 40});
+  const inputs = [{path: scan}, {sample: "shell"}], ids = [];
+  for (const [i, input] of inputs.entries()) {
+    ids.push((await engine.json("open", {input, tab: `tab${i}`})).document);
+    engine.document = ids[i];
+    await engine.untilIdle();
+  }
+  const [points, others] = await Promise.all(ids.map(async (document) =>
+    (await engine.json("facts", {document})).input_points));
+  assert.equal(points, 5000);
+  assert.notEqual(others, points);
+  for (const document of ids) assert.equal((await frame(document)).status, 200);
+  await engine.post("leave", {tab: "tab0"});
+  for (const sample of ["still_life"]) await engine.post("open", {input: {sample}, tab: "tab1"});
+  assert.equal((await frame(ids[1])).status, 200); // the newest that no tab shows any more
+  const closed = await frame(ids[0]);
+  assert.equal(closed.status, 409);
+  assert.equal(JSON.parse(closed.body).error.kind, "closed");
+});
