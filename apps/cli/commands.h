@@ -13,6 +13,7 @@ void add_sample(CLI::App& program, Result<void>& result);
 void add_bench(CLI::App& program, Result<void>& result);
 void add_studio(CLI::App& program, Result<void>& result);
 void add_compare(CLI::App& program, Result<void>& result);
+void add_batch(CLI::App& program, Result<void>& result);
 void add_options(CLI::App& program, Result<void>& result);
 
 }  // namespace relievo::app::cli

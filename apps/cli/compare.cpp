@@ -133,13 +133,17 @@ void print_table(const Comparison& comparison) {
   std::printf("%zu visible points, %zu pixels measured\n\n", comparison.visible_points,
               comparison.measured_pixels);
   std::printf(
-      "height  method    shading  angle  detail 1, 2, 4 px    order   halo  steep  used  jump   rim\n");
+      "height  method    shading  angle  detail 1, 2, 4 px    order   halo  steep  used  jump   rim  "
+      "fray: rim, jump  facet  longest\n");
   for (const ComparedRelief& e : comparison.reliefs) {
     const Measures& m = e.measures;
-    std::printf("%5.4g%%  %-8s  %7.4f  %5.2f  %5.3f %5.3f %5.3f   %6.3f  %5.3f  %5.3f  %4.2f  %4.2f  %4.2f\n",
-                100 * e.height, std::string(name_of(e.method)).c_str(), m.shading, m.angle_deg, m.detail[0],
-                m.detail[1], m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step,
-                m.rim_step);
+    std::printf(
+        "%5.4g%%  %-8s  %7.4f  %5.2f  %5.3f %5.3f %5.3f   %6.3f  %5.3f  %5.3f  %4.2f  %4.2f  %4.2f  %9.2f  "
+        "%4.2f  "
+        "%5.2f  %7.1f\n",
+        100 * e.height, std::string(name_of(e.method)).c_str(), m.shading, m.angle_deg, m.detail[0],
+        m.detail[1], m.detail[2], m.order, m.halo, m.steep_share, m.height_used, m.jump_step, m.rim_step,
+        m.silhouette_fray_deg, m.jump_fray_deg, m.facet_angle_deg, m.longest_side);
   }
   std::printf("\nLarger is better for shading, detail, order and used, smaller for the others.\n");
 }
@@ -158,7 +162,11 @@ void print_json(const Comparison& comparison) {
                        {"steep_share", m.steep_share},
                        {"height_used", m.height_used},
                        {"jump_step", m.jump_step},
-                       {"rim_step", m.rim_step}});
+                       {"rim_step", m.rim_step},
+                       {"silhouette_fray_deg", m.silhouette_fray_deg},
+                       {"jump_fray_deg", m.jump_fray_deg},
+                       {"facet_angle_deg", m.facet_angle_deg},
+                       {"longest_side", m.longest_side}});
   }
   const nlohmann::json json{{"visible_points", comparison.visible_points},
                             {"measured_pixels", comparison.measured_pixels},

@@ -1,5 +1,6 @@
 #include "cli/comparison_page.h"
 
+#include "common/html.h"
 #include "common/wording.h"
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
@@ -18,13 +19,6 @@ img { display: block; max-width: 16rem; max-height: 26rem; margin: -.6rem -.9rem
 td[rowspan] img { position: sticky; top: 1rem; }
 @media (prefers-color-scheme: dark) { body { background: #333; color: #ddd; } }
 )";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return out;
-}
 
 std::string base64(std::span<const std::byte> bytes) {
   constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -53,7 +47,9 @@ std::string cell(const ComparedRelief& relief) {
   return cat("<td>", picture(relief.picture, name), "shading ", fixed(m.shading, 3), ", angle ",
              fixed(m.angle_deg, 1), "°<br>detail ", fixed(m.detail[0], 3), ", ", fixed(m.detail[1], 3), ", ",
              fixed(m.detail[2], 3), "<br>order ", fixed(m.order, 3), ", used ", fixed(m.height_used, 2),
-             "<br>jump ", fixed(m.jump_step, 2), ", rim ", fixed(m.rim_step, 2), "</td>\n");
+             "<br>jump ", fixed(m.jump_step, 2), ", rim ", fixed(m.rim_step, 2), "<br>fray ",
+             fixed(m.silhouette_fray_deg, 1), "°, at jumps ", fixed(m.jump_fray_deg, 1), "°, facets ",
+             fixed(m.facet_angle_deg, 1), "°, longest side ", fixed(m.longest_side, 1), "</td>\n");
 }
 
 std::string table(const Comparison& comparison) {
@@ -74,15 +70,15 @@ std::string table(const Comparison& comparison) {
 }  // namespace
 
 std::string comparison_page(const Comparison& comparison) {
-  const std::string title = cat("Reliefs of ", escaped(comparison.scan));
+  const std::string title = cat("Reliefs of ", escaped_html(comparison.scan));
   std::string html = cat(
       "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>", title, "</title><style>", style,
       "</style>\n<h1>", title, "</h1>\n<p>", comparison.visible_points, " visible points, ",
       comparison.measured_pixels,
       " pixels measured. Heights are shares of the width. The reliefs are better the larger shading, detail, "
-      "order and used are, and the smaller angle, jump and rim are.</p>\n");
+      "order and used are, and the smaller all others are.</p>\n");
   for (const std::string& remark : comparison.remarks)
-    html += cat("<p>", escaped(as_sentence(remark)), "</p>\n");
+    html += cat("<p>", escaped_html(as_sentence(remark)), "</p>\n");
   return html + table(comparison) + "</html>\n";
 }
 

@@ -47,6 +47,7 @@ struct FlagAdder {
     option->type_name(std::string(field.unit));
     if (field.unit == "MM") option->transform(in_mm(length_in_mm));
     if (field.unit == "TOOL") option->transform(in_mm(tool_in_mm));
+    if (field.unit == "WxH") option->transform(in_mm(plate_in_mm));
     return option;
   }
 
@@ -63,8 +64,17 @@ struct FlagAdder {
 
   static Result<std::string> length_in_mm(std::string_view text, LengthUnit bare) {
     RELIEVO_TRY(const double mm, parse_length(text, bare));
+    return exact_text(mm);
+  }
+
+  static std::string exact_text(double number) {
     std::array<char, 32> digits{};
-    return std::string(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), mm).ptr);
+    return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+  }
+
+  static Result<std::string> plate_in_mm(std::string_view text, LengthUnit bare) {
+    RELIEVO_TRY(const Vec2 mm, parse_plate_size(text, bare));
+    return cat(exact_text(mm.x()), "x", exact_text(mm.y()));
   }
 
   static Result<std::string> tool_in_mm(std::string_view text, LengthUnit bare) {

@@ -1,12 +1,10 @@
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "cli/commands.h"
-#include "common/files.h"
-#include "studio/engine.h"
+#include "studio/actions.h"
 #include "studio/server.h"
 #include "studio/store.h"
 
@@ -28,16 +26,11 @@ void show(const std::string& address) {
 }
 
 Result<void> studio(const StudioArguments& arguments) {
-  studio::Engine engine;
   const studio::Store store(arguments.state.empty() ? studio::Store::default_folder() : arguments.state);
-  if (!arguments.input.empty()) {
-    if (const auto bytes = read_file(arguments.input); !bytes) return std::unexpected(bytes.error());
-    const std::string path = std::filesystem::absolute(arguments.input).string();
-    const ScanSource input{{}, path, std::filesystem::path(path).filename().string(), {}};
-    engine.open(input, {});
-    (void)store.remember(input);
-  }
-  studio::Server server(engine, store,
+  studio::OpenDocuments documents;
+  studio::Actions actions(documents, store);
+  if (!arguments.input.empty()) RELIEVO_CHECK(actions.begin_with(arguments.input));
+  studio::Server server(actions, store,
                         {arguments.port, arguments.page, std::chrono::seconds(arguments.linger_s)});
   const Result<std::string> address = server.bind();
   if (!address) return std::unexpected(address.error());

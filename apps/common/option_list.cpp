@@ -4,7 +4,6 @@
 #include <nlohmann/json.hpp>
 
 #include "relievo/core/text.h"
-#include "relievo/core/version.h"
 
 namespace relievo::app {
 namespace {
@@ -48,29 +47,9 @@ std::string plain(const Json& value) {
   return value.is_string() ? value.get<std::string>() : cat(value.get<double>());
 }
 
-std::string replaced(std::string text, std::string_view from, std::string_view to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-    text.replace(at, from.size(), to);
-  return text;
-}
-
-// In roff a dash of the text is no hyphen, and a dot that begins a line is a command.
-std::string roff(std::string_view text) {
-  return replaced(replaced(std::string(text), "\\", "\\e"), "-", "\\-");
-}
-
 std::string range_text(const ReliefField& field) {
   return is_number(field) ? cat(" [", field.min, " to ", field.max, "]") : std::string();
 }
-
-constexpr std::string_view man_head =
-    ".SH NAME\nrelievo\\-make \\- turn a 3D scan into a bas\\-relief\n"
-    ".SH SYNOPSIS\n.B relievo make\n.I INPUT\n.B \\-o\n.I OUT\n.RI [ options ]\n"
-    ".SH DESCRIPTION\nMakes a relief of point clouds, meshes, depth images, a scene or a studio's project, "
-    "and "
-    "writes it as a solid: .stl, .3mf, .ply or .obj. Lengths are in millimetres, or carry their unit. "
-    "The files that can be written besides are listed by\n.BR \"relievo make \\-\\-help\" .\n"
-    ".SH OPTIONS\n";
 
 }  // namespace
 
@@ -105,14 +84,6 @@ std::string option_markdown() {
   for (const ReliefField& field : option_fields())
     text += cat("| `--", field.name, " ", field.unit, "` | ", help_text(field), range_text(field), " | ",
                 default_text(field), " |\n");
-  return text;
-}
-
-std::string option_man_page() {
-  std::string text = cat(".TH RELIEVO\\-MAKE 1 \"\" \"relievo ", version, "\"\n", man_head);
-  for (const ReliefField& field : option_fields())
-    text += cat(".TP\n.BI \\-\\-", roff(field.name), " \" ", roff(field.unit), "\"\n", roff(help_text(field)),
-                roff(range_text(field)), "; default: ", roff(default_text(field)), "\n");
   return text;
 }
 

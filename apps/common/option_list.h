@@ -1,4 +1,4 @@
-// The table of options for all who show it: the page, the README and the man page.
+// The table of options for all who show it: the page and the README.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
@@ -21,8 +21,5 @@ nlohmann::json option_list();
 
 // Returns the rows of the README's table.
 std::string option_markdown();
-
-// Returns the man page of `relievo make`.
-std::string option_man_page();
 
 }  // namespace relievo::app

@@ -1,11 +1,15 @@
 #include "common/project.h"
 
+#include <fcntl.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "common/descriptor.h"
 #include "common/files.h"
 #include "common/read_inputs.h"
 #include "relievo/core/json_place.h"
@@ -75,6 +79,15 @@ Json renamed(Json json) {
 }
 
 }  // namespace
+
+OptionTexts with_given(OptionTexts own, const OptionTexts& given,
+                       const std::function<bool(std::string_view)>& is_given) {
+  if (is_given("alpha")) own.height_mm = std::nullopt;
+  for (const ReliefField& field : option_fields())
+    if (is_given(field.name))
+      std::visit([&](const auto member) { own.*member = given.*member; }, field.value);
+  return own;
+}
 
 Json to_json(const OptionTexts& options) {
   Json json = Json::object();
@@ -158,6 +171,20 @@ std::string hash_of(std::string_view bytes) {
   return hash.text();
 }
 
+Result<std::string> hash_of_file(const std::string& path) {
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.is_open()) return system_error(ErrorKind::input, path, "expected a file that can be read");
+  FileHash hash;
+  std::vector<char> piece(1 << 20);
+  for (;;) {
+    const ssize_t got = ::read(file.number(), piece.data(), piece.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) return system_error(ErrorKind::input, path, "expected a file that can be read");
+    if (got == 0) return hash.text();
+    hash.append({piece.data(), static_cast<std::size_t>(got)});
+  }
+}
+
 namespace {
 
 std::unexpected<Error> unwanted() {
@@ -170,6 +197,23 @@ Scene scene_of(const std::string& name, CloudFile file) {
 
 }  // namespace
 
+Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
+                        const std::function<bool()>& is_unwanted) {
+  const std::string hash = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  if (!input.hash.empty() && input.hash != hash)
+    return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
+  input.hash = hash;
+  if (is_unwanted && is_unwanted()) return unwanted();
+  if (is_scene_file(path)) {
+    Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
+    if (!read) return std::unexpected(read.error());
+    return std::move(read->scene);
+  }
+  Result<LoadedFile> read = parse_input(bytes, path, {}, NumericOptions{}.points, nullptr);
+  if (!read) return std::unexpected(read.error());
+  return scene_of(input.name, std::move(read->file));
+}
+
 Result<Scene> load_input(ScanSource& input, const std::string& folder,
                          const std::function<bool()>& is_unwanted) {
   if (!input.sample.empty()) {
@@ -181,19 +225,7 @@ Result<Scene> load_input(ScanSource& input, const std::string& folder,
   const Result<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
   if (is_unwanted && is_unwanted()) return unwanted();
-  const std::string hash = hash_of({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
-  if (!input.hash.empty() && input.hash != hash)
-    return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
-  input.hash = hash;
-  if (is_unwanted && is_unwanted()) return unwanted();
-  if (is_scene_file(path)) {
-    Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
-    if (!read) return std::unexpected(read.error());
-    return std::move(read->scene);
-  }
-  Result<LoadedFile> read = parse_input(*bytes, path, {}, NumericOptions{}.points, nullptr);
-  if (!read) return std::unexpected(read.error());
-  return scene_of(input.name, std::move(read->file));
+  return load_scan(input, *bytes, path, is_unwanted);
 }
 
 }  // namespace relievo::app

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -29,6 +30,11 @@ struct Project {
 // nothing is left out silently, but their values are for parse_options() to check; what else is in the file
 // belongs to the studio. Errors: kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
+
+// Returns the options of a project with those in place of its own that the user gave, too: `is_given` tells by name. A
+// given alpha rules in place of the project's height.
+OptionTexts with_given(OptionTexts own, const OptionTexts& given,
+                       const std::function<bool(std::string_view)>& is_given);
 
 // Returns the options with the names of the table; those without a value are left out.
 nlohmann::json to_json(const OptionTexts& options);
@@ -56,6 +62,14 @@ class FileHash {
   std::uint64_t hash_ = 0xCBF29CE484222325U;
 };
 std::string hash_of(std::string_view bytes);
+
+// Returns the hash of a file's bytes, read piece by piece. Errors: kind input.
+Result<std::string> hash_of_file(const std::string& path);
+
+// Returns the model of a scan's bytes, or the models of a scene file; `path` names its format, and the folder of files that
+// it names. Otherwise like load_input().
+Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
+                        const std::function<bool()>& is_unwanted = {});
 
 // Returns the model of the input, or the models of a scene file, and sets its hash if it has none. A relative
 // path starts at `folder`. Errors: kind input, also if the file is not the one that the hash was taken from;

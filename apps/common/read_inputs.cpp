@@ -4,6 +4,7 @@
 #include <fstream>
 #include <map>
 
+#include "common/archive.h"
 #include "common/files.h"
 #include "common/scene_file.h"
 #include "relievo/core/text.h"
@@ -16,9 +17,14 @@
 namespace relievo::app {
 namespace {
 
+std::string remark_on_missing(const std::string& path, std::uint64_t points) {
+  return cat(path, ": the file ends early; ", points, " points that its header promises are missing");
+}
+
 // Returns a sentence about the points of a file that were left out.
 std::vector<std::string> remarks_on(const CloudFile& file, const std::string& path) {
   std::vector<std::string> lines;
+  if (file.missing_points > 0) lines.push_back(remark_on_missing(path, file.missing_points));
   if (file.dropped_points > 0)
     lines.push_back(
         cat(path, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
@@ -52,20 +58,10 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
 }
 
 Result<LoadedFile> read_depths(std::span<const std::byte> bytes, const std::string& path,
-                               DepthOptions options, const std::string& camera, Progress* progress) {
-  const auto image = read_depth_image(bytes, path);
-  if (!image) return std::unexpected(image.error());
-  const auto parsed = read_camera(camera);
-  if (!parsed) return std::unexpected(parsed.error());
-  options.camera = *parsed;
-  auto made = depth_cloud(*image, options, progress);
-  if (!made && made.error().input.empty()) made.error().input = path;
-  if (!made) return std::unexpected(made.error());
-  LoadedFile input;
-  input.remarks.push_back(cat(path, ": ", remark_on(*image, *made)));
-  input.file.cloud = std::move(made->cloud);
-  input.file.format = image->format;
-  return input;
+                               const InputArguments& arguments, double points, Progress* progress) {
+  const PictureChannels channels{arguments.depth.values == DepthValues::luminance, arguments.depth.channel};
+  RELIEVO_TRY(const DepthImage image, read_depth_image(bytes, path, channels));
+  return take_depths(image, path, arguments, points, progress);
 }
 
 class FileSource : public ByteSource {
@@ -110,6 +106,8 @@ Result<std::optional<LoadedFile>> read_large(const std::string& path, const Inpu
   LoadedFile input;
   input.remarks.push_back(
       cat(path, ": ", streamed->cloud.size(), " points for the ", streamed->input_points, " of the file"));
+  if (streamed->missing_points > 0)
+    input.remarks.push_back(remark_on_missing(path, streamed->missing_points));
   if (streamed->ignored_faces > 0)
     input.remarks.push_back(
         cat(path, ": left out the ", streamed->ignored_faces,
@@ -154,6 +152,16 @@ View seen_by_model(const View& view, const Pose& pose) {
   return own;
 }
 
+// Reads the one model of an archive, with the files that it names there.
+Result<CloudFile> read_archived_cloud(std::span<const std::byte> bytes, const std::string& path) {
+  RELIEVO_TRY(const Archive archive, Archive::open(bytes, path));
+  RELIEVO_TRY(const std::string model, find_model(archive.names(), path));
+  RELIEVO_TRY(const std::vector<std::byte> content, archive.content(model));
+  const std::string folder = model.substr(0, model.find_last_of('/') + 1);
+  return read_cloud(content, cat(path, "/", model),
+                    [&](const std::string& name) { return archive.content(folder + name); });
+}
+
 }  // namespace
 
 bool is_scene_file(const std::string& path) {
@@ -161,16 +169,30 @@ bool is_scene_file(const std::string& path) {
 }
 
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path) {
+  if (is_archive(bytes)) return read_archived_cloud(bytes, path);
   return read_cloud(bytes, path, [&](const std::string& name) {
     return read_file((std::filesystem::path(path).parent_path() / name).string());
   });
 }
 
+Result<LoadedFile> take_depths(const DepthImage& image, const std::string& name,
+                               const InputArguments& arguments, double points, Progress* progress) {
+  DepthOptions options = arguments.depth;
+  options.points = points;
+  RELIEVO_TRY(options.camera, read_camera(arguments.camera));
+  auto made = depth_cloud(image, options, progress);
+  if (!made && made.error().input.empty()) made.error().input = name;
+  if (!made) return std::unexpected(made.error());
+  LoadedFile input;
+  input.remarks.push_back(cat(name, ": ", remark_on(image, *made)));
+  input.file.cloud = std::move(made->cloud);
+  input.file.format = image.format;
+  return input;
+}
+
 Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress) {
-  DepthOptions depth = arguments.depth;
-  depth.points = points;
-  if (is_picture(bytes)) return read_depths(bytes, path, depth, arguments.camera, progress);
+  if (is_picture(bytes)) return read_depths(bytes, path, arguments, points, progress);
   auto file = read_cloud_at(bytes, path);
   if (!file) return std::unexpected(file.error());
   std::vector<std::string> remarks = remarks_on(*file, path);
@@ -197,6 +219,23 @@ Result<SceneInput> read_scene(const std::vector<std::string>& paths, const Input
     made.remarks.insert(made.remarks.end(), read->remarks.begin(), read->remarks.end());
   }
   return made;
+}
+
+Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base) {
+  const bool is_image = base.kind == BaseKind::image;
+  if (is_image && !image) return option_error("base", "expected base-image with image, found none");
+  if (!is_image && image)
+    return option_error("base-image",
+                        cat("expected base image with it, found ", name_in(base_choices, base.kind)));
+  base.image = std::move(image);
+  return {};
+}
+
+Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& path) {
+  if (path.empty()) return nullptr;
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path, true));
+  RELIEVO_TRY(DepthImage image, read_depth_image(bytes, path));
+  return std::make_shared<const Image<float>>(std::move(image.values));
 }
 
 std::string joined(const std::vector<std::string>& paths) {

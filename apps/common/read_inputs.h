@@ -1,6 +1,7 @@
 // Reads what a relief is made of from disk: clouds, meshes, depth images and scenes of them.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -31,8 +32,14 @@ struct PointsWanted {
   double points = NumericOptions{}.points;
 };
 
-// Reads the bytes of a cloud or mesh as read_cloud() does, with the files beside `path` that they name.
+// Reads the bytes of a cloud or mesh as read_cloud() does, with the files beside `path` that they name; or those of a
+// ZIP archive with one cloud or mesh, and the files that it names there.
 Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::string& path);
+
+// Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera() and
+// depth_cloud().
+Result<LoadedFile> take_depths(const DepthImage& image, const std::string& name,
+                               const InputArguments& arguments, double points, Progress* progress);
 
 // Makes of a file's bytes what read_input() makes of the file.
 Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::string& path,
@@ -53,6 +60,12 @@ bool is_scene_file(const std::string& path);
 // file among others.
 Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                               const PointsWanted& wanted, Progress* progress);
+
+// Gives a base of kind image its height map, which is null for others. Errors: kind option if they do not fit together.
+Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base);
+
+// Returns the height map in the file of that path; null for an empty path. Errors: kind input.
+Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& path);
 
 // The paths, in one line.
 std::string joined(const std::vector<std::string>& paths);

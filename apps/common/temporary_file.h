@@ -11,8 +11,9 @@ namespace relievo::app {
 
 struct TemporaryName;
 
-// A file beside `path`, in the same folder, that takes a place when kept and is gone otherwise. There may be eight at the
-// same time; remove_temporary_files_on_signals() knows them.
+// A file beside `path`, in the same folder, that takes a place when kept and is gone otherwise. It is locked while it is
+// written. Where a process ended without warning, its file is removed by the next one for that path. There may be eight at
+// the same time; remove_temporary_files() knows them.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const std::string& path);
@@ -23,8 +24,9 @@ class TemporaryFile {
   // Errors of all: kind output.
   Result<void> append(std::span<const std::byte> bytes);
 
-  // Waits until the disk has all bytes, and gives the file the permissions of a new one.
-  Result<void> finish();
+  // Gives the file the permissions of a new one and, if `is_durable`, waits until the disk has all bytes: without that,
+  // the file outlives a crash of the program, but not of the machine.
+  Result<void> finish(bool is_durable = true);
 
   // Moves the finished file to that path, in place of what is there.
   Result<void> keep(const std::string& path);
@@ -35,6 +37,10 @@ class TemporaryFile {
   Descriptor file_{-1};
   bool is_kept_ = false;
 };
+
+// Removes all of this process, and lets no thread make or keep one from now on. It may be called in a signal handler,
+// before the process ends.
+void remove_temporary_files();
 
 // From now on Ctrl-C and other signals that end the program remove its temporary files first.
 void remove_temporary_files_on_signals();

@@ -256,8 +256,8 @@ TEST_F(Cli, ComparesMethods) {
 
 TEST_F(Cli, HelpTellsRangesAndDefaults) {
   const std::string help = run("make --help").out;
-  for (const char* part :
-       {"--width", "--height", "--saturation", "--view", "[0.1 to 100000]", "=100", "0.02 with method paper"})
+  for (const char* part : {"--width", "--height", "--saturation", "--view", "[0.1 to 100000]", "=5",
+                           "default: 100", "0.02 with method paper"})
     EXPECT_NE(help.find(part), std::string::npos) << part;
   EXPECT_EQ(run("--help").exit_code, 0);
   EXPECT_NE(run("--version").out.find("relievo "), std::string::npos);
@@ -327,15 +327,15 @@ TEST_F(Cli, TheReadmesTableIsTheProgrammes) {
 }
 
 TEST_F(Cli, OptionsAreAManPageAndJsonToo) {
-  const std::string man = run("options --man").out;
-  EXPECT_TRUE(man.starts_with(".TH RELIEVO"));
+  const std::string man = run("options --man make").out;
+  EXPECT_TRUE(man.starts_with(".TH RELIEVO\\-MAKE 1"));
   const auto list = nlohmann::json::parse(run("options --json").out);
   ASSERT_EQ(list.size(), option_fields().size());
   for (const auto& option : list) {
     std::string name = option["name"];
     for (std::size_t at = name.find('-'); at != std::string::npos; at = name.find('-', at + 2))
       name.insert(at, "\\");
-    EXPECT_NE(man.find(".BI \\-\\-" + name + " "), std::string::npos) << name;
+    EXPECT_NE(man.find(".BI \"\\-\\-" + name + " \" "), std::string::npos) << name;
     if (option["name"] == "detail") {
       EXPECT_EQ(option["default"]["paper"], .02);
       EXPECT_EQ(option["min"], 0);
@@ -344,6 +344,13 @@ TEST_F(Cli, OptionsAreAManPageAndJsonToo) {
       EXPECT_EQ(option["choices"].size(), outline_choices.size());
     }
   }
+}
+
+TEST_F(Cli, ManPagesAndCompletionAreOfKnownNames) {
+  EXPECT_TRUE(run("options --man relievo").out.starts_with(".TH RELIEVO 1"));
+  expect_refusal("options --man relief", "--man");
+  EXPECT_NE(run("options --completion fish").out.find("-l outline"), std::string::npos);
+  expect_refusal("options --completion csh", "--completion");
 }
 
 }  // namespace

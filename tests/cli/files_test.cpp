@@ -3,6 +3,7 @@
 
 #include <sys/stat.h>
 
+#include <csignal>
 #include <thread>
 
 #include "common/temporary_file.h"
@@ -62,6 +63,37 @@ TEST_F(Files, TemporaryFilesAreGoneUnlessKept) {
   EXPECT_TRUE(file.keep(path("kept")));
   EXPECT_EQ(read_all(path("kept")), "in two pieces");
   EXPECT_FALSE(app::TemporaryFile(path("gone/new")).append({}));
+}
+
+TEST_F(Files, WhatAnEndedRunLeftIsRemovedByTheNextOne) {
+  for (const char* const name : {"a.stl.relievo-abcdef", "a.stl.relievo-abcde", "b.stl.relievo-abcdef"})
+    write_all(path(name), "half");
+  app::TemporaryFile writing(path("c.stl"));
+  const app::TemporaryFile next(path("a.stl")), other(path("c.stl"));
+  EXPECT_FALSE(fs::exists(path("a.stl.relievo-abcdef")));
+  EXPECT_TRUE(fs::exists(path("a.stl.relievo-abcde"))) << "not a name of ours";
+  EXPECT_TRUE(fs::exists(path("b.stl.relievo-abcdef"))) << "of another output";
+  EXPECT_TRUE(writing.append({}) && writing.finish() && writing.keep(path("kept"))) << "being written";
+}
+
+// Threads go on making files while one of them handles the signal.
+TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
+#ifdef __SANITIZE_THREAD__
+  GTEST_SKIP() << "this sanitizer delays signals";
+#endif
+  const auto make_files = [&](int thread) {
+    for (;;) app::TemporaryFile(path(std::to_string(thread).c_str()));
+  };
+  const auto end_while_making = [&] {
+    app::remove_temporary_files_on_signals();
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i) threads.emplace_back(make_files, i);
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ::kill(::getpid(), SIGTERM);
+    for (std::thread& thread : threads) thread.join();
+  };
+  for (int i = 0; i < 20; ++i) EXPECT_EXIT(end_while_making(), testing::KilledBySignal(SIGTERM), "");
+  for (const auto& entry : fs::directory_iterator(folder_)) EXPECT_EQ(entry.path().filename(), "torus.ply");
 }
 
 }  // namespace

@@ -1,13 +1,14 @@
-#include "cli/make_report.h"
+#include "common/make_report.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "common/export_file.h"
 #include "common/wording.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/version.h"
 
-namespace relievo::app::cli {
+namespace relievo::app {
 namespace {
 
 nlohmann::json wrap_json(const std::optional<ReliefReport::Wrapped>& wrap) {
@@ -35,32 +36,12 @@ std::vector<double> as_list(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-// Returns the models of the scene and their places: a point p of a file is scale * rotation * p + offset in it.
-nlohmann::json models_json(const Scene& scene, const View& view) {
-  const auto places = place_models(scene, view);
-  nlohmann::json models = nlohmann::json::array();
-  for (std::size_t i = 0; places && i < places->size(); ++i) {
-    const CloudFile& file = *scene.models[i].file;
-    const PlacedModel& place = (*places)[i];
-    models.push_back({{"file", scene.models[i].name},
-                      {"format", file.format},
-                      {"points", file.cloud.size()},
-                      {"triangles", file.mesh.triangles.size()},
-                      {"model_to_scene",
-                       {{"rotation", row_by_row(place.turn)},
-                        {"scale", place.scale},
-                        {"offset", as_list(place.offset)}}}});
-  }
-  return models;
-}
-
-nlohmann::json report_json(const ReliefReport& report, const Progress& progress) {
+nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime> times) {
   const auto number_or_null = [](double x) {
     return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
   };
   nlohmann::json seconds = nlohmann::json::object();
-  for (const StageTime& stage : progress.times())
-    seconds[stage.name] = seconds.value(stage.name, 0.0) + stage.seconds;
+  for (const StageTime& stage : times) seconds[stage.name] = seconds.value(stage.name, 0.0) + stage.seconds;
   return {
       {"version", version},
       {"threads", thread_count()},
@@ -103,12 +84,35 @@ Vec3 size_mm(const Solid& solid) {
   return box.size();
 }
 
-std::string make_report(const MakeOutcome& outcome) {
-  nlohmann::json report = report_json(outcome.made.report, outcome.progress);
-  report["size_mm"] = as_list(size_mm(outcome.made.solid));
-  report["units"] = name_of(outcome.unit);
-  report["models"] = models_json(outcome.scene, outcome.view);
-  return report.dump(2) + "\n";
+nlohmann::json models_report(const Scene& scene, const View& view) {
+  const auto places = place_models(scene, view);
+  nlohmann::json models = nlohmann::json::array();
+  for (std::size_t i = 0; places && i < places->size(); ++i) {
+    const CloudFile& file = *scene.models[i].file;
+    const PlacedModel& place = (*places)[i];
+    models.push_back({{"file", scene.models[i].name},
+                      {"format", file.format},
+                      {"points", file.cloud.size()},
+                      {"triangles", file.mesh.triangles.size()},
+                      {"model_to_scene",
+                       {{"rotation", row_by_row(place.turn)},
+                        {"scale", place.scale},
+                        {"offset", as_list(place.offset)}}}});
+  }
+  return models;
 }
 
-}  // namespace relievo::app::cli
+nlohmann::json make_report(const MakeOutcome& outcome) {
+  nlohmann::json report = report_json(outcome.made.report, outcome.times);
+  report["size_mm"] = as_list(size_mm(outcome.made.solid));
+  report["units"] = name_of(outcome.unit);
+  report["models"] = outcome.models;
+  return report;
+}
+
+std::string report_text(const nlohmann::json& report) {
+  // Names of files need not be UTF-8, but JSON is.
+  return report.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace relievo::app

@@ -1,0 +1,26 @@
+// Contact sheets: small pictures of many reliefs in one picture. Tested by tests/cli/batch_pages_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "relievo/core/error.h"
+#include "relievo/core/image.h"
+
+namespace relievo::app::batch {
+
+inline constexpr std::size_t tiles_per_sheet = 144;
+
+// Returns the pixels of a PNG, with 3 channels; empty if it cannot be read.
+Image8 read_png(std::span<const std::byte> bytes);
+
+// Returns the front view of a preview, its left half (see render_preview()), as a tile of `side` x `side` pixels:
+// reduced to fit by averaging, and in the middle.
+Image8 tile_of_preview(const Image8& preview, int side);
+
+// Returns a sheet of the tiles, at most tiles_per_sheet, row by row, about as wide as it is high. Empty tiles, of what
+// could not be made, are crossed out.
+Image8 contact_sheet(const std::vector<Image8>& tiles, int side);
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,75 @@
+#include "batch/finish.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "batch/contact_sheet.h"
+#include "batch/index_page.h"
+#include "common/files.h"
+#include "relievo/core/text.h"
+#include "relievo/io/write.h"
+
+namespace relievo::app::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int tile_px = 160;
+
+std::string sheet_name(std::size_t i) {
+  return i == 0 ? "contact-sheet.png" : cat("contact-sheet-", i + 1, ".png");
+}
+
+const Record* made_record(const Job& job, const Records& records) {
+  const auto found = records.find(job.name);
+  return found != records.end() && found->second.is_made ? &found->second : nullptr;
+}
+
+Image8 tile_of(const Job& job, const Records& records, const Workshop& workshop) {
+  if (!made_record(job, records)) return {};
+  const auto preview = std::ranges::find(workshop.kinds, "preview", &OutputKind::name);
+  const auto bytes = read_file((fs::path(workshop.outputs) / output_name(job, *preview)).string());
+  return bytes ? tile_of_preview(read_png(*bytes), tile_px) : Image8{};
+}
+
+Result<void> write_file(const Workshop& workshop, std::string_view name, std::vector<std::byte> bytes) {
+  const OutputFile file{(fs::path(workshop.outputs) / name).string(), std::move(bytes)};
+  return write_files({&file, 1});
+}
+
+Result<std::vector<std::string>> write_sheets(const std::vector<Job>& jobs, const Records& records,
+                                              const Workshop& workshop) {
+  std::vector<std::string> names;
+  for (std::size_t first = 0; first < jobs.size(); first += tiles_per_sheet) {
+    std::vector<Image8> tiles;
+    for (std::size_t i = first; i < std::min(jobs.size(), first + tiles_per_sheet); ++i)
+      tiles.push_back(tile_of(jobs[i], records, workshop));
+    names.push_back(sheet_name(names.size()));
+    RELIEVO_CHECK(write_file(workshop, names.back(), write_png(contact_sheet(tiles, tile_px))));
+  }
+  return names;
+}
+
+}  // namespace
+
+Summary summary_of(const std::vector<Job>& jobs, const Records& records) {
+  Summary sum;
+  for (const Job& job : jobs) {
+    const auto found = records.find(job.name);
+    ++(found == records.end() ? sum.missing : found->second.is_made ? sum.made : sum.failed);
+  }
+  return sum;
+}
+
+Result<void> finish(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop) {
+  std::string lines;
+  for (const Job& job : jobs)
+    if (const auto found = records.find(job.name); found != records.end())
+      lines +=
+          cat(to_json(found->second).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "\n");
+  RELIEVO_CHECK(write_file(workshop, "scans.jsonl", bytes_of(lines)));
+  RELIEVO_TRY(const std::vector<std::string> sheets, write_sheets(jobs, records, workshop));
+  return write_file(workshop, "index.html", bytes_of(index_page(jobs, records, workshop, sheets)));
+}
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,16 @@
+// The page over all reliefs of a catalogue. Tested by tests/cli/batch_pages_test.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "batch/finish.h"
+
+namespace relievo::app::batch {
+
+// Returns the page: the failures with their errors, and a picture of each relief with links to its files. It stands in
+// the folder of the outputs, to which all its links are relative, as are the paths of the contact sheets.
+std::string index_page(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop,
+                       const std::vector<std::string>& sheets);
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,211 @@
+#include "batch/jobs.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "batch/table.h"
+#include "common/files.h"
+#include "relievo/core/text.h"
+#include "relievo/io/read.h"
+
+namespace relievo::app::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+std::unexpected<Error> fail(const std::string& input, std::string place, std::string expected) {
+  return std::unexpected(Error{ErrorKind::input, input, std::move(place), std::move(expected)});
+}
+
+std::string absolute_path(const fs::path& path) {
+  return fs::absolute(path).lexically_normal().string();
+}
+
+bool is_picture_name(const std::string& path) {
+  const std::string ending = ending_of(path);
+  return ending == "png" || ending == "tif" || ending == "tiff";
+}
+
+bool is_scan_name(const std::string& path) {
+  const std::vector<std::string> endings = readable_endings();
+  const std::string ending = cat(".", ending_of(path));
+  return std::ranges::find(endings, ending) != endings.end() || ending == ".relievo";
+}
+
+// Names that are not taken yet.
+class Names {
+ public:
+  std::string unused(const std::string& name) {
+    std::string unused = name;
+    for (int i = 2; !taken_.insert(unused).second; ++i) unused = cat(name, "-", i);
+    return unused;
+  }
+  bool take(const std::string& name) { return taken_.insert(name).second; }
+
+ private:
+  std::set<std::string> taken_;
+};
+
+// ------------------------------------------------------------------------------------------------- folders
+
+// Returns the paths of the files that can be read, in order. Hidden files and folders are left out.
+Result<std::vector<fs::path>> scans_in(const Catalogue& catalogue) {
+  std::error_code failed;
+  std::vector<fs::path> paths;
+  const fs::path outputs = fs::weakly_canonical(catalogue.outputs, failed);
+  for (fs::recursive_directory_iterator entry(catalogue.path, failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    if (entry->is_directory(ignored)) {
+      if (name.starts_with('.') || fs::weakly_canonical(entry->path(), ignored) == outputs)
+        entry.disable_recursion_pending();
+      continue;
+    }
+    const bool matches = catalogue.match.empty() ? is_scan_name(name)
+                                                 : ::fnmatch(catalogue.match.c_str(), name.c_str(), 0) == 0;
+    if (!name.starts_with('.') && matches) paths.push_back(entry->path());
+  }
+  if (failed) return fail(catalogue.path, {}, cat("expected a folder that can be read: ", failed.message()));
+  std::ranges::sort(paths);
+  return paths;
+}
+
+void leave_out_textures(std::vector<fs::path>& paths) {
+  std::set<fs::path> with_models;
+  for (const fs::path& path : paths)
+    if (!is_picture_name(path.string())) with_models.insert(path.parent_path());
+  std::erase_if(paths, [&](const fs::path& path) {
+    return is_picture_name(path.string()) && with_models.contains(path.parent_path());
+  });
+}
+
+Result<std::vector<Job>> jobs_of_folder(const Catalogue& catalogue) {
+  RELIEVO_TRY(std::vector<fs::path> paths, scans_in(catalogue));
+  if (catalogue.match.empty()) leave_out_textures(paths);
+  std::vector<Job> jobs;
+  Names names;
+  for (const fs::path& path : paths) {
+    fs::path name = path.lexically_relative(catalogue.path);
+    name.replace_extension();
+    jobs.push_back({names.unused(name.generic_string()), absolute_path(path), catalogue.common});
+  }
+  return jobs;
+}
+
+// -------------------------------------------------------------------------------------------------- tables
+
+bool is_inside(const std::string& name) {
+  const fs::path path = fs::path(name).lexically_normal();
+  return path.is_relative() && !path.empty() && path.has_filename() && *path.begin() != "..";
+}
+
+// Makes the jobs of a table, row by row.
+class TableJobs {
+ public:
+  TableJobs(const Table& table, const Catalogue& catalogue)
+      : table_(table), catalogue_(catalogue), folder_(fs::path(catalogue.path).parent_path()) {}
+
+  Result<std::vector<Job>> list() {
+    // Names that rows state come first: those that are made up must not take them.
+    for (const TableRow& row : table_.rows)
+      if (const std::string& name = cell(row, "name"); !name.empty())
+        if (!is_inside(name) || !names_.take(fs::path(name).lexically_normal().string()))
+          return fail(row,
+                      cat("expected a name that no other row has, inside the folder, found '", name, "'"));
+    std::vector<Job> jobs;
+    for (const TableRow& row : table_.rows) {
+      if (cell(row, "file").empty()) return fail(row, "expected a file, found none");
+      jobs.push_back(job_of(row));
+    }
+    return jobs;
+  }
+
+ private:
+  std::unexpected<Error> fail(const TableRow& row, std::string expected) const {
+    return batch::fail(catalogue_.path, cat("line ", row.line), std::move(expected));
+  }
+
+  const std::string& cell(const TableRow& row, std::string_view column) const {
+    static const std::string none;
+    const auto at = std::ranges::find(table_.columns, column) - table_.columns.begin();
+    return at == std::ssize(table_.columns) ? none : row.cells[static_cast<std::size_t>(at)];
+  }
+
+  Job job_of(const TableRow& row) {
+    const fs::path file = folder_ / cell(row, "file");
+    const std::string& stated = cell(row, "name");
+    Job job{
+        stated.empty() ? names_.unused(file.stem().string()) : fs::path(stated).lexically_normal().string(),
+        absolute_path(file), catalogue_.common};
+    for (std::size_t i = 0; i < table_.columns.size(); ++i) {
+      const std::string& column = table_.columns[i];
+      const std::string& value = row.cells[i];
+      if (column == "file" || column == "name" || value.empty()) continue;
+      const std::string beside = (folder_ / value).string();
+      job.options[column] = is_path(column, beside) ? absolute_path(beside) : value;
+    }
+    return job;
+  }
+
+  const Table& table_;
+  const Catalogue& catalogue_;
+  fs::path folder_;
+  Names names_;
+};
+
+Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
+                                       const std::function<bool(const std::string&)>& is_option) {
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(catalogue.path));
+  RELIEVO_TRY(const Table table,
+              read_table({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, catalogue.path));
+  if (std::ranges::find(table.columns, "file") == table.columns.end())
+    return fail(catalogue.path, "line 1", "expected a column 'file', found none");
+  for (const std::string& column : table.columns)
+    if (column != "file" && column != "name" && !is_option(column))
+      return option_error(catalogue.path,
+                          cat("expected columns file, name and options of make, found '", column, "'"));
+  return TableJobs(table, catalogue).list();
+}
+
+}  // namespace
+
+Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
+                                   const std::function<bool(const std::string&)>& is_option) {
+  std::error_code ignored;
+  Catalogue resolved = catalogue;
+  for (auto& [option, value] : resolved.common)
+    if (is_path(option, value)) value = absolute_path(value);
+  const bool is_folder = fs::is_directory(catalogue.path, ignored);
+  RELIEVO_TRY(std::vector<Job> jobs,
+              is_folder ? jobs_of_folder(resolved) : jobs_of_table(resolved, is_option));
+  if (jobs.empty()) return fail(catalogue.path, {}, "expected scans, found none");
+  return jobs;
+}
+
+bool is_path(const std::string& option, const std::string& value) {
+  std::error_code ignored;
+  return (option == "base-image" || option == "camera") && fs::is_regular_file(value, ignored);
+}
+
+Json to_json(const Job& job) {
+  return {{"name", job.name}, {"file", job.file}, {"options", job.options}};
+}
+
+Result<Job> job_from_json(const Json& json) {
+  const auto is_text = [](const Json& value) { return value.is_string(); };
+  if (!json.is_object()) return fail("job", {}, "expected a job in JSON");
+  const Json name = json.value("name", Json()), file = json.value("file", Json()),
+             options = json.value("options", Json::object());
+  if (!is_text(name) || !is_text(file) || !options.is_object() || !std::ranges::all_of(options, is_text))
+    return fail("job", {}, "expected an object with name, file and options, as --list prints it");
+  if (!is_inside(name)) return fail("job", "name", "expected a name inside the folder");
+  return Job{name, file, options.get<Options>()};
+}
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,96 @@
+#include "batch/memory_need.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/read_inputs.h"
+#include "relievo/io/scan_size.h"
+
+namespace relievo::app::batch {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double mb = 1 << 20;
+
+// The figures are upper bounds of measurements (docs/capacity.md). The solid has about half a million samples however
+// small the scan is; a point of a cloud costs what reading, preparing and sampling it cost together.
+constexpr double least_mb = 140, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
+                 bytes_per_visible_point = 900, streaming_mb = 40, bytes_per_streamed_point = 480;
+
+double number_or(const Options& options, const std::string& name, double otherwise) {
+  const auto found = options.find(name);
+  if (found == options.end()) return otherwise;
+  double value = otherwise;
+  std::from_chars(found->second.data(), found->second.data() + found->second.size(), value);
+  return value;
+}
+
+// Returns the memory for reading one file and for what is made of its points.
+double need_of_file_mb(const std::string& path, double wanted_points, double stream_above_mb) {
+  std::error_code failed;
+  const std::uintmax_t bytes = fs::file_size(path, failed);
+  if (failed) return 0;
+  std::vector<char> head(std::min<std::uintmax_t>(bytes, 1 << 16));
+  std::ifstream(path, std::ios::binary).read(head.data(), static_cast<std::streamsize>(head.size()));
+  const ScanSize size = scan_size(std::as_bytes(std::span(head)), path, bytes);
+  const auto points = static_cast<double>(size.points), triangles = static_cast<double>(size.triangles),
+             pixels = static_cast<double>(size.pixels);
+  const double visible = bytes_per_visible_point * wanted_points;
+  if (size.is_stated && size.triangles == 0 && static_cast<double>(bytes) > 1e6 * stream_above_mb)
+    return streaming_mb + (bytes_per_streamed_point * wanted_points + visible) / mb;
+  const double cloud = static_cast<double>(bytes) + bytes_per_point * points +
+                       bytes_per_triangle * triangles + bytes_per_pixel * pixels;
+  const bool is_sampled = size.triangles + size.pixels > 0;
+  return (cloud + (is_sampled ? visible : 0)) / mb;
+}
+
+double number_in(const std::string& path) {
+  std::ifstream file(path);
+  double number = -1;
+  return file >> number ? number : -1;
+}
+
+// Returns what the control group of this process may still take; infinite without a limit.
+double left_in_control_group_mb() {
+  std::ifstream groups("/proc/self/cgroup");
+  double left = std::numeric_limits<double>::infinity();
+  for (std::string line; std::getline(groups, line);) {
+    if (!line.starts_with("0::")) continue;
+    // A limit of a group holds for those within it, too.
+    for (fs::path group = line.substr(3);; group = group.parent_path()) {
+      const std::string folder = "/sys/fs/cgroup" + group.string();
+      const double most = number_in(folder + "/memory.max"), taken = number_in(folder + "/memory.current");
+      if (most >= 0 && taken >= 0) left = std::min(left, (most - taken) / mb);
+      if (group == group.parent_path()) break;
+    }
+  }
+  return left;
+}
+
+}  // namespace
+
+double memory_need_mb(const Job& job) {
+  const double points = number_or(job.options, "points", PointsWanted{}.points),
+               stream_above_mb = number_or(job.options, "stream-above", InputArguments{}.stream_above_mb);
+  double need = least_mb;
+  for (const std::string& file : files_of(job)) need += need_of_file_mb(file, points, stream_above_mb);
+  return need;
+}
+
+double available_memory_mb() {
+  double available =
+      static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / mb;
+  std::ifstream file("/proc/meminfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("MemAvailable:"))
+      available = std::stod("0" + line.substr(line.find_first_of("0123456789"))) / 1024;
+  return std::min(available, left_in_control_group_mb());
+}
+
+}  // namespace relievo::app::batch

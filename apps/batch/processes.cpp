@@ -1,0 +1,120 @@
+#include "batch/processes.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "relievo/core/text.h"
+
+namespace relievo::app::batch {
+namespace {
+
+void write_all(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(descriptor, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+std::string read_all(int descriptor) {
+  std::string text;
+  std::array<char, 4096> piece{};
+  for (;;) {
+    const ssize_t got = ::read(descriptor, piece.data(), piece.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return text;
+    text.append(piece.data(), static_cast<std::size_t>(got));
+  }
+}
+
+// The life of a job's process.
+[[noreturn]] void live(const Work& work, const Workshop& workshop, int threads, int result, pid_t parent) {
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);     // it removes its temporary files then
+  if (::getppid() != parent) ::_exit(0);  // the parent ended before
+  const Performed end = perform(work, workshop, threads);
+  nlohmann::json json = to_json(end.record);
+  json["is_kept"] = end.is_kept;
+  write_all(result, json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  std::fflush(stderr);
+  ::_exit(0);  // without the ends of static objects, which belong to the parent
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+std::string reason_of(int status) {
+  // The process has printed a line and exited with 1 if an allocation failed.
+  if (WIFEXITED(status) && WEXITSTATUS(status) == 1) return "expected more free memory, found none left";
+  if (!WIFSIGNALED(status))
+    return cat("expected a result, found the end of its process with ", WEXITSTATUS(status));
+  const int signal = WTERMSIG(status);
+  return cat("expected a result, found its process ended by signal ", signal, " (", ::strsignal(signal), ")",
+             signal == SIGKILL ? ", as happens when memory is short" : "");
+}
+
+}  // namespace
+
+Result<void> Processes::start(const Work& work, int threads) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0)
+    return system_error(ErrorKind::output, work.job.name, "expected a pipe to a new process");
+  Descriptor from(ends[0]), to(ends[1]);
+  std::fflush(nullptr);  // else both processes would print what is buffered
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child < 0) return system_error(ErrorKind::output, work.job.name, "expected a new process");
+  if (child == 0) live(work, workshop_, threads, to.number(), parent);
+  running_.emplace(child, Running{&work, std::move(from), std::chrono::steady_clock::now()});
+  return {};
+}
+
+Performed Processes::wait() {
+  int status = 0;
+  struct rusage usage {};
+  pid_t child = 0;
+  do child = ::wait4(-1, &status, 0, &usage);
+  while (child < 0 && errno == EINTR);
+  const auto found = running_.find(child);
+  if (found == running_.end()) return {};
+  const Running& process = found->second;
+  const std::string text = read_all(process.result.number());
+  const Job& job = process.work->job;
+  Performed end;
+  const auto json = nlohmann::json::parse(text, nullptr, false);
+  if (const auto record = record_from_line(text)) {
+    end = {json.value("is_kept", false), *record};
+  } else {
+    end.record = {job.name, job.file};
+    end.record.error = cat(job.file, ": ", reason_of(status));
+    end.record.may_succeed = true;
+  }
+  if (!end.is_kept) {
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - process.started;
+    end.record.seconds = seconds.count();
+    end.record.cpu_seconds = seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
+    end.record.peak_mb = static_cast<double>(usage.ru_maxrss) / 1024;
+    end.record.host = host_name();
+    end.record.finished = time_now();
+  }
+  running_.erase(found);
+  return end;
+}
+
+double Processes::running_mb() const {
+  double mb = 0;
+  for (const auto& [child, process] : running_) mb += process.work->need_mb;
+  return mb;
+}
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,41 @@
+// Jobs in processes of their own: a crash, or the system's end of a job that takes too much memory, ends that job alone.
+// Tested by tests/cli/batch_test.cpp.
+#pragma once
+
+#include <sys/types.h>
+
+#include <chrono>
+#include <map>
+
+#include "batch/perform.h"
+
+namespace relievo::app::batch {
+
+// The processes of the jobs that run. They are copies of this one (fork), without a program to load, so a job costs less
+// than a command of a shell. They end with this process, however it ends. This process must not have started a thread,
+// and must have no other children.
+class Processes {
+ public:
+  explicit Processes(const Workshop& workshop) : workshop_(workshop) {}
+
+  // Starts the job; `threads` are those that it may use. Errors: kind output if there can be no more processes.
+  Result<void> start(const Work& work, int threads);
+
+  // Waits until a job ends, however it does, and returns what became of it. There must be one that runs.
+  Performed wait();
+
+  std::size_t running() const { return running_.size(); }
+  double running_mb() const;  // the sum of what the running jobs need
+
+ private:
+  struct Running {
+    const Work* work;
+    Descriptor result;  // a pipe from which the process' record is read
+    std::chrono::steady_clock::time_point started;
+  };
+
+  const Workshop& workshop_;
+  std::map<pid_t, Running> running_;
+};
+
+}  // namespace relievo::app::batch

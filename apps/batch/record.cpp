@@ -1,0 +1,159 @@
+#include "batch/record.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "common/files.h"
+#include "relievo/core/text.h"
+#include "relievo/core/version.h"
+
+namespace relievo::app::batch {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+fs::path journals_in(const std::string& outputs) {
+  return fs::path(outputs) / ".journal";
+}
+
+Result<void> make_journal_folder(const std::string& outputs) {
+  std::error_code failed;
+  fs::create_directories(journals_in(outputs), failed);
+  if (!failed) return {};
+  return std::unexpected(Error{
+      ErrorKind::output, outputs, {}, cat("expected a folder that can be written to: ", failed.message())});
+}
+
+bool ends_in_a_line(const Descriptor& file) {
+  const off_t end = ::lseek(file.number(), 0, SEEK_END);
+  char last = '\n';
+  return end <= 0 || (::pread(file.number(), &last, 1, end - 1) == 1 && last == '\n');
+}
+
+}  // namespace
+
+Json to_json(const Record& record) {
+  Json json{{"name", record.name},
+            {"file", record.file},
+            {"status", record.is_made ? "made" : "failed"},
+            {"seconds", record.seconds},
+            {"cpu_seconds", record.cpu_seconds},
+            {"peak_mb", record.peak_mb},
+            {"hash", record.hash},
+            {"outputs", record.outputs},
+            {"host", record.host},
+            {"finished", record.finished},
+            {"version", version}};
+  if (record.is_made) return json;
+  json["error"] = record.error;
+  json["may_succeed"] = record.may_succeed;
+  return json;
+}
+
+std::optional<Record> record_from_line(std::string_view line) {
+  const Json json = Json::parse(line, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  // A value of a wrong type counts as missing.
+  const auto take = [&]<typename T>(const char* key, T& value, bool is_right) {
+    if (is_right) value = json[key].get<T>();
+  };
+  const auto is_text = [&](const char* key) { return json.contains(key) && json[key].is_string(); };
+  const auto is_number = [&](const char* key) { return json.contains(key) && json[key].is_number(); };
+  Record record;
+  take("name", record.name, is_text("name"));
+  take("file", record.file, is_text("file"));
+  record.is_made = is_text("status") && json["status"] == "made";
+  take("error", record.error, is_text("error"));
+  record.may_succeed = json.contains("may_succeed") && json["may_succeed"] == true;
+  take("hash", record.hash, is_text("hash"));
+  take("seconds", record.seconds, is_number("seconds"));
+  take("cpu_seconds", record.cpu_seconds, is_number("cpu_seconds"));
+  take("peak_mb", record.peak_mb, is_number("peak_mb"));
+  take("host", record.host, is_text("host"));
+  take("finished", record.finished, is_text("finished"));
+  if (json.contains("outputs") && json["outputs"].is_object())
+    for (const auto& [name, bytes] : json["outputs"].items())
+      if (bytes.is_number_unsigned()) record.outputs[name] = bytes.get<std::uintmax_t>();
+  if (record.name.empty()) return std::nullopt;
+  return record;
+}
+
+Records read_journals(const std::string& outputs) {
+  Records records;
+  std::error_code failed;
+  for (fs::directory_iterator entry(journals_in(outputs), failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    if (entry->path().extension() != ".jsonl") continue;
+    const auto bytes = read_file(entry->path().string());
+    if (!bytes) continue;
+    std::string_view rest(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    while (!rest.empty()) {
+      const std::string_view line = rest.substr(0, rest.find('\n'));
+      rest.remove_prefix(std::min(rest.size(), line.size() + 1));
+      std::optional<Record> record = record_from_line(line);
+      if (!record) continue;
+      Record& last = records[record->name];
+      if (last.finished <= record->finished) last = *std::move(record);
+    }
+  }
+  return records;
+}
+
+Result<Journal> Journal::open(const std::string& outputs) {
+  RELIEVO_CHECK(make_journal_folder(outputs));
+  const std::string path = (journals_in(outputs) / cat(host_name(), ".jsonl")).string();
+  Descriptor file(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
+  if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a journal that can be written");
+  return Journal(path, std::move(file));
+}
+
+Result<void> Journal::append(const Record& record) const {
+  // One write, so that lines of several programs never mix. A part of a line that a machine left behind when its power
+  // failed is ended first.
+  const std::string line = cat(ends_in_a_line(file_) ? "" : "\n",
+                               to_json(record).dump(-1, ' ', false, Json::error_handler_t::replace), "\n");
+  if (::write(file_.number(), line.data(), line.size()) == static_cast<ssize_t>(line.size())) return {};
+  return system_error(ErrorKind::output, path_, "expected room to write the journal");
+}
+
+Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard) {
+  RELIEVO_CHECK(make_journal_folder(outputs));
+  const std::string path = (journals_in(outputs) / cat("lock", shard)).string();
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");
+  if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    return std::unexpected(
+        Error{ErrorKind::output, outputs, {}, "expected a folder that no other run is at work in"});
+  return file;  // also where the file system has no locks
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "host";
+}
+
+std::string time_now() {
+  const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(
+                      std::chrono::system_clock::now().time_since_epoch())
+                      .count();
+  const std::time_t seconds = ms / 1000;
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  std::array<char, 64> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02d-%02dT%02d:%02d:%02d.%03dZ", utc.tm_year + 1900,
+                utc.tm_mon + 1, utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
+                static_cast<int>(ms % 1000));
+  return text.data();
+}
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,65 @@
+// The record of a job's outcome, and the journal of all records, from which an interrupted run goes on. Tested by
+// tests/cli/batch_test.cpp.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "common/descriptor.h"
+
+namespace relievo::app::batch {
+
+struct Record {
+  std::string name = {}, file = {};
+  bool is_made = false;
+  std::string error = {};    // if it is not: one line
+  bool may_succeed = false;  // if it is not: when tried again, as memory and disks change
+  std::string hash = {};     // of all that the outputs depend on; empty if the file could not be read
+  double seconds = 0, cpu_seconds = 0, peak_mb = 0;
+  std::map<std::string, std::uintmax_t> outputs = {};  // file names, relative to the folder, and bytes
+  std::string host = {}, finished = {};                // the time in UTC
+};
+
+// Returns the object that stands in a line of the journal.
+nlohmann::json to_json(const Record& record);
+
+// Returns the record of a line; nothing for other text, such as a line of which only a part was written.
+std::optional<Record> record_from_line(std::string_view line);
+
+using Records = std::map<std::string, Record>;  // by name, the last one of each
+
+// Returns the records of all journals in the folder of the outputs.
+Records read_journals(const std::string& outputs);
+
+// The journal of one machine, a file in the folder of the outputs. Programs of the same machine append to it at the same
+// time; other machines have journals of their own, as not all shared file systems can append for several machines.
+class Journal {
+ public:
+  // Creates the folder and the file if they are not there. Errors: kind output.
+  static Result<Journal> open(const std::string& outputs);
+
+  // Errors: kind output.
+  Result<void> append(const Record& record) const;
+
+ private:
+  Journal(std::string path, Descriptor file) : path_(std::move(path)), file_(std::move(file)) {}
+
+  std::string path_;
+  Descriptor file_;
+};
+
+// Returns a lock that no other run has for that shard of the folder, until it is destroyed. Errors: kind output if
+// another run has it.
+Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard);
+
+// Returns this machine's name.
+std::string host_name();
+
+// Returns the present time in UTC, "2026-11-24T12:00:00.000Z".
+std::string time_now();
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,75 @@
+#include "batch/run.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "batch/memory_need.h"
+#include "batch/processes.h"
+
+namespace relievo::app::batch {
+namespace {
+
+// Estimates may be wrong, and the system needs memory for the files it caches.
+constexpr double share_of_available = .8;
+
+// Returns the number of processors that this process may use: all, or what a workload manager left it.
+int usable_processors() {
+  cpu_set_t set;
+  return ::sched_getaffinity(0, sizeof set, &set) == 0 ? std::max(1, CPU_COUNT(&set)) : 1;
+}
+
+// Starts jobs as their needs allow.
+class Run {
+ public:
+  Run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits)
+      : works_(works), processes_(workshop) {
+    most_processes_ = limits.processes > 0 ? limits.processes : processors_;
+    memory_mb_ = limits.memory_mb > 0 ? limits.memory_mb : share_of_available * available_memory_mb();
+  }
+
+  Result<void> all(const Journal& journal, const RunWatcher& watcher) {
+    for (std::size_t done = 0; done < works_.size();) {
+      RELIEVO_CHECK(start_what_fits());
+      const Performed end = processes_.wait();
+      if (!end.is_kept) RELIEVO_CHECK(journal.append(end.record));
+      watcher(end, ++done);
+    }
+    return {};
+  }
+
+ private:
+  Result<void> start_what_fits() {
+    while (next_ < works_.size() && static_cast<int>(processes_.running()) < most_processes_) {
+      const Work& work = works_[next_];
+      if (processes_.running() > 0 && processes_.running_mb() + work.need_mb > memory_mb_) break;
+      RELIEVO_CHECK(processes_.start(work, threads_for(work)));
+      ++next_;
+    }
+    return {};
+  }
+
+  // One process per processor is fastest. Where memory or the number of jobs allows fewer, each gets more threads.
+  int threads_for(const Work& work) const {
+    const double side_by_side =
+        std::min({static_cast<double>(most_processes_), static_cast<double>(works_.size() - next_),
+                  std::max(1.0, std::floor(memory_mb_ / std::max(work.need_mb, 1.0)))});
+    return std::max(1, static_cast<int>(processors_ / side_by_side));
+  }
+
+  const std::vector<Work>& works_;
+  Processes processes_;
+  std::size_t next_ = 0;  // job to start
+  int processors_ = usable_processors(), most_processes_ = 1;
+  double memory_mb_ = 0;
+};
+
+}  // namespace
+
+Result<void> run(const std::vector<Work>& works, const Workshop& workshop, const RunLimits& limits,
+                 const Journal& journal, const RunWatcher& watcher) {
+  return Run(works, workshop, limits).all(journal, watcher);
+}
+
+}  // namespace relievo::app::batch

@@ -1,0 +1,28 @@
+// Tables as spreadsheets save them: CSV. Tested by tests/cli/batch_jobs_test.cpp.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/core/error.h"
+
+namespace relievo::app::batch {
+
+struct TableRow {
+  std::size_t line = 0;  // of the file, where the row begins
+  std::vector<std::string> cells;
+};
+
+struct Table {
+  std::vector<std::string> columns;  // the first row
+  std::vector<TableRow> rows;        // each with a cell for every column
+};
+
+// Returns the table in the text of the file called `name`. Cells are separated by commas, semicolons or tabs, by what
+// the first row has; a cell in quotation marks may contain these, line breaks, and its marks doubled. Missing cells at
+// the end of a row are empty; rows of empty cells are left out. Errors: kind input, naming the line, for a table without
+// columns, a column without a name or with that of another, more cells than columns, and a mark that is never closed.
+Result<Table> read_table(std::string_view text, const std::string& name);
+
+}  // namespace relievo::app::batch

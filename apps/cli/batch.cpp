@@ -1,0 +1,271 @@
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "batch/finish.h"
+#include "batch/memory_need.h"
+#include "batch/processes.h"
+#include "batch/run.h"
+#include "cli/batch_progress.h"
+#include "cli/commands.h"
+#include "cli/make_options.h"
+#include "cli/program.h"
+#include "common/files.h"
+#include "relievo/core/text.h"
+
+namespace relievo::app::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct BatchArguments : MakeOptions {
+  std::string input, outputs, kinds = "stl,preview", match, shard, job;
+  bool is_list = false, is_finish = false, is_quiet = false, tries_failed_again = false;
+  batch::RunLimits limits;
+};
+
+// The jobs of a run, and where their outputs go.
+struct BatchOrder {
+  std::vector<batch::Job> jobs;
+  batch::Workshop workshop;
+};
+
+// ------------------------------------------------------------------------------------------------- options
+
+// The names of the options that `make` and `batch` share, without dashes.
+const std::set<std::string>& shared_options() {
+  static const std::set<std::string> names = [] {
+    MakeOptions unused;
+    CLI::App command;
+    command.set_help_flag();
+    add_make_options(command, unused);
+    std::set<std::string> found;
+    for (const CLI::Option* option : command.get_options())
+      if (!option->get_name().empty()) found.insert(option->get_name().substr(2));  // old names are hidden
+    return found;
+  }();
+  return names;
+}
+
+// Returns the shared options that were given, as they were typed.
+batch::Options given_options(const CLI::App& command) {
+  batch::Options options;
+  for (const std::string& name : shared_options()) {
+    const CLI::Option* const option = command.get_option("--" + name);
+    if (option->count() > 0) options[name] = option->results().back();
+  }
+  return options;
+}
+
+// Part `index` of `count` parts of the jobs, both counted from 1.
+struct Shard {
+  std::size_t index = 1, count = 1;
+};
+
+Result<Shard> parse_shard(const std::string& text) {
+  if (text.empty()) return Shard{};
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto [slash, failed] = std::from_chars(text.data(), end, shard.index);
+  const bool has_slash = failed == std::errc{} && slash != end && *slash == '/';
+  const auto last = has_slash ? std::from_chars(slash + 1, end, shard.count) : std::from_chars_result{};
+  if (!has_slash || last.ec != std::errc{} || last.ptr != end || shard.index < 1 || shard.index > shard.count)
+    return option_error("shard", cat("expected a part of parts, as 3/16, found '", text, "'"));
+  return shard;
+}
+
+// Neighbours in a catalogue are often alike, so the parts take turns.
+std::vector<batch::Job> jobs_of_shard(const std::vector<batch::Job>& jobs, const Shard& shard) {
+  std::vector<batch::Job> part;
+  for (std::size_t i = shard.index - 1; i < jobs.size(); i += shard.count) part.push_back(jobs[i]);
+  return part;
+}
+
+std::optional<batch::MakeError> call_make(const std::vector<std::string>& arguments) {
+  const ProgramEnd end = run_program(arguments);
+  if (end.exit_code == 0) return std::nullopt;
+  return batch::MakeError{end.message, end.may_succeed};
+}
+
+Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
+  if (arguments.outputs.empty()) return option_error("output", "expected a folder, found none");
+  RELIEVO_TRY(std::vector<batch::OutputKind> kinds, batch::parse_output_kinds(arguments.kinds));
+  std::error_code failed;
+  fs::create_directories(arguments.outputs, failed);
+  if (failed)
+    return std::unexpected(Error{ErrorKind::output,
+                                 arguments.outputs,
+                                 {},
+                                 cat("expected a folder that can be written to: ", failed.message())});
+  return batch::Workshop{fs::absolute(arguments.outputs).lexically_normal().string(), std::move(kinds),
+                         call_make};
+}
+
+Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& command) {
+  if (arguments.input.empty()) return option_error("input", "expected a folder or a table, found none");
+  // Values for all scans are checked at once; those of a row fail with their scan.
+  RELIEVO_CHECK(parse_options(arguments.relief));
+  RELIEVO_CHECK(parse_unit(arguments.units));
+  BatchOrder order;
+  RELIEVO_TRY(order.workshop, workshop_of(arguments));
+  const auto is_option = [](const std::string& name) { return shared_options().contains(name); };
+  RELIEVO_TRY(order.jobs, batch::list_jobs({arguments.input, arguments.match, order.workshop.outputs,
+                                            given_options(command)},
+                                           is_option));
+  return order;
+}
+
+// -------------------------------------------------------------------------------------------------- modes
+
+std::vector<batch::Work> works_of(const std::vector<batch::Job>& jobs, const BatchArguments& arguments,
+                                  const batch::Workshop& workshop) {
+  const batch::Records records = batch::read_journals(workshop.outputs);
+  std::vector<batch::Work> works;
+  for (const batch::Job& job : jobs) {
+    batch::Work& work = works.emplace_back(job, std::nullopt, batch::memory_need_mb(job));
+    const auto found = records.find(job.name);
+    if (found == records.end() || (arguments.tries_failed_again && !found->second.is_made)) continue;
+    work.before = found->second;
+  }
+  return works;
+}
+
+// Returns an error unless all jobs are made, and says so.
+Result<void> summarise(const std::vector<batch::Job>& jobs, const batch::Workshop& workshop, bool is_quiet,
+                       const std::string& page) {
+  const batch::Summary sum = batch::summary_of(jobs, batch::read_journals(workshop.outputs));
+  const std::string see = page.empty() ? "" : cat("; see ", page);
+  if (sum.failed + sum.missing > 0)
+    return std::unexpected(
+        Error{ErrorKind::geometry,
+              workshop.outputs,
+              {},
+              cat("expected ", jobs.size(), " reliefs, made ", sum.made, "; ", sum.failed, " failed",
+                  sum.missing > 0 ? cat(", ", sum.missing, " are not done yet") : "", see)});
+  if (!is_quiet) std::fprintf(stderr, "%s: %zu reliefs%s\n", workshop.outputs.c_str(), sum.made, see.c_str());
+  return {};
+}
+
+Result<void> finish_run(const BatchOrder& order, bool is_quiet) {
+  RELIEVO_CHECK(batch::finish(order.jobs, batch::read_journals(order.workshop.outputs), order.workshop));
+  return summarise(order.jobs, order.workshop, is_quiet,
+                   (fs::path(order.workshop.outputs) / "index.html").string());
+}
+
+// Prints a line for each job, with all that --job needs to do it elsewhere.
+Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
+  for (const batch::Work& work : works_of(order.jobs, arguments, order.workshop)) {
+    nlohmann::json json = to_json(work.job);
+    json["need_mb"] = work.need_mb;
+    if (work.before) json["before"] = to_json(*work.before);
+    std::printf("%s\n", json.dump().c_str());
+  }
+  return {};
+}
+
+// A worker may die after its work and before it says so, and another one gets the job again.
+std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::Workshop& workshop) {
+  const std::string output = batch::output_name(job, workshop.kinds.front());
+  if (std::error_code ignored; !fs::exists(fs::path(workshop.outputs) / output, ignored)) return std::nullopt;
+  const batch::Records records = batch::read_journals(workshop.outputs);
+  const auto found = records.find(job.name);
+  return found == records.end() ? std::nullopt : std::optional(found->second);
+}
+
+Result<void> do_job(const BatchArguments& arguments) {
+  RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
+  const auto json = nlohmann::json::parse(arguments.job, nullptr, false);
+  RELIEVO_TRY(batch::Job job, batch::job_from_json(json));
+  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
+  batch::Work work{std::move(job), std::nullopt, 0};
+  if (json.contains("before")) work.before = batch::record_from_line(json["before"].dump());
+  if (!work.before) work.before = made_since_listed(work.job, workshop);
+  batch::Processes processes(workshop);
+  RELIEVO_CHECK(processes.start(work, 1));
+  const batch::Performed end = processes.wait();
+  if (!end.is_kept) RELIEVO_CHECK(journal.append(end.record));
+  nlohmann::json line = to_json(end.record);
+  line["is_kept"] = end.is_kept;
+  std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  if (end.record.is_made) return {};
+  return std::unexpected(Error{ErrorKind::geometry, {}, {}, end.record.error});
+}
+
+Result<void> run_all(const BatchOrder& order, const BatchArguments& arguments, const Shard& shard) {
+  const bool is_part = shard.count > 1;
+  RELIEVO_TRY(
+      const Descriptor lock,
+      batch::lock_run(order.workshop.outputs, is_part ? cat("-", shard.index, "-of-", shard.count) : ""));
+  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(order.workshop.outputs));
+  const std::vector<batch::Job> jobs = jobs_of_shard(order.jobs, shard);
+  {
+    const std::vector<batch::Work> works = works_of(jobs, arguments, order.workshop);
+    BatchProgress progress(jobs.size(), arguments.is_quiet);
+    const auto show = [&](const batch::Performed& end, std::size_t done) { progress.show(end, done); };
+    RELIEVO_CHECK(batch::run(works, order.workshop, arguments.limits, journal, show));
+  }
+  if (is_part) return summarise(jobs, order.workshop, arguments.is_quiet, "");
+  return finish_run(order, arguments.is_quiet);
+}
+
+Result<void> batch_command(const BatchArguments& arguments, const CLI::App& command) {
+  if (!arguments.job.empty()) return do_job(arguments);
+  RELIEVO_TRY(const Shard shard, parse_shard(arguments.shard));
+  RELIEVO_TRY(const BatchOrder order, order_of(arguments, command));
+  if (arguments.is_list) return list(order, arguments);
+  if (arguments.is_finish) return finish_run(order, arguments.is_quiet);
+  return run_all(order, arguments, shard);
+}
+
+// -------------------------------------------------------------------------------------------------- flags
+
+void add_modes(CLI::App& command, BatchArguments& arguments) {
+  auto* const shard = command.add_option(
+      "--shard", arguments.shard, "do only this part of the scans, as 3/16; --pages comes after all parts");
+  shard->type_name("I/N");
+  auto* const list =
+      command.add_flag("--list", arguments.is_list, "print a line of JSON for each scan and do none");
+  auto* const finish = command.add_flag("--pages", arguments.is_finish, "do no scan, write the pages only");
+  auto* const job =
+      command.add_option("--job", arguments.job, "do the scan of a line that --list has printed");
+  job->type_name("JSON");
+  for (CLI::Option* mode : {list, finish, job}) mode->excludes(shard);
+  list->excludes(finish)->excludes(job);
+  finish->excludes(job);
+}
+
+}  // namespace
+
+void add_batch(CLI::App& program, Result<void>& result) {
+  const auto arguments = std::make_shared<BatchArguments>();
+  CLI::App& command = *program.add_subcommand("batch", "Make reliefs of a whole catalogue of scans");
+  command
+      .add_option(
+          "input", arguments->input,
+          "a folder of scans, or a table (CSV): a column 'file', perhaps 'name', and any option below")
+      ->type_name("INPUT");
+  command.add_option("-o,--output", arguments->outputs, "folder of the reliefs and the pages about them")
+      ->type_name("FOLDER");
+  command
+      .add_option("--files", arguments->kinds,
+                  "what is made of each scan: stl, 3mf, ply or obj; with it heightmap, tiff, report")
+      ->type_name("LIST")
+      ->capture_default_str();
+  command.add_option("--match", arguments->match, "only files of a folder with such names, as '*.ply'")
+      ->type_name("PATTERN");
+  add_number(command, "--jobs", arguments->limits.processes, CLI::Range(0, 4096),
+             "most scans at the same time, 0 for one per processor [0 to 4096]");
+  command
+      .add_option("--memory", arguments->limits.memory_mb,
+                  "memory for all of them in MB; default: most of what is available")
+      ->type_name("MB");
+  command.add_flag("--retry", arguments->tries_failed_again, "try failed scans again that have not changed");
+  add_modes(command, *arguments);
+  command.add_flag("--quiet", arguments->is_quiet, "print errors only");
+  add_make_options(command, *arguments);
+  command.callback([arguments, &command, &result] { result = batch_command(*arguments, command); });
+}
+
+}  // namespace relievo::app::cli

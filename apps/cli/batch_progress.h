@@ -1,0 +1,34 @@
+// The progress of a run over many scans on standard error.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "batch/perform.h"
+
+namespace relievo::app::cli {
+
+// On a terminal a bar with the time that is left, else a line for each twentieth of the jobs. Failures are lines of their
+// own in both.
+class BatchProgress {
+ public:
+  BatchProgress(std::size_t jobs, bool is_quiet);
+  ~BatchProgress();
+  BatchProgress(const BatchProgress&) = delete;
+  BatchProgress& operator=(const BatchProgress&) = delete;
+
+  // Takes note of a job that has ended; `done` have so far.
+  void show(const batch::Performed& end, std::size_t done);
+
+ private:
+  std::string line(std::size_t done) const;
+  std::string time_left(std::size_t done) const;
+
+  std::size_t jobs_;
+  bool is_quiet_, is_terminal_;
+  std::size_t failed_ = 0, kept_ = 0;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,87 @@
+#include "cli/command_table.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include "relievo/core/text.h"
+#include "relievo/option_texts.h"
+#include "relievo/samples/sample.h"
+#include "relievo/scan/depth_image.h"
+
+namespace relievo::app::cli {
+namespace {
+
+std::vector<std::string> copies(const std::vector<std::string_view>& views) {
+  return {views.begin(), views.end()};
+}
+
+std::vector<std::string> sample_names() {
+  std::vector<std::string> names;
+  for (const SampleInfo& info : samples()) names.emplace_back(info.name);
+  return names;
+}
+
+std::vector<std::string> method_words() {
+  std::vector<std::string> names;
+  for (const MethodInfo& info : methods) names.emplace_back(info.name);
+  return names;
+}
+
+// Returns the words that the tables of options have for a flag without its dashes.
+std::vector<std::string> words_of(const std::string& command, const std::string& name) {
+  if (command == "sample" && name == "name") return sample_names();
+  if (name == "units") return {"mm", "in"};
+  if (name == "methods") return method_words();
+  if (command == "bench" && name == "mode") return {"exact", "subspace", "auto", "all"};
+  if (name == "view") return {"front", "back", "left", "right", "top", "bottom"};
+  std::vector<std::string> words;
+  const auto take = [&](const OptionField& field, const auto&) {
+    if (field.name == name) words = copies(field.choices);
+  };
+  OptionTexts texts;
+  visit(texts, take);
+  DepthTexts depth;
+  visit(depth, take);
+  return words;
+}
+
+// A path is named by its ending ("P.png") or by a word for files and folders.
+bool is_path(const std::string& value) {
+  const std::size_t dot = value.find('.');
+  return value == "INPUT" || value == "OUT" || value == "DIR" || value == "FX,FY,CX,CY" ||
+         (dot != std::string::npos && dot + 1 < value.size() &&
+          std::isalpha(static_cast<unsigned char>(value[dot + 1])) != 0);
+}
+
+FlagInfo flag_info(const CLI::App& command, const CLI::Option& option) {
+  FlagInfo flag;
+  flag.is_argument = option.get_positional();
+  const std::string plain = flag.is_argument ? option.get_name(true) : option.get_lnames().front();
+  flag.name = flag.is_argument ? plain : "--" + plain;
+  if (!option.get_snames().empty()) flag.short_name = "-" + option.get_snames().front();
+  flag.value = option.get_items_expected_max() == 0 ? "" : option.get_type_name();
+  flag.help = option.get_description();
+  if (!option.get_default_str().empty() && !flag.value.empty())
+    flag.help += cat("; default: ", option.get_default_str());
+  flag.words = words_of(command.get_name(), plain);
+  flag.is_path = flag.words.empty() && is_path(flag.value);
+  flag.can_repeat = option.get_items_expected_max() > 1;
+  flag.is_required = option.get_required();
+  return flag;
+}
+
+}  // namespace
+
+std::vector<CommandInfo> command_table(const CLI::App& program) {
+  std::vector<CommandInfo> table;
+  const auto is_shown = [](const CLI::App* command) { return !command->get_group().empty(); };
+  for (const CLI::App* command : program.get_subcommands(is_shown)) {
+    CommandInfo info{command->get_name(), command->get_description(), {}};
+    for (const CLI::Option* option : command->get_options())
+      if (!option->get_group().empty()) info.flags.push_back(flag_info(*command, *option));
+    table.push_back(std::move(info));
+  }
+  return table;
+}
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,35 @@
+// The commands of the program with their flags, for man pages and the completion of shells.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace relievo::app::cli {
+
+// A flag, or an argument that stands by itself.
+struct FlagInfo {
+  std::string name;                // "--height"; of an argument that stands by itself "input"
+  std::string short_name;          // "-o"; may be empty
+  std::string value;               // "MM"; empty if it takes none
+  std::string help;                // with range and default
+  std::vector<std::string> words;  // that may stand there, or begin what may; empty if there is no such list
+  bool is_argument = false, is_path = false, can_repeat = false, is_required = false;
+};
+
+struct CommandInfo {
+  std::string name, help;
+  std::vector<FlagInfo> flags;  // in the order of the help
+};
+
+// Returns the commands that the help names, in its order.
+std::vector<CommandInfo> command_table(const CLI::App& program);
+
+// Returns the man page of the program, and that of a command, in roff.
+std::string program_man_page(const std::vector<CommandInfo>& commands);
+std::string command_man_page(const CommandInfo& command);
+
+// Returns the completion script for a shell; empty for others than bash, zsh and fish.
+std::string completion_script(const std::vector<CommandInfo>& commands, const std::string& shell);
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,36 @@
+#include "cli/make_options.h"
+
+#include "cli/flags.h"
+
+namespace relievo::app::cli {
+
+void add_number(CLI::App& command, const char* name, int& value, const CLI::Range& range, const char* help) {
+  command.add_option(name, value, help)
+      ->check(CLI::Range(range).description(""))
+      ->type_name("N")
+      ->capture_default_str();
+}
+
+void add_make_options(CLI::App& command, MakeOptions& options) {
+  command
+      .add_option("--units", options.units,
+                  "mm or in: of lengths without a unit of their own, and of the solid's coordinates")
+      ->type_name("UNIT")
+      ->capture_default_str();
+  add_number(command, "--heightmap-size", options.heightmap_px, CLI::Range(16, 16384),
+             "longer side of the height map in pixels [16 to 16384]");
+  add_number(command, "--preview-size", options.preview_px, CLI::Range(16, 4096),
+             "longer side of each of the preview's two views in pixels [16 to 4096]");
+  command
+      .add_option("--base-image", options.base_image,
+                  "height map that the relief lies on, bright is high: PNG or TIFF")
+      ->type_name("B.png");
+  add_flags(command, options.relief);
+  const auto refuse = [](const std::string&) {
+    throw CLI::ValidationError("--surface", "expected --finish, its new name");
+  };
+  command.add_option_function<std::string>("--surface", refuse)->group("");
+  add_input_flags(command, options.in);
+}
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,53 @@
+#include "cli/out_of_memory.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <new>
+
+#include "common/temporary_file.h"
+
+namespace relievo::app::cli {
+namespace {
+
+void print(const char* text) {
+  (void)!::write(STDERR_FILENO, text, std::strlen(text));
+}
+
+// Nothing here may allocate.
+void end_process() {
+  remove_temporary_files();
+  rusage usage{};
+  ::getrusage(RUSAGE_SELF, &usage);
+  char megabytes[24] = {};
+  const long kilobytes = usage.ru_maxrss;
+  std::to_chars(megabytes, megabytes + sizeof megabytes - 1, kilobytes / 1000 + 1);
+  print("relievo: expected more free memory than the ");
+  print(megabytes);
+  print(" MB that are in use; fewer points and a coarser resolution need less\n");
+  ::_exit(1);
+}
+
+// Not all allocations call the handler of operator new; the others throw, which ends the process if a thread does.
+void end_process_or_abort() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    end_process();
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
+void exit_when_out_of_memory() {
+  std::set_new_handler(end_process);
+  std::set_terminate(end_process_or_abort);
+}
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,81 @@
+#include "cli/program.h"
+
+#include <algorithm>
+#include <iostream>
+#include <new>
+#include <sstream>
+
+#include "cli/commands.h"
+#include "cli/terminal.h"
+#include "relievo/core/text.h"
+#include "relievo/core/version.h"
+
+namespace relievo::app::cli {
+namespace {
+
+// Returns the line to print; an option is named by its flag: "--height: expected ...".
+std::string line_of(Error error, const CLI::App& program) {
+  const std::string flag = "--" + error.input;
+  for (const CLI::App* command : program.get_subcommands())
+    if (command->get_option_no_throw(flag) != nullptr) error.input = flag;
+  return error.message();
+}
+
+void add_commands(CLI::App& program, Result<void>& result) {
+  program.set_version_flag("--version", std::string("relievo ") + version);
+  program.require_subcommand(1);
+  program.failure_message([](const CLI::App* app, const CLI::Error& error) {
+    const auto commands = app->get_subcommands();  // those that the user named
+    const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
+    return std::string(error.what()) + "; see relievo " + command + "--help";
+  });
+  add_make(program, result);
+  add_info(program, result);
+  add_sample(program, result);
+  add_bench(program, result);
+  add_studio(program, result);
+  add_compare(program, result);
+  add_batch(program, result);
+  add_options(program, result);
+  program.footer(
+      "Examples:\n"
+      "  relievo sample shell -o shell.ply\n"
+      "  relievo make shell.ply -o shell.stl --width 80 --height 4 --preview shell.png\n"
+      "  relievo info scan.ply\n"
+      "  relievo batch scans -o reliefs --width 80 --height 4");
+}
+
+// Parsing runs the command, too.
+ProgramEnd parse(CLI::App& program, std::vector<std::string> arguments) {
+  try {
+    std::ranges::reverse(arguments);  // as CLI11 takes them
+    program.parse(std::move(arguments));
+  } catch (const CLI::ParseError& error) {
+    std::ostringstream message;
+    if (program.exit(error, std::cout, message) == 0) return {};
+    return {2, message.str()};
+  } catch (const std::bad_alloc&) {
+    return {1, "expected more free memory for so many points", true};
+  }
+  return {};
+}
+
+}  // namespace
+
+ProgramEnd run_program(std::vector<std::string> arguments) {
+  CLI::App program{"Relievo turns a 3D scan into a bas-relief.", "relievo"};
+  Result<void> result;
+  add_commands(program, result);
+  const std::string first = arguments.empty() ? "" : arguments[0];
+  const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == first; };
+  if (!first.empty() && first[0] != '-' && program.get_subcommands(is_asked_for).empty())
+    return {2, cat("expected make, studio, info, sample, batch, bench or compare, found '",
+                   on_one_line(first), "'; see relievo --help")};
+  const ProgramEnd end = parse(program, std::move(arguments));
+  if (end.exit_code != 0 || result) return end;
+  const ErrorKind kind = result.error().kind;
+  return {kind == ErrorKind::option ? 2 : 1, on_one_line(line_of(result.error(), program)),
+          kind == ErrorKind::output};
+}
+
+}  // namespace relievo::app::cli

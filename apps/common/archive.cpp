@@ -1,0 +1,96 @@
+#include "common/archive.h"
+
+#include <zip.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/files.h"
+#include "relievo/core/text.h"
+#include "relievo/io/read.h"
+
+namespace relievo::app {
+namespace {
+
+constexpr zip_uint64_t most_unpacked = zip_uint64_t{4} << 30;
+
+using ArchiveEntry = std::unique_ptr<zip_file_t, decltype([](zip_file_t* file) { zip_fclose(file); })>;
+using ArchiveSource =
+    std::unique_ptr<zip_source_t, decltype([](zip_source_t* source) { zip_source_free(source); })>;
+
+std::unexpected<Error> broken(std::string_view name, std::string expected) {
+  return std::unexpected(Error{ErrorKind::input, std::string(name), {}, std::move(expected)});
+}
+
+// Licences, textures and previews lie beside models.
+bool is_model(const std::string& name) {
+  constexpr std::array beside_models = {"txt", "csv", "png", "tif", "tiff"};
+  const std::string ending = ending_of(name);
+  const bool is_hidden = name.contains("__MACOSX/") || name.starts_with('.') || name.contains("/.");
+  const auto endings = readable_endings();
+  return !is_hidden && std::ranges::find(endings, "." + ending) != endings.end() &&
+         std::ranges::find(beside_models, ending) == beside_models.end();
+}
+
+}  // namespace
+
+void Archive::Discard::operator()(zip* archive) const {
+  zip_discard(archive);
+}
+
+Result<Archive> Archive::open(std::span<const std::byte> bytes, std::string_view name) {
+  Archive made;
+  made.name_ = name;
+  ArchiveSource source(zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr));
+  made.zip_.reset(source ? zip_open_from_source(source.get(), ZIP_RDONLY, nullptr) : nullptr);
+  if (!made.zip_) return broken(name, "expected a whole archive, found a damaged one");
+  (void)source.release();  // belongs to the archive now
+  return made;
+}
+
+std::vector<std::string> Archive::names() const {
+  std::vector<std::string> all;
+  for (zip_int64_t i = 0; i < zip_get_num_entries(zip_.get(), 0); ++i)
+    if (const char* name = zip_get_name(zip_.get(), static_cast<zip_uint64_t>(i), 0)) all.emplace_back(name);
+  return all;
+}
+
+Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
+  const zip_int64_t found = zip_name_locate(zip_.get(), name.c_str(), 0);
+  if (found < 0) return broken(name_, cat("expected an archive with ", name));
+  const auto index = static_cast<zip_uint64_t>(found);
+  zip_stat_t stat;
+  const ArchiveEntry entry(zip_fopen_index(zip_.get(), index, 0));
+  if (!entry || zip_stat_index(zip_.get(), index, 0, &stat) != 0 || stat.size > most_unpacked)
+    return broken(name_, "expected a whole archive of at most 4 GiB");
+  std::vector<std::byte> bytes;
+  // Pieces, as a damaged archive may promise any size; the last one is empty, and the checksum is compared there.
+  constexpr std::size_t piece = 1 << 20;
+  for (std::size_t filled = 0; bytes.size() <= stat.size;) {
+    bytes.resize(filled + std::min<std::size_t>(piece, stat.size + 1 - filled));
+    const zip_int64_t got = zip_fread(entry.get(), bytes.data() + filled, bytes.size() - filled);
+    if (got < 0) return broken(name_, "expected a whole archive, found a damaged one");
+    filled += static_cast<std::size_t>(got);
+    bytes.resize(filled);
+    if (got == 0) break;
+  }
+  if (bytes.size() != stat.size) return broken(name_, "expected a whole archive, found a damaged one");
+  return bytes;
+}
+
+bool is_archive(std::span<const std::byte> bytes) {
+  constexpr std::string_view mark = "PK\x03\x04";
+  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(mark);
+}
+
+Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive) {
+  std::vector<std::string> models;
+  std::ranges::copy_if(names, std::back_inserter(models), is_model);
+  if (models.empty()) return broken(archive, "expected an archive with a cloud or a mesh, found none in it");
+  if (models.size() > 1)
+    return broken(archive, cat("expected an archive with one cloud or mesh, found ", models.size(), ": ",
+                               models[0], " and others; unpack it first"));
+  return models[0];
+}
+
+}  // namespace relievo::app

@@ -1,0 +1,44 @@
+// Files in a ZIP archive.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/core/error.h"
+
+struct zip;
+
+namespace relievo::app {
+
+class Archive {
+ public:
+  // Opens the archive in `bytes`, which must outlive the object, called `name` in errors. Errors: kind input.
+  static Result<Archive> open(std::span<const std::byte> bytes, std::string_view name);
+
+  // Returns the names of all files, with their folders, in the order of the archive.
+  std::vector<std::string> names() const;
+
+  // Returns a file's content. Errors: kind input for a file that is not there, is longer than 4 GiB, or damaged.
+  Result<std::vector<std::byte>> content(const std::string& name) const;
+
+ private:
+  struct Discard {
+    void operator()(zip* archive) const;
+  };
+
+  std::string name_;
+  std::unique_ptr<zip, Discard> zip_;
+};
+
+// Returns whether the bytes begin as those of an archive with a file do.
+bool is_archive(std::span<const std::byte> bytes);
+
+// Returns the name of the one model among the files of an archive, called `archive` in errors: the file that a reader
+// knows by its ending, texts and pictures not counted. Errors: kind input if there are none or several.
+Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive);
+
+}  // namespace relievo::app

@@ -1,0 +1,32 @@
+// The files of a finished relief, as `relievo make` and Python's save() write them.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/files.h"
+#include "relievo/core/length.h"
+#include "relievo/make_relief.h"
+
+namespace relievo::app {
+
+// Paths of the files to write; empty ones are not wanted.
+struct ReliefFiles {
+  std::string solid, preview, heightmap, tool_picture, report;
+  int heightmap_px = 1024;  // its longer side
+  int preview_px = 1200;    // the longer side of each of its two views
+  LengthUnit unit = LengthUnit::mm;
+};
+
+// Checks, before the work begins, that each output has a place of its own that can be written to. Errors: those of
+// check_output(); kind option for a picture of a tool that there is not.
+Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> inputs, bool has_tool);
+
+// Returns all files but the report, not yet written. `draft_deg` is what the relief was made with. Errors: those of
+// enforce_draft_in_float().
+Result<std::vector<OutputFile>> relief_files(const ReliefFiles& files, const MadeRelief& made,
+                                             std::optional<double> draft_deg);
+
+}  // namespace relievo::app

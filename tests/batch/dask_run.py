@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+"""Runs a catalogue on a local Dask cluster of two workers and kills what can be killed.
+
+    PYTHONPATH=PACKAGE dask_run.py PROGRAM [--good 980] [--bad 20]
+
+PACKAGE is the folder that has the package relievo with its built module, for example build/release/python.
+A worker is killed in the middle (kill -9), then the whole run; then the run is started again. There must be a relief of
+each good scan and an error of each bad one, none twice and none in part, with the bytes that `relievo make` writes.
+"""
+
+import argparse
+import glob
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+sys.path.insert(0, os.path.dirname(__file__))
+import catalogue
+
+
+def journal(output):
+    """Returns the journal's records, in the order of their lines."""
+    lines = []
+    for path in glob.glob(f"{output}/.journal/*.jsonl"):
+        with open(path, encoding="utf-8") as file:
+            for line in file:
+                try:
+                    lines.append(json.loads(line))
+                except ValueError:
+                    pass  # a line that a killed program has not written to its end
+    return lines
+
+
+def wait_for(count, output, process):
+    """Waits until the journal has so many records."""
+    while len(journal(output)) < count:
+        if process.poll() is not None:
+            sys.exit(f"the run ended before it could be killed, with {process.returncode}")
+        time.sleep(0.02)
+
+
+def worker_processes(parent):
+    """Returns the processes of Dask's workers below that process."""
+    found = []
+    for path in glob.glob("/proc/[0-9]*/cmdline"):
+        try:
+            with open(path, "rb") as file:
+                command = file.read()
+            with open(path.replace("cmdline", "stat"), encoding="utf-8") as file:
+                stat = file.read().rsplit(")", 1)[1].split()
+        except OSError:
+            continue
+        if int(stat[1]) == parent and b"spawn_main" in command:
+            found.append(int(path.split("/")[2]))
+    return found
+
+
+def relief_bytes(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("program")
+    parser.add_argument("--good", type=int, default=980)
+    parser.add_argument("--bad", type=int, default=20)
+    given = parser.parse_args()
+    program = os.path.abspath(given.program)
+    with tempfile.TemporaryDirectory(prefix="relievo-dask-") as folder:
+        scans, output = f"{folder}/scans", f"{folder}/out"
+        good, bad = catalogue.write_catalogue(scans, given.good, given.bad)
+        command = [sys.executable, "-m", "relievo.batch", scans, "-o", output, "--workers", "2", "--program", program,
+                   *catalogue.OPTIONS]
+        environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+        count = len(good) + len(bad)
+
+        first = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, start_new_session=True)
+        try:
+            wait_for(count // 4, output, first)
+            workers = worker_processes(first.pid)
+            assert len(workers) == 2, f"expected two workers, found {workers}"
+            os.kill(workers[0], signal.SIGKILL)
+            wait_for(count // 2, output, first)
+        finally:
+            first.kill()  # kill -9: no program has a chance to put anything in order
+            first.wait()
+        deadline = time.time() + 20
+        while worker_processes(first.pid) and time.time() < deadline:
+            time.sleep(0.1)
+        before = len(journal(output))
+        assert before < count, "the run was killed too late"
+
+        second = subprocess.run(command, env=environment, stderr=subprocess.PIPE, text=True, check=False)
+        assert second.returncode == 1, second.stderr
+        check(output, scans, program, good, bad, first=before)
+        print(f"{len(good)} reliefs and {len(bad)} errors; a worker was killed, and the run after {before} of {count}")
+
+
+def check(output, scans, program, good, bad, first):
+    with open(f"{output}/scans.jsonl", encoding="utf-8") as file:
+        records = {record["name"]: record for record in map(json.loads, file)}
+    assert sorted(records) == sorted(good + bad), "each scan has one record"
+    assert [name for name in sorted(records) if records[name]["status"] == "made"] == good
+    for name in bad:
+        assert records[name]["error"].count("\n") == 0 and "expected" in records[name]["error"], records[name]
+    # Only a scan that was at work when something was killed may have been begun twice; none was finished twice.
+    lines = journal(output)
+    made = [record["name"] for record in lines if record["status"] == "made"]
+    assert len(made) == len(set(made)) == len(good), f"{len(made)} made, {len(set(made))} different"
+    assert len(lines) - first <= len(good) + len(bad) - first + 2, "what was done is not done again"
+    files = sorted(os.path.basename(path) for path in glob.glob(f"{output}/*"))
+    expected = [f"{name}.{ending}" for name in good for ending in ("stl", "png")]
+    assert files == sorted([*expected, "contact-sheet.png", "index.html", "scans.jsonl"] +
+                           [f"contact-sheet-{i + 1}.png" for i in range(1, (len(good) + len(bad) + 143) // 144)]), files
+    for name in good[:: max(1, len(good) // 60)]:
+        subprocess.run([program, "make", f"{scans}/{name}.xyz", "-o", f"{output}/../one.stl", "--quiet",
+                        *catalogue.OPTIONS], check=True)
+        assert relief_bytes(f"{output}/../one.stl") == relief_bytes(f"{output}/{name}.stl"), name
+
+
+if __name__ == "__main__":
+    main()

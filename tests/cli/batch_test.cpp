@@ -1,0 +1,226 @@
+// Runs over catalogues: what is made, what is kept, and what happens when jobs or runs end early.
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "batch/finish.h"
+#include "batch/memory_need.h"
+#include "batch/processes.h"
+#include "batch/run.h"
+#include "relievo/core/text.h"
+#include "support/cli_folder.h"
+
+namespace relievo {
+namespace {
+
+using namespace test;
+using namespace app::batch;
+
+// A workshop whose outputs are made at once. The solid's content is the arguments.
+class BatchRun : public CliFolder {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    fs::create_directories(folder_ / "out");
+    workshop_ = {(folder_ / "out").string(), *parse_output_kinds("stl"),
+                 [](const auto& arguments) { return pretend(arguments); }};
+    for (const char* name : {"a", "b", "c", "d"}) {
+      write_all(folder_ / (name + std::string(".ply")), name);
+      jobs_.push_back({name, (folder_ / (name + std::string(".ply"))).string(), {}});
+    }
+  }
+
+  static std::optional<MakeError> pretend(const std::vector<std::string>& arguments) {
+    std::string all;
+    for (const std::string& argument : arguments) all += argument + " ";
+    const std::string name = fs::path(arguments[1]).stem().string();
+    if (name == "c") return MakeError{"c.ply: expected something else", false};
+    if (name == "d") ::raise(SIGKILL);
+    for (const std::string& argument : arguments)
+      if (argument.starts_with("--output=") || argument.starts_with("--preview="))
+        write_all(argument.substr(argument.find('=') + 1), all);
+    return std::nullopt;
+  }
+
+  struct Counts {
+    std::size_t made = 0, failed = 0, kept = 0;
+    bool operator==(const Counts&) const = default;
+  };
+
+  // Runs all jobs and returns what became of them.
+  Counts run_jobs(RunLimits limits = {2, 0}) {
+    const Records records = read_journals(workshop_.outputs);
+    std::vector<Work> works;
+    for (const Job& job : jobs_) {
+      works.push_back({job, std::nullopt, 100});
+      if (const auto found = records.find(job.name); found != records.end())
+        works.back().before = found->second;
+    }
+    const auto journal = Journal::open(workshop_.outputs);
+    Counts counts;
+    const auto done =
+        app::batch::run(works, workshop_, limits, *journal, [&](const Performed& end, std::size_t) {
+          ++(end.is_kept ? counts.kept : end.record.is_made ? counts.made : counts.failed);
+        });
+    EXPECT_TRUE(done);
+    return counts;
+  }
+
+  fs::path journal_path() const { return folder_ / "out/.journal" / (host_name() + ".jsonl"); }
+  std::size_t journal_lines() const {
+    const std::string text = read_all(journal_path());
+    return static_cast<std::size_t>(std::ranges::count(text, '\n'));
+  }
+
+  Workshop workshop_;
+  std::vector<Job> jobs_;
+};
+
+TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
+  EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
+  const Records records = read_journals(workshop_.outputs);
+  EXPECT_TRUE(records.at("a").is_made);
+  EXPECT_EQ(records.at("a").outputs.size(), 2U);
+  EXPECT_EQ(records.at("c").error, "c.ply: expected something else");
+  EXPECT_FALSE(records.at("c").may_succeed);
+  EXPECT_NE(records.at("d").error.find("ended by signal 9"), std::string::npos) << records.at("d").error;
+  EXPECT_TRUE(records.at("d").may_succeed);
+  EXPECT_EQ(journal_lines(), 4U);
+}
+
+// What was made stays, an error that will come again is not tried again, a killed job is.
+TEST_F(BatchRun, DoesNothingTwice) {
+  run_jobs();
+  EXPECT_EQ(run_jobs(), (Counts{0, 1, 3}));
+  EXPECT_EQ(journal_lines(), 5U);
+  write_all(folder_ / "a.ply", "other content");
+  EXPECT_EQ(run_jobs(), (Counts{1, 1, 2}));
+  jobs_[1].options["height"] = "3";
+  EXPECT_EQ(run_jobs(), (Counts{1, 1, 2}));
+  fs::remove(folder_ / "out/b.png");
+  EXPECT_EQ(run_jobs(), (Counts{1, 1, 2}));
+  write_all(folder_ / "out/b.stl", "cut");
+  EXPECT_EQ(run_jobs(), (Counts{1, 1, 2}));
+  workshop_.kinds = *parse_output_kinds("obj");
+  EXPECT_EQ(run_jobs(), (Counts{2, 2, 0}));
+}
+
+// An option that is changed and changed back: the outputs are those of the value between.
+TEST_F(BatchRun, KeepsOnlyWhatWasMadeLast) {
+  jobs_.resize(1);
+  run_jobs();
+  jobs_[0].options["height"] = "3";
+  run_jobs();
+  jobs_[0].options.clear();
+  EXPECT_EQ(run_jobs(), (Counts{1, 0, 0}));
+}
+
+TEST_F(BatchRun, GoesOnAfterALineThatWasNotWrittenToItsEnd) {
+  jobs_.resize(2);
+  run_jobs();
+  const std::string text = read_all(journal_path());
+  write_all(journal_path(), text.substr(0, text.size() - 20));  // as a power failure leaves it
+  EXPECT_EQ(run_jobs(), (Counts{1, 0, 1}));
+  EXPECT_EQ(run_jobs(), (Counts{0, 0, 2}));
+}
+
+TEST_F(BatchRun, GivesAllProcessorsToTheFewJobsThatMemoryAllows) {
+  jobs_.resize(1);
+  jobs_[0].options["width"] = "10";
+  run_jobs({1, 50});  // the job needs 100, so it runs alone
+  const std::string arguments = read_all(folder_ / "out/a.stl");
+  const long processors = ::sysconf(_SC_NPROCESSORS_ONLN);
+  EXPECT_NE(arguments.find("--threads="), std::string::npos);
+  EXPECT_EQ(arguments.find("--threads=1 ") == std::string::npos, processors > 1) << arguments;
+  EXPECT_NE(arguments.find("--width=10 "), std::string::npos);
+}
+
+TEST_F(BatchRun, LocksItsFolder) {
+  const auto first = lock_run(workshop_.outputs, "");
+  ASSERT_TRUE(first);
+  EXPECT_FALSE(lock_run(workshop_.outputs, ""));
+  EXPECT_TRUE(lock_run(workshop_.outputs, "-1-of-2"));
+}
+
+TEST_F(BatchRun, WritesOneLinePerJobAndThePages) {
+  run_jobs();
+  ASSERT_TRUE(finish(jobs_, read_journals(workshop_.outputs), workshop_));
+  std::istringstream lines(read_all(folder_ / "out/scans.jsonl"));
+  std::vector<std::string> status;
+  for (std::string line; std::getline(lines, line);) status.push_back(nlohmann::json::parse(line)["status"]);
+  EXPECT_EQ(status, (std::vector<std::string>{"made", "made", "failed", "failed"}));
+  EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/contact-sheet.png"));
+}
+
+// ----------------------------------------------------------------------------- the program, with real scans
+
+// Small scans, and options that make small reliefs quickly.
+class BatchProgram : public CliFolder {
+ protected:
+  void SetUp() override {
+    CliFolder::SetUp();
+    fs::create_directories(folder_ / "scans");
+    fs::remove(folder_ / "torus.ply");
+    for (int i = 1; i <= 3; ++i) {
+      const std::vector<std::byte> bytes = write_ply(torus(1500, 1, .2 + .1 * i));
+      write_all(folder_ / "scans" / (std::to_string(i) + ".ply"),
+                {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    write_all(folder_ / "scans/bad.ply", "ply\nformat ascii 1.0\n");
+  }
+
+  static constexpr const char* quick = " --method linear --height 2 --width 30 --resolution 1.5 --denoise 0 ";
+};
+
+TEST_F(BatchProgram, MakesWhatMakeMakes) {
+  const Outcome outcome = run(std::string("batch scans -o out") + quick);
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.err.find("expected 4 reliefs, made 3; 1 failed"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("failed: bad: "), std::string::npos) << outcome.err;
+  for (const char* name : {"1", "2", "3"}) {
+    ASSERT_EQ(run(cat("make scans/", name, ".ply -o ", name, ".stl --quiet", quick)).exit_code, 0);
+    EXPECT_EQ(read_all(folder_ / cat(name, ".stl")), read_all(folder_ / "out" / cat(name, ".stl"))) << name;
+  }
+  const Outcome again = run(std::string("batch scans -o out") + quick);
+  EXPECT_EQ(again.exit_code, 1);
+  EXPECT_NE(again.err.find("4 of 4, 4 done before, 1 failed"), std::string::npos) << again.err;
+}
+
+TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
+  fs::remove(folder_ / "scans/bad.ply");
+  EXPECT_EQ(run(cat("batch scans -o out --shard 1/2", quick)).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/3.stl"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/2.stl"));
+  const Outcome list = run(cat("batch scans -o out --list", quick));
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  std::istringstream lines(list.out);
+  for (std::string line; std::getline(lines, line);) {
+    const Outcome job = run("batch -o out --job '" + line + "'");
+    EXPECT_EQ(job.exit_code, 0) << job.err;
+    const auto record = nlohmann::json::parse(job.out);
+    EXPECT_EQ(record["is_kept"], record["name"] != "2") << job.out;
+  }
+  EXPECT_EQ(run(cat("batch scans -o out --pages", quick)).exit_code, 0);
+  EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
+}
+
+TEST_F(BatchProgram, TakesOptionsOfEachRow) {
+  write_all(folder_ / "t.csv", "file,height,name\nscans/1.ply,1in,inch\nscans/1.ply,no number,\n");
+  const Outcome outcome = run(cat("batch t.csv -o out --files obj,report --quiet", quick));
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NEAR(nlohmann::json::parse(read_all(folder_ / "out/inch.json"))["height_mm"].get<double>(), 25.4,
+              .1);
+  EXPECT_NE(read_all(folder_ / "out/scans.jsonl").find("no number"), std::string::npos);
+}
+
+TEST_F(BatchProgram, RefusesMisuse) {
+  expect_refusal("batch", "expected a folder or a table");
+  expect_refusal("batch scans", "expected a folder");
+  expect_refusal("batch scans -o out --height none", "--height");
+  EXPECT_EQ(run("batch scans -o out --shard 3/2").exit_code, 2);
+  EXPECT_EQ(run("batch scans -o out --files jpg").exit_code, 2);
+  EXPECT_EQ(run("batch gone -o out").exit_code, 1);
+}
+
+}  // namespace
+}  // namespace relievo
