@@ -1,0 +1,76 @@
+// NumPy's arrays as the library's vectors, and its results as arrays.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "relievo/core/image.h"
+#include "relievo/core/types.h"
+#include "relievo/scan/depth_image.h"
+
+namespace relievo::python {
+
+namespace py = pybind11;
+
+// An array that a user gave, and its name for errors.
+struct NamedArray {
+  const char* name;
+  py::array array;
+};
+
+// Return the rows of an array of real numbers: whole ones or fractions of any size, in any order in memory. The rows are
+// copied once, straight into the library's memory: other threads may change the array while the library works. Raise
+// relievo.Error for another shape or kind, naming the row of the first number that is not finite.
+std::vector<Vec3> points_of(const NamedArray& given);
+std::vector<Vec2> plane_points_of(const NamedArray& given);
+
+// Returns a unit vector for each of `size` rows. Raises as points_of() does, and for rows of zeros.
+std::vector<Vec3f> normals_of(const NamedArray& given, std::size_t size);
+
+// Returns a colour for each of `size` rows, which have three or, with an opacity that is ignored, four values: 0 to 255
+// as whole numbers of 8 bits, or else fractions of 1.
+std::vector<Colour> colours_of(const NamedArray& given, std::size_t size);
+
+// Returns the numbers of points, each below `size`; triangles as rows of three. Raises for kinds other than whole numbers.
+std::vector<Triangle> triangles_of(const NamedArray& given, std::size_t size);
+std::vector<Index> indices_of(const NamedArray& given, std::size_t size);
+
+// Returns one number per point. Raises if there are not `size` of them, or if one is not in (0, 1].
+std::vector<float> weights_of(const NamedArray& given, std::size_t size);
+
+// Returns a depth image of the rows of a 2-D array; what is not finite is missing.
+DepthImage depth_image_of(const NamedArray& given);
+
+// Returns an array that shows the numbers of `owner` without a copy, cannot be written to, and keeps the owner alive.
+template <typename Number>
+py::array view_of(const Number* numbers, std::vector<py::ssize_t> shape, std::shared_ptr<const void> owner) {
+  auto kept = std::make_unique<std::shared_ptr<const void>>(std::move(owner));
+  const py::capsule base(kept.get(), [](void* p) { delete static_cast<std::shared_ptr<const void>*>(p); });
+  (void)kept.release();
+  py::array array(py::dtype::of<Number>(), std::move(shape), numbers, base);
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+// Returns an array that owns the numbers of a vector, without a copy.
+template <typename Number>
+py::array array_of(std::vector<Number> numbers, std::vector<py::ssize_t> shape) {
+  auto kept = std::make_unique<std::vector<Number>>(std::move(numbers));
+  const py::capsule base(kept.get(), [](void* p) { delete static_cast<std::vector<Number>*>(p); });
+  const Number* const data = kept.release()->data();
+  return py::array(py::dtype::of<Number>(), std::move(shape), data, base);
+}
+
+// Returns an image of several channels as an array of rows, columns and channels; of one as rows and columns.
+template <typename Number>
+py::array array_of(Image<Number> image) {
+  std::vector<py::ssize_t> shape{image.height, image.width};
+  if (image.channels > 1) shape.push_back(image.channels);
+  return array_of(std::move(image.pixels), std::move(shape));
+}
+
+}  // namespace relievo::python

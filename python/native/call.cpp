@@ -1,0 +1,165 @@
+#include "native/call.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "relievo/core/parallel.h"
+
+namespace relievo::python {
+namespace {
+
+// The time between two looks for Ctrl-C. People perceive an answer within a tenth of a second as immediate.
+constexpr std::chrono::milliseconds signal_interval(50);
+
+// The number of watched calls that the thread waits for: more than one if a callback makes another.
+thread_local int calls_of_this_thread = 0;
+
+struct Event {
+  std::string stage;
+  double fraction = 0;
+};
+
+// The messages of the thread that works to the one that waits.
+class Messages {
+ public:
+  void post(Event event) {
+    const std::lock_guard lock(mutex_);
+    events_.push_back(std::move(event));
+    changed_.notify_all();
+  }
+
+  void end() {
+    const std::lock_guard lock(mutex_);
+    has_ended_ = true;
+    changed_.notify_all();
+  }
+
+  // Waits for messages, but not longer than a signal may wait. Returns false once all is said.
+  bool wait(std::deque<Event>& events) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, signal_interval, [&] { return has_ended_ || !events_.empty(); });
+    events = std::exchange(events_, {});
+    return !has_ended_ || !events.empty();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Event> events_;
+  bool has_ended_ = false;
+};
+
+// Looks for signals and calls the callback for each event.
+void report(const py::object& callback, const std::deque<Event>& events) {
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+  if (callback.is_none()) return;
+  for (const Event& event : events) callback(event.stage, event.fraction);
+}
+
+struct CountedCall {
+  CountedCall() { ++calls_of_this_thread; }
+  ~CountedCall() { --calls_of_this_thread; }
+};
+
+// Starts and ends the library's threads, which are not there after a fork: it is made while none are.
+class Fork {
+ public:
+  // Waits until the library does not work. From within a callback that would be forever: the new process may then
+  // use this module only after exec().
+  void begin() {
+    is_prepared_ = calls_of_this_thread == 0;
+    if (!is_prepared_) return;
+    const py::gil_scoped_release release;
+    working().lock();
+    threads_ = thread_count();
+    set_thread_count(1);
+  }
+
+  void end_in_parent() {
+    if (!std::exchange(is_prepared_, false)) return;
+    set_thread_count(threads_);
+    working().unlock();
+  }
+
+  // The lock belongs to a thread of the parent: it begins anew, as nobody else is there.
+  void end_in_child() {
+    if (!std::exchange(is_prepared_, false)) return;
+    std::construct_at(&working());
+    set_thread_count(threads_);
+  }
+
+ private:
+  bool is_prepared_ = false;
+  int threads_ = 1;
+};
+
+void set_threads(int threads) {
+  if (threads < 0 || threads > 256)
+    throw py::value_error("threads: expected 0 for all, or a number up to 256, found " +
+                          std::to_string(threads));
+  if (calls_of_this_thread > 0)
+    throw std::runtime_error("set_threads() cannot be called from a progress callback");
+  const py::gil_scoped_release release;
+  const std::lock_guard lock(working());
+  set_thread_count(threads);
+}
+
+}  // namespace
+
+std::shared_mutex& working() {
+  static std::shared_mutex mutex;
+  return mutex;
+}
+
+void watched(const py::object& callback, const std::function<void(Progress&)>& work) {
+  Messages messages;
+  Progress progress([&](std::string_view stage, double fraction) {
+    messages.post({std::string(stage), fraction});
+  });
+  std::exception_ptr thrown, raised;
+  const CountedCall counted;
+  std::thread worker([&] {
+    try {
+      const std::shared_lock lock(working());
+      work(progress);
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    messages.end();
+  });
+  std::deque<Event> events;
+  const auto wait = [&] {
+    const py::gil_scoped_release release;
+    return messages.wait(events);
+  };
+  while (wait()) {
+    if (raised) continue;
+    try {
+      report(callback, events);
+    } catch (...) {
+      raised = std::current_exception();
+      progress.cancel();
+    }
+  }
+  worker.join();
+  if (raised) std::rethrow_exception(raised);
+  if (thrown) std::rethrow_exception(thrown);
+}
+
+void add_threads(py::module_& module) {
+  static Fork fork;
+  module.def("set_threads", &set_threads);
+  module.def("threads", [] { return unlocked([] { return thread_count(); }); });
+  module.def("begin_fork", [] { fork.begin(); });
+  module.def("end_fork_in_parent", [] { fork.end_in_parent(); });
+  module.def("end_fork_in_child", [] { fork.end_in_child(); });
+}
+
+}  // namespace relievo::python

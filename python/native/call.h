@@ -1,0 +1,42 @@
+// Calls of the library: without Python's lock, so that other threads go on meanwhile.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <functional>
+#include <optional>
+#include <shared_mutex>
+#include <type_traits>
+
+#include "native/errors.h"
+#include "relievo/core/progress.h"
+
+namespace relievo::python {
+
+// Locked shared while the library works, and alone while its threads are started or ended.
+std::shared_mutex& working();
+
+// Calls f without Python's lock. For short work.
+template <typename F>
+auto unlocked(F&& f) {
+  const py::gil_scoped_release release;
+  const std::shared_lock lock(working());
+  return f();
+}
+
+// Calls `work` on a thread of its own and waits for its end. Meanwhile the calling thread calls `callback`, if it is not
+// None, with the name of each stage and the fraction done, and looks for signals: an exception of either cancels the
+// work and is raised when it has ended.
+void watched(const py::object& callback, const std::function<void(Progress&)>& work);
+
+// Returns the value of what `work` returns, or raises its error.
+template <typename F>
+auto watched_value(const py::object& callback, F&& work) {
+  std::optional<std::invoke_result_t<F, Progress&>> result;
+  watched(callback, [&](Progress& progress) { result.emplace(work(progress)); });
+  return value_or_raise(*std::move(result));
+}
+
+void add_threads(py::module_& module);
+
+}  // namespace relievo::python

@@ -1,0 +1,33 @@
+// The library's errors as Python's exceptions.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "relievo/core/error.h"
+
+namespace relievo::python {
+
+namespace py = pybind11;
+
+// Convert paths and texts about them: bytes that are no UTF-8 stand as surrogates in Python, as its os module has it.
+std::string path_of(py::handle path);
+py::str text_of(std::string_view text);
+
+// Raises relievo.Error. Where the error names an option, the exception names its keyword.
+[[noreturn]] void raise(const Error& error);
+
+// Raises relievo.Error of kind input: about an array called `name`, at that place in it.
+[[noreturn]] void raise_input(std::string name, std::string place, std::string expected);
+
+// Returns the value of a result, or raises its error.
+template <typename T>
+T value_or_raise(Result<T> result) {
+  if (!result) raise(result.error());
+  if constexpr (!std::is_void_v<T>) return *std::move(result);
+}
+
+}  // namespace relievo::python

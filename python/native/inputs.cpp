@@ -1,0 +1,165 @@
+#include "native/inputs.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/files.h"
+#include "native/arrays.h"
+#include "native/errors.h"
+#include "relievo/core/text.h"
+#include "relievo/io/write.h"
+#include "relievo/samples/sample.h"
+
+namespace relievo::python {
+namespace {
+
+// Returns the model of points, with normals, colours and triangles where these are not None.
+ArrayModel array_model(const py::array& points, const std::optional<py::array>& normals,
+                       const std::optional<py::array>& colours, const std::optional<py::array>& faces) {
+  auto file = std::make_shared<CloudFile>();
+  Cloud& cloud = file->cloud;
+  cloud.points = points_of({"points", points});
+  if (normals) cloud.normals = normals_of({"normals", *normals}, cloud.size());
+  if (colours) cloud.colours = colours_of({"colours", *colours}, cloud.size());
+  file->format = "array";
+  if (!faces) return {"points", std::move(file), nullptr};
+  Mesh mesh{cloud.points, triangles_of({"faces", *faces}, cloud.size()), {}, cloud.colours};
+  for (const auto& [a, b, c] : mesh.triangles)
+    if (cloud.has_normals())
+      mesh.corner_normals.push_back({cloud.normals[a], cloud.normals[b], cloud.normals[c]});
+  file->mesh = std::move(mesh);
+  return {"vertices", std::move(file), nullptr};
+}
+
+ArrayModel depth_model(const py::array& depths) {
+  return {"depths", nullptr, std::make_shared<const DepthImage>(depth_image_of({"source", depths}))};
+}
+
+struct NameOf {
+  std::string operator()(const std::string& path) const { return path; }
+  std::string operator()(const FileBytes& file) const { return file.name; }
+  std::string operator()(const ArrayModel& model) const { return model.name; }
+};
+
+void append(app::SceneInput& to, app::SceneInput from) {
+  std::ranges::move(from.scene.models, std::back_inserter(to.scene.models));
+  std::ranges::move(from.remarks, std::back_inserter(to.remarks));
+}
+
+app::SceneInput scene_of(const std::string& name, app::LoadedFile loaded) {
+  return {{{{name, std::make_shared<const CloudFile>(std::move(loaded.file))}}}, std::move(loaded.remarks)};
+}
+
+struct SourceReader {
+  const app::InputArguments& arguments;
+  const app::PointsWanted& wanted;
+  Progress* progress;
+  bool is_alone;
+
+  Result<app::SceneInput> operator()(const std::string& path) const {
+    if (app::is_scene_file(path) && !is_alone)
+      return option_error(path, "expected a scene file alone, or models without one");
+    return app::read_scene({path}, arguments, wanted, progress);
+  }
+  Result<app::SceneInput> operator()(const FileBytes& file) const {
+    RELIEVO_CHECK(begin_stage(progress, "read", 0));
+    RELIEVO_TRY(app::LoadedFile loaded,
+                app::parse_input(file.bytes, file.name, arguments, wanted.points, progress));
+    return scene_of(file.name, std::move(loaded));
+  }
+  Result<app::SceneInput> operator()(const ArrayModel& model) const {
+    if (model.file) return app::SceneInput{{{{model.name, model.file}}}, {}};
+    RELIEVO_TRY(app::LoadedFile loaded,
+                app::take_depths(*model.depths, model.name, arguments, wanted.points, progress));
+    return scene_of(model.name, std::move(loaded));
+  }
+};
+
+py::object array_or_none(bool is_there, auto&& make) {
+  return is_there ? py::object(make()) : py::none();
+}
+
+// Returns points, normals and colours of a generated scan.
+py::tuple sample(const std::string& name, std::size_t points, double noise) {
+  Cloud cloud = value_or_raise(make_sample(name, {points, noise}));
+  const auto owner = std::make_shared<const Cloud>(std::move(cloud));
+  const auto n = static_cast<py::ssize_t>(owner->size());
+  return py::make_tuple(view_of(owner->points.data()->data(), {n, 3}, owner),
+                        array_or_none(owner->has_normals(),
+                                      [&] {
+                                        return view_of(owner->normals.data()->data(), {n, 3}, owner);
+                                      }),
+                        array_or_none(owner->has_colours(), [&] {
+                          return view_of(owner->colours.data()->data(), {n, 3}, owner);
+                        }));
+}
+
+// Writes a cloud of points as a PLY file.
+void write_cloud(const ArrayModel& model, const py::str& to, const std::string& comment) {
+  const std::string path = path_of(to);
+  value_or_raise(app::check_output(path, {".ply"}));
+  const app::OutputFile file{path, write_ply(model.file->cloud, comment)};
+  value_or_raise(app::write_files({&file, 1}));
+}
+
+}  // namespace
+
+std::vector<Source> sources_of(const py::list& list) {
+  std::vector<Source> sources;
+  for (const py::handle item : list) {
+    if (py::isinstance<py::str>(item)) {
+      sources.emplace_back(path_of(item));
+    } else if (py::isinstance<ArrayModel>(item)) {
+      sources.emplace_back(item.cast<ArrayModel>());
+    } else {
+      const auto [bytes, name] = item.cast<std::pair<py::bytes, std::string>>();
+      const std::string_view text(bytes);
+      sources.emplace_back(FileBytes{bytes, name, std::as_bytes(std::span(text))});
+    }
+  }
+  return sources;
+}
+
+std::string names_of(const std::vector<Source>& sources) {
+  std::vector<std::string> names;
+  for (const Source& source : sources) names.push_back(std::visit(NameOf(), source));
+  return app::joined(names);
+}
+
+std::vector<std::string> paths_of(const std::vector<Source>& sources) {
+  std::vector<std::string> paths;
+  for (const Source& source : sources)
+    if (const auto* const path = std::get_if<std::string>(&source)) paths.push_back(*path);
+  return paths;
+}
+
+Result<std::optional<app::Project>> find_project(const std::vector<Source>& sources) {
+  const auto* const path = sources.size() == 1 ? std::get_if<std::string>(&sources[0]) : nullptr;
+  if (path == nullptr || app::ending_of(*path) != "relievo") return std::nullopt;
+  RELIEVO_TRY(const std::vector<std::byte> bytes, app::read_file(*path));
+  return app::read_project({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, *path);
+}
+
+Result<app::SceneInput> read_sources(const std::vector<Source>& sources, const app::InputArguments& arguments,
+                                     const app::PointsWanted& wanted, Progress* progress) {
+  const std::vector<std::string> paths = paths_of(sources);
+  if (paths.size() == sources.size()) return app::read_scene(paths, arguments, wanted, progress);
+  app::SceneInput all;
+  for (const Source& source : sources) {
+    RELIEVO_TRY(app::SceneInput one,
+                std::visit(SourceReader{arguments, wanted, progress, sources.size() == 1}, source));
+    append(all, std::move(one));
+  }
+  return all;
+}
+
+void add_inputs(py::module_& module) {
+  py::class_<ArrayModel>(module, "Model");
+  module.def("array_model", &array_model, py::arg("points"), py::arg("normals"), py::arg("colours"),
+             py::arg("faces"));
+  module.def("depth_model", &depth_model);
+  module.def("sample", &sample);
+  module.def("write_cloud", &write_cloud);
+}
+
+}  // namespace relievo::python

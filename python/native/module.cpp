@@ -1,0 +1,21 @@
+// The native part of Python's package: it parses arguments, calls the library and hands back what it returns. What users
+// see stands in python/relievo/.
+#include <pybind11/stl.h>
+
+#include "native/call.h"
+#include "native/inputs.h"
+#include "native/options.h"
+#include "native/relief.h"
+#include "native/session.h"
+#include "native/stages.h"
+#include "relievo/core/version.h"
+
+PYBIND11_MODULE(_native, module) {
+  module.attr("__version__") = relievo::version;
+  relievo::python::add_threads(module);
+  relievo::python::add_options(module);
+  relievo::python::add_inputs(module);
+  relievo::python::add_relief(module);
+  relievo::python::add_session(module);
+  relievo::python::add_stages(module);
+}

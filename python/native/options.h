@@ -1,0 +1,27 @@
+// Options as Python's keywords.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <string>
+#include <string_view>
+
+#include "common/read_inputs.h"
+#include "relievo/option_texts.h"
+
+namespace relievo::python {
+
+// Returns the keyword of an option: its name with underscores and, for lengths and angles, the unit: rim_height_mm,
+// draft_deg. Other texts are returned unchanged.
+std::string keyword_of(std::string_view name);
+
+// Returns the options of a dict of keywords and values; None stands for the default. Raises TypeError for a value of
+// another type, and relievo.Error for a text that is no length.
+OptionTexts texts_of(const pybind11::dict& given);
+
+// Returns how a depth image is read, and from which size files are read piece by piece. Raises as texts_of() does.
+app::InputArguments input_arguments(const pybind11::dict& given);
+
+void add_options(pybind11::module_& module);
+
+}  // namespace relievo::python

@@ -1,0 +1,214 @@
+#include "native/relief.h"
+
+#include <array>
+#include <filesystem>
+
+#include "common/export_file.h"
+#include "common/make_report.h"
+#include "common/relief_files.h"
+#include "common/wording.h"
+#include "native/arrays.h"
+#include "native/call.h"
+#include "native/errors.h"
+#include "native/options.h"
+#include "relievo/core/text.h"
+#include "relievo/io/write.h"
+#include "relievo/picture/height_map.h"
+#include "relievo/picture/preview.h"
+
+namespace relievo::python {
+namespace {
+
+py::object from_json(const nlohmann::json& json) {
+  return py::module_::import("json").attr("loads")(text_of(app::report_text(json)));
+}
+
+py::bytes bytes_of(std::string_view text) {
+  return py::bytes(text.data(), text.size());
+}
+
+SharedRelief make(const py::list& sources, const py::dict& keywords, const py::object& callback) {
+  const MakeOrder order = order_of(sources, keywords);
+  return watched_value(callback, [&](Progress& progress) -> Result<SharedRelief> {
+    RELIEVO_TRY(const Loaded loaded, load(order, progress));
+    Result<MadeRelief> made = make_relief(loaded.input.scene, loaded.options, &progress);
+    if (!made && made.error().input.empty()) made.error().input = names_of(order.sources);
+    if (!made) return std::unexpected(made.error());
+    return finished(*std::move(made), facts_of(order, loaded), loaded.options, progress);
+  });
+}
+
+// Writes the files of a dict of "solid", "preview" ... and paths.
+void save(const SharedRelief& relief, const py::dict& paths, const std::string& units, int heightmap_px) {
+  app::ReliefFiles files;
+  files.heightmap_px = heightmap_px;
+  files.unit = value_or_raise(parse_unit(units));
+  if (heightmap_px < 16 || heightmap_px > 16384)
+    raise(
+        {ErrorKind::option, "heightmap_size", {}, cat("expected 16 to 16384 pixels, found ", heightmap_px)});
+  for (const auto& [name, path] :
+       {std::pair("solid", &files.solid), std::pair("preview", &files.preview),
+        std::pair("heightmap", &files.heightmap), std::pair("tool_picture", &files.tool_picture),
+        std::pair("report", &files.report)})
+    if (paths.contains(name)) *path = path_of(paths[name]);
+  value_or_raise(unlocked([&]() -> Result<void> {
+    RELIEVO_CHECK(app::check_outputs(files, relief->inputs, relief->made.report.reach.has_value()));
+    RELIEVO_TRY(std::vector<app::OutputFile> made, app::relief_files(files, relief->made, relief->draft_deg));
+    nlohmann::json report = relief->report;
+    report["units"] = name_of(files.unit);
+    if (!files.report.empty()) made.push_back({files.report, app::bytes_of(app::report_text(report))});
+    return app::write_files(made);
+  }));
+}
+
+py::bytes to_bytes(const SharedRelief& relief, const std::string& format, int heightmap_px) {
+  const app::FileFormat* const known = app::find_format(format);
+  if (known == nullptr) {
+    std::vector<std::string_view> names;
+    for (const app::FileFormat& each : app::file_formats()) names.push_back(each.name);
+    raise(not_one_of("format", names, format).error());
+  }
+  return bytes_of(unlocked([&] { return app::export_file(relief->made, *known, heightmap_px); }).bytes);
+}
+
+Result<PreviewOptions> preview_options(int size, const std::string& material) {
+  PreviewOptions options;
+  options.longer_side_px = size;
+  if (size < 1 || size > 5461) return option_error("size", cat("expected 1 to 5461 pixels, found ", size));
+  RELIEVO_TRY(options.material, parse_choice("material", material, material_choices));
+  return options;
+}
+
+py::array preview(const SharedRelief& relief, int size, const std::string& material) {
+  const PreviewOptions options = value_or_raise(preview_options(size, material));
+  return array_of(unlocked([&] { return render_preview(relief->made.solid, options); }));
+}
+
+py::bytes preview_png(const SharedRelief& relief, int size, const std::string& material) {
+  const PreviewOptions options = value_or_raise(preview_options(size, material));
+  const auto png = unlocked([&] { return write_png(render_preview(relief->made.solid, options)); });
+  return bytes_of({reinterpret_cast<const char*>(png.data()), png.size()});
+}
+
+// Returns the heights, and the millimetres per pixel.
+py::tuple heights(const SharedRelief& relief, int size) {
+  if (size < 1 || size > 32768)
+    raise({ErrorKind::option, "size", {}, cat("expected 1 to 32768 pixels, found ", size)});
+  const MadeRelief& made = relief->made;
+  HeightsMm map = unlocked([&] { return make_heights_mm(made.report.wrap ? made.flat : made.solid, size); });
+  return py::make_tuple(array_of(std::move(map.image)), map.mm_per_pixel);
+}
+
+// Returns a picture of 8 bits, of one, three or four channels, as the bytes of a PNG file.
+py::bytes png(const py::array& picture) {
+  const py::ssize_t dimensions = picture.ndim(), channels = dimensions == 3 ? picture.shape(2) : 1;
+  const bool is_picture = (dimensions == 2 || dimensions == 3) &&
+                          (channels == 1 || channels == 3 || channels == 4) &&
+                          picture.dtype().kind() == 'u' && picture.dtype().itemsize() == 1;
+  constexpr py::ssize_t most = 32768;
+  if (!is_picture || picture.size() == 0 || picture.shape(0) > most || picture.shape(1) > most)
+    raise_input("picture", "shape",
+                "expected rows, columns and 1, 3 or 4 channels of uint8, found another array");
+  const auto rows = py::array_t<std::uint8_t, py::array::c_style>::ensure(picture);
+  Image8 image{
+      static_cast<int>(rows.shape(1)), static_cast<int>(rows.shape(0)), static_cast<int>(channels), {}};
+  image.pixels.assign(rows.data(), rows.data() + rows.size());
+  const auto bytes = unlocked([&] { return write_png(image); });
+  return bytes_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+py::array vertices(const SharedRelief& relief) {
+  const Solid& solid = relief->made.solid;
+  return view_of(solid.points.data()->data(), {std::ssize(solid.points), 3}, relief);
+}
+
+py::array faces(const SharedRelief& relief) {
+  const Solid& solid = relief->made.solid;
+  return view_of(solid.triangles.data()->data(), {std::ssize(solid.triangles), 3}, relief);
+}
+
+py::object colours(const SharedRelief& relief) {
+  const Solid& solid = relief->made.solid;
+  if (solid.colours.empty()) return py::none();
+  return view_of(solid.colours.data()->data(), {std::ssize(solid.colours), 3}, relief);
+}
+
+}  // namespace
+
+MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
+  MakeOrder order{sources_of(sources), texts_of(keywords), {}, input_arguments(keywords), {}, nullptr};
+  for (const ReliefField& field : option_fields()) {
+    const std::string keyword = keyword_of(field.name);
+    if (keywords.contains(keyword) && !keywords[keyword.c_str()].is_none()) order.given.emplace(field.name);
+  }
+  const py::object image = keywords.attr("get")("base_image");
+  if (image.is_none()) return order;
+  if (py::isinstance<py::str>(image))
+    order.base_image_path = path_of(image);
+  else
+    order.base_image =
+        std::make_shared<const Image<float>>(depth_image_of({"base_image", image.cast<py::array>()}).values);
+  return order;
+}
+
+Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<app::Project>& project) {
+  OptionTexts texts = order.texts;
+  const auto is_given = [&](std::string_view name) { return order.given.contains(std::string(name)); };
+  if (project) texts = app::with_given(project->options, order.texts, is_given);
+  const bool has_image = order.base_image || !order.base_image_path.empty();
+  if (has_image && texts.base == OptionTexts{}.base && !is_given("base")) texts.base = "image";
+  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
+  RELIEVO_TRY(std::shared_ptr<const Image<float>> image, app::read_base_image(order.base_image_path));
+  RELIEVO_CHECK(app::take_base_image(image ? std::move(image) : order.base_image, options.base));
+  return options;
+}
+
+Result<Loaded> load(const MakeOrder& order, Progress& progress) {
+  RELIEVO_TRY(std::optional<app::Project> project, find_project(order.sources));
+  RELIEVO_TRY(ReliefOptions options, options_of(order, project));
+  if (!project) {
+    RELIEVO_TRY(app::SceneInput input,
+                read_sources(order.sources, order.in, {options.view, options.points}, &progress));
+    return Loaded{std::move(input), std::move(options)};
+  }
+  RELIEVO_CHECK(progress.stage("read", 0));
+  const std::filesystem::path path = paths_of(order.sources)[0];
+  RELIEVO_TRY(Scene scene,
+              app::load_input(project->input, path.parent_path(), [&] { return progress.is_cancelled(); }));
+  return Loaded{{std::move(scene), {}}, std::move(options), std::move(project)};
+}
+
+InputFacts facts_of(const MakeOrder& order, const Loaded& loaded) {
+  InputFacts facts{paths_of(order.sources), loaded.input.remarks,
+                   app::models_report(loaded.input.scene, loaded.options.view)};
+  facts.paths.push_back(order.base_image_path);
+  return facts;
+}
+
+SharedRelief finished(MadeRelief made, const InputFacts& facts, const ReliefOptions& options,
+                      Progress& progress) {
+  progress.finish();
+  FinishedRelief relief{std::move(made), {}, facts.remarks, facts.paths, options.draft_deg};
+  for (std::string& line : app::remarks_on(relief.made.report)) relief.remarks.push_back(std::move(line));
+  relief.report = app::make_report({relief.made, facts.models, LengthUnit::mm, progress.times()});
+  return std::make_shared<FinishedRelief>(std::move(relief));
+}
+
+void add_relief(py::module_& module) {
+  py::class_<FinishedRelief, SharedRelief>(module, "Relief")
+      .def("save", [](const SharedRelief& r, const py::dict& paths, const std::string& units,
+                      int px) { save(r, paths, units, px); })
+      .def("to_bytes", &to_bytes)
+      .def("preview", &preview)
+      .def("preview_png", &preview_png)
+      .def("heights", &heights)
+      .def("vertices", &vertices)
+      .def("faces", &faces)
+      .def("colours", &colours)
+      .def("report", [](const SharedRelief& relief) { return from_json(relief->report); })
+      .def("remarks", [](const SharedRelief& relief) { return from_json(relief->remarks); });
+  module.def("make", &make);
+  module.def("png", &png);
+}
+
+}  // namespace relievo::python

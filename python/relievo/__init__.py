@@ -1,0 +1,61 @@
+"""Relievo turns a 3D scan into a bas-relief: relievo.make("scan.ply", height_mm=3).save("relief.stl").
+
+An option of the command line is a keyword of the same name, with underscores; where the option is a length or an angle,
+the keyword ends in its unit: --rim-height is rim_height_mm, --draft is draft_deg.
+"""
+
+import os as _os
+
+from . import _native
+from ._errors import Error
+from ._relief import Relief, make, png
+from ._session import Frame, Session
+from ._stages import (
+    Cloud,
+    HeightSystem,
+    estimate_normals,
+    mean_curvature,
+    sample,
+    solve_heights,
+    triangulate,
+    visible_points,
+)
+
+__version__: str = _native.__version__
+
+__all__ = [
+    "Cloud",
+    "Error",
+    "Frame",
+    "HeightSystem",
+    "Relief",
+    "Session",
+    "estimate_normals",
+    "make",
+    "mean_curvature",
+    "png",
+    "sample",
+    "set_threads",
+    "solve_heights",
+    "threads",
+    "triangulate",
+    "visible_points",
+]
+
+
+def threads() -> int:
+    """Returns the number of threads that the library uses."""
+    return _native.threads()
+
+
+def set_threads(number: int) -> None:
+    """Sets that number for this process, at most 256; 0 stands for the number of processors. Waits for running calls."""
+    _native.set_threads(number)
+
+
+# A forked process has no threads but the one that forked.
+_os.register_at_fork(
+    before=_native.begin_fork,
+    after_in_parent=_native.end_fork_in_parent,
+    after_in_child=_native.end_fork_in_child,
+)

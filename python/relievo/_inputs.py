@@ -1,0 +1,110 @@
+"""What a relief is made of, by its looks: paths, bytes, arrays, and objects that have them."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from . import _native
+from ._errors import Error
+
+
+def sources_of(source: Any, normals: Any, colours: Any, faces: Any) -> list[Any]:
+    """Returns what the native module takes: texts, (bytes, name) tuples and models."""
+    extras = (normals, colours, faces)
+    if isinstance(source, (list, tuple)) and not _is_rows(source):
+        if any(extra is not None for extra in extras):
+            raise TypeError("normals, colours and faces belong to one array of points, not to a list of inputs")
+        if not source:
+            raise Error("input", "source", "", "expected at least one input, found an empty list")
+        return [_source(each, None, None, None) for each in source]
+    return [_source(source, *extras)]
+
+
+def _is_rows(source: Sequence[Any]) -> bool:
+    """Tells rows of numbers, which are points, from a list of inputs."""
+    return len(source) > 0 and all(
+        isinstance(row, (list, tuple)) and row and all(isinstance(x, (int, float)) for x in row) for row in source
+    )
+
+
+def _source(source: Any, normals: Any, colours: Any, faces: Any) -> Any:
+    has_extras = any(extra is not None for extra in (normals, colours, faces))
+    if isinstance(source, (str, os.PathLike, bytes, bytearray, memoryview)):
+        if has_extras:
+            raise TypeError("normals, colours and faces belong to an array of points, not to a file")
+        if isinstance(source, (str, os.PathLike)):
+            return os.fsdecode(source)
+        return bytes(source), "bytes"
+    if isinstance(source, np.ndarray) or _is_array(source) or isinstance(source, (list, tuple)):
+        return _array(source, normals, colours, faces)
+    if has_extras:
+        raise TypeError("normals, colours and faces belong to an array of points, not to an object that has its own")
+    return _object(source)
+
+
+def _is_array(source: Any) -> bool:
+    return hasattr(source, "__array__") and not hasattr(source, "points") and not hasattr(source, "vertices")
+
+
+def _array(source: Any, normals: Any, colours: Any, faces: Any) -> Any:
+    points = numbers("points", source)
+    if points.ndim == 2 and points.shape[1] != 3 and normals is None and colours is None and faces is None:
+        return _native.depth_model(points)
+    return _array_model(points, normals, colours, faces)
+
+
+def numbers(name: str, given: Any) -> Any:
+    """Returns the array, with NaN where it is masked; None for None."""
+    if given is None:
+        return None
+    if isinstance(given, np.ma.MaskedArray):
+        return np.ma.filled(given.astype(float), np.nan)
+    try:
+        array = np.asarray(given)
+    except ValueError as error:
+        raise Error("input", name, "", f"expected rows of numbers, found {error}") from None
+    if array.ndim == 0:
+        raise Error("input", name, "shape", f"expected rows of numbers, found {type(given).__name__}")
+    return array
+
+
+def _object(source: Any) -> Any:
+    """Takes clouds and meshes of other packages, as of Open3D and trimesh."""
+    points = _first(source, "vertices", "points")
+    if points is None:
+        raise TypeError(
+            "expected a path, bytes, an array, or an object with points, or with vertices and faces, found "
+            + type(source).__name__
+        )
+    faces = _first(source, "faces", "triangles")
+    normals = None if faces is not None else _first(source, "normals")
+    return _array_model(points, normals, _colours(source), faces)
+
+
+def _array_model(points: Any, normals: Any, colours: Any, faces: Any) -> Any:
+    return _native.array_model(
+        numbers("points", points), numbers("normals", normals), numbers("colours", colours), numbers("faces", faces)
+    )
+
+
+def _first(source: Any, *names: str) -> Any:
+    """Returns the first attribute that is there and not empty."""
+    for name in names:
+        value = getattr(source, name, None)
+        if value is not None and not callable(value) and len(value) > 0:
+            return value
+    # An empty cloud is an error that the check of its points explains.
+    return next((getattr(source, n) for n in names if n in ("points", "vertices") and hasattr(source, n)), None)
+
+
+def _colours(source: Any) -> Any:
+    colours = _first(source, "colours", "colors", "vertex_colors")
+    if colours is None:
+        visual = getattr(source, "visual", None)
+        if getattr(visual, "kind", None) == "vertex":
+            colours = getattr(visual, "vertex_colors", None)
+    return colours

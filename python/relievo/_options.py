@@ -1,0 +1,118 @@
+"""Keywords from the library's table of options, which the command line has, too."""
+
+from __future__ import annotations
+
+import difflib
+import inspect
+import numbers
+import os
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, TypeVar, Union
+
+import numpy as np
+
+from . import _native
+
+Function = TypeVar("Function", bound=Callable[..., Any])
+
+TABLE: list[dict[str, Any]] = _native.option_table()
+RELIEF = [row for row in TABLE if not row.get("is_of_input")]
+INPUT = [row["keyword"] for row in TABLE if row.get("is_of_input")] + ["camera", "base_image", "stream_above_mb"]
+
+_TEXTS = {row["keyword"] for row in TABLE if "min" not in row and row["unit"] not in ("R", "N")}
+
+# What a session prepares once, and what its frames can change.
+PREPARED = {"view", "up", "crop", "crumbs", "denoise", "mode", "points", *INPUT} - {"base_image"}
+SHAPE = {"width_mm", "height_mm", "alpha", "saturation", "detail", "method", "steepest_deg", "boundary", "steps", "tone"}
+OF_MAKE = [row["keyword"] for row in RELIEF] + INPUT
+OF_SESSION = [keyword for keyword in OF_MAKE if keyword not in PREPARED]
+OF_FRAME = [keyword for keyword in OF_MAKE if keyword in SHAPE]
+
+_EXTRA_HELP = {
+    "camera": "of a depth image: FX,FY,CX,CY, the matrix, or a file with one of them",
+    "base_image": "height map for base image: a path or a 2-D array, bright is high",
+    "stream_above_mb": "size from which binary PLY, PCD and LAS are read piece by piece; 512",
+}
+
+
+def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
+    """Raises TypeError for a keyword that is not known, naming the nearest that is."""
+    for name in given:
+        if name in known:
+            continue
+        if name in OF_MAKE:
+            raise TypeError(f"{function}() cannot change '{name}': a session prepares it once, so open another")
+        nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)
+        raise TypeError(f"{function}() got an unexpected keyword argument '{name}'; the nearest is '{nearest[0]}'")
+
+
+def texts(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Returns the options with paths, numbers and sequences as the texts that the table wants: X,Y,Z and X,Y;X,Y."""
+    made = dict(options)
+    for name, value in options.items():
+        if isinstance(value, os.PathLike):
+            made[name] = os.fsdecode(value)
+        elif name == "camera" and value is not None and not isinstance(value, str):
+            made[name] = text_of(np.ravel(value))
+        elif name in _TEXTS:
+            made[name] = text_of(value)
+    return made
+
+
+def text_of(value: Any) -> Any:
+    """Returns numbers as a text: those of a row with commas, rows with semicolons; anything else as it is."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
+        return repr(float(value))
+    if not isinstance(value, (list, tuple)):
+        return value
+    has_rows = any(isinstance(each, (list, tuple)) for each in value)
+    parts = [text_of(each) for each in value]
+    wrong = [part for part in parts if not isinstance(part, str)]
+    if wrong:
+        raise TypeError(f"expected numbers, found {type(wrong[0]).__name__}")
+    return (";" if has_rows else ",").join(parts)
+
+
+def _annotation(row: Mapping[str, Any]) -> Any:
+    if "min" in row or row["unit"] in ("R", "N"):
+        return Union[float, str, None] if row["unit"] == "MM" else Union[float, None]
+    has_numbers = row["unit"] in ("SIDE", "X,Y,Z", "X0,Y0,X1,Y1", "NOISE", "X,Y;..")
+    return Any if has_numbers else Union[str, None]
+
+
+def _parameters(known: Sequence[str]) -> list[inspect.Parameter]:
+    types = {row["keyword"]: _annotation(row) for row in TABLE}
+    types["stream_above_mb"] = Union[float, None]
+    return [
+        inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=None, annotation=types.get(name, Any))
+        for name in known
+    ]
+
+
+def _help(known: Sequence[str]) -> str:
+    lines = []
+    for row in TABLE:
+        if row["keyword"] not in known:
+            continue
+        words = f"; {', '.join(row['choices'])}" if "choices" in row else ""
+        ends = f" [{row['min']:g} to {row['max']:g}]" if "min" in row else ""
+        default = row["default_text"]
+        default = f"{default:g}" if isinstance(default, float) else default
+        lines.append(f"    {row['keyword']}: {row['help']}{words}{ends}; default: {default}")
+    lines += [f"    {name}: {_EXTRA_HELP[name]}" for name in known if name in _EXTRA_HELP]
+    return "\n".join(lines)
+
+
+def with_keywords(known: Sequence[str]) -> Callable[[Function], Function]:
+    """Gives a function that takes **options the signature and the docstring that name each of them."""
+
+    def decorate(function: Function) -> Function:
+        signature = inspect.signature(function)
+        own = [p for p in signature.parameters.values() if p.kind is not inspect.Parameter.VAR_KEYWORD]
+        function.__signature__ = signature.replace(parameters=own + _parameters(known))  # type: ignore[attr-defined]
+        function.__doc__ = f"{inspect.cleandoc(function.__doc__ or '')}\n\nOptions:\n{_help(known)}\n"
+        return function
+
+    return decorate

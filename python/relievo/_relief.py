@@ -1,0 +1,136 @@
+"""Makes reliefs, as the command `relievo make` does."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any, Optional, Union
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _inputs, _native, _options
+
+Path = Union[str, "os.PathLike[str]"]
+Progress = Optional[Callable[[str, float], object]]
+
+
+class Relief:
+    """A finished relief: a closed solid in millimetres."""
+
+    def __init__(self, native: Any) -> None:
+        self._native = native
+        self._heights: Optional[NDArray[np.float32]] = None
+
+    @property
+    def vertices(self) -> NDArray[np.float64]:
+        """The points of the solid in millimetres, (N, 3). Not a copy; cannot be written to."""
+        return self._native.vertices()
+
+    @property
+    def faces(self) -> NDArray[np.uint32]:
+        """The triangles of the solid, (M, 3) numbers of vertices, counter-clockwise from outside. Not a copy."""
+        return self._native.faces()
+
+    @property
+    def colours(self) -> Optional[NDArray[np.uint8]]:
+        """Red, green and blue of each vertex, (N, 3), or None if the scan has none. Not a copy."""
+        return self._native.colours()
+
+    @property
+    def heights(self) -> NDArray[np.float32]:
+        """The front as heights in millimetres above its lowest point: rows from above, 1024 on the longer side."""
+        if self._heights is None:
+            self._heights = self.height_map()
+            self._heights.setflags(write=False)
+        return self._heights
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """What was made and how: the dict of the file that `relievo make --report` writes."""
+        return self._native.report()
+
+    @property
+    def remarks(self) -> list[str]:
+        """What a user should know of the scan and the relief, a line for each."""
+        return self._native.remarks()
+
+    def height_map(self, size: int = 1024) -> NDArray[np.float32]:
+        """Returns the heights with that many pixels on the longer side; 0 beside the plate."""
+        return self._native.heights(size)[0]
+
+    def preview(self, size: int = 1200, material: str = "plaster") -> NDArray[np.uint8]:
+        """Returns a picture, (rows, columns, 3): from the front and obliquely, each with `size` pixels on its longer side.
+
+        The materials are plaster, silver, bronze, walnut and porcelain, which is lit from behind.
+        """
+        return self._native.preview(size, material)
+
+    def save(
+        self,
+        solid: Optional[Path] = None,
+        *,
+        preview: Optional[Path] = None,
+        heightmap: Optional[Path] = None,
+        tool_picture: Optional[Path] = None,
+        report: Optional[Path] = None,
+        units: str = "mm",
+        heightmap_size: int = 1024,
+    ) -> None:
+        """Writes files, with the bytes that `relievo make` writes: all of them or, on any error, none.
+
+        The solid ends in .stl, .3mf, .ply or .obj, in units "mm" or "in"; the preview in .png; the height map in .png (16
+        bits) or .tif (millimetres). The tool's picture needs the option tool. The report is JSON.
+        """
+        paths = {
+            "solid": solid,
+            "preview": preview,
+            "heightmap": heightmap,
+            "tool_picture": tool_picture,
+            "report": report,
+        }
+        wanted = {name: os.fsdecode(path) for name, path in paths.items() if path is not None}
+        if not wanted:
+            raise TypeError("save() expected the path of at least one file")
+        self._native.save(wanted, units, heightmap_size)
+
+    def to_bytes(self, format: str, *, heightmap_size: int = 1024) -> bytes:
+        """Returns a file's bytes: of format stl, 3mf, ply, obj, heightmap (PNG), tiff or preview (PNG)."""
+        return self._native.to_bytes(format, heightmap_size)
+
+    def _repr_png_(self) -> bytes:
+        """Shows the relief in a notebook."""
+        return self._native.preview_png(480, "plaster")
+
+    def __repr__(self) -> str:
+        size = " x ".join(f"{mm:.4g}" for mm in self.report["size_mm"])
+        return f"<relievo.Relief {size} mm, {len(self.faces)} triangles>"
+
+
+@_options.with_keywords(_options.OF_MAKE)
+def make(
+    source: Any,
+    *,
+    normals: Any = None,
+    colours: Any = None,
+    faces: Any = None,
+    progress: Progress = None,
+    **options: Any,
+) -> Relief:
+    """Returns the relief of a scan.
+
+    source is a path of any file that `relievo make` reads, the bytes of one, an (N, 3) array of points, a 2-D depth image,
+    or an object with points, or with vertices and faces, as of Open3D and trimesh. A list of them makes one relief of
+    several models, side by side. Points may have normals and colours, (N, 3), and faces, (M, 3), which make them a mesh.
+
+    progress is called with the name of each stage and the fraction done, at last with "done" and 1. An exception that it
+    raises, and Ctrl-C, end the work and are passed on. Several threads may call this at the same time.
+    """
+    _options.check("make", options, _options.OF_MAKE)
+    sources = _inputs.sources_of(source, normals, colours, faces)
+    return Relief(_native.make(sources, _options.texts(options), progress))
+
+
+def png(picture: Any) -> bytes:
+    """Returns a picture, rows and columns of uint8 with 1, 3 or 4 channels, as the bytes of a PNG file."""
+    return _native.png(_inputs.numbers("picture", picture))

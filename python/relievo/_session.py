@@ -1,0 +1,118 @@
+"""Sweeps: one scan, prepared once, and as many reliefs of it as wanted."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _inputs, _native, _options
+from ._relief import Progress, Relief
+
+
+class Frame:
+    """One relief of a session, as heights of its points: made in milliseconds, in single precision."""
+
+    def __init__(self, native: Any) -> None:
+        self._native = native
+
+    @property
+    def heights(self) -> NDArray[np.float32]:
+        """The height of each of the session's points above the ground, in millimetres, (N,). Not a copy."""
+        return self._native.heights()
+
+    @property
+    def normals(self) -> NDArray[np.float32]:
+        """The unit normal of each point of the relief, (N, 3). Not a copy."""
+        return self._native.normals()
+
+    @property
+    def height_mm(self) -> float:
+        """The height from the lowest to the highest point, the ground included."""
+        return self._native.height_mm()
+
+    @property
+    def is_height_met(self) -> bool:
+        """False if a height was asked for that is out of reach: then the relief is as high as can be."""
+        return self._native.is_height_met()
+
+    @property
+    def u(self) -> float:
+        """The strength of the compression that was found: 0 is flat, 1 the method's own, more is higher."""
+        return self._native.u()
+
+    @property
+    def mm_per_unit(self) -> float:
+        """Millimetres per unit of the session's points, at the width asked for."""
+        return self._native.mm_per_unit()
+
+
+class Session:
+    """A scan whose visible surface is prepared, so that a change of the options takes milliseconds.
+
+    Frames show the relief alone; make() gives the solid. Several threads may use one session: their frames wait for each
+    other.
+    """
+
+    @_options.with_keywords(_options.OF_MAKE)
+    def __init__(
+        self,
+        source: Any,
+        *,
+        normals: Any = None,
+        colours: Any = None,
+        faces: Any = None,
+        progress: Progress = None,
+        **options: Any,
+    ) -> None:
+        """Prepares the scan, whose forms are those of make(). The options are the defaults of frame() and make()."""
+        _options.check("Session", options, _options.OF_MAKE)
+        sources = _inputs.sources_of(source, normals, colours, faces)
+        self._options = _options.texts(options)
+        self._native = _native.open(sources, self._options, progress)
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """The points of the surface as the viewer sees it, (N, 3): x to the right, y up, in the scan's units. Not a copy."""
+        return self._native.points()
+
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """The triangles between the points, (M, 3), which cover their convex hull. Not a copy."""
+        return self._native.triangles()
+
+    @property
+    def is_inside(self) -> NDArray[np.bool_]:
+        """Per triangle, whether it belongs to the relief rather than to the ground around and within it. Not a copy."""
+        return self._native.is_inside()
+
+    @_options.with_keywords(_options.OF_FRAME)
+    def frame(self, **options: Any) -> Frame:
+        """Returns the relief that the options shape, as heights of the session's points.
+
+        A height is met to 0.1 %. The methods are layered and paper. Draft, form, base and plate are for make().
+        """
+        _options.check("frame", options, _options.OF_FRAME)
+        return Frame(self._native.frame({**self._options, **_options.texts(options)}))
+
+    @_options.with_keywords(_options.OF_SESSION)
+    def make(self, *, progress: Progress = None, **options: Any) -> Relief:
+        """Returns the finished relief, as relievo.make() does, without preparing the scan again."""
+        _options.check("make", options, _options.OF_SESSION)
+        return Relief(self._native.make({**self._options, **_options.texts(options)}, progress))
+
+    def picture(
+        self,
+        frame: Frame,
+        *,
+        width: int = 800,
+        height: int = 600,
+        yaw_deg: float = 0.0,
+        pitch_deg: float = 0.0,
+        zoom: float = 1.0,
+        material: str = "plaster",
+        is_fine: bool = False,
+    ) -> NDArray[np.uint8]:
+        """Returns a shaded picture of a frame on its plate: (height, width, 4), red, green, blue and opacity."""
+        return self._native.picture(frame._native, width, height, yaw_deg, pitch_deg, zoom, material, is_fine)

@@ -1,0 +1,216 @@
+"""Makes reliefs of a whole catalogue of scans on many machines, with Dask distributed.
+
+    import relievo.batch
+    run = relievo.batch.run("scans", "reliefs", scheduler="tcp://head:8786", height=4, width=80)
+
+or, on a command line, `python3 -m relievo.batch scans -o reliefs --scheduler tcp://head:8786 --height 4`. Without a
+scheduler it starts workers on this machine. All machines need the program `relievo` and the same file system. The
+program lists the scans, does each of them and writes the pages (`relievo batch --list`, `--job` and `--pages`), so the
+results are those of `relievo batch`, and either can go on with what the other began. Dask hands the scans out, does
+those of a worker that dies again elsewhere, and shows the run in its dashboard.
+"""
+
+# Dask's functions have no types, and it need not be installed where types are checked.
+# mypy: disable-error-code="no-untyped-call, import"
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import shutil
+import subprocess
+import sys
+import typing
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+Record = dict[str, typing.Any]  # of one scan, as scans.jsonl has it
+Watch = typing.Callable[[Record, int, int], None]
+
+# A scan whose program was ended by the system, or that found a disk full, is tried so often in all.
+TRIES = 3
+# The name under which a worker states its memory in megabytes: dask worker --resources "relievo_mb=16000".
+RESOURCE = "relievo_mb"
+
+
+@dataclass(frozen=True)
+class Run:
+    """The outcome of a run: a record for each scan, as `scans.jsonl` has it, and the path of the page."""
+
+    records: list[Record]
+    index: str
+
+    @property
+    def made(self) -> list[Record]:
+        return [record for record in self.records if record["status"] == "made"]
+
+    @property
+    def failed(self) -> list[Record]:
+        return [record for record in self.records if record["status"] != "made"]
+
+
+class TryAgain(Exception):
+    """Tells Dask to try a scan again. The argument is the record of the failure."""
+
+
+def run(
+    source: str,
+    output: str,
+    *,
+    scheduler: typing.Any = None,
+    workers: int | None = None,
+    program: str = "relievo",
+    flags: typing.Sequence[str] = (),
+    watch: Watch | None = None,
+    **options: typing.Any,
+) -> Run:
+    """Makes reliefs of all scans of a folder or a table (CSV), and returns the outcome as a `Run`.
+
+    `scheduler` is the address of a Dask scheduler, or a `distributed.Client`; without it `workers` processes are started
+    here, by default one per processor. Options are those of `relievo batch` with underscores: `height=4`,
+    `base_image="wave.png"`, `files="stl,report"`; `flags` are further ones as they are typed. `watch(record, done,
+    count)` is called after each scan. Scans that were made before from the same contents and options are kept. A scan
+    that fails does not end the run. Raises ValueError with the program's message if options are wrong or there is no scan.
+    """
+    program = shutil.which(program) or program
+    output = os.path.abspath(output)
+    flags = [*flags, *(f"--{name.replace('_', '-')}={value}" for name, value in options.items())]
+    lines = _call([program, "batch", source, "-o", output, "--list", *flags]).splitlines()
+    with _client(scheduler, workers) as client:
+        records = list(_work(client, program, ["-o", output, *_output_flags(flags)], lines, watch))
+    # Its exit code is 1 if a scan failed, as the records say, too.
+    subprocess.run([program, "batch", source, "-o", output, "--pages", "--quiet", *flags], stderr=subprocess.DEVNULL,
+                   check=False)
+    return Run(records, os.path.join(output, "index.html"))
+
+
+def _call(command: list[str]) -> str:
+    ended = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False)
+    if ended.returncode:
+        raise ValueError(ended.stderr.strip() or f"{command[0]} ended with {ended.returncode}")
+    return ended.stdout
+
+
+def _output_flags(flags: typing.Sequence[str]) -> list[str]:
+    """Of all flags those that say what is made of a scan; its options are in the line that lists it."""
+    kept = []
+    for flag, value in zip(flags, [*flags[1:], ""]):
+        if flag.startswith("--files="):
+            kept.append(flag)
+        elif flag == "--files":
+            kept.append(f"--files={value}")
+    return kept
+
+
+@contextmanager
+def _client(scheduler: typing.Any, workers: int | None) -> typing.Iterator[typing.Any]:
+    """Yields a client of Dask; of the caller's own, nothing is closed."""
+    import cloudpickle
+    from distributed import Client, LocalCluster
+
+    # Workers on other machines need the program alone, not this module.
+    cloudpickle.register_pickle_by_value(sys.modules[__name__])
+    if isinstance(scheduler, Client):
+        yield scheduler
+    elif scheduler:
+        with Client(scheduler) as client:
+            yield client
+    else:
+        workers = workers or len(os.sched_getaffinity(0))
+        memory_mb = 0.8 * _available_mb() / workers
+        with LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            processes=True,
+            memory_limit=0,
+            dashboard_address=":0",
+            resources={RESOURCE: memory_mb},
+        ) as cluster, Client(cluster) as client:
+            yield client
+
+
+def _available_mb() -> float:
+    with open("/proc/meminfo", encoding="ascii") as file:
+        for line in file:
+            if line.startswith("MemAvailable:"):
+                return int(line.split()[1]) / 1024
+    return os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") / 2**20
+
+
+def _work(
+    client: typing.Any, program: str, flags: list[str], lines: list[str], watch: Watch | None
+) -> typing.Iterator[Record]:
+    """Has all lines done, and yields their records as they come."""
+    from distributed import as_completed
+
+    # Where workers state their memory, no more runs on one than fits. A scan that is too large for all runs alone.
+    stated = [worker.get("resources", {}).get(RESOURCE) for worker in client.scheduler_info()["workers"].values()]
+    most_mb = min(stated) if stated and all(stated) else None
+
+    def submit(line: str) -> typing.Any:
+        job = json.loads(line)
+        need = {RESOURCE: min(job["need_mb"], most_mb)} if most_mb else None
+        return client.submit(_do, program, flags, line, key=f"relief {job['name']}", retries=TRIES - 1, resources=need,
+                             pure=False)
+
+    futures = {submit(line): line for line in lines}
+    for done, future in enumerate(as_completed(futures), 1):
+        record = _record_of(future, futures[future])
+        if watch:
+            watch(record, done, len(lines))
+        yield record
+        future.release()
+
+
+def _do(program: str, flags: list[str], line: str) -> Record:
+    """Does one scan, on a worker, and returns its record."""
+    ended = subprocess.run([program, "batch", *flags, "--job", line], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                           text=True, check=False)
+    if not ended.stdout:
+        raise RuntimeError(ended.stderr.strip() or f"{program} ended with {ended.returncode}")
+    record: Record = json.loads(ended.stdout)
+    if record.get("may_succeed") and record["hash"]:
+        raise TryAgain(record)
+    return record
+
+
+def _record_of(future: typing.Any, line: str) -> Record:
+    error = future.exception()
+    if error is None:
+        made: Record = future.result()
+        return made
+    if type(error).__name__ == "TryAgain":  # the class of a worker is a copy of ours
+        failed: Record = error.args[0]
+        return failed
+    job = json.loads(line)
+    return {"name": job["name"], "file": job["file"], "status": "failed", "error": f"{type(error).__name__}: {error}"}
+
+
+def _main() -> None:
+    parser = argparse.ArgumentParser(prog="python3 -m relievo.batch", description=(__doc__ or "").split("\n")[0],
+                                     epilog="All other flags are those of relievo batch.", allow_abbrev=False)
+    parser.add_argument("source", help="a folder of scans, or a table (CSV)")
+    parser.add_argument("-o", "--output", required=True, help="folder of the reliefs and the pages about them")
+    parser.add_argument("--scheduler", help="address of a Dask scheduler; without it, workers on this machine")
+    parser.add_argument("--workers", type=int, help="number of them; default: one per processor")
+    parser.add_argument("--program", default="relievo", help="path of relievo, on all machines")
+    given, flags = parser.parse_known_args()
+
+    def watch(record: Record, done: int, count: int) -> None:
+        if record["status"] != "made" and not record.get("is_kept"):
+            print(f"failed: {record['name']}: {record['error']}", file=sys.stderr)
+        if done % max(1, count // 20) == 0 or done == count:
+            print(f"{done} of {count}", file=sys.stderr, flush=True)
+
+    try:
+        ended = run(given.source, given.output, scheduler=given.scheduler, workers=given.workers,
+                    program=given.program, flags=flags, watch=watch)
+    except ValueError as error:
+        sys.exit(str(error))
+    print(f"{given.output}: {len(ended.made)} reliefs, {len(ended.failed)} failed; see {ended.index}", file=sys.stderr)
+    sys.exit(1 if ended.failed else 0)
+
+
+if __name__ == "__main__":
+    _main()

@@ -1,0 +1,38 @@
+"""Builds the wheel: its native module comes from CMake, as `cmake --build build/python --target relievo_python` builds it.
+
+RELIEVO_BUILD names a build folder to use, which may have been built already; `../build/python` is made otherwise.
+"""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+from setuptools import Extension, setup
+from setuptools.command.build_ext import build_ext
+
+PROJECT = Path(__file__).resolve().parent.parent
+
+
+class CMakeBuild(build_ext):
+    def build_extension(self, ext):
+        folder = Path(os.environ.get("RELIEVO_BUILD", PROJECT / "build" / "python"))
+        if not (folder / "CMakeCache.txt").exists():
+            subprocess.run(
+                ["cmake", "-S", PROJECT, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release"]
+                + ["-DRELIEVO_PYTHON=ON", "-DRELIEVO_TESTS=OFF", "-DRELIEVO_BENCH=OFF"]
+                + [f"-DPython_EXECUTABLE={sys.executable}"],
+                check=True,
+            )
+        subprocess.run(["cmake", "--build", folder, "--target", "relievo_python"], check=True)
+        built = folder / "python" / "relievo" / Path(self.get_ext_filename(ext.name)).name
+        self.copy_file(built, self.get_ext_fullpath(ext.name))
+
+
+def version():
+    header = PROJECT / "include" / "relievo" / "core" / "version.h"
+    return re.search(r'version\[\] = "([^"]+)"', header.read_text(encoding="utf-8"))[1]
+
+
+setup(version=version(), ext_modules=[Extension("relievo._native", [])], cmdclass={"build_ext": CMakeBuild})

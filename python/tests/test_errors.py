@@ -1,0 +1,121 @@
+"""What cannot be used is refused with an exception that says what and where, and never ends the program."""
+
+import pickle
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import relievo
+from support import InFolder, scan
+
+
+class Refusals(InFolder):
+    def test_name_file_place_and_expectation(self):
+        Path("bad.xyz").write_text("1 2 3\n4 five 6\n")
+        error = self.refused("input", relievo.make, "bad.xyz")
+        self.assertEqual((error.input, error.place), ("bad.xyz", "line 2"))
+        self.assertIn("found 'five'", error.expected)
+        self.assertEqual(str(error), f"bad.xyz, line 2: {error.expected}")
+        self.assertEqual(self.refused("input", relievo.make, "none.ply").input, "none.ply")
+        self.assertEqual(self.refused("input", relievo.make, b"\x00\x01").input, "bytes")
+        self.refused("geometry", relievo.make, "scan.ply", height_mm=5000)
+        copy = pickle.loads(pickle.dumps(error))
+        self.assertEqual((str(copy), copy.place), (str(error), error.place))
+
+    def test_name_the_keyword_of_an_option(self):
+        self.assertEqual(self.refused("option", relievo.make, scan(), width_mm=-1).input, "width_mm")
+        self.assertEqual(self.refused("option", relievo.make, scan(), rim_mm=2, rim_height_mm=float("nan")).input, "rim_height_mm")
+        self.assertEqual(self.refused("option", relievo.make, scan(), height_mm="2 ells").input, "height_mm")
+        self.assertEqual(self.refused("option", relievo.make, scan(), outline="star").input, "outline")
+        self.assertEqual(self.refused("option", relievo.make, scan(), height_mm=1, alpha=2).kind, "option")
+        self.assertEqual(self.refused("option", relievo.make, scan(), base="image").input, "base")
+
+    def test_name_the_nearest_keyword(self):
+        for wrong, nearest in [("hieght_mm", "height_mm"), ("height", "height_mm"), ("rim_hight", "rim_height_mm"), ("out_line", "outline")]:
+            with self.assertRaisesRegex(TypeError, f"'{wrong}'; the nearest is '{nearest}'"):
+                relievo.make(scan(), **{wrong: 1})
+
+    def test_are_type_errors_for_wrong_types(self):
+        for wrong in [5, None, object(), lambda: 0]:
+            with self.assertRaises(TypeError):
+                relievo.make(wrong)
+        for options in [{"height_mm": [1]}, {"height_mm": True}, {"outline": 5j}, {"saturation": "much"}, {"camera": 1j}]:
+            with self.assertRaises(TypeError, msg=options):
+                relievo.make(scan(), **options)
+        with self.assertRaises(TypeError):
+            relievo.make("scan.ply", normals=scan().normals)
+
+    def test_of_arrays(self):
+        points, normals = scan().points, scan().normals
+        with_nan, with_zero = points.copy(), normals.copy()
+        with_nan[7, 1], with_zero[9] = np.nan, 0
+        cases = [
+            ("shape", "source", points[:, :2], {}),
+            ("shape", "points", points[:0], {}),
+            ("shape", "points", points.ravel(), {}),
+            ("shape", "points", np.zeros((2, 3, 3)), {}),
+            ("shape", "points", np.array(3.0), {}),
+            ("dtype", "points", points.astype(complex), {}),
+            ("dtype", "points", points.astype(object), {}),
+            ("dtype", "points", points.astype("U9"), {}),
+            ("dtype", "points", points > 0, {}),
+            ("row 7", "points", with_nan, {}),
+            ("shape", "normals", points, {"normals": normals[:-1]}),
+            ("row 9", "normals", points, {"normals": with_zero}),
+            ("shape", "colours", points, {"colours": np.zeros((len(points), 2), "u1")}),
+            ("dtype", "colours", points, {"colours": np.zeros((len(points), 3), "i8")}),
+            ("row 0", "colours", points, {"colours": points * 0 + 2}),
+            ("row 0", "faces", points, {"faces": [[0, 1, len(points)]]}),
+            ("row 0", "faces", points, {"faces": [[0, 1, -1]]}),
+            ("dtype", "faces", points, {"faces": [[0.0, 1, 2]]}),
+            ("shape", "faces", points, {"faces": np.zeros((0, 3), int)}),
+            ("", "faces", points, {"faces": [[1, 1, 1]]}),
+        ]
+        for place, name, array, extras in cases:
+            with self.subTest(place=place, name=name, shape=array.shape, dtype=array.dtype):
+                error = self.refused("input", relievo.make, array, height_mm=3, **extras)
+                self.assertEqual((error.input, error.place), (name, place))
+        self.refused("geometry", relievo.make, points[:1].repeat(100, axis=0))
+        self.refused("geometry", relievo.make, points[:3])
+        self.refused("input", relievo.make, SimpleNamespace(points=[]))
+        self.refused("input", relievo.make, [[1, 2, 3], [4, 5]])
+        self.refused("input", relievo.make, [])
+        self.refused("geometry", relievo.make, np.full((20, 20), np.nan))
+        self.refused("geometry", relievo.make, np.full((20, 20), np.inf))
+        self.refused("input", relievo.make, np.zeros((20, 5)))
+
+    def test_are_none_for_what_can_be_read(self):
+        points = np.array(scan().points)
+        points.setflags(write=False)
+        strided = np.zeros((len(points), 6))[:, ::2]
+        strided[:] = points
+        wanted = relievo.make(points, height_mm=3, resolution_mm=0.5).to_bytes("stl")
+        packed = np.zeros(len(points), np.dtype([("x", "u1"), ("p", "f8", 3)]))
+        packed["p"] = points  # not aligned
+        for array in [strided, points[::-1][::-1], packed["p"], np.ma.array(points), points.tolist()]:
+            self.assertEqual(relievo.make(array, height_mm=3, resolution_mm=0.5).to_bytes("stl"), wanted)
+        self.refused("input", relievo.make, np.ma.masked_less(points, 0))
+
+    def test_of_strange_paths(self):
+        self.assertEqual(self.refused("input", relievo.make, b"no\xffsuch".decode("utf-8", "surrogateescape")).kind, "input")
+        name = "scan-\udcff.ply"
+        Path("scan.ply").rename(name)
+        self.assertIn("models", relievo.make(name, height_mm=3, resolution_mm=0.5).report)
+
+    def test_of_pictures_and_files(self):
+        relief = relievo.make(scan(), height_mm=3, resolution_mm=0.5)
+        self.refused("option", relief.preview, 0)
+        self.refused("option", relief.preview, 100, "gold")
+        self.refused("option", relief.height_map, -1)
+        self.refused("option", relief.to_bytes, "docx")
+        self.refused("option", relief.save, "a.docx")
+        self.refused("option", relief.save, "a.stl", units="ell")
+        self.refused("option", relief.save, "a.stl", heightmap_size=1)
+        self.refused("option", relief.save, tool_picture="a.png")
+        with self.assertRaises(TypeError):
+            relief.height_map("large")
+
+
+if __name__ == "__main__":
+    unittest.main()

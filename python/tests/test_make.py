@@ -1,0 +1,175 @@
+"""Reliefs have the bytes that the command line writes, whatever they are made of."""
+
+import json
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+from relievo import Error
+from support import InFolder, make, scan, still_life
+
+# Flags of the command line, and the same options in Python.
+OPTIONS = [
+    (["--height", 4, "--width", 80], {"height_mm": 4, "width_mm": 80}),
+    (["--saturation", 2, "--detail", 0.05], {"saturation": 2, "detail": 0.05}),
+    (["--height", "1/8in", "--width", "3in"], {"height_mm": "1/8in", "width_mm": "3in"}),
+    (
+        ["--height", 1, "--width", 30, "--outline", "circle", "--rim", 1.5, "--rim-height", 1, "--draft", 20],
+        {"height_mm": 1, "width_mm": 30, "outline": "circle", "rim_mm": 1.5, "rim_height_mm": 1, "draft_deg": 20},
+    ),
+    (
+        ["--height", 3, "--view", "1,0,3", "--up", "0,1,0", "--crop", "0,0.2,1,1", "--tone", "0,1;0.5,0.4;1,0.3"],
+        {"height_mm": 3, "view": (1, 0, 3), "up": [0, 1, 0], "crop": (0, 0.2, 1, 1), "tone": [(0, 1), (0.5, 0.4), (1, 0.3)]},
+    ),
+    (
+        ["--height", 2, "--method", "linear", "--form", "die", "--tolerance", 0.05, "--denoise", 0],
+        {"height_mm": 2, "method": "linear", "form": "die", "tolerance_mm": 0.05, "denoise": 0},
+    ),
+    (["--height", 3, "--outline", "none", "--mode", "subspace"], {"height_mm": 3, "outline": "none", "mode": "subspace"}),
+]
+
+
+class SameBytes(InFolder):
+    def same(self, flags, relief, inputs=("scan.ply",), solid="relief.stl"):
+        self.command("make", *inputs, "-o", solid, "--resolution", 0.5, *flags)
+        relief.save("python-" + solid)
+        self.assertEqual(Path("python-" + solid).read_bytes(), Path(solid).read_bytes())
+
+    def test_for_all_options(self):
+        for flags, options in OPTIONS:
+            with self.subTest(options=options):
+                self.same(flags, make("scan.ply", **options))
+
+    def test_in_all_files(self):
+        outputs = ["--preview", "a.png", "--heightmap", "a.tif", "--tool-picture", "tool.png", "--report", "a.json"]
+        flags = ["--wrap", "cylinder:diameter=60", "--resolution", "0.5mm", "--units", "in", *outputs]
+        self.command("make", "scan.ply", "-o", "a.3mf", *flags, "--tool", "ball:1mm", "--width", "60mm", "--height", "3mm")
+        relief = make("scan.ply", height_mm=3, width_mm=60, wrap="cylinder:diameter=60", tool="ball:1")
+        relief.save(
+            "b.3mf", preview="b.png", heightmap="b.tif", tool_picture="b-tool.png", report="b.json", units="in"
+        )
+        for a, b in [("a.3mf", "b.3mf"), ("a.png", "b.png"), ("a.tif", "b.tif"), ("tool.png", "b-tool.png")]:
+            self.assertEqual(Path(b).read_bytes(), Path(a).read_bytes(), b)
+        a, b = json.loads(Path("a.json").read_text()), json.loads(Path("b.json").read_text())
+        del a["seconds"], b["seconds"]
+        self.assertEqual(b, a)
+
+    def test_of_arrays_and_objects(self):
+        points, normals = scan().points, scan().normals
+        forms = {
+            "bytes": lambda: make(Path("scan.ply").read_bytes(), height_mm=3),
+            "pathlib": lambda: make(Path("scan.ply"), height_mm=3),
+            "float32": lambda: make(points.astype(np.float32), normals=normals, height_mm=3),
+            "columns": lambda: make(np.asfortranarray(points.astype("f4")), normals=normals, height_mm=3),
+            "big endian": lambda: make(points.astype(">f4"), normals=normals.astype(">f8"), height_mm=3),
+            "cloud": lambda: make(
+                SimpleNamespace(points=points.astype(np.float32).tolist(), normals=normals, colors=[]), height_mm=3
+            ),
+        }
+        self.command("make", "scan.ply", "-o", "a.stl", "--height", 3, "--resolution", 0.5)
+        for name, form in forms.items():
+            with self.subTest(name):
+                self.assertEqual(form().to_bytes("stl"), Path("a.stl").read_bytes())
+
+    def test_of_meshes(self):
+        relief = make("scan.ply", height_mm=8, width_mm=40)
+        relief.save("mesh.ply")
+        mesh = SimpleNamespace(vertices=relief.vertices.astype(np.float32), faces=relief.faces)
+        made = make(mesh, height_mm=2, points=5000)
+        self.same(["--height", 2, "--points", 5000], made, ["mesh.ply"])
+        given = make(mesh.vertices, faces=mesh.faces.astype(np.int64), height_mm=2, points=5000)
+        self.assertEqual(given.to_bytes("stl"), made.to_bytes("stl"))
+
+    def test_of_depth_images(self):
+        make("scan.ply", height_mm=10, width_mm=60).save(heightmap="depth.tif", heightmap_size=200)
+        self.same(
+            ["--height", 2, "--depth-values", "height", "--points", 4000],
+            make("depth.tif", height_mm=2, depth_values="height", points=4000),
+            ["depth.tif"],
+        )
+        heights = make("scan.ply", height_mm=10, width_mm=60).height_map(200)
+        self.same(
+            ["--height", 2, "--depth-values", "height", "--points", 4000, "--base-image", "depth.tif"],
+            make(heights, height_mm=2, depth_values="height", points=4000, base_image=heights),
+            ["depth.tif"],
+        )
+
+    def test_of_several_inputs(self):
+        flags = ["--height", 3, "--points", 8000]
+        self.same(flags, make(["scan.ply", "other.ply"], height_mm=3, points=8000), ["scan.ply", "other.ply"])
+        mixed = make([scan().points.astype("f4"), "other.ply"], height_mm=3, points=8000)
+        self.assertEqual(mixed.report["models"][1]["file"], "other.ply")
+        scene = {"models": [{"file": "scan.ply", "rotate": [0, 30, 0]}, {"file": "other.ply", "scale": 0.5}]}
+        Path("scene.json").write_text(json.dumps(scene))
+        self.same(flags, make("scene.json", height_mm=3, points=8000), ["scene.json"])
+
+    def test_of_a_project(self):
+        Path("work.relievo").write_text(
+            json.dumps({"relievo": 1, "input": {"path": "scan.ply"}, "options": {"height": 3, "rim": 2}})
+        )
+        self.same(["--rim", 1], make("work.relievo", rim_mm=1), ["work.relievo"])
+        self.same(["--alpha", 3], make("work.relievo", alpha=3), ["work.relievo"])
+
+
+class Results(InFolder):
+    @classmethod
+    def setUpClass(cls):
+        cls.relief = make(still_life(), height_mm=3, width_mm=50)
+
+    def test_are_arrays(self):
+        relief = self.relief
+        self.assertEqual((relief.vertices.dtype, relief.faces.dtype), (np.float64, np.uint32))
+        self.assertLess(relief.faces.max(), len(relief.vertices))
+        corners = relief.vertices[relief.faces]
+        volume = np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6
+        self.assertTrue(0 < volume < np.prod(relief.report["size_mm"]))
+        self.assertEqual(relief.heights.shape[1] if relief.heights.shape[1] > relief.heights.shape[0] else 1024, 1024)
+        self.assertAlmostEqual(float(relief.heights.max()), 3, places=2)
+        self.assertEqual(max(relief.height_map(100).shape), 100)
+        self.assertAlmostEqual(relief.report["height_mm"], 3)
+        self.assertIn("triangles", repr(relief))
+
+    def test_are_not_copied_and_outlive_the_relief(self):
+        relief = make(scan(), height_mm=3)
+        vertices, faces = relief.vertices, relief.faces
+        self.assertTrue(np.shares_memory(vertices, relief.vertices))
+        before = vertices.copy(), faces.copy()
+        del relief
+        self.assertTrue(np.array_equal(vertices, before[0]) and np.array_equal(faces, before[1]))
+        with self.assertRaises(ValueError):
+            vertices[0] = 0
+
+    def test_are_pictures(self):
+        picture = self.relief.preview(200, material="bronze")
+        self.assertEqual((picture.shape[2], picture.dtype), (3, np.uint8))
+        self.assertTrue(self.relief._repr_png_().startswith(b"\x89PNG"))
+
+    def test_have_colours_if_the_scan_has(self):
+        self.assertIsNone(self.relief.colours)
+        red = np.tile(np.array([1.0, 0, 0]), (len(scan()), 1))
+        coloured = make(scan().points, normals=scan().normals, colours=red, height_mm=3)
+        self.assertEqual(coloured.colours.shape, coloured.vertices.shape)
+        self.assertEqual(coloured.colours.max(axis=0).tolist()[0], 255)
+        same = make(
+            scan().points, normals=scan().normals, colours=np.uint8([255, 0, 0, 9]) + np.zeros_like(red[:, [0] * 4], "u1"),
+            height_mm=3,
+        )
+        self.assertEqual(same.to_bytes("ply"), coloured.to_bytes("ply"))
+
+    def test_are_saved_all_or_none(self):
+        Path("old.stl").write_text("old")
+        with self.assertRaises(Error):
+            self.relief.save("old.stl", preview="no/such/folder/p.png")
+        self.assertEqual(Path("old.stl").read_text(), "old")
+        relief = make("scan.ply", height_mm=3)
+        error = self.refused("option", relief.save, "scan.ply")
+        self.assertEqual(error.expected, "expected different files for input and outputs")
+        with self.assertRaises(TypeError):
+            relief.save()
+        for format in ["stl", "3mf", "ply", "obj", "heightmap", "tiff", "preview"]:
+            self.assertGreater(len(relief.to_bytes(format, heightmap_size=64)), 100)
+
+
+if __name__ == "__main__":
+    unittest.main()
