@@ -4,7 +4,9 @@
 option(RELIEVO_UNITY "Compile the sources of a folder together" ON)
 
 # False alarms of g++ 12, which sees through <string> where that is precompiled; programs and tests are built with these.
-set(RELIEVO_FALSE_ALARMS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  set(RELIEVO_FALSE_ALARMS -Wno-array-bounds -Wno-restrict -Wno-stringop-overflow -Wno-stringop-overread)
+endif()
 
 # relievo_precompile(TARGET HEADER...) precompiles cmake/precompiled.h and the given headers for the target;
 # relievo_precompile(TARGET REUSE_FROM OTHER) takes what was precompiled for another target with the same options.
@@ -23,7 +25,7 @@ function(relievo_unite target size)
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   # These two warnings mistake names in the anonymous namespaces of two sources for one; builds without unity have them.
-  target_compile_options(${target} PRIVATE -Wno-shadow -Wno-subobject-linkage)
+  target_compile_options(${target} PRIVATE -Wno-shadow $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   get_target_property(sources ${target} SOURCES)
   set(group 0)
   set(in_group 0)

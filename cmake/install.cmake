@@ -1,0 +1,79 @@
+# Installs the library with its headers, and the program. Everything finds its parts by paths relative to its own place,
+# so an installed tree may be moved.
+
+# As Meson does, libraries go where Debian has them, which its linker, CMake and pkg-config search under any prefix.
+if(EXISTS /etc/debian_version AND CMAKE_LIBRARY_ARCHITECTURE AND NOT DEFINED CMAKE_INSTALL_LIBDIR)
+  set(CMAKE_INSTALL_LIBDIR lib/${CMAKE_LIBRARY_ARCHITECTURE} CACHE PATH "Folder of libraries below the prefix")
+endif()
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(RELIEVO_CMAKE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/relievo)
+
+# relievo_install_library(TARGET static|shared) installs it with the CMake file that describes it.
+function(relievo_install_library target kind)
+  set_property(TARGET ${target} APPEND PROPERTY
+    INTERFACE_INCLUDE_DIRECTORIES $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  install(TARGETS ${target} EXPORT relievo_${kind}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
+  install(EXPORT relievo_${kind} FILE relievo_${kind}.cmake NAMESPACE relievo:: DESTINATION ${RELIEVO_CMAKE_FOLDER}
+    COMPONENT development)
+endfunction()
+
+# A static library leaves the libraries it calls to those who link it; a shared one does not.
+set(private_libraries "libpng libtiff-4 liblzf libzip")
+if(BUILD_SHARED_LIBS)
+  relievo_install_library(relievo shared)
+else()
+  relievo_install_library(relievo static)
+  if(RELIEVO_BOTH_LIBRARIES)
+    relievo_install_library(relievo_shared shared)
+  endif()
+endif()
+if(BUILD_SHARED_LIBS OR RELIEVO_BOTH_LIBRARIES)
+  set(RELIEVO_PC_REQUIRES "eigen3\nRequires.private: ${private_libraries}")
+  set(RELIEVO_PC_LIBS "-lrelievo\nLibs.private: -pthread")
+else()
+  set(RELIEVO_PC_REQUIRES "eigen3 ${private_libraries}")
+  set(RELIEVO_PC_LIBS "-lrelievo -pthread")
+endif()
+
+# The samples are for the program and the tests: their library is not installed.
+install(DIRECTORY include/relievo DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development
+  FILES_MATCHING PATTERN "*.h" PATTERN samples EXCLUDE)
+
+configure_package_config_file(packaging/relievoConfig.cmake.in relievoConfig.cmake
+  INSTALL_DESTINATION ${RELIEVO_CMAKE_FOLDER} NO_SET_AND_CHECK_MACRO)
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(compatibility SameMinorVersion)
+else()
+  set(compatibility SameMajorVersion)
+endif()
+write_basic_package_version_file(relievoConfigVersion.cmake COMPATIBILITY ${compatibility})
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/relievoConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/relievoConfigVersion.cmake
+  DESTINATION ${RELIEVO_CMAKE_FOLDER} COMPONENT development)
+
+file(RELATIVE_PATH RELIEVO_PC_PREFIX /prefix/${CMAKE_INSTALL_LIBDIR}/pkgconfig /prefix)
+configure_file(packaging/relievo.pc.in relievo.pc @ONLY)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/relievo.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+  COMPONENT development)
+
+# The program writes its own man pages and completion scripts.
+if(RELIEVO_PROGRAM)
+  set(share ${CMAKE_CURRENT_BINARY_DIR}/share)
+  add_custom_command(OUTPUT ${share}/man/man1/relievo.1
+    COMMAND ${CMAKE_COMMAND} -E rm -rf ${share}
+    COMMAND relievo_cli options --share ${share}
+    DEPENDS relievo_cli VERBATIM)
+  add_custom_target(relievo_share ALL DEPENDS ${share}/man/man1/relievo.1)
+
+  install(TARGETS relievo_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT program)
+  install(DIRECTORY ${share}/ DESTINATION ${CMAKE_INSTALL_DATAROOTDIR} COMPONENT program)
+  install(FILES packaging/relievo.desktop DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/applications COMPONENT program)
+  install(FILES packaging/relievo.xml DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/mime/packages COMPONENT program)
+  install(FILES apps/studio/page/icon.svg RENAME relievo.svg
+    DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/icons/hicolor/scalable/apps COMPONENT program)
+endif()
+if(RELIEVO_PROGRAM AND RELIEVO_BOTH_LIBRARIES)
+  include(cmake/debian_packages.cmake)
+endif()

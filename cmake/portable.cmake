@@ -1,0 +1,18 @@
+# The target relievo_portable is the program without any shared library, glibc included: one file for every Linux of the
+# processor. It is linked from the objects of the program, and from the static libraries of Debian and of
+# scripts/build-static-libraries; without the latter there is no such target.
+set(RELIEVO_STATIC_LIBRARIES ${PROJECT_SOURCE_DIR}/build/static CACHE PATH "Folder of scripts/build-static-libraries")
+if(NOT EXISTS ${RELIEVO_STATIC_LIBRARIES}/libcpp-httplib.a)
+  message(STATUS "scripts/build-static-libraries has not run: there is no target relievo_portable")
+  return()
+endif()
+
+add_executable(relievo_portable EXCLUDE_FROM_ALL $<TARGET_OBJECTS:relievo_cli> packaging/no_jbig.cpp)
+relievo_compiler_options(relievo_portable)
+target_link_options(relievo_portable PRIVATE -static -Wl,--gc-sections -s)
+add_dependencies(relievo_portable relievo_app)
+target_link_directories(relievo_portable PRIVATE ${RELIEVO_STATIC_LIBRARIES})
+target_link_libraries(relievo_portable PRIVATE
+  $<TARGET_FILE:relievo_app> $<TARGET_FILE:relievo_samples> $<TARGET_FILE:relievo>
+  cpp-httplib ssl crypto brotlienc brotlidec brotlicommon zip lzf
+  png16 tiff webp Lerc zstd lzma jpeg deflate z)
