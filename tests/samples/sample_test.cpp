@@ -237,7 +237,10 @@ TEST(MakeSample, NamesTheSamplesItKnows) {
 
 TEST(MakeSample, RefusesOptionsOutOfRange) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const auto error_of = [](const SampleOptions& options) { return make_sample("shell", options).error(); };
+  const auto error_of = [](const SampleOptions& options) {
+    const auto sample = make_sample("shell", options);
+    return sample ? Error{} : sample.error();
+  };
   for (const std::size_t points : {std::size_t{0}, std::size_t{999}, std::size_t{100000001}}) {
     EXPECT_EQ(error_of({points, 0.15}).input, "points");
     EXPECT_EQ(error_of({points, 0.15}).kind, ErrorKind::option);
