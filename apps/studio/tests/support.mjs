@@ -93,6 +93,18 @@ export class EngineProcess {
   }
 }
 
+// Repeats a check until it no longer throws, for 10 seconds: what a page shows follows its events a little later.
+export async function eventually(check) {
+  for (const end = Date.now() + 10000; ;) {
+    try {
+      return await check();
+    } catch (error) {
+      if (Date.now() > end) throw error;
+    }
+    await new Promise((resolve) => setTimeout(resolve, 50));
+  }
+}
+
 // Returns Chromium's driver and path, or a text that says what is missing.
 export async function findBrowser() {
   const executablePath = CHROMIUM.find((candidate) => candidate && existsSync(candidate));
