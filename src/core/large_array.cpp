@@ -15,7 +15,7 @@ LargeArray make_large_array(std::size_t floats) {
   const std::size_t rounded = (bytes / alignment + 1) * alignment;
   void* array = std::aligned_alloc(alignment, rounded);
   if (array == nullptr) {
-    // As operator new does: a program may have set a handler that ends it in order.
+    // A program may have set a handler that ends it in order; operator new calls it, too.
     if (const std::new_handler handler = std::get_new_handler()) handler();
     throw std::bad_alloc();
   }

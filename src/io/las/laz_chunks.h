@@ -1,4 +1,4 @@
-// Where the chunks of compressed points are in a LAZ file, and what their points consist of.
+// Finds the chunks of compressed points of a LAZ file, and the items that their points consist of.
 #pragma once
 
 #include <cstdint>
