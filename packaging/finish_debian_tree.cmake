@@ -1,5 +1,6 @@
 # CPack runs this on the folders of the packages before it packs them. It adds what Debian wants of every package,
-# compresses man pages, and gives every file one time, so that the same version makes the same bytes.
+# compresses man pages, and gives every file one time and the usual permissions, so that the same version makes the same
+# bytes.
 set(epoch $ENV{SOURCE_DATE_EPOCH})
 if(NOT epoch)
   execute_process(COMMAND git -C ${CPACK_RELIEVO_SOURCE} log -1 --format=%ct OUTPUT_VARIABLE epoch
@@ -22,5 +23,6 @@ foreach(component IN LISTS CPACK_COMPONENTS_ALL)
   if(pages)
     execute_process(COMMAND gzip -9n ${pages} COMMAND_ERROR_IS_FATAL ANY)
   endif()
+  execute_process(COMMAND chmod -R u=rwX,go=rX ${root} COMMAND_ERROR_IS_FATAL ANY)
   execute_process(COMMAND find ${root} -exec touch -h -d @${epoch} {} + COMMAND_ERROR_IS_FATAL ANY)
 endforeach()

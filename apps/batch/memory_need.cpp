@@ -18,9 +18,10 @@ namespace fs = std::filesystem;
 
 constexpr double mb = 1 << 20;
 
-// The figures are upper bounds of measurements (docs/capacity.md). The solid has about half a million samples however
-// small the scan is; a point of a cloud costs what reading, preparing and sampling it cost together.
-constexpr double least_mb = 140, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
+// The figures are upper bounds of measurements (docs/capacity.md). However small the scan is, the blur of normals may have
+// 2^24 cells of 12 bytes, and the solid about half a million samples; a point of a cloud costs what reading, preparing and
+// sampling it cost together.
+constexpr double least_mb = 220, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,
                  bytes_per_visible_point = 900, streaming_mb = 40, bytes_per_streamed_point = 480;
 
 double number_or(const Options& options, const std::string& name, double otherwise) {

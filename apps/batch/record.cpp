@@ -10,6 +10,7 @@
 #include <chrono>
 #include <ctime>
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "common/files.h"
@@ -134,6 +135,22 @@ Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard
   if (::flock(file.number(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     return std::unexpected(
         Error{ErrorKind::output, outputs, {}, "expected a folder that no other run is at work in"});
+  return file;  // also where the file system has no locks
+}
+
+Result<Descriptor> lock_job(const std::string& outputs, const std::string& name) {
+  RELIEVO_CHECK(make_journal_folder(outputs));
+  const std::string path = (journals_in(outputs) / "jobs.lock").string();
+  Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");
+  // One file serves all jobs: each locks the byte that its name is hashed to, which network file systems support, too.
+  struct flock byte {};
+  byte.l_type = F_WRLCK;
+  byte.l_whence = SEEK_SET;
+  byte.l_start = static_cast<off_t>(std::hash<std::string>{}(name) >> 2);
+  byte.l_len = 1;
+  while (::fcntl(file.number(), F_OFD_SETLKW, &byte) != 0 && errno == EINTR) {
+  }
   return file;  // also where the file system has no locks
 }
 

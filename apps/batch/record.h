@@ -56,6 +56,10 @@ class Journal {
 // another run has it.
 Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard);
 
+// Waits until no other process does the job of that name, and returns a lock that makes others wait until it is destroyed.
+// Errors: kind output.
+Result<Descriptor> lock_job(const std::string& outputs, const std::string& name);
+
 // Returns this machine's name.
 std::string host_name();
 

@@ -165,7 +165,8 @@ Result<void> list(const BatchOrder& order, const BatchArguments& arguments) {
   return {};
 }
 
-// A worker may die after its work and before it says so, and another one gets the job again.
+// A worker may die while its process goes on with the job, or after its work and before it says so, and another one gets
+// the job again.
 std::optional<batch::Record> made_since_listed(const batch::Job& job, const batch::Workshop& workshop) {
   const std::string output = batch::output_name(job, workshop.kinds.front());
   if (std::error_code ignored; !fs::exists(fs::path(workshop.outputs) / output, ignored)) return std::nullopt;
@@ -179,6 +180,7 @@ Result<void> do_job(const BatchArguments& arguments) {
   const auto json = nlohmann::json::parse(arguments.job, nullptr, false);
   RELIEVO_TRY(batch::Job job, batch::job_from_json(json));
   RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
+  RELIEVO_TRY(const Descriptor lock, batch::lock_job(workshop.outputs, job.name));
   batch::Work work{std::move(job), std::nullopt, 0};
   if (json.contains("before")) work.before = batch::record_from_line(json["before"].dump());
   if (!work.before) work.before = made_since_listed(work.job, workshop);

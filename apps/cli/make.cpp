@@ -31,50 +31,23 @@ struct MakeArguments : MakeOptions {
   bool is_quiet = false;
 };
 
-// The scan of a project.
-struct ProjectScan {
-  ScanSource source;
-  std::shared_ptr<const PackedScan> packed;  // null unless the project file contains it
-};
-
 // The same arguments after parsing.
 struct MakeOrder {
   MakeArguments arguments;
   ReliefOptions relief;
   InputArguments in;
-  std::optional<ProjectScan> scan;
+  std::optional<StoredProject> project;
 };
 
 // ---------------------------------------------------------------------------------------------- arguments
 
 // Takes what a project says, but for the flags that were given.
-Result<std::optional<ProjectScan>> take_project(MakeArguments& arguments, const CLI::App& command) {
-  const std::string& input = arguments.inputs[0];
-  if (arguments.inputs.size() > 1 || ending_of(input) != "relievo") {
-    if (!arguments.scan.empty()) return option_error("scan", "expected one project to go with it");
-    return std::nullopt;
-  }
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(input));
-  RELIEVO_TRY(const ProjectFile file, unpack_project(bytes, input));
-  RELIEVO_TRY(Project project, read_project(file.text, input));
+Result<std::optional<StoredProject>> take_project(MakeArguments& arguments, const CLI::App& command) {
+  RELIEVO_TRY(std::optional<StoredProject> stored, find_project(arguments.inputs, arguments.scan));
+  if (!stored) return std::nullopt;
   const auto is_given = [&](std::string_view name) { return command.count(cat("--", name)) > 0; };
-  arguments.relief = with_given(std::move(project.options), arguments.relief, is_given);
-  return ProjectScan{project.input, arguments.scan.empty() ? file.scan : nullptr};
-}
-
-// Reads the scan of a project: from within it, from the place that the user names, or from the one that it names.
-Result<Scene> load_project_scan(const MakeOrder& order) {
-  auto [source, packed] = *order.scan;
-  if (packed) return load_scan(source, packed->bytes, packed->name);
-  const std::string& located = order.arguments.scan;
-  if (!located.empty()) source.path = std::filesystem::absolute(located).string();
-  const std::filesystem::path folder = std::filesystem::path(order.arguments.inputs[0]).parent_path();
-  Result<Scene> scene = load_input(source, folder);
-  std::error_code ignored;
-  if (!scene && located.empty() && source.sample.empty() &&
-      !std::filesystem::exists(folder / source.path, ignored))
-    scene.error().expected += cat("; name the place of ", source.name, " with --scan");
-  return scene;
+  arguments.relief = with_given(stored->project.options, arguments.relief, is_given);
+  return stored;
 }
 
 Result<MakeOrder> order_of(MakeArguments arguments, const CLI::App& command) {
@@ -82,7 +55,7 @@ Result<MakeOrder> order_of(MakeArguments arguments, const CLI::App& command) {
   RELIEVO_TRY(arguments.outputs.unit, parse_unit(arguments.units));
   arguments.outputs.heightmap_px = arguments.heightmap_px;
   arguments.outputs.preview_px = arguments.preview_px;
-  RELIEVO_TRY(order.scan, take_project(arguments, command));
+  RELIEVO_TRY(order.project, take_project(arguments, command));
   const bool has_base = command.count("--base") > 0 || arguments.relief.base != OptionTexts{}.base;
   if (!arguments.base_image.empty() && !has_base) arguments.relief.base = "image";
   RELIEVO_TRY(order.relief, parse_options(arguments.relief));
@@ -92,7 +65,7 @@ Result<MakeOrder> order_of(MakeArguments arguments, const CLI::App& command) {
   if (arguments.outputs.solid.empty())
     return option_error("output", cat("expected a file ending in ", either(solid_endings())));
   std::vector<std::string> inputs = arguments.inputs;
-  inputs.push_back(arguments.base_image);
+  inputs.insert(inputs.end(), {arguments.base_image, arguments.scan});
   RELIEVO_CHECK(check_outputs(arguments.outputs, std::move(inputs), order.relief.tool.has_value()));
   order.arguments = std::move(arguments);
   return order;
@@ -101,10 +74,10 @@ Result<MakeOrder> order_of(MakeArguments arguments, const CLI::App& command) {
 // --------------------------------------------------------------------------------------------------- work
 
 Result<SceneInput> load(const MakeOrder& order, Progress& progress) {
-  if (!order.scan)
+  if (!order.project)
     return read_scene(order.arguments.inputs, order.in, {order.relief.view, order.relief.points}, &progress);
   RELIEVO_CHECK(progress.stage("read", 0));
-  RELIEVO_TRY(Scene scene, load_project_scan(order));
+  RELIEVO_TRY(Scene scene, load_project_scan(*order.project));
   return SceneInput{std::move(scene), {}};
 }
 

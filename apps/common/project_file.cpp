@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/archive.h"
+#include "common/files.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app {
@@ -66,6 +67,34 @@ Result<std::vector<std::byte>> pack_project(std::string_view text, std::string_v
   zip_source_close(memory.get());
   if (got != static_cast<zip_int64_t>(bytes.size())) return not_packed();
   return bytes;
+}
+
+Result<std::optional<StoredProject>> find_project(const std::vector<std::string>& inputs,
+                                                  const std::string& located) {
+  if (inputs.size() != 1 || ending_of(inputs[0]) != "relievo") {
+    if (!located.empty()) return option_error("scan", "expected one project to go with it");
+    return std::nullopt;
+  }
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(inputs[0]));
+  RELIEVO_TRY(ProjectFile file, unpack_project(bytes, inputs[0]));
+  RELIEVO_TRY(Project project, read_project(file.text, inputs[0]));
+  std::string folder = std::filesystem::path(inputs[0]).parent_path().string();
+  return StoredProject{std::move(project), std::move(folder), std::move(file.scan), located};
+}
+
+Result<Scene> load_project_scan(const StoredProject& stored, const std::function<bool()>& is_unwanted) {
+  ScanSource source = stored.project.input;
+  if (!stored.located.empty()) {
+    source.path = std::filesystem::absolute(stored.located).string();
+    return load_input(source, {}, is_unwanted);
+  }
+  if (stored.packed) return load_scan(source, stored.packed->bytes, stored.packed->name, is_unwanted);
+  Result<Scene> scene = load_input(source, stored.folder, is_unwanted);
+  std::error_code ignored;
+  if (!scene && source.sample.empty() &&
+      !std::filesystem::exists(std::filesystem::path(stored.folder) / source.path, ignored))
+    scene.error().expected += cat("; name the place of ", source.name, " with --scan");
+  return scene;
 }
 
 }  // namespace relievo::app

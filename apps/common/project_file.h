@@ -1,9 +1,11 @@
 // Project files on disk: JSON alone, or a ZIP archive of the JSON and the scan. Tested by
-// apps/studio/tests/documents.test.mjs.
+// apps/studio/tests/documents.test.mjs and python/tests/test_make.py.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -31,5 +33,22 @@ Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string
 // Returns a project file with the scan, compressed. Errors: kind output if the memory is not enough.
 Result<std::vector<std::byte>> pack_project(std::string_view text, std::string_view scan_name,
                                             std::span<const std::byte> scan);
+
+// A project that was read, and where its scan is.
+struct StoredProject {
+  Project project;
+  std::string folder;                        // of its file
+  std::shared_ptr<const PackedScan> packed;  // null unless the file contains the scan
+  std::string located;                       // the place that the user names instead; empty if there is none
+};
+
+// Returns the project that the inputs are, if they are one project alone. `located` is as above. Errors: those of
+// read_file(), unpack_project() and read_project(); kind option for a located scan without a project.
+Result<std::optional<StoredProject>> find_project(const std::vector<std::string>& inputs,
+                                                  const std::string& located);
+
+// Reads its scan: from the place that the user names, from within the file, or from the place that the project names.
+// Errors: those of load_scan() and load_input().
+Result<Scene> load_project_scan(const StoredProject& stored, const std::function<bool()>& is_unwanted = {});
 
 }  // namespace relievo::app

@@ -133,11 +133,10 @@ std::vector<std::string> paths_of(const std::vector<Source>& sources) {
   return paths;
 }
 
-Result<std::optional<app::Project>> find_project(const std::vector<Source>& sources) {
-  const auto* const path = sources.size() == 1 ? std::get_if<std::string>(&sources[0]) : nullptr;
-  if (path == nullptr || app::ending_of(*path) != "relievo") return std::nullopt;
-  RELIEVO_TRY(const std::vector<std::byte> bytes, app::read_file(*path));
-  return app::read_project({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, *path);
+Result<std::optional<app::StoredProject>> find_project(const std::vector<Source>& sources,
+                                                       const std::string& located) {
+  const std::vector<std::string> paths = paths_of(sources);
+  return app::find_project(paths.size() == sources.size() ? paths : std::vector<std::string>{}, located);
 }
 
 Result<app::SceneInput> read_sources(const std::vector<Source>& sources, const app::InputArguments& arguments,

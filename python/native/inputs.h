@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/project.h"
+#include "common/project_file.h"
 #include "common/read_inputs.h"
 
 namespace relievo::python {
@@ -38,8 +38,9 @@ std::vector<Source> sources_of(const pybind11::list& list);
 std::string names_of(const std::vector<Source>& sources);
 std::vector<std::string> paths_of(const std::vector<Source>& sources);
 
-// Returns the project that the sources are, if they are one alone. Errors: those of read_project().
-Result<std::optional<app::Project>> find_project(const std::vector<Source>& sources);
+// Returns the project that the sources are, if they are one alone. Errors: those of app::find_project().
+Result<std::optional<app::StoredProject>> find_project(const std::vector<Source>& sources,
+                                                       const std::string& located);
 
 // Reads the sources, as `relievo make` reads its inputs. Errors: those of read_scene() and parse_input().
 Result<app::SceneInput> read_sources(const std::vector<Source>& sources, const app::InputArguments& arguments,

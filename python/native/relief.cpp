@@ -38,19 +38,34 @@ SharedRelief make(const py::list& sources, const py::dict& keywords, const py::o
   });
 }
 
-// Writes the files of a dict of "solid", "preview" ... and paths.
-void save(const SharedRelief& relief, const py::dict& paths, const std::string& units, int heightmap_px) {
-  app::ReliefFiles files;
-  files.heightmap_px = heightmap_px;
-  files.unit = value_or_raise(parse_unit(units));
-  if (heightmap_px < 16 || heightmap_px > 16384)
+// Raises an error unless a picture may have so many pixels on its longer side.
+void check_size(const char* keyword, int px, int most_px) {
+  constexpr int least_px = 16;
+  if (px < least_px || px > most_px)
     raise(
-        {ErrorKind::option, "heightmap_size", {}, cat("expected 16 to 16384 pixels, found ", heightmap_px)});
+        {ErrorKind::option, keyword, {}, cat("expected ", least_px, " to ", most_px, " pixels, found ", px)});
+}
+
+struct PictureSizes {
+  int heightmap_px, preview_px;
+};
+
+app::ReliefFiles files_of(const py::dict& paths, const std::string& units, PictureSizes sizes) {
+  check_size("heightmap_size", sizes.heightmap_px, 16384);
+  check_size("preview_size", sizes.preview_px, 4096);
+  app::ReliefFiles files;
+  files.heightmap_px = sizes.heightmap_px;
+  files.preview_px = sizes.preview_px;
+  files.unit = value_or_raise(parse_unit(units));
   for (const auto& [name, path] :
        {std::pair("solid", &files.solid), std::pair("preview", &files.preview),
         std::pair("heightmap", &files.heightmap), std::pair("tool_picture", &files.tool_picture),
         std::pair("report", &files.report)})
     if (paths.contains(name)) *path = path_of(paths[name]);
+  return files;
+}
+
+void save(const SharedRelief& relief, const app::ReliefFiles& files) {
   value_or_raise(unlocked([&]() -> Result<void> {
     RELIEVO_CHECK(app::check_outputs(files, relief->inputs, relief->made.report.reach.has_value()));
     RELIEVO_TRY(std::vector<app::OutputFile> made, app::relief_files(files, relief->made, relief->draft_deg));
@@ -133,10 +148,25 @@ py::object colours(const SharedRelief& relief) {
   return view_of(solid.colours.data()->data(), {std::ssize(solid.colours), 3}, relief);
 }
 
+// Returns the path of the scan of a project; empty if it is not given.
+std::string scan_path_of(const py::dict& keywords) {
+  const py::object scan = keywords.attr("get")("scan");
+  if (scan.is_none()) return {};
+  if (!py::isinstance<py::str>(scan))
+    throw py::type_error(cat("scan: expected a path, found ", Py_TYPE(scan.ptr())->tp_name));
+  return path_of(scan);
+}
+
 }  // namespace
 
 MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
-  MakeOrder order{sources_of(sources), texts_of(keywords), {}, input_arguments(keywords), {}, nullptr};
+  MakeOrder order{sources_of(sources),
+                  texts_of(keywords),
+                  {},
+                  input_arguments(keywords),
+                  {},
+                  scan_path_of(keywords),
+                  nullptr};
   for (const ReliefField& field : option_fields()) {
     const std::string keyword = keyword_of(field.name);
     if (keywords.contains(keyword) && !keywords[keyword.c_str()].is_none()) order.given.emplace(field.name);
@@ -164,24 +194,24 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<app
 }
 
 Result<Loaded> load(const MakeOrder& order, Progress& progress) {
-  RELIEVO_TRY(std::optional<app::Project> project, find_project(order.sources));
+  RELIEVO_TRY(const std::optional<app::StoredProject> stored, find_project(order.sources, order.scan_path));
+  std::optional<app::Project> project;
+  if (stored) project = stored->project;
   RELIEVO_TRY(ReliefOptions options, options_of(order, project));
-  if (!project) {
+  if (!stored) {
     RELIEVO_TRY(app::SceneInput input,
                 read_sources(order.sources, order.in, {options.view, options.points}, &progress));
     return Loaded{std::move(input), std::move(options)};
   }
   RELIEVO_CHECK(progress.stage("read", 0));
-  const std::filesystem::path path = paths_of(order.sources)[0];
-  RELIEVO_TRY(Scene scene,
-              app::load_input(project->input, path.parent_path(), [&] { return progress.is_cancelled(); }));
+  RELIEVO_TRY(Scene scene, app::load_project_scan(*stored, [&] { return progress.is_cancelled(); }));
   return Loaded{{std::move(scene), {}}, std::move(options), std::move(project)};
 }
 
 InputFacts facts_of(const MakeOrder& order, const Loaded& loaded) {
   InputFacts facts{paths_of(order.sources), loaded.input.remarks,
                    app::models_report(loaded.input.scene, loaded.options.view)};
-  facts.paths.push_back(order.base_image_path);
+  facts.paths.insert(facts.paths.end(), {order.base_image_path, order.scan_path});
   return facts;
 }
 
@@ -196,8 +226,11 @@ SharedRelief finished(MadeRelief made, const InputFacts& facts, const ReliefOpti
 
 void add_relief(py::module_& module) {
   py::class_<FinishedRelief, SharedRelief>(module, "Relief")
-      .def("save", [](const SharedRelief& r, const py::dict& paths, const std::string& units,
-                      int px) { save(r, paths, units, px); })
+      .def("save",
+           [](const SharedRelief& relief, const py::dict& paths, const std::string& units, int heightmap_px,
+              int preview_px) {
+             save(relief, files_of(paths, units, {heightmap_px, preview_px}));
+           })
       .def("to_bytes", &to_bytes)
       .def("preview", &preview)
       .def("preview_png", &preview_png)

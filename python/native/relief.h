@@ -21,7 +21,7 @@ struct MakeOrder {
   OptionTexts texts;
   std::set<std::string> given;  // names of the options that are not left to their defaults
   app::InputArguments in;
-  std::string base_image_path;
+  std::string base_image_path, scan_path;  // scan_path: of a project
   std::shared_ptr<const Image<float>> base_image;
 };
 
@@ -35,7 +35,7 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<app
 struct Loaded {
   app::SceneInput input;
   ReliefOptions options;
-  std::optional<app::Project> project = {};
+  std::optional<app::Project> project = {};  // that gives options, too
 };
 Result<Loaded> load(const MakeOrder& order, Progress& progress);
 

@@ -91,6 +91,7 @@ class Relief:
         report: Optional[Union[str, os.PathLike[str]]] = ...,
         units: str = ...,
         heightmap_size: int = ...,
+        preview_size: int = ...,
     ) -> None: ...
     def to_bytes(self, format: str, *, heightmap_size: int = ...) -> bytes: ...
     def _repr_png_(self) -> bytes: ...
@@ -146,6 +147,7 @@ class Session:
         background: Optional[str] = ...,
         camera: Any = ...,
         base_image: Any = ...,
+        scan: Any = ...,
         stream_above_mb: Optional[float] = ...,
     ) -> None: ...
     @property
@@ -265,6 +267,7 @@ def make(
     background: Optional[str] = ...,
     camera: Any = ...,
     base_image: Any = ...,
+    scan: Any = ...,
     stream_above_mb: Optional[float] = ...,
 ) -> Relief: ...
 

@@ -17,7 +17,7 @@ Function = TypeVar("Function", bound=Callable[..., Any])
 
 TABLE: list[dict[str, Any]] = _native.option_table()
 RELIEF = [row for row in TABLE if not row.get("is_of_input")]
-INPUT = [row["keyword"] for row in TABLE if row.get("is_of_input")] + ["camera", "base_image", "stream_above_mb"]
+INPUT = [row["keyword"] for row in TABLE if row.get("is_of_input")] + ["camera", "base_image", "scan", "stream_above_mb"]
 
 _TEXTS = {row["keyword"] for row in TABLE if "min" not in row and row["unit"] not in ("R", "N")}
 
@@ -31,6 +31,7 @@ OF_FRAME = [keyword for keyword in OF_MAKE if keyword in SHAPE]
 _EXTRA_HELP = {
     "camera": "of a depth image: FX,FY,CX,CY, the matrix, or a file with one of them",
     "base_image": "height map for base image: a path or a 2-D array, bright is high",
+    "scan": "of a project: the path of its scan, where it is not found",
     "stream_above_mb": "size from which binary PLY, PCD and LAS are read piece by piece; 512",
 }
 

@@ -76,11 +76,13 @@ class Relief:
         report: Optional[Path] = None,
         units: str = "mm",
         heightmap_size: int = 1024,
+        preview_size: int = 1200,
     ) -> None:
         """Writes files, with the bytes that `relievo make` writes: all of them or, on any error, none.
 
         The solid ends in .stl, .3mf, .ply or .obj, in units "mm" or "in"; the preview in .png; the height map in .png (16
-        bits) or .tif (millimetres). The tool's picture needs the option tool. The report is JSON.
+        bits) or .tif (millimetres). The sizes are of the longer side, in pixels. The tool's picture needs the option tool. The report is
+        JSON.
         """
         paths = {
             "solid": solid,
@@ -92,7 +94,7 @@ class Relief:
         wanted = {name: os.fsdecode(path) for name, path in paths.items() if path is not None}
         if not wanted:
             raise TypeError("save() expected the path of at least one file")
-        self._native.save(wanted, units, heightmap_size)
+        self._native.save(wanted, units, heightmap_size, preview_size)
 
     def to_bytes(self, format: str, *, heightmap_size: int = 1024) -> bytes:
         """Returns a file's bytes: of format stl, 3mf, ply, obj, heightmap (PNG), tiff or preview (PNG)."""

@@ -32,6 +32,8 @@ Watch = typing.Callable[[Record, int, int], None]
 TRIES = 3
 # The name under which a worker states its memory in megabytes: dask worker --resources "relievo_mb=16000".
 RESOURCE = "relievo_mb"
+# By default Dask looks at its workers fifty to a hundred times a second, which takes several percent of the processors.
+QUIET = {"distributed.worker.profile.enabled": False, "distributed.admin.tick.interval": "500ms"}
 
 
 @dataclass(frozen=True)
@@ -107,6 +109,7 @@ def _output_flags(flags: typing.Sequence[str]) -> list[str]:
 def _client(scheduler: typing.Any, workers: int | None) -> typing.Iterator[typing.Any]:
     """Yields a client of Dask; of the caller's own, nothing is closed."""
     import cloudpickle
+    import dask
     from distributed import Client, LocalCluster
 
     # Workers on other machines need the program alone, not this module.
@@ -119,7 +122,7 @@ def _client(scheduler: typing.Any, workers: int | None) -> typing.Iterator[typin
     else:
         workers = workers or len(os.sched_getaffinity(0))
         memory_mb = 0.8 * _available_mb() / workers
-        with LocalCluster(
+        with dask.config.set(QUIET), LocalCluster(
             n_workers=workers,
             threads_per_worker=1,
             processes=True,

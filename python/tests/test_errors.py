@@ -112,6 +112,7 @@ class Refusals(InFolder):
         self.refused("option", relief.save, "a.docx")
         self.refused("option", relief.save, "a.stl", units="ell")
         self.refused("option", relief.save, "a.stl", heightmap_size=1)
+        self.refused("option", relief.save, "a.stl", preview_size=5000)
         self.refused("option", relief.save, tool_picture="a.png")
         with self.assertRaises(TypeError):
             relief.height_map("large")

@@ -8,6 +8,7 @@ import sys
 import unittest
 from importlib.util import find_spec
 from pathlib import Path
+from unittest.mock import patch
 
 from support import SOURCE, InFolder
 
@@ -44,8 +45,9 @@ class Examples(InFolder):
         kernel.mkdir(parents=True)
         command = [sys.executable, "-m", "ipykernel_launcher", "-f", "{connection_file}"]
         (kernel / "kernel.json").write_text(json.dumps({"argv": command, "display_name": "this", "language": "python"}))
-        os.environ["JUPYTER_PATH"] = str(Path("share/jupyter").resolve())
-        nbclient.NotebookClient(notebook, kernel_name="this", timeout=300).execute()
+        own = {"JUPYTER_PATH": "share/jupyter", "JUPYTER_RUNTIME_DIR": "runtime", "IPYTHONDIR": "ipython"}
+        with patch.dict(os.environ, {name: str(Path(folder).resolve()) for name, folder in own.items()}):
+            nbclient.NotebookClient(notebook, kernel_name="this", timeout=600, startup_timeout=600).execute()
         shown = [output for cell in notebook.cells for output in cell.get("outputs", []) if "image/png" in output.get("data", {})]
         self.assertGreaterEqual(len(shown), 2)
 

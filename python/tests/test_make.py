@@ -1,11 +1,17 @@
 """Reliefs have the bytes that the command line writes, whatever they are made of."""
 
+import inspect
 import json
+import os
+import re
+import subprocess
 import unittest
+import zipfile
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import relievo
 from relievo import Error
 from support import InFolder, make, scan, still_life
 
@@ -42,12 +48,13 @@ class SameBytes(InFolder):
                 self.same(flags, make("scan.ply", **options))
 
     def test_in_all_files(self):
-        outputs = ["--preview", "a.png", "--heightmap", "a.tif", "--tool-picture", "tool.png", "--report", "a.json"]
+        outputs = ["--preview-size", 100, "--preview", "a.png", "--heightmap", "a.tif", "--tool-picture", "tool.png", "--report", "a.json"]
         flags = ["--wrap", "cylinder:diameter=60", "--resolution", "0.5mm", "--units", "in", *outputs]
         self.command("make", "scan.ply", "-o", "a.3mf", *flags, "--tool", "ball:1mm", "--width", "60mm", "--height", "3mm")
         relief = make("scan.ply", height_mm=3, width_mm=60, wrap="cylinder:diameter=60", tool="ball:1")
         relief.save(
-            "b.3mf", preview="b.png", heightmap="b.tif", tool_picture="b-tool.png", report="b.json", units="in"
+            "b.3mf", preview="b.png", heightmap="b.tif", tool_picture="b-tool.png", report="b.json", units="in",
+            preview_size=100,
         )
         for a, b in [("a.3mf", "b.3mf"), ("a.png", "b.png"), ("a.tif", "b.tif"), ("tool.png", "b-tool.png")]:
             self.assertEqual(Path(b).read_bytes(), Path(a).read_bytes(), b)
@@ -110,6 +117,27 @@ class SameBytes(InFolder):
         )
         self.same(["--rim", 1], make("work.relievo", rim_mm=1), ["work.relievo"])
         self.same(["--alpha", 3], make("work.relievo", alpha=3), ["work.relievo"])
+
+    def test_of_a_project_that_contains_its_scan_and_of_one_whose_scan_has_moved(self):
+        project = {"relievo": 1, "input": {"path": "gone/scan.ply"}, "options": {"height": 3}}
+        with zipfile.ZipFile("packed.relievo", "w") as archive:
+            archive.writestr("project.json", json.dumps(project))
+            archive.write("scan.ply", "scan/scan.ply")
+        self.same([], make("packed.relievo"), ["packed.relievo"])
+        Path("linked.relievo").write_text(json.dumps(project))
+        self.same(["--scan", "scan.ply"], make("linked.relievo", scan=Path("scan.ply")), ["linked.relievo"])
+        self.assertIn("--scan", self.refused("input", make, "linked.relievo").expected)
+        self.assertEqual(self.refused("option", make, "scan.ply", scan="other.ply").input, "scan")
+        with self.assertRaises(TypeError):
+            make("linked.relievo", scan=5)
+
+    def test_of_all_flags_of_the_command_line(self):
+        text = subprocess.run([os.environ["RELIEVO"], "make", "--help"], check=True, capture_output=True, text=True).stdout
+        flags = {flag.replace("-", "_") for flag in re.findall(r"^  (?:-[a-z],)?--([a-z-]+)", text, re.MULTILINE)}
+        keywords = {*inspect.signature(relievo.make).parameters, *inspect.signature(relievo.Relief.save).parameters}
+        without = flags - {re.sub("_(mm|deg|mb)$", "", keyword) for keyword in keywords}
+        # save() takes the output first, and threads are those of the whole process.
+        self.assertEqual(without, {"help", "output", "threads", "quiet"})
 
 
 class Results(InFolder):

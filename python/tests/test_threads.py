@@ -43,6 +43,8 @@ class Calls(unittest.TestCase):
         relievo.make(scan(), height_mm=3, resolution_mm=0.5)  # all is as before
 
     def test_end_with_ctrl_c(self):
+        # A shell that starts tests in the background has them ignore it.
+        self.addCleanup(signal.signal, signal.SIGINT, signal.signal(signal.SIGINT, signal.default_int_handler))
         large = relievo.sample("shell", points=300_000)
         begun = threading.Event()
 

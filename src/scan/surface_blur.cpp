@@ -26,6 +26,27 @@ void each_corner(Index cell, const Vec3f& share, const std::array<std::size_t, 3
   }
 }
 
+// Lines of cells side by side, from the first cell of the first line.
+struct Lines {
+  Vec3f* first;
+  std::size_t step, size;  // of each line: from cell to cell, and the number of cells
+};
+
+// Replaces each cell of so many lines by the sum of itself, twice, and its neighbours in the line.
+void average_lines(const Lines& lines, std::size_t count) {
+  std::vector<Vec3f> before(count, Vec3f::Zero());  // the cells before these, as they were
+  for (std::size_t along = 0; along < lines.size; ++along) {
+    Vec3f* const cells = lines.first + along * lines.step;
+    for (std::size_t j = 0; j < count; ++j) {
+      Vec3f sum = 2 * cells[j];
+      if (along > 0) sum += before[j];
+      if (along + 1 < lines.size) sum += cells[j + lines.step];
+      before[j] = cells[j];
+      cells[j] = sum;
+    }
+  }
+}
+
 }  // namespace
 
 SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(points.size()) {
@@ -47,16 +68,15 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
 }
 
 void SurfaceBlur::average_cells(std::vector<Vec3f>& cells) const {
-  std::vector<Vec3f> from(cells.size());
   std::size_t step = 1;
   for (const std::size_t size : size_) {
-    from.swap(cells);
-    parallel_for(cells.size(), [&](std::size_t i) {
-      const std::size_t along = i / step % size;
-      Vec3f sum = 2 * from[i];
-      if (along > 0) sum += from[i - step];
-      if (along + 1 < size) sum += from[i + step];
-      cells[i] = sum;
+    // Neighbouring lines are averaged together, as their cells are neighbours in memory, and in place, as the grid may
+    // be most of the memory that a relief takes.
+    const std::size_t most_lines = 256, bundles = (step + most_lines - 1) / most_lines;
+    parallel_for(cells.size() / (step * size) * bundles, [&](std::size_t i) {
+      const std::size_t first = i % bundles * most_lines;
+      average_lines({&cells[i / bundles * step * size + first], step, size},
+                    std::min(most_lines, step - first));
     });
     step *= size;
   }

@@ -35,31 +35,48 @@ def journal(output):
     return lines
 
 
-def wait_for(count, output, process):
+def wait_for(count, output, process, log):
     """Waits until the journal has so many records."""
     while len(journal(output)) < count:
         if process.poll() is not None:
-            sys.exit(f"the run ended before it could be killed, with {process.returncode}")
+            sys.exit(f"the run ended before it could be killed, with {process.returncode}: {content(log).decode()}")
         time.sleep(0.02)
 
 
-def worker_processes(parent):
-    """Returns the processes of Dask's workers below that process."""
+def processes():
+    """Returns of each process its number, its parent's and its command line."""
     found = []
     for path in glob.glob("/proc/[0-9]*/cmdline"):
         try:
             with open(path, "rb") as file:
                 command = file.read()
             with open(path.replace("cmdline", "stat"), encoding="utf-8") as file:
-                stat = file.read().rsplit(")", 1)[1].split()
+                state, parent = file.read().rsplit(")", 1)[1].split()[:2]
         except OSError:
             continue
-        if int(stat[1]) == parent and b"spawn_main" in command:
-            found.append(int(path.split("/")[2]))
+        if state != "Z":
+            found.append((int(path.split("/")[2]), int(parent), command))
     return found
 
 
-def relief_bytes(path):
+def worker_processes(parent):
+    """Returns the processes of Dask's workers below that process."""
+    return [number for number, above, command in processes() if above == parent and b"spawn_main" in command]
+
+
+def wait_for_the_end_of(workers, output):
+    """Waits until those workers and the programs that they started are gone, as they outlive the run for a moment."""
+    deadline = time.time() + 120
+    while True:
+        left = [number for number, _, command in processes() if number in workers or output.encode() in command]
+        if not left:
+            return
+        if time.time() > deadline:
+            sys.exit(f"of the run that was killed, these processes are left: {left}")
+        time.sleep(0.05)
+
+
+def content(path):
     with open(path, "rb") as file:
         return file.read()
 
@@ -79,19 +96,20 @@ def main():
         environment = {**os.environ, "OMP_NUM_THREADS": "1"}
         count = len(good) + len(bad)
 
-        first = subprocess.Popen(command, env=environment, stderr=subprocess.PIPE, start_new_session=True)
+        log = f"{folder}/log"
+        with open(log, "wb") as file:
+            first = subprocess.Popen(command, env=environment, stderr=file, start_new_session=True)
         try:
-            wait_for(count // 4, output, first)
+            wait_for(count // 4, output, first, log)
             workers = worker_processes(first.pid)
             assert len(workers) == 2, f"expected two workers, found {workers}"
             os.kill(workers[0], signal.SIGKILL)
-            wait_for(count // 2, output, first)
+            wait_for(count // 2, output, first, log)
+            workers = worker_processes(first.pid)
         finally:
             first.kill()  # kill -9: no program has a chance to put anything in order
             first.wait()
-        deadline = time.time() + 20
-        while worker_processes(first.pid) and time.time() < deadline:
-            time.sleep(0.1)
+        wait_for_the_end_of(workers, output)
         before = len(journal(output))
         assert before < count, "the run was killed too late"
 
@@ -120,7 +138,7 @@ def check(output, scans, program, good, bad, first):
     for name in good[:: max(1, len(good) // 60)]:
         subprocess.run([program, "make", f"{scans}/{name}.xyz", "-o", f"{output}/../one.stl", "--quiet",
                         *catalogue.OPTIONS], check=True)
-        assert relief_bytes(f"{output}/../one.stl") == relief_bytes(f"{output}/{name}.stl"), name
+        assert content(f"{output}/../one.stl") == content(f"{output}/{name}.stl"), name
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 """Measures what a run costs beside the reliefs: `relievo batch` and Dask against a loop of the shell.
 
     PYTHONPATH=PACKAGE overhead.py PROGRAM [--scans 40] [--rounds 5] [--points 1500] [--options "..."]
+                                   [--at-once 1|2]
 
 Each round does the same scans in turns by a loop of `relievo make` with the same options, by `relievo batch --jobs 1`,
 and, with two at a time, by `xargs -P 2` and by Dask with two workers. It prints the medians of wall-clock and processor
@@ -36,7 +37,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--points", type=int, default=1500)
     parser.add_argument("--options", default=" ".join(catalogue.OPTIONS))
-    parser.add_argument("--without-dask", action="store_true")
+    parser.add_argument("--at-once", type=int, choices=(1, 2), help="only the ways that do so many scans at a time")
     given = parser.parse_args()
     program, options = os.path.abspath(given.program), given.options
     with tempfile.TemporaryDirectory(prefix="relievo-overhead-") as folder:
@@ -45,15 +46,16 @@ def main():
             catalogue.write_scan(f"{folder}/scans/{i}.xyz", i, given.points)
         make = (f"{program} make scans/$1.xyz -o out/$1.stl --preview out/$1.png --preview-size 400 --threads 1 --quiet "
                 f"{options}")
-        ways = {
+        one_at_once = {
             "loop": f"for i in $(seq 0 {given.scans - 1}); do set -- $i; {make}; done",
             "batch --jobs 1": f"{program} batch scans -o out --jobs 1 --quiet {options}",
+        }
+        two_at_once = {
             "xargs -P 2": f"seq 0 {given.scans - 1} | xargs -P 2 -I @ sh -c 'set -- @; {make}'",
             "batch --jobs 2": f"{program} batch scans -o out --jobs 2 --quiet {options}",
+            "Dask, 2 workers": f"{sys.executable} -m relievo.batch scans -o out --workers 2 --program {program} {options}",
         }
-        if not given.without_dask:
-            ways["Dask, 2 workers"] = (f"{sys.executable} -m relievo.batch scans -o out --workers 2 --program {program} "
-                                       f"{options}")
+        ways = {**(one_at_once if given.at_once != 2 else {}), **(two_at_once if given.at_once != 1 else {})}
         found = {way: [] for way in ways}
         for _ in range(given.rounds):
             for way, command in ways.items():

@@ -204,6 +204,19 @@ TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
+TEST_F(BatchProgram, MakesAJobOnceThatTwoProcessesGet) {
+  const Outcome list = run(cat("batch scans -o out --list --match 1.ply", quick));
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  write_all(folder_ / "line", list.out);
+  const std::string job = "'" RELIEVO_CLI "' batch -o out --job \"$(cat line)\"";
+  const std::string script = cat("cd '", folder_.string(), "'; ", job, " > a & ", job, " > b; wait");
+  ASSERT_EQ(std::system(script.c_str()), 0);
+  const auto is_kept = [&](const char* name) -> bool {
+    return nlohmann::json::parse(read_all(folder_ / name))["is_kept"];
+  };
+  EXPECT_NE(is_kept("a"), is_kept("b"));
+}
+
 TEST_F(BatchProgram, TakesOptionsOfEachRow) {
   write_all(folder_ / "t.csv", "file,height,name\nscans/1.ply,1in,inch\nscans/1.ply,no number,\n");
   const Outcome outcome = run(cat("batch t.csv -o out --files obj,report --quiet", quick));
