@@ -100,7 +100,7 @@ void Actions::open(const Json& json, Response& response) {
   const Result<ScanSource> input = input_in(json);
   if (!input) return answer(response, input.error());
   const std::string id = document_of(*input);
-  documents_.open(id, json.value("tab", ""))->show(*input, view_texts(json));
+  documents_.open(id, json.value("tab", ""))->show(*input, preparation_texts(json));
   const std::lock_guard lock(storing_);
   store_.touch(id);
   answer(response, {{"document", id}});

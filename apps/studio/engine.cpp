@@ -47,7 +47,7 @@ struct ShownModel {
 
 struct Shared {
   ScanSource wanted;  // asked for last, with its view
-  ViewTexts view;
+  PreparationTexts view;
   std::shared_ptr<const ScanSource> unread;  // asked for, but not yet read
   LoadedScan scan;                           // read last
   ShownModel shown;
@@ -85,10 +85,13 @@ struct Engine::State {
   Session session;  // last: its thread uses what stands above
 
   // Prepares a view of the scan that was asked for last.
-  void prepare(const View& view) {
+  void prepare(const View& view, const PreparationTexts& texts) {
     Preparation preparation;
-    preparation.points = [this, view](Progress& progress) { return points(view, progress); };
+    preparation.points = [this, view, number = texts.points](Progress& progress) {
+      return points(view, number, progress);
+    };
     preparation.view = view;
+    preparation.mode = parse_mode(texts.mode).value_or(Mode::automatic);
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
     };
@@ -96,11 +99,11 @@ struct Engine::State {
   }
 
   // In the session's thread: returns the points that the view shows, of a scan that is read first if need be.
-  Preparation::Points points(const View& view, Progress& progress) {
+  Preparation::Points points(const View& view, double number, Progress& progress) {
     if (auto done = read(progress); !done) return std::unexpected(done.error());
     const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
     if (auto go = progress.stage("view", 0); !go) return std::unexpected(go.error());
-    return scan.seen_from(view, &progress);
+    return scan.seen_from(view, number, &progress);
   }
 
   Result<void> read(Progress& progress) {
@@ -149,16 +152,16 @@ struct Engine::State {
 Engine::Engine() : state_(std::make_unique<State>()) {}
 Engine::~Engine() = default;
 
-void Engine::open(const ScanSource& input, const ViewTexts& view) {
+void Engine::open(const ScanSource& input, const PreparationTexts& view) {
   state_->shared.with([&](Shared& s) {
     s.unread = std::make_shared<const ScanSource>(input);
     s.wanted = input;
     s.view = view;
   });
-  state_->prepare(parse_view(view).value_or(View{}));
+  state_->prepare(parse_view(view).value_or(View{}), view);
 }
 
-void Engine::show(const ScanSource& input, const ViewTexts& view) {
+void Engine::show(const ScanSource& input, const PreparationTexts& view) {
   const SessionStatus session = state_->session.status();
   const auto [is_open, has_view] = state_->shared.with(
       [&](const Shared& s) { return std::pair(is_same(s.wanted, input), s.view == view); });
@@ -168,16 +171,17 @@ void Engine::show(const ScanSource& input, const ViewTexts& view) {
     (void)choose_view(view);  // a view that cannot be read is refused by the next picture
 }
 
-Result<void> Engine::choose_view(const ViewTexts& view) {
+Result<void> Engine::choose_view(const PreparationTexts& view) {
   const Result<View> parsed = parse_view(view);
   if (!parsed) return std::unexpected(parsed.error());
+  RELIEVO_CHECK(parse_mode(view.mode));
   const LoadedScan scan = state_->scan_in_use();
   const bool is_open = state_->shared.with([&](Shared& s) {
     s.view = view;
     return scan.cloud() || s.unread;
   });
   if (!is_open) return nothing_open();
-  state_->prepare(*parsed);
+  state_->prepare(*parsed, view);
   return {};
 }
 
@@ -273,7 +277,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
   if (options.view != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
-    return option_error("mode", "expected auto, as the model was prepared");
+    return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
   const std::lock_guard lock(state_->making_mutex);
   MadePiece& last = state_->piece;
   if (last.made && last.key == key && last.model == shown.number) return last.made;

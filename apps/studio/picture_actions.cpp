@@ -27,7 +27,7 @@ std::shared_ptr<Engine> Actions::engine_of(const Json& json, Response& response)
 void Actions::view(const Json& json, Response& response) {
   const auto engine = engine_of(json, response);
   if (!engine) return;
-  const auto ok = engine->choose_view(view_texts(json));
+  const auto ok = engine->choose_view(preparation_texts(json));
   ok ? answer(response, Json::object()) : answer(response, ok.error());
 }
 
