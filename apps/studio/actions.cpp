@@ -221,7 +221,11 @@ Result<void> Actions::begin_with(const std::string& path) {
   const ScanSource input{{}, full.lexically_normal().string(), full.filename().string(), {}};
   first_ = {{"input", to_json(input)}, {"is_there", true}};
   // The page prepares a kept document in its own view.
-  if (store_.document(document_of(input)).empty()) documents_.open(document_of(input), {})->open(input, {});
+  if (store_.document(document_of(input)).empty()) {
+    PreparationTexts first_view;
+    first_view.view = "auto";
+    documents_.open(document_of(input), {})->open(input, first_view);
+  }
   return {};
 }
 

@@ -81,8 +81,8 @@ class Engine {
   // Draws the scan itself as it looks in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);
 
-  // Returns the names of the six sides, the one that shows most first.
-  Result<std::vector<std::string>> suggest_views();
+  // Returns the six sides, the best one first; see rank_views().
+  Result<std::vector<ViewGuess>> suggest_views();
 
   // Returns the finished relief as export writes it, and keeps it for the next call with these options. Errors: see
   // make_file(); kind cancelled after cancel_making().

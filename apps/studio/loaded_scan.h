@@ -21,6 +21,8 @@ class LoadedScan {
   // outliers; of meshes their corners. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
+  const Scene& scene() const { return scene_; }
+
   // Returns the number of outliers: points of clouds that lie far outside.
   std::size_t left_out() const { return left_out_; }
 

@@ -169,12 +169,14 @@ Result<Loaded> load(const MakeOrder& order, Progress& progress) {
   if (!project) {
     RELIEVO_TRY(app::SceneInput input,
                 read_sources(order.sources, order.in, {options.view, options.points}, &progress));
+    options.view = chosen_view(input.scene, options.view);
     return Loaded{std::move(input), std::move(options)};
   }
   RELIEVO_CHECK(progress.stage("read", 0));
   const std::filesystem::path path = paths_of(order.sources)[0];
   RELIEVO_TRY(Scene scene,
               app::load_input(project->input, path.parent_path(), [&] { return progress.is_cancelled(); }));
+  options.view = chosen_view(scene, options.view);
   return Loaded{{std::move(scene), {}}, std::move(options), std::move(project)};
 }
 

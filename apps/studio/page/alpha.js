@@ -21,7 +21,7 @@ export class AlphaRow {
   take() {
     const alpha = typedNumber(this.input.value, this.range, this.say);
     if (alpha === null) return this.show(this.frame);
-    this.doc.change({isHeightLocked: false, u: uOfAlpha(alpha, this.frame.beta)});
+    this.doc.change({isHeightLocked: false, u: uOfAlpha(alpha, this.doc.now.options.saturation)});
   }
 
   // Shows the alpha of a frame. Without a saturation alpha has no effect.

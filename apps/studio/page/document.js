@@ -4,10 +4,11 @@
 import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
-const START = {height: 4, method: "layered", mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
+const START = {view: "auto", height: 4, method: "layered",
+  mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.
-const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner",
+const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",
   "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "base", "wrap", "form",
   "tool", "finish", "points", "resolution", "tolerance", "triangles", "draft"];
 

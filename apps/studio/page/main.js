@@ -189,7 +189,8 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  if (!doc.now.isHeightLocked && !opened.status.busy) {
+  const {u} = doc.now, isNewest = u === null || u === frame.u; // else it was asked for before u was typed
+  if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
     const height = Math.round(frame.height_mm * 1e4) / 1e4;
     doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
     sliders.height.show(doc.now.options.height);

@@ -89,7 +89,8 @@ export class OpenDocument {
 
   // Returns whether the model is one to show: at first only that of the view that was asked for, or none can be made.
   isWanted({busy, error, shown}) {
-    return this.model > 0 || (!busy && (error || isSameView(shown, viewOf(this.doc.now))));
+    return this.model > 0 || (!busy && (error || this.doc.now.options.view === "auto" ||
+      isSameView(shown, viewOf(this.doc.now))));
   }
 
   arrive(status) {
