@@ -33,7 +33,9 @@ std::string normals_text(const Cloud& cloud) {
 
 std::string views_text(const Cloud& cloud) {
   std::string text;
-  for (const ViewGuess& guess : rank_views(cloud)) text += cat(text.empty() ? "" : ", then ", guess.name);
+  for (const ViewGuess& guess : rank_views(cloud))
+    text +=
+        cat(text.empty() ? "" : ", then ", guess.name, guess.up.empty() ? "" : cat(" with up ", guess.up));
   return text;
 }
 

@@ -42,8 +42,9 @@ Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progr
   RELIEVO_TRY(const View view, parse_view(static_cast<const ViewTexts&>(arguments)));
   const PointsWanted wanted{view};
   RELIEVO_TRY(const SceneInput input, read_scene(arguments.paths, in, wanted, progress));
-  RELIEVO_TRY(ViewSample sample, sample_for_view(input.scene, view, wanted.points, progress));
-  return SampledView{std::move(sample), view};
+  const View chosen = chosen_view(input.scene, view);
+  RELIEVO_TRY(ViewSample sample, sample_for_view(input.scene, chosen, wanted.points, progress));
+  return SampledView{std::move(sample), chosen};
 }
 
 }  // namespace relievo::app::cli

@@ -113,8 +113,17 @@ struct Finished {
   std::vector<std::string> lines;
 };
 
-Result<Finished> run(const MakeOrder& order, Progress& progress) {
-  RELIEVO_TRY(const SceneInput input, load(order, progress));
+// Chooses the view where it is still to be chosen, and says which.
+void choose_view(const Scene& scene, View& view, std::vector<std::string>& remarks) {
+  if (!view.is_best) return;
+  const ViewGuess side = best_side(scene);
+  view = chosen_view(scene, view);
+  remarks.push_back(cat("view ", side.name, side.up.empty() ? "" : cat(" with up ", side.up)));
+}
+
+Result<Finished> run(MakeOrder order, Progress& progress) {
+  RELIEVO_TRY(SceneInput input, load(order, progress));
+  choose_view(input.scene, order.relief.view, input.remarks);
   Result<MadeRelief> made = make_relief(input.scene, order.relief, &progress);
   if (!made) {
     if (made.error().input.empty()) made.error().input = joined(order.arguments.inputs);

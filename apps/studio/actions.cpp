@@ -100,7 +100,7 @@ void Actions::open(const Json& json, Response& response) {
   const Result<ScanSource> input = input_in(json);
   if (!input) return answer(response, input.error());
   const std::string id = document_of(*input);
-  documents_.open(id, json.value("tab", ""))->show(*input, view_texts(json));
+  documents_.open(id, json.value("tab", ""))->show(*input, preparation_texts(json));
   const std::lock_guard lock(storing_);
   store_.touch(id);
   answer(response, {{"document", id}});
@@ -221,7 +221,11 @@ Result<void> Actions::begin_with(const std::string& path) {
   const ScanSource input{{}, full.lexically_normal().string(), full.filename().string(), {}};
   first_ = {{"input", to_json(input)}, {"is_there", true}};
   // The page prepares a kept document in its own view.
-  if (store_.document(document_of(input)).empty()) documents_.open(document_of(input), {})->open(input, {});
+  if (store_.document(document_of(input)).empty()) {
+    PreparationTexts first_view;
+    first_view.view = "auto";
+    documents_.open(document_of(input), {})->open(input, first_view);
+  }
   return {};
 }
 

@@ -45,9 +45,18 @@ struct ShownModel {
   std::uint64_t number = 0;
 };
 
+// Returns the texts with the side that was chosen for them.
+PreparationTexts with_side(PreparationTexts texts, const std::optional<ViewGuess>& best) {
+  if (texts.view != "auto" || !best) return texts;
+  texts.view = best->name;
+  texts.up = best->up;
+  return texts;
+}
+
 struct Shared {
   ScanSource wanted;  // asked for last, with its view
-  ViewTexts view;
+  PreparationTexts view;
+  std::optional<ViewGuess> best;             // the side that was chosen for the view "auto"
   std::shared_ptr<const ScanSource> unread;  // asked for, but not yet read
   LoadedScan scan;                           // read last
   ShownModel shown;
@@ -85,22 +94,32 @@ struct Engine::State {
   Session session;  // last: its thread uses what stands above
 
   // Prepares a view of the scan that was asked for last.
-  void prepare(const View& view) {
+  void prepare(const View& view, const PreparationTexts& texts) {
     Preparation preparation;
-    preparation.points = [this, view](Progress& progress) { return points(view, progress); };
-    preparation.view = view;
+    const auto chosen = std::make_shared<View>(view);
+    preparation.points = [this, chosen, number = texts.points](Progress& progress) {
+      return points(*chosen, number, progress);
+    };
+    preparation.chosen_view = [chosen] { return *chosen; };
+    preparation.mode = parse_mode(texts.mode).value_or(Mode::automatic);
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
     };
     session.open(std::move(preparation));
   }
 
-  // In the session's thread: returns the points that the view shows, of a scan that is read first if need be.
-  Preparation::Points points(const View& view, Progress& progress) {
+  // In the session's thread: returns the points that the view shows, of a scan that is read first if need be. A view that
+  // is still to be chosen becomes that of the best side.
+  Preparation::Points points(View& view, double number, Progress& progress) {
     if (auto done = read(progress); !done) return std::unexpected(done.error());
     const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
     if (auto go = progress.stage("view", 0); !go) return std::unexpected(go.error());
-    return scan.seen_from(view, &progress);
+    if (view.is_best) {
+      const ViewGuess best = best_side(scan.scene());
+      view = chosen_view(scan.scene(), view);
+      shared.with([&](Shared& s) { s.best = best; });
+    }
+    return scan.seen_from(view, number, &progress);
   }
 
   Result<void> read(Progress& progress) {
@@ -149,35 +168,39 @@ struct Engine::State {
 Engine::Engine() : state_(std::make_unique<State>()) {}
 Engine::~Engine() = default;
 
-void Engine::open(const ScanSource& input, const ViewTexts& view) {
+void Engine::open(const ScanSource& input, const PreparationTexts& view) {
   state_->shared.with([&](Shared& s) {
     s.unread = std::make_shared<const ScanSource>(input);
     s.wanted = input;
     s.view = view;
+    s.best.reset();
   });
-  state_->prepare(parse_view(view).value_or(View{}));
+  state_->prepare(parse_view(view).value_or(View{}), view);
 }
 
-void Engine::show(const ScanSource& input, const ViewTexts& view) {
+void Engine::show(const ScanSource& input, const PreparationTexts& view) {
   const SessionStatus session = state_->session.status();
-  const auto [is_open, has_view] = state_->shared.with(
-      [&](const Shared& s) { return std::pair(is_same(s.wanted, input), s.view == view); });
+  const auto [is_open, has_view] = state_->shared.with([&](const Shared& s) {
+    return std::pair(is_same(s.wanted, input), s.view == view || with_side(s.view, s.best) == view);
+  });
   if (!is_open || session.error)
     open(input, view);
   else if (!has_view)
     (void)choose_view(view);  // a view that cannot be read is refused by the next picture
 }
 
-Result<void> Engine::choose_view(const ViewTexts& view) {
+Result<void> Engine::choose_view(const PreparationTexts& view) {
   const Result<View> parsed = parse_view(view);
   if (!parsed) return std::unexpected(parsed.error());
+  RELIEVO_CHECK(parse_mode(view.mode));
   const LoadedScan scan = state_->scan_in_use();
   const bool is_open = state_->shared.with([&](Shared& s) {
     s.view = view;
+    s.best.reset();
     return scan.cloud() || s.unread;
   });
   if (!is_open) return nothing_open();
-  state_->prepare(*parsed);
+  state_->prepare(*parsed, view);
   return {};
 }
 
@@ -195,15 +218,9 @@ EngineStatus Engine::status() const {
   const auto [stage, fraction] =
       state_->making.with([](const Making& m) { return std::pair(m.stage, m.fraction); });
   return state_->shared.with([&](const Shared& s) {
-    return EngineStatus{session.is_preparing,
-                        session.stage,
-                        session.fraction,
-                        session.error,
-                        s.shown.scan.input(),
-                        s.view,
-                        stage,
-                        fraction,
-                        s.shown.number};
+    return EngineStatus{
+        session.is_preparing,      session.stage, session.fraction, session.error, s.shown.scan.input(),
+        with_side(s.view, s.best), stage,         fraction,         s.shown.number};
   });
 }
 
@@ -246,12 +263,11 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   return picture;
 }
 
-Result<std::vector<std::string>> Engine::suggest_views() {
+Result<std::vector<ViewGuess>> Engine::suggest_views() {
   const auto cloud = state_->scan_in_use().cloud();
   if (!cloud) return nothing_open();
-  std::vector<std::string> names;
-  for (const ViewGuess& guess : rank_views(*cloud)) names.emplace_back(guess.name);
-  return names;
+  const auto ranked = rank_views(*cloud);
+  return std::vector<ViewGuess>(ranked.begin(), ranked.end());
 }
 
 Result<ExportedFile> Engine::make_file(const FileRequest& request) {
@@ -273,7 +289,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
   if (options.view != model->surface().view)
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
-    return option_error("mode", "expected auto, as the model was prepared");
+    return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
   const std::lock_guard lock(state_->making_mutex);
   MadePiece& last = state_->piece;
   if (last.made && last.key == key && last.model == shown.number) return last.made;

@@ -14,6 +14,14 @@
 
 namespace relievo::app::studio {
 
+// The options by which a scan is prepared; all others change without that.
+struct PreparationTexts : ViewTexts {
+  std::string mode = "auto";
+  double points = NumericOptions{}.points;
+
+  bool operator==(const PreparationTexts&) const = default;
+};
+
 // The engine's present work, and the scan that it is done for.
 struct EngineStatus {
   bool is_busy = false;
@@ -21,7 +29,7 @@ struct EngineStatus {
   double fraction = 0;
   std::optional<Error> error;  // of the last opening or change of view
   ScanSource input;            // of the scan that is shown
-  ViewTexts view;              // that was last asked for
+  PreparationTexts view;       // that was last asked for
   std::string making_stage;    // of the file that is being made; empty if there is none
   double making_fraction = 0;
   std::uint64_t model =
@@ -44,14 +52,14 @@ class Engine {
 
   // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
   // and for good if that fails.
-  void open(const ScanSource& input, const ViewTexts& view);
+  void open(const ScanSource& input, const PreparationTexts& view);
 
   // Does what of open() and choose_view() is needed to show the scan in that view: nothing, if it is shown already.
-  void show(const ScanSource& input, const ViewTexts& view);
+  void show(const ScanSource& input, const PreparationTexts& view);
 
   // Prepares another view of the scan that was opened last or, if that failed, of the one that is shown.
-  // Errors: those of parse_view(); kind geometry if there is no scan.
-  Result<void> choose_view(const ViewTexts& view);
+  // Errors: those of parse_view() and parse_mode(); kind geometry if there is no scan.
+  Result<void> choose_view(const PreparationTexts& view);
 
   void cancel();
 
@@ -73,8 +81,8 @@ class Engine {
   // Draws the scan itself as it looks in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);
 
-  // Returns the names of the six sides, the one that shows most first.
-  Result<std::vector<std::string>> suggest_views();
+  // Returns the six sides, the best one first; see rank_views().
+  Result<std::vector<ViewGuess>> suggest_views();
 
   // Returns the finished relief as export writes it, and keeps it for the next call with these options. Errors: see
   // make_file(); kind cancelled after cancel_making().

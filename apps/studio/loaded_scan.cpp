@@ -65,9 +65,10 @@ void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double sha
   if (has_colours) all.colours.insert(all.colours.end(), near.colours.begin(), near.colours.end());
 }
 
-Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, Progress* progress) const {
+Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, double points,
+                                                           Progress* progress) const {
   if (is_one_file() && scene_.models[0].file->mesh.empty()) return cloud_;
-  RELIEVO_TRY(const ViewSample sample, sample_for_view(scene_, view, NumericOptions{}.points, progress));
+  RELIEVO_TRY(const ViewSample sample, sample_for_view(scene_, view, points, progress));
   return sample.cloud;
 }
 

@@ -21,11 +21,14 @@ class LoadedScan {
   // outliers; of meshes their corners. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
+  const Scene& scene() const { return scene_; }
+
   // Returns the number of outliers: points of clouds that lie far outside.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns the points that the relief of that view is made of. Errors: those of sample_for_view().
-  Result<std::shared_ptr<const Cloud>> seen_from(const View& view, Progress* progress) const;
+  // Returns the points that the relief of that view is made of, about `points` of them where they are taken from meshes
+  // or scenes. Errors: those of sample_for_view().
+  Result<std::shared_ptr<const Cloud>> seen_from(const View& view, double points, Progress* progress) const;
 
  private:
   bool is_one_file() const;

@@ -27,7 +27,7 @@ std::shared_ptr<Engine> Actions::engine_of(const Json& json, Response& response)
 void Actions::view(const Json& json, Response& response) {
   const auto engine = engine_of(json, response);
   if (!engine) return;
-  const auto ok = engine->choose_view(view_texts(json));
+  const auto ok = engine->choose_view(preparation_texts(json));
   ok ? answer(response, Json::object()) : answer(response, ok.error());
 }
 
@@ -49,7 +49,10 @@ void Actions::views(const Json& json, Response& response) {
   const auto engine = engine_of(json, response);
   if (!engine) return;
   const auto views = engine->suggest_views();
-  views ? answer(response, Json{{"views", *views}}) : answer(response, views.error());
+  if (!views) return answer(response, views.error());
+  Json sides = Json::array();
+  for (const ViewGuess& side : *views) sides.push_back({{"view", side.name}, {"up", side.up}});
+  answer(response, {{"views", sides}});
 }
 
 void Actions::status(const Json& json, Response& response) {

@@ -148,10 +148,12 @@ Result<View> view_from(const Json& json) {
   return view_towards(*towards, *up);
 }
 
-ViewTexts view_texts(const Json& json) {
-  const ViewTexts none;
-  return {json.value("view", none.view), json.value("up", none.up), json.value("crop", none.crop),
-          json.value("crumbs", none.crumbs), json.value("denoise", none.denoise)};
+PreparationTexts preparation_texts(const Json& json) {
+  const PreparationTexts none;
+  return {{json.value("view", none.view), json.value("up", none.up), json.value("crop", none.crop),
+           json.value("crumbs", none.crumbs), json.value("denoise", none.denoise)},
+          json.value("mode", none.mode),
+          number(json, "points", {1000, 1e7, none.points}).value_or(none.points)};
 }
 
 Result<int> pixels_from(const Json& json) {
@@ -159,12 +161,9 @@ Result<int> pixels_from(const Json& json) {
   return wrong("pixels", "expected a number from 16 to 16384");
 }
 
-static Json to_json(const ViewTexts& texts) {
-  return {{"view", texts.view},
-          {"up", texts.up},
-          {"crop", texts.crop},
-          {"crumbs", texts.crumbs},
-          {"denoise", texts.denoise}};
+static Json to_json(const PreparationTexts& texts) {
+  return {{"view", texts.view},       {"up", texts.up},     {"crop", texts.crop},    {"crumbs", texts.crumbs},
+          {"denoise", texts.denoise}, {"mode", texts.mode}, {"points", texts.points}};
 }
 
 Json to_json(const EngineStatus& status) {

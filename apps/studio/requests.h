@@ -20,7 +20,7 @@ Result<View> view_from(const nlohmann::json& json);
 Result<int> pixels_from(const nlohmann::json& json);
 
 // Returns the texts of a view as the page sends them; those that are missing have their defaults.
-ViewTexts view_texts(const nlohmann::json& json);
+PreparationTexts preparation_texts(const nlohmann::json& json);
 
 nlohmann::json to_json(const EngineStatus& status);
 nlohmann::json to_json(const ModelFacts& facts);

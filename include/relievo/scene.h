@@ -62,6 +62,13 @@ struct PlacedModel {
 // not finite.
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
+// Returns the side of the scene that suits a relief best, see rank_views(). Several models, and a model that a pose moves,
+// stand as they are to be seen: their best side is the front.
+ViewGuess best_side(const Scene& scene);
+
+// Returns the view, turned to the best side if that is still to be chosen (View::is_best).
+View chosen_view(const Scene& scene, const View& view);
+
 // Returns the points of all models as they stand, in the scene's frame.
 // - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds come
 //   whole, without outliers.

@@ -23,7 +23,7 @@ struct SessionStatus {
       error;  // why the last preparation failed or that it was cancelled; none while one runs
 };
 
-// One model to prepare. Both functions are called in the session's own thread.
+// One model to prepare. Its functions are called in the session's own thread.
 struct Preparation {
   using Points = Result<std::shared_ptr<const Cloud>>;
   using Model = std::shared_ptr<const ReliefModel>;
@@ -31,6 +31,9 @@ struct Preparation {
   std::function<Points(Progress&)> points;  // returns the cloud; may read files and may take long
   View view = {};
   Mode mode = Mode::automatic;
+
+  // Called after points() where it is set: returns the view, if that depends on what was read.
+  std::function<View()> chosen_view = {};
 
   // Called with the model just before status() says that it is ready. It must not call the session.
   std::function<void(const Model&)> ready = {};

@@ -201,10 +201,12 @@ Result<Loaded> load(const MakeOrder& order, Progress& progress) {
   if (!stored) {
     RELIEVO_TRY(app::SceneInput input,
                 read_sources(order.sources, order.in, {options.view, options.points}, &progress));
+    options.view = chosen_view(input.scene, options.view);
     return Loaded{std::move(input), std::move(options)};
   }
   RELIEVO_CHECK(progress.stage("read", 0));
   RELIEVO_TRY(Scene scene, app::load_project_scan(*stored, [&] { return progress.is_cancelled(); }));
+  options.view = chosen_view(scene, options.view);
   return Loaded{{std::move(scene), {}}, std::move(options), std::move(project)};
 }
 

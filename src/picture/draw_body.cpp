@@ -39,6 +39,8 @@ class Painter {
         transform_(transform),
         light_(light),
         to_viewer_(transform.to_viewer()),
+        middle_(body.front.centre().head<2>().cast<float>()),
+        half_side_mm_(std::max(1e-6F, static_cast<float>(body.front.longer_side()) / 2)),
         shader_(params.material, direction_of(params.light), to_viewer_) {}
 
   // Linear; the place is in pixels of the transform.
@@ -46,6 +48,7 @@ class Painter {
     Lit lit{Vec3f::UnitZ(),
             {1, 1},
             transform_.to_body(static_cast<double>(x), static_cast<double>(y), static_cast<double>(seen.z))};
+    lit.from_middle = (lit.place.head<2>() - middle_) / half_side_mm_;
     if (seen.part == Part::wall) {
       lit.normal = (corner_normal(seen) + wall_lean * to_viewer_).normalized();
       lit.light = wall_light;
@@ -78,6 +81,8 @@ class Painter {
   const ScreenTransform& transform_;
   const LightMap& light_;
   Vec3f to_viewer_;
+  Vec2f middle_;
+  float half_side_mm_;
   Shader shader_;
 };
 

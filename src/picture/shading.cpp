@@ -31,7 +31,8 @@ const Vec3f plaster_colour(.93F, .91F, .87F);
 const Vec3f thin_porcelain(1, .965F, .89F), thick_porcelain(.62F, .33F, .16F);
 constexpr float porcelain_absorption = 1.45F;
 
-const Vec3f early_wood(.46F, .29F, .18F), late_wood(.27F, .155F, .09F), varnish(1, .93F, .82F);
+const Vec3f early_wood(.46F, .29F, .18F), late_wood(.27F, .155F, .09F), varnish(1, .93F, .82F),
+    deep_stain(.42F, .36F, .32F);
 
 float smooth_step(float from, float to, float x) {
   const float t = std::clamp((x - from) / (to - from), 0.F, 1.F);
@@ -42,35 +43,36 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
   return a + t * (b - a);
 }
 
-// x^(2^doublings)
-float sharpen(float x, int doublings) {
-  for (; doublings > 0; --doublings) x *= x;
-  return x;
-}
+// The room that metal and varnish mirror: a soft box around the lamp, a reflector on the other side, lower and dimmer,
+// walls that are bright above and dark below, and the dark of the room beside the plate. A soft box opens at the first
+// cosine and is full at the second. All were chosen by eye against photographs of medals.
+constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
+constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
+constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
 
-// Metal mirrors the lamp in small glints, the (2^doublings)th power of a cosine, and a window beside the lamp in
-// broad, soft-edged patches that open at this cosine. The shine is a mixture of the metal's colour and white.
-constexpr int glint_doublings = 4;
-constexpr float window_right = -.25F, window_up = .1F, window_front = .55F;
-constexpr float window_edge = .55F;
-constexpr float whiteness_of_shine = .35F;
-constexpr float sky_on_metal = .10F;
+// The viewer stands this many times half of the body's longer side away, so that level ground mirrors another part of the
+// room at each place and is not of one tone.
+constexpr float viewer_distance = 3.6F;
 
 // The properties by which metals differ.
 struct Metal {
-  Vec3f colour, tarnish;         // where it is open, and in hollows
-  float diffuse, window, glint;  // strengths
+  Vec3f bare, worn;       // colour where nothing covers it, and of edges that hands have polished
+  Vec3f patina;           // in hollows
+  float diffuse, mirror;  // strengths of what is scattered and of what is mirrored
+  float mottle;           // variation of the patina
 };
 
 const Metal& metal_of(Material material) {
-  static const Metal silver{{.93F, .93F, .92F}, {.20F, .20F, .22F}, .62F, .42F, .50F};
-  static const Metal bronze{{.80F, .52F, .26F}, {.13F, .10F, .06F}, .66F, .36F, .42F};
+  static const Metal silver{{.90F, .90F, .89F}, {1, .99F, .96F}, {.105F, .105F, .12F}, .34F, .70F, .06F};
+  static const Metal bronze{{.60F, .36F, .17F}, {1, .72F, .42F}, {.075F, .070F, .045F}, .46F, .74F, .16F};
   return material == Material::silver ? silver : bronze;
 }
 
-// Values in [0, 1] at the corners of a square grid that repeats, smooth in between.
-float smooth_noise(float x, float y) {
-  const auto corner = [](int i, int j) {
+// Values in [0, 1] at the corners of a square grid, smooth in between. The values repeat after `period` cells, if that
+// is positive.
+float smooth_noise(float x, float y, int period = 0) {
+  const auto corner = [period](int i, int j) {
+    if (period > 0) i %= period, j %= period;
     auto h = static_cast<std::uint32_t>(i) * 0x9E3779B1U ^ static_cast<std::uint32_t>(j) * 0x85EBCA77U;
     h = (h ^ h >> 15) * 0x2C1B3C6DU;
     return static_cast<float>((h ^ h >> 13) & 0xFFFFU) / 65535.F;
@@ -83,20 +85,89 @@ float smooth_noise(float x, float y) {
   return low + t * (high - low);
 }
 
+// Patches of patina, in [-0.75, 0.75]: noise of 3 mm and of half a millimetre, repeating after 64 mm. A table, because
+// the noise itself would take half of a picture's time.
+class Patches {
+ public:
+  Patches() : values_(static_cast<std::size_t>(side) * side) {
+    constexpr int coarse = 24, fine = 120;  // cells per side
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const float u = static_cast<float>(x) / side, v = static_cast<float>(y) / side;
+        values_[static_cast<std::size_t>(y * side + x)] = smooth_noise(u * coarse, v * coarse, coarse) +
+                                                          .5F * smooth_noise(u * fine, v * fine, fine) - .75F;
+      }
+  }
+
+  // Takes the nearest value, as they are close together.
+  float at(float x_mm, float y_mm) const {
+    constexpr float before = 1 << 20;  // makes it positive: to round it down would take a call
+    const auto index = [](float mm) {
+      return static_cast<std::size_t>(static_cast<int>(mm * per_mm + before) & (side - 1));
+    };
+    return values_[index(y_mm) * side + index(x_mm)];
+  }
+
+ private:
+  static constexpr int side = 512;  // a power of 2
+  static constexpr float per_mm = 8;
+  std::vector<float> values_;
+};
+
+const Patches& patches() {
+  static const Patches table;
+  return table;
+}
+
+// Returns the light that comes from a direction of the room, which is a unit vector.
+float light_from(const Vec3f& direction, const Vec3f& to_lamp) {
+  const Vec3f to_reflector = Vec3f(-.8F * to_lamp.x(), -.45F * to_lamp.y() - .1F, .55F).normalized();
+  const float up = smooth_step(-.8F, 1.F, direction.y() - .35F * direction.x());
+  const float walls = dark_wall + (bright_wall - dark_wall) * up;
+  const float side = darkest_side + (1 - darkest_side) * smooth_step(-.1F, .75F, direction.z());
+  return side * walls + box_light * smooth_step(box_edge, box_full, direction.dot(to_lamp)) +
+         reflector_light * smooth_step(reflector_edge, reflector_full, direction.dot(to_reflector));
+}
+
 }  // namespace
 
 Vec3f direction_of(const Vec3f& light) {
   return light.stableNormalized();
 }
 
+Room::Room(const Vec3f& to_lamp) {
+  light_.reserve((cells + 1) * (cells + 1));
+  for (int row = 0; row <= cells; ++row)
+    for (int column = 0; column <= cells; ++column) {
+      Vec2f flat(static_cast<float>(column), static_cast<float>(row));
+      flat = 2 * flat / cells - Vec2f::Ones();
+      const float length = flat.norm();
+      if (length > 1) flat /= length;
+      const Vec3f direction(flat.x(), flat.y(), std::sqrt(std::max(0.F, 1 - flat.squaredNorm())));
+      light_.push_back(light_from(direction, to_lamp));
+    }
+}
+
+float Room::operator()(const Vec2f& direction) const {
+  if (light_.empty()) return 0;
+  const auto place = [](float x) { return std::clamp((x + 1) * (cells / 2.F), 0.F, cells - 1e-3F); };
+  const float x = place(direction.x()), y = place(direction.y());
+  const int column = static_cast<int>(x), row = static_cast<int>(y);
+  const float s = x - static_cast<float>(column), t = y - static_cast<float>(row);
+  const float* const at = &light_[static_cast<std::size_t>(row * (cells + 1) + column)];
+  const float low = at[0] + s * (at[1] - at[0]);
+  const float high = at[cells + 1] + s * (at[cells + 2] - at[cells + 1]);
+  return low + t * (high - low);
+}
+
 Shader::Shader(Material material, const Vec3f& to_lamp, const Vec3f& to_viewer)
     : material_(material),
       to_lamp_(to_lamp),
+      to_viewer_(to_viewer),
       to_sky_(Vec3f(-sky_away_x * to_lamp.x(), -sky_away_y * to_lamp.y(), sky_up).normalized()),
-      halfway_((to_lamp + to_viewer).stableNormalized()),
       exposure_(
           std::clamp(std::sqrt(usual_lamp_z / std::max(.05F, to_lamp.z())), least_exposure, most_exposure)),
-      to_window_(Vec3f(to_lamp.x() + window_right, to_lamp.y() + window_up, window_front).normalized()) {}
+      room_(material == Material::plaster ? Room() : Room(to_lamp)) {}
 
 // The light that a place gets, by where it faces and by what hides lamp and sky from it.
 Light Shader::facing(const Lit& lit) const {
@@ -111,8 +182,7 @@ Vec3f Shader::colour(const Lit& lit) const {
       return plaster_colour * (lamp_strength * exposure_ * light.lamp + sky_strength * light.sky);
     }
     case Material::porcelain:
-      return mix(thin_porcelain, thick_porcelain, lit.height) * std::exp(-porcelain_absorption * lit.height) *
-             (.96F + .04F * facing(lit).lamp);
+      return porcelain(lit);
     case Material::walnut:
       return wood(lit);
     default:
@@ -120,16 +190,25 @@ Vec3f Shader::colour(const Lit& lit) const {
   }
 }
 
+// Returns the light that the viewer sees mirrored at the place.
+float Shader::mirrored_light(const Lit& lit) const {
+  const Vec2f to_viewer = to_viewer_.head<2>() - lit.from_middle / viewer_distance;
+  const float cosine = lit.normal.head<2>().dot(to_viewer) + lit.normal.z() * to_viewer_.z();
+  return room_(2 * cosine * lit.normal.head<2>() - to_viewer);
+}
+
+// Patina stays in hollows and on low ground, in patches; hands polish what stands out.
 Vec3f Shader::metal(const Lit& lit) const {
   const Metal& m = metal_of(material_);
   const Light light = facing(lit);
-  const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), glint_doublings) * lit.light.lamp;
-  const float window = smooth_step(window_edge, 1.F, lit.normal.dot(to_window_)) * lit.light.sky;
-  const Vec3f body = mix(m.tarnish, m.colour, lit.light.sky * lit.light.sky);
-  const Vec3f shine = mix(m.colour, Vec3f::Ones(), whiteness_of_shine);
-  return body * (m.diffuse * exposure_ * light.lamp + sky_on_metal * light.sky +
-                 m.window * window * light.lamp) +
-         shine * (m.glint * glint * glint);
+  const float patch = patches().at(lit.place.x(), lit.place.y());
+  const float open = lit.light.sky * lit.light.sky * (1 + m.mottle * patch);
+  const float polished = smooth_step(.45F, 1, lit.height) * lit.light.sky;
+  const float clean = std::min(1.F, open);
+  const Vec3f colour = mix(m.patina, mix(m.bare, m.worn, polished), clean);
+  const float mirror =
+      m.mirror * clean * (.75F + .25F * polished) * mirrored_light(lit) * (.35F + .65F * lit.light.lamp);
+  return colour * (exposure_ * (m.diffuse * light.lamp + mirror) + .12F * light.sky);
 }
 
 // The grain runs upright and bends a little; as growth rings lie slantwise in the board, carving deeper moves
@@ -143,8 +222,19 @@ Vec3f Shader::wood(const Lit& lit) const {
   const float fibre = smooth_noise(x * 6.F, y * .35F), pore = smooth_noise(x * 11.F, y * .9F + 40);
   const Vec3f grain = mix(early_wood, late_wood, .6F * late + .4F * fibre) * (pore > .86F ? .85F : 1.F);
   const Light light = facing(lit);
-  const float glint = sharpen(std::max(0.F, lit.normal.dot(halfway_)), glint_doublings) * lit.light.lamp;
-  return grain * (exposure_ * light.lamp + .28F * light.sky) + varnish * (.05F * glint);
+  const float stain = lit.light.sky * lit.light.sky;
+  const float oil = .085F * stain * mirrored_light(lit) * lit.light.lamp;
+  const Vec3f tone = mix(grain.cwiseProduct(deep_stain), grain * (1 + .12F * lit.height), stain);
+  return exposure_ * (tone * (1.02F * light.lamp + .30F * light.sky) + varnish * oil);
+}
+
+// Lit by a lamp behind the middle, whose light falls off towards the edge; the glaze mirrors a little of the room.
+Vec3f Shader::porcelain(const Lit& lit) const {
+  const float behind = 1 - .22F * lit.from_middle.squaredNorm();
+  const float glaze = .035F * mirrored_light(lit);
+  return mix(thin_porcelain, thick_porcelain, lit.height) *
+             (behind * std::exp(-porcelain_absorption * lit.height) * (.96F + .04F * facing(lit).lamp)) +
+         Vec3f::Constant(glaze);
 }
 
 DisplayTable::DisplayTable() : levels_(static_cast<std::size_t>(brightest * steps) + 2) {

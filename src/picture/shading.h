@@ -13,13 +13,30 @@ namespace relievo {
 // A place of a body, lit.
 struct Lit {
   Vec3f normal;
-  Light light;       // shares that reach the place
-  Vec3f place;       // on the plate, mm
-  float height = 0;  // share of the relief's height, 0 is its lowest point
+  Light light;                        // shares that reach the place
+  Vec3f place;                        // on the plate, mm
+  float height = 0;                   // share of the relief's height, 0 is its lowest point
+  Vec2f from_middle = Vec2f::Zero();  // of the body, over half of its longer side: in [-1, 1]
 };
 
 // Returns the direction of that vector; zero for zero.
 Vec3f direction_of(const Vec3f& light);
+
+// The light of the room around a body, by the direction that it comes from: a table, for pictures look it up per pixel.
+class Room {
+ public:
+  // Dark everywhere.
+  Room() = default;
+
+  explicit Room(const Vec3f& to_lamp);
+
+  // Takes x and y of a unit vector that points to the viewer's side; others count as the nearest one that does.
+  float operator()(const Vec2f& direction) const;
+
+ private:
+  static constexpr int cells = 48;  // of a side, over [-1, 1]
+  std::vector<float> light_;
+};
 
 class Shader {
  public:
@@ -31,13 +48,15 @@ class Shader {
 
  private:
   Light facing(const Lit& lit) const;
+  float mirrored_light(const Lit& lit) const;
   Vec3f metal(const Lit& lit) const;
   Vec3f wood(const Lit& lit) const;
+  Vec3f porcelain(const Lit& lit) const;
 
   Material material_;
-  Vec3f to_lamp_, to_sky_, halfway_;
+  Vec3f to_lamp_, to_viewer_, to_sky_;
   float exposure_;
-  Vec3f to_window_;
+  Room room_;
 };
 
 // Display values of linear ones.

@@ -103,8 +103,9 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 
 Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options, Progress* progress) {
   RELIEVO_CHECK(check(options));
-  RELIEVO_TRY(const ViewSample sample, sample_for_view(scene, options.view, options.points, progress));
-  RELIEVO_TRY(const ReliefModel model, prepare(*sample.cloud, options.view, options.mode, progress));
+  const View view = chosen_view(scene, options.view);
+  RELIEVO_TRY(const ViewSample sample, sample_for_view(scene, view, options.points, progress));
+  RELIEVO_TRY(const ReliefModel model, prepare(*sample.cloud, view, options.mode, progress));
   RELIEVO_TRY(MadeRelief made, make_checked(model, options, progress));
   made.report.sample = sample.notes;
   return made;

@@ -117,11 +117,13 @@ std::vector<ReliefField> limit_rows() {
 // Returns the rows of the side of the model that the relief shows.
 std::vector<ReliefField> view_rows() {
   return {
-      ReliefField{{.name = "view",
-                   .unit = "SIDE",
-                   .help = "side shown: front (+Z), back, left, right, top, bottom or "
-                           "the direction X,Y,Z towards the viewer"},
-                  &OptionTexts::view},
+      ReliefField{
+          {.name = "view",
+           .unit = "SIDE",
+           .help =
+               "side shown: front (+Z), back, left, right, top, bottom or "
+               "the direction X,Y,Z towards the viewer; auto: the side that suits a relief best, upright"},
+          &OptionTexts::view},
       ReliefField{{.name = "up",
                    .unit = "X,Y,Z",
                    .help = "direction shown upright",
@@ -266,7 +268,11 @@ std::span<const ReliefField> option_fields() {
 }
 
 Result<View> parse_view(const ViewTexts& texts) {
-  RELIEVO_TRY(View view, parse_view(texts.view, texts.up));
+  const bool is_best = texts.view == "auto";
+  if (is_best && !texts.up.empty())
+    return option_error("up", "expected no direction with view auto, which finds it");
+  RELIEVO_TRY(View view, parse_view(is_best ? "front" : std::string_view(texts.view), texts.up));
+  view.is_best = is_best;
   RELIEVO_TRY(view.crop, parse_crop(texts.crop));
   RELIEVO_TRY(view.has_crumbs, parse_choice("crumbs", texts.crumbs, crumb_choices));
   RELIEVO_TRY(view.denoise, parse_denoise(texts.denoise));

@@ -126,4 +126,20 @@ Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& vi
   return placed;
 }
 
+ViewGuess best_side(const Scene& scene) {
+  constexpr std::size_t mesh_points = 200000;
+  if (scene.models.size() != 1 || scene.models[0].pose != Pose{}) return {"front", ""};
+  const CloudFile& file = *scene.models[0].file;
+  return rank_views(file.mesh.empty() ? file.cloud : scatter(file.mesh, mesh_points))[0];
+}
+
+View chosen_view(const Scene& scene, const View& view) {
+  if (!view.is_best) return view;
+  const ViewGuess side = best_side(scene);
+  View chosen = view;
+  chosen.R_view_model = parse_view(side.name, side.up).value_or(View{}).R_view_model;
+  chosen.is_best = false;
+  return chosen;
+}
+
 }  // namespace relievo

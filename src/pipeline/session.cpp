@@ -17,7 +17,8 @@ struct Shared {
 
 Result<std::shared_ptr<const ReliefModel>> prepare(const Preparation& wanted, Progress& progress) {
   RELIEVO_TRY(const std::shared_ptr<const Cloud> cloud, wanted.points(progress));
-  RELIEVO_TRY(ReliefModel model, relievo::prepare(*cloud, wanted.view, wanted.mode, &progress));
+  const View view = wanted.chosen_view ? wanted.chosen_view() : wanted.view;
+  RELIEVO_TRY(ReliefModel model, relievo::prepare(*cloud, view, wanted.mode, &progress));
   return std::make_shared<const ReliefModel>(std::move(model));
 }
 

@@ -12,9 +12,12 @@ struct CoarseVisibility {
   double facing_share = .5;
   // The sum of the normal differences between neighbouring cells, without those across depth jumps.
   double normal_variation = 0;
+  double one_layer =
+      0;             // share of the cells in which the nearest and the farthest point belong to one surface
+  double bulge = 0;  // how much nearer the front is inside its outline than along it, over the box's diagonal
 };
 
-// Computes both from the front point, the one with the largest z, of each cell of a grid over a cloud in view
+// Computes them from the front point, the one with the largest z, of each cell of a grid over a cloud in view
 // coordinates. The diagonal of the cloud's box is `cells` cells long. Without normals the result is the
 // default.
 CoarseVisibility coarse_visibility(const Cloud& viewed, int cells = 160);

@@ -8,8 +8,7 @@
 
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/scan/normals.h"
-#include "scan/coarse_visibility.h"
+#include "relievo/scan/cloud.h"
 
 namespace relievo {
 namespace {
@@ -146,21 +145,6 @@ Cloud in_view(const Cloud& cloud, const View& view) {
   for (const OutlineSegment& s : cloud.outlines)
     out.outlines.push_back({turned(s.from), turned(s.to), s.is_jump});
   return out;
-}
-
-std::array<ViewGuess, 6> rank_views(const Cloud& cloud) {
-  Cloud with_normals = cloud;
-  if (!cloud.has_normals()) estimate_normals(with_normals);
-  std::array<ViewGuess, 6> guesses;
-  for (std::size_t i = 0; i < guesses.size(); ++i) {
-    const NamedView& named = named_views()[i];
-    Cloud viewed = in_view(with_normals, *view_towards(named.towards_viewer, named.up));
-    if (!cloud.has_normals()) turn_to_viewer(viewed);  // estimated normals have no sign yet
-    guesses[i] = {named.name, coarse_visibility(viewed).normal_variation};
-  }
-  std::stable_sort(guesses.begin(), guesses.end(),
-                   [](const ViewGuess& a, const ViewGuess& b) { return a.score > b.score; });
-  return guesses;
 }
 
 }  // namespace relievo

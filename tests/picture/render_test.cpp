@@ -104,12 +104,25 @@ TEST(Render, CoversThePlate) {
 }
 
 TEST(Render, AFlatReliefIsEven) {
-  for (const auto material : {Material::plaster, Material::silver, Material::bronze, Material::porcelain}) {
+  const Picture made = picture(field([](const Vec3&) { return 0; }), small());
+  for (int column = 60; column < 180; column += 7)
+    for (int row = 40; row < 160; row += 7) ASSERT_EQ(red(made, column, row), red(made, 120, 100));
+}
+
+TEST(Render, AFlatReliefMirrorsTheRoomWithoutEdges) {
+  for (const auto material : {Material::silver, Material::bronze, Material::porcelain}) {
     RenderOptions options = small();
     options.material = material;
     const Picture made = picture(field([](const Vec3&) { return 0; }), options);
-    for (int column = 60; column < 180; column += 7)
-      for (int row = 40; row < 160; row += 7) ASSERT_EQ(red(made, column, row), red(made, 120, 100));
+    int darkest = 255, brightest = 0;
+    for (int column = 60; column < 180; ++column)
+      for (int row = 40; row < 160; ++row) {
+        const int here = red(made, column, row);
+        ASSERT_NEAR(here, red(made, column + 1, row), 12);
+        darkest = std::min(darkest, here);
+        brightest = std::max(brightest, here);
+      }
+    EXPECT_GT(brightest - darkest, 10);
   }
 }
 

@@ -103,6 +103,24 @@ std::vector<double> crossings(const Solid& solid, const Vec2& place) {
   return heights;
 }
 
+// A figure as scanned from -Y with Z upwards has no other side.
+TEST(MakeRelief, ShowsTheBestSideWhereThatIsAskedFor) {
+  Cloud standing;
+  const Cloud whole = figure();
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const Vec3& p = whole.points[i];
+    const Vec3f& n = whole.normals[i];
+    if (n.z() > .2F) test::add(standing, {p.x(), -p.z(), p.y()}, {n.x(), -n.z(), n.y()});
+  }
+  ReliefOptions options, told;
+  options.height_mm = told.height_mm = 2;
+  options.view.is_best = true;
+  told.view = *parse_view("bottom");
+  const Result<MadeRelief> found = make_relief(standing, options), wanted = make_relief(standing, told);
+  ASSERT_TRUE(found && wanted);
+  EXPECT_EQ(found->solid.points, wanted->solid.points);
+}
+
 TEST(MakeRelief, IsNowhereThinnerThanAsked) {
   const Cloud cloud = test::joined(test::torus(4000, 1.5, .4), test::sphere(2000, .8));
   const auto model = prepare(cloud, View{});

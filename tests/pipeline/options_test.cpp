@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "relievo/option_texts.h"
 #include "relievo/relief/weights.h"
 
 namespace relievo {
@@ -45,6 +46,17 @@ TEST(Options, OutOfRangeAreNamed) {
   options = {};
   options.thickness_mm = std::numeric_limits<double>::infinity();
   EXPECT_NE(complaint(options).find("thickness"), std::string::npos);
+}
+
+TEST(Options, TheBestViewFindsWhatIsUp) {
+  OptionTexts texts;
+  texts.view = "auto";
+  const Result<ReliefOptions> options = parse_options(texts);
+  ASSERT_TRUE(options);
+  EXPECT_TRUE(options->view.is_best);
+  texts.up = "0,0,1";
+  ASSERT_FALSE(parse_options(texts));
+  EXPECT_EQ(parse_options(texts).error().input, "up");
 }
 
 TEST(Options, HeightAndAlphaContradict) {

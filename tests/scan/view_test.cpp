@@ -74,18 +74,6 @@ TEST(View, TurnsPointsAboutTheBoxCentreAndNormalsWithThem) {
   EXPECT_TRUE(seen_cloud.normals[0].isApprox(Vec3f::UnitZ()));
 }
 
-// A slab with one carved face: that face is the best view.
-TEST(View, RanksTheCarvedSideFirst) {
-  Cloud slab = test::height_field(
-      20000, 1, [](double x, double y) { return .1 * std::sin(9 * x) * std::sin(9 * y); },
-      [](double x, double y) {
-        return Vec2(.9 * std::cos(9 * x) * std::sin(9 * y), .9 * std::sin(9 * x) * std::cos(9 * y));
-      });
-  Cloud back = test::sheet(20000, 1, -.3);
-  for (Vec3f& n : back.normals) n = -n;
-  EXPECT_EQ(rank_views(test::joined(slab, back))[0].name, "front");
-}
-
 TEST(Crop, IsFourOrSixAscendingShares) {
   EXPECT_EQ(*parse_crop(""), Crop{});
   EXPECT_EQ(*parse_crop("0,0,1,1"), Crop{});

@@ -4,12 +4,13 @@
 import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
-const START = {height: 4, method: "layered", mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
+const START = {view: "auto", height: 4, method: "layered",
+  mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.
-const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "view", "outline", "corner",
+const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",
   "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "base", "wrap", "form",
-  "tool", "finish", "resolution", "tolerance", "triangles", "draft"];
+  "tool", "finish", "points", "resolution", "tolerance", "triangles", "draft"];
 
 export const FIRST = Object.freeze({
   input: null,
@@ -23,6 +24,9 @@ export const FIRST = Object.freeze({
 });
 
 const MOST_STEPS = 200, MOST_U = 1e12; // as the engine takes it
+
+// Returns the parameter u of the compression that the paper's alpha and beta make.
+export const uOfAlpha = (alpha, beta) => Math.min(alpha ** -beta, MOST_U);
 
 // Documents of older versions call the method `layered` by its former name.
 const renamed = (options) => (options?.method === "ours" ? {...options, method: "layered"} : options);
@@ -78,7 +82,9 @@ export class Document {
     this.steps[this.at] = {...this.now, ...part, options: {...this.now.options, ...part.options}};
   }
 
-  endStroke() {
+  // Ends the running stroke or, if one is named, that one alone: a slider's pause may end after another drag began.
+  endStroke(stroke = null) {
+    if (stroke !== null && stroke !== (this.stroke ?? this.cancelled)) return;
     this.stroke = this.cancelled = null;
   }
 
@@ -160,8 +166,12 @@ const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 
 // Returns the step that a project file describes, as the engine has read it.
-export function stepOfProject({input, options = {}, studio = {}}) {
+export function stepOfProject({input, options: {alpha, ...options} = {}, studio = {}}) {
   const step = {...FIRST, input, options: {...FIRST.options, ...options}};
+  if (alpha !== undefined) {
+    step.isHeightLocked = false;
+    step.u = uOfAlpha(alpha, step.options.saturation);
+  }
   if (typeof studio.isHeightLocked === "boolean") step.isHeightLocked = studio.isHeightLocked;
   if (Number.isFinite(studio.u) && studio.u >= 0 && studio.u <= MOST_U) step.u = studio.u;
   if (about.materials.some(({id}) => id === studio.material)) step.material = studio.material;

@@ -12,8 +12,8 @@
 //   open(input, view)              makes that scan's document the one that all of the following concern
 //   upload(file)                -> input for a file of the browser; readProject(file) -> {input, is_there,
 //                                  options, studio}
-//   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise}, as the command line has them
-//   facts(), suggestViews()     -> facts about the model; names of sides, the best first
+//   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise, mode, points}, as the command line has them
+//   facts(), suggestViews()     -> facts about the model; {view, up} of each side, best first
 //   frame(request), scan(request)-> {image: ImageData, about}
 //   profile(request)            -> heights in mm
 //   reach(options)              -> the largest height in mm

@@ -1,6 +1,7 @@
 // Connects the parts of the studio's page.
 
 import {about, defaultOf, engine} from "./about.js";
+import {AlphaRow} from "./alpha.js";
 import {$, Slider, clamp, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions} from "./document.js";
@@ -29,6 +30,7 @@ const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), (
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
 const modes = new Modes({stage, doc});
+const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth});
 
 const keeper = new Keeper({
@@ -61,8 +63,9 @@ lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11"
 const sliders = {};
 for (const [name, field] of Object.entries(FIELDS)) {
   const slider = new Slider({...field, extra: name === "height" ? lock : null, otherwise: FIRST.options[name]},
-    (value) => slide(name, value), () => doc.endStroke(), toast);
+    (value) => slide(name, value), () => doc.endStroke(name), toast);
   sliders[name] = slider;
+  slider.number.dataset.option = name;
   $(field.place).append(slider.element);
 }
 
@@ -186,12 +189,14 @@ async function keepPicture() {
 
 function pictured(frame, ms, isFine) {
   last = frame;
-  if (!doc.now.isHeightLocked && !opened.status.busy) {
+  const {u} = doc.now, isNewest = u === null || u === frame.u; // else it was asked for before u was typed
+  if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
     const height = Math.round(frame.height_mm * 1e4) / 1e4;
     doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
     sliders.height.show(doc.now.options.height);
   }
   showWidth();
+  alphaRow.show(frame);
   clearTimeout(pictureTimer);
   if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});

@@ -6,7 +6,8 @@ import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
 import {engineBack, toast} from "./messages.js";
 
-export const viewOf = ({options: {view, up, crop, crumbs, denoise}}) => ({view, up, crop, crumbs, denoise});
+export const viewOf = ({options: {view, up, crop, crumbs, denoise, mode, points}}) =>
+  ({view, up, crop, crumbs, denoise, mode, points});
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 
@@ -88,7 +89,8 @@ export class OpenDocument {
 
   // Returns whether the model is one to show: at first only that of the view that was asked for, or none can be made.
   isWanted({busy, error, shown}) {
-    return this.model > 0 || (!busy && (error || isSameView(shown, viewOf(this.doc.now))));
+    return this.model > 0 || (!busy && (error || this.doc.now.options.view === "auto" ||
+      isSameView(shown, viewOf(this.doc.now))));
   }
 
   arrive(status) {

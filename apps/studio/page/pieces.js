@@ -1,8 +1,8 @@
 // The piece around the relief: kinds of work, and all options of the engine that are no sliders.
 
-import {defaultOf, optionOf} from "./about.js";
+import {optionOf} from "./about.js";
 import {$, make} from "./controls.js";
-import {engineOptions} from "./document.js";
+import {FIRST, engineOptions} from "./document.js";
 import {lengthText, millimetresPerUnit, parseLength, typedNumber} from "./lengths.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -31,17 +31,19 @@ export function kindOf({form, wrap, rim, outline}) {
 const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size", rim: "Rim width",
   "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
-  finish: "Finish"};
+  finish: "Finish",
+  up: "Upright", points: "Points from meshes", mode: "Solver"};
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
-const PLACES = Object.fromEntries(Object.keys(LABELS).map((name) =>
-  [name, MAKING.includes(name) ? "#making" : "#piece"]));
+const PREPARING = ["up", "points", "mode"];
+const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
+const PLACES = Object.fromEntries(Object.keys(LABELS).map((name) => [name, placeOf(name)]));
 const SUGGESTED = {
   base: ["plane", "dome:height=5", "wave:height=4,length=40", "fold:angle=15", "cylinder:diameter=200"],
   wrap: ["cylinder:turn=180", "cylinder:turn=360", "cylinder:diameter=60", "cone:turn=90,angle=8",
     "sphere:diameter=80"],
   tool: ["ball:3", "ball:1", "flat:3", "v:60", "v:30:0.5"],
 };
-const PLACEHOLDERS = {diameter: "as needed", plate: "as needed"};
+const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed"};
 const UNITS = {MM: "mm", DEG: "°"};
 export const ROWS = Object.keys(LABELS);
 
@@ -90,7 +92,7 @@ export class PieceRows {
   row(name) {
     const {choices, help, min, max, unit, default: otherwise} = optionOf(name);
     const isList = Boolean(choices) && !SUGGESTED[name];
-    const attributes = {id: name, autocomplete: "off", "aria-label": LABELS[name]};
+    const attributes = {id: name, "data-option": name, autocomplete: "off", "aria-label": LABELS[name]};
     const input = isList
       ? make("select", attributes, ...choices.map((choice) => make("option", {value: choice}, sentence(choice))))
       : make("input", {
@@ -113,7 +115,7 @@ export class PieceRows {
   // Takes what was chosen or typed, unless the engine cannot read it.
   async take(name) {
     const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
-    let value = text === "" ? defaultOf(name, this.doc.now.options.method) : text;
+    let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
     if (isNumber && text !== "" && value === null) return this.show(name);
     if (name === "plate") value = plateInMm(value ?? "");

@@ -19,7 +19,8 @@ const text = (a) => a.map((x) => Number(x.toFixed(4))).join(",");
 const triple = (t) => t.split(",").map(Number);
 
 // Returns "Front", or "Turned by hand" for other directions.
-export const viewName = (view) => (SIDES.includes(view) ? view[0].toUpperCase() + view.slice(1) : "Turned by hand");
+export const viewName = (view) => (view === "auto" ? "Best side"
+  : SIDES.includes(view) ? view[0].toUpperCase() + view.slice(1) : "Turned by hand");
 
 export class ViewDialog {
   constructor(engine, onApply, onFailed) {
@@ -38,7 +39,8 @@ export class ViewDialog {
   show(options) {
     this.dialog.returnValue = "cancel";
     $("#suggestion").textContent = "";
-    if (TOWARDS[options.view] && !options.up) this.face(options.view);
+    if (options.view === "auto") this.face("front"); // not chosen yet
+    else if (TOWARDS[options.view] && !options.up) this.face(options.view);
     else {
       this.side = null;
       this.towards = unit(TOWARDS[options.view]?.[0] ?? triple(options.view));
@@ -59,9 +61,11 @@ export class ViewDialog {
     this.mark();
   }
 
-  face(side) {
+  // Shows a side, upright as usual or with another direction upwards, given as text.
+  face(side, up = "") {
     [this.towards, this.up] = TOWARDS[side];
-    this.side = side;
+    if (up) this.up = triple(up);
+    this.side = up ? null : side;
     this.straighten();
     this.draw();
   }
@@ -113,8 +117,8 @@ export class ViewDialog {
     $("#suggestion").textContent = "Looking at all six sides …";
     try {
       const [best, second] = await this.engine.suggestViews();
-      this.face(best);
-      $("#suggestion").textContent = `The ${best} shows most, then the ${second}.`;
+      this.face(best.view, best.up);
+      $("#suggestion").textContent = `The ${best.view} suits a relief best, then the ${second.view}.`;
     } catch (error) {
       this.onFailed(error);
     }

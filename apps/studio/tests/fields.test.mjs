@@ -128,3 +128,18 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   for (let i = 0; i < 100 && (await reachable()) <= limited; ++i) await page.waitForTimeout(50);
   assert.ok((await reachable()) > most, `${await reachable()} of ${most}`);
 });
+
+test("ends no drag when the pause after another slider's step is over", {skip}, async () => {
+  const steps = await page.evaluate(async () => {
+    const {Document, FIRST} = await import(new URL("document.js", location));
+    const doc = new Document(() => {}), counts = [];
+    doc.begin(FIRST);
+    for (const [height, ended] of [[5, "width"], [6, "height"], [7, null]]) {
+      doc.change({options: {height}}, "height");
+      counts.push(doc.steps.length);
+      doc.endStroke(ended);
+    }
+    return counts;
+  });
+  assert.deepEqual(steps, [2, 2, 3]);
+});

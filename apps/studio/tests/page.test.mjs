@@ -385,7 +385,7 @@ test("chooses another view in the background", {skip}, async () => {
   await becomesOther(first);
   await button("Choose view").click();
   await button("Suggest a view").click();
-  await page.getByText(/The \w+ shows most, then the \w+/).waitFor();
+  await page.getByText(/The \w+ suits a relief best, then the \w+/).waitFor();
   await page.getByRole("application", {name: /^Model/}).press("ArrowRight");
   await button("Use this view").click();
   await page.getByText("Turned by hand").waitFor();

@@ -140,7 +140,7 @@ test("names every stage for people", async () => {
 
 test("takes everything that the page offers to choose", async () => {
   const page = (await engine.get("index.html")).body.toString(), {options, materials} = await about();
-  const [, methods] = page.match(/<select id="method">(.*?)<\/select>/s);
+  const [, methods] = page.match(/<select id="method"[^>]*>(.*?)<\/select>/s);
   const offered = {method: [...methods.matchAll(/value="([^"]+)"/g)].map(([, value]) => value)};
   for (const {name, choices} of options) if (["outline", "form"].includes(name)) offered[name] = choices;
   for (const [name, values] of Object.entries(offered)) {

@@ -29,6 +29,8 @@ struct View {
   bool has_crumbs = false;  // shows pieces of the surface that are taken for crumbs, see find_surface()
   std::optional<double> denoise =
       {};  // noise that is removed, in sampling distances, [0, 1]; else what is measured
+  bool is_best =
+      false;  // the best side is still to be chosen, when the model is known: see chosen_view() in scene.h
 
   bool operator==(const View&) const = default;
 };
@@ -62,15 +64,17 @@ View view_from_euler(double theta_x, double theta_y);
 // model's frame.
 Cloud in_view(const Cloud& cloud, const View& view);
 
-// The amount of relief that a side of the model shows: the sum of the differences between the normals of neighbouring
-// cells of a coarse image, without those across depth jumps.
+// A side of a model, as parse_view() takes it, and how well it suits a relief: the sum of the differences between the
+// normals of neighbouring cells of a coarse image, without those across depth jumps, times a weight.
 struct ViewGuess {
-  std::string_view name;
+  std::string_view name, up;
   double score = 0;
 };
 
-// Returns the six sides along the axes, the one with the highest score first. Estimates normals if the cloud
-// has none.
+// Returns the six sides along the axes, the one with the highest score first, each upright. Outliers are left out, and
+// normals estimated if the cloud has none. A cloud that was scanned from one side is shown from there: hollow backs have
+// the score 0. Other models have Y upwards and their front towards +Z, as glTF has them, unless they stand on a wide
+// foot along Z and on none along Y: then Z is upwards and the front is -Y. The front counts 1.6 times.
 std::array<ViewGuess, 6> rank_views(const Cloud& cloud);
 
 }  // namespace relievo

@@ -1,0 +1,103 @@
+// Every option of the engine's table has a control on the page, and what is set there reaches the engine.
+import assert from "node:assert/strict";
+import {spawnSync} from "node:child_process";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+
+const found = await findBrowser();
+const skip = found.missing ? `${found.missing}: the page is not tested` : false;
+if (skip) console.log(`SKIPPED: ${skip}`);
+
+const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
+let browser, engine, page, options;
+let frame = null; // the newest request for a picture
+
+before(async () => {
+  if (skip) return;
+  const made = spawnSync(PROGRAM, ["sample", "still_life", "-o", scan, "--points", "5000"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  browser = await found.launch();
+  page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
+  page.setDefaultTimeout(30000);
+  page.on("request", (request) => {
+    if (request.url().endsWith("/api/frame")) frame = JSON.parse(request.postData());
+  });
+  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
+  options = JSON.parse((await engine.get("api/about")).body).options;
+  await page.goto(engine.address);
+  await page.getByText(/points.*height/).waitFor();
+  await page.locator("details").evaluateAll((all) => all.forEach((part) => (part.open = true)));
+});
+
+after(async () => {
+  await browser?.close();
+  await engine?.stop();
+  removeFolder(folder);
+});
+
+// A value of each option that is not its default, what must be set before so that its control is shown, and what the
+// engine gets where that is not the value.
+const CASES = {
+  width: {value: 61}, height: {value: 3.5}, saturation: {value: 0.7}, detail: {value: 0.21}, boundary: {value: 7},
+  alpha: {value: 3, first: {saturation: 0.5}},
+  method: {value: "paper"}, mode: {value: "exact"}, steepest: {value: 66}, draft: {value: 12},
+  steps: {value: 0.2}, tone: {value: "0,0.8;0.5,0.6;1,0.45"}, view: {value: "left"}, up: {value: "1,0,0"},
+  crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, denoise: {value: "0.5"}, points: {value: 20000},
+  outline: {value: "ellipse"}, corner: {value: 9, first: {outline: "round"}}, diameter: {value: 77, kind: "coin"},
+  plate: {value: "140x120"}, margin: {value: 6}, thickness: {value: 4}, rim: {value: 3, kind: "coin"},
+  "rim-height": {value: 1.5, kind: "coin"}, "rim-bevel": {value: 0.5, kind: "coin"}, base: {value: "dome:height=5"},
+  wrap: {value: "cylinder:turn=90", kind: "shell"}, form: {value: "mirror"}, tool: {value: "ball:3"},
+  finish: {value: "reachable", first: {tool: "ball:3"}}, resolution: {value: 0.5}, tolerance: {value: 0.02},
+  triangles: {value: 5000},
+};
+
+const control = (name) => page.locator(`[data-option="${name}"]`);
+
+// Sets an option by its control, as a hand would.
+async function set(name, value) {
+  const it = control(name);
+  if (name === "view") {
+    await it.click();
+    await page.locator(`#sides [data-side="${value}"]`).click();
+    return page.getByRole("button", {name: "Use this view"}).click();
+  }
+  if (name === "crumbs") return it.setChecked(value === "keep");
+  const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
+  if (kind === "select") return name === "tone" ? it.selectOption({index: 1}) : it.selectOption(value);
+  await it.fill(String(value));
+  if (kind !== "range") await it.press("Enter");
+}
+
+const reaches = (check) => eventually(() => assert.ok(check(), JSON.stringify(frame)));
+
+test("has a control for each option of the table", {skip}, async () => {
+  const names = options.map(({name}) => name);
+  assert.deepEqual([...names].sort(), Object.keys(CASES).sort(), "an option is missing in this test");
+  for (const name of names) assert.equal(await control(name).count(), 1, `the page has no control of ${name}`);
+});
+
+for (const [name, {value, first = {}, kind}] of Object.entries(CASES))
+  test(`passes ${name} on to the engine`, {skip}, async () => {
+    if (kind) await page.getByRole("combobox", {name: "Kind of work"}).selectOption(kind);
+    for (const [other, set_to] of Object.entries(first)) {
+      await set(other, set_to);
+      await reaches(() => frame.options[other] === set_to);
+    }
+    assert.notEqual(frame.options[name], value);
+    await set(name, value);
+    if (name === "alpha") await reaches(() => Math.abs(frame.u / value ** -first.saturation - 1) < 1e-9);
+    else if (name === "tone") await reaches(() => /^0,[\d.]+;/.test(frame.options.tone ?? ""));
+    else await reaches(() => frame.options[name] === value);
+    await eventually(async () => { // back to the beginning
+      const undo = page.getByRole("button", {name: "Undo"});
+      while (await undo.isEnabled()) await undo.click();
+      await page.locator('[role="application"][aria-busy="false"]').first().waitFor({timeout: 2000});
+    });
+  });
+
+test("opens a project with the paper's height coefficient", {skip}, async () => {
+  const step = await page.evaluate(async () =>
+    (await import(new URL("document.js", location))).stepOfProject({options: {alpha: 4, saturation: 0.5}}));
+  assert.deepEqual([step.isHeightLocked, step.u, "alpha" in step.options], [false, 0.5, false]);
+});
