@@ -1,4 +1,4 @@
-// The paper's height coefficient alpha: a relief is as high as it and the saturation make it, and has no height to keep.
+// The paper's height coefficient alpha: it and the saturation decide how high a relief is, which has no height to keep.
 
 import {optionOf} from "./about.js";
 import {$, make} from "./controls.js";

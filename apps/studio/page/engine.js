@@ -12,7 +12,7 @@
 //   open(input, view)              makes that scan's document the one that all of the following concern
 //   upload(file)                -> input for a file of the browser; readProject(file) -> {input, is_there,
 //                                  options, studio}
-//   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise, mode, points}, as the command line has them
+//   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise, mode, points} as on the command line
 //   facts(), suggestViews()     -> facts about the model; {view, up} of each side, best first
 //   frame(request), scan(request)-> {image: ImageData, about}
 //   profile(request)            -> heights in mm
