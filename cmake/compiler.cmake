@@ -7,7 +7,7 @@ function(relievo_compiler_options target)
     target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
   else()
     # A size has 32 bits there; the readers compare in 64 bits what files promise.
-    target_compile_options(${target} PRIVATE -Wno-shorten-64-to-32 -Wno-error)
+    target_compile_options(${target} PRIVATE -Wno-shorten-64-to-32)
   endif()
   if(RELIEVO_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${RELIEVO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
