@@ -2,8 +2,13 @@
 # functions directly. Warnings are errors on our own targets. Contraction is off and fast-math never on: same input, same bits.
 function(relievo_compiler_options target)
   target_compile_options(${target} PRIVATE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off -fno-math-errno
-    -fPIC -fno-semantic-interposition)
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror -ffp-contract=off -fno-math-errno)
+  if(NOT RELIEVO_WEB)
+    target_compile_options(${target} PRIVATE -fPIC -fno-semantic-interposition)
+  else()
+    # A size has 32 bits there; the readers compare in 64 bits what files promise.
+    target_compile_options(${target} PRIVATE -Wno-shorten-64-to-32)
+  endif()
   if(RELIEVO_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${RELIEVO_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     target_link_options(${target} PUBLIC -fsanitize=${RELIEVO_SANITIZE})

@@ -6,6 +6,7 @@
 #include "batch/contact_sheet.h"
 #include "batch/index_page.h"
 #include "common/files.h"
+#include "common/output_files.h"
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
 

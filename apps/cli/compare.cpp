@@ -10,6 +10,7 @@
 #include "cli/input_flags.h"
 #include "cli/terminal.h"
 #include "common/files.h"
+#include "common/output_files.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/make_relief.h"

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "common/files.h"
 #include "common/option_list.h"
+#include "common/output_files.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app::cli {

@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "common/files.h"
+#include "common/output_files.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"

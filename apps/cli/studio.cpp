@@ -1,12 +1,13 @@
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <thread>
 
 #include "cli/commands.h"
 #include "studio/actions.h"
+#include "studio/disk_store.h"
 #include "studio/server.h"
-#include "studio/store.h"
 
 namespace relievo::app::cli {
 namespace {
@@ -26,10 +27,11 @@ void show(const std::string& address) {
 }
 
 Result<void> studio(const StudioArguments& arguments) {
-  const studio::Store store(arguments.state.empty() ? studio::Store::default_folder() : arguments.state);
+  studio::DiskStore store(arguments.state.empty() ? studio::DiskStore::default_folder() : arguments.state);
   studio::OpenDocuments documents;
   studio::Actions actions(documents, store);
-  if (!arguments.input.empty()) RELIEVO_CHECK(actions.begin_with(arguments.input));
+  if (!arguments.input.empty())
+    RELIEVO_CHECK(actions.begin_with(arguments.input, std::filesystem::absolute(arguments.input).string()));
   studio::Server server(actions, store,
                         {arguments.port, arguments.page, std::chrono::seconds(arguments.linger_s)});
   const Result<std::string> address = server.bind();

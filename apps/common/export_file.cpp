@@ -40,7 +40,7 @@ std::span<const FileFormat> file_formats() {
 
 const FileFormat* find_format(std::string_view name) {
   const auto found = std::ranges::find(formats, name, &FileFormat::name);
-  return found == formats.end() ? nullptr : found;
+  return found == formats.end() ? nullptr : &*found;
 }
 
 const FileFormat* find_solid_format(std::string_view ending) {

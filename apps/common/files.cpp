@@ -8,53 +8,27 @@
 #include <cctype>
 #include <cerrno>
 #include <filesystem>
-#include <list>
+#include <span>
 
-#include "common/temporary_file.h"
-#include "relievo/core/choice.h"
+#include "common/descriptor.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app {
 namespace {
-
-std::string folder_of(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  return folder.empty() ? "." : folder.string();
-}
-
-// Returns whether both paths lead to the same file, which need not exist.
-bool is_same_file(const std::string& a, const std::string& b) {
-  std::error_code ignored;
-  if (std::filesystem::equivalent(a, b, ignored)) return true;
-  const auto full = [](const std::string& path) {
-    std::error_code none;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
-  };
-  return full(a) == full(b);
-}
-
-Result<void> check_writable(const std::string& path) {
-  std::error_code ignored;
-  const std::string folder = folder_of(path);
-  if (std::filesystem::is_directory(path, ignored))
-    return std::unexpected(Error{ErrorKind::output, path, {}, "expected a file name, found a folder"});
-  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
-    return std::unexpected(Error{ErrorKind::output, path, {}, "expected a file, found a device or a pipe"});
-  if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    return system_error(ErrorKind::output, path,
-                        "expected a folder that can be written to, '" + folder + "'");
-  return {};
-}
 
 std::string_view kind_of(mode_t mode) {
   if (S_ISDIR(mode)) return "a folder";
   return S_ISFIFO(mode) ? "a pipe" : "a device";
 }
 
-// Files beyond half of the machine's memory could be read, but nothing could be made of them.
+// Files beyond half of the memory could be read, but nothing could be made of them.
 std::size_t most_bytes() {
+#if defined(__wasi__)
+  return std::size_t{1} << 31;
+#else
   return static_cast<std::size_t>(::sysconf(_SC_PHYS_PAGES)) / 2 *
          static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+#endif
 }
 
 // Reads to the end of the file, whose size is known but for pipes and files that grow.
@@ -91,26 +65,15 @@ Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_f
   return read_all(file, static_cast<std::size_t>(status.st_size), path);
 }
 
-Result<void> check_output(const std::string& path, const std::vector<std::string_view>& endings,
-                          std::span<const std::string> taken) {
-  if (!endings.empty() && std::ranges::find(endings, cat(".", ending_of(path))) == endings.end())
-    return option_error(path, cat("expected a file ending in ", either(endings)));
-  if (std::ranges::any_of(taken, [&](const std::string& other) { return is_same_file(path, other); }))
-    return option_error(path, "expected different files for input and outputs");
-  return check_writable(path);
+bool is_there(const std::string& path) {
+  struct stat status {};
+  return ::stat(path.c_str(), &status) == 0;
 }
 
-Result<void> write_files(std::span<const OutputFile> files) {
-  std::list<TemporaryFile> temporaries;
-  for (const OutputFile& file : files) {
-    TemporaryFile& temporary = temporaries.emplace_back(file.path);
-    if (auto ok = temporary.append(file.bytes); !ok) return ok;
-    if (auto ok = temporary.finish(); !ok) return ok;
-  }
-  auto file = files.begin();
-  for (TemporaryFile& temporary : temporaries)
-    if (auto ok = temporary.keep((file++)->path); !ok) return ok;
-  return {};
+std::optional<std::uint64_t> file_size(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
+  return static_cast<std::uint64_t>(status.st_size);
 }
 
 std::vector<std::byte> bytes_of(std::string_view text) {

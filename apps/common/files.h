@@ -1,8 +1,9 @@
-// Files of the command line: whole ones in, whole ones out.
+// Files that are read, and names of files.
 #pragma once
 
 #include <cstddef>
-#include <span>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,22 +16,11 @@ namespace relievo::app {
 // than half of the memory and, unless `is_pipe_fine`, pipes.
 Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_fine = false);
 
-// Checks the path of an output before the work for it begins. Errors: kind option if it has none of the endings,
-// given as ".stl" (any will do if there are none), or leads to one of the files in `taken`; kind output if no file
-// could be written there: folder missing or read-only, or the path is a folder or a device.
-Result<void> check_output(const std::string& path, const std::vector<std::string_view>& endings,
-                          std::span<const std::string> taken = {});
+// Returns whether something has that path; a file, a folder or a device.
+bool is_there(const std::string& path);
 
-// A finished file, not yet written.
-struct OutputFile {
-  std::string path;
-  std::vector<std::byte> bytes;
-};
-
-// Writes all files (at most 8) to temporary names in their folders and, when all are complete, renames them:
-// readers see an old file or the whole new one, and if one cannot be written, all stay as they were. Errors:
-// kind output.
-Result<void> write_files(std::span<const OutputFile> files);
+// Returns the size of a file; nothing if there is none of that path, or it is a folder or a device.
+std::optional<std::uint64_t> file_size(const std::string& path);
 
 // Returns the text as the content of a file.
 std::vector<std::byte> bytes_of(std::string_view text);

@@ -1,9 +1,11 @@
 #include "common/option_list.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "relievo/core/text.h"
+#include "relievo/scan/depth_image.h"
 
 namespace relievo::app {
 namespace {
@@ -76,6 +78,31 @@ Json option_list() {
     if (const Json value = default_of(field); !value.is_null()) entry["default"] = value;
     list.push_back(entry);
   }
+  return list;
+}
+
+std::string keyword_of(const OptionField& field) {
+  std::string keyword(field.name);
+  std::ranges::replace(keyword, '-', '_');
+  if (field.unit == "MM") return keyword + "_mm";
+  return field.unit == "DEG" ? keyword + "_deg" : keyword;
+}
+
+Json keyword_list() {
+  Json list = option_list();
+  std::size_t i = 0;
+  for (const ReliefField& field : option_fields()) {
+    list[i]["keyword"] = keyword_of(field);
+    list[i++]["default_text"] = default_text(field);
+  }
+  const DepthTexts depth;
+  visit(depth, [&](const OptionField& field, const auto& value) {
+    Json entry{{"keyword", keyword_of(field)}, {"name", field.name},    {"unit", field.unit},
+               {"help", field.help},           {"default_text", value}, {"default", value}};
+    if (!field.choices.empty()) entry["choices"] = field.choices;
+    entry["is_of_input"] = true;
+    list.push_back(entry);
+  });
   return list;
 }
 

@@ -19,6 +19,13 @@ std::string help_text(const OptionField& field);
 // methods differ, an object of method names and values.
 nlohmann::json option_list();
 
+// Returns the name of an option as an argument of a function, with its unit: "height_mm".
+std::string keyword_of(const OptionField& field);
+
+// Returns option_list() and then the options of depth images, whose entries have is_of_input; each with its keyword and
+// default_text.
+nlohmann::json keyword_list();
+
 // Returns the rows of the README's table.
 std::string option_markdown();
 

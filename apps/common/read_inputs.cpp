@@ -1,10 +1,14 @@
 #include "common/read_inputs.h"
 
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 #include "common/archive.h"
+#include "common/descriptor.h"
 #include "common/files.h"
 #include "common/scene_file.h"
 #include "relievo/core/text.h"
@@ -37,9 +41,8 @@ std::vector<std::string> remarks_on(const CloudFile& file, const std::string& pa
 
 Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
   if (camera.empty()) return std::nullopt;
-  std::error_code ignored;
   std::string text = camera;
-  if (std::filesystem::exists(camera, ignored)) {
+  if (is_there(camera)) {
     const auto bytes = read_file(camera);
     if (!bytes) return std::unexpected(bytes.error());
     text.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -67,39 +70,42 @@ Result<LoadedFile> read_depths(std::span<const std::byte> bytes, const std::stri
 class FileSource : public ByteSource {
  public:
   FileSource(const std::string& path, std::uint64_t size)
-      : path_(path), size_(size), file_(path, std::ios::binary) {}
+      : path_(path), size_(size), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {}
 
   std::uint64_t size() const override { return size_; }
   Result<void> read(std::uint64_t offset, std::span<std::byte> to) override {
-    file_.seekg(static_cast<std::streamoff>(offset));
-    file_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
-    if (file_) return {};
-    return std::unexpected(
-        Error{ErrorKind::input, path_, cat("byte ", offset), "expected a file that can be read"});
+    while (!to.empty()) {
+      const ssize_t got = ::pread(file_.number(), to.data(), to.size(), static_cast<off_t>(offset));
+      if (got < 0 && errno == EINTR) continue;
+      if (got <= 0)
+        return std::unexpected(
+            Error{ErrorKind::input, path_, cat("byte ", offset), "expected a file that can be read"});
+      offset += static_cast<std::uint64_t>(got);
+      to = to.subspan(static_cast<std::size_t>(got));
+    }
+    return {};
   }
 
  private:
   const std::string& path_;
   std::uint64_t size_;
-  std::ifstream file_;
+  Descriptor file_;
 };
 
 // Size of a file that is to be read piece by piece if that is possible; nothing for small ones.
-std::optional<std::uintmax_t> large_size(const std::string& path, const InputArguments& arguments) {
-  std::error_code failed;
-  const std::uintmax_t size =
-      std::filesystem::is_regular_file(path, failed) ? std::filesystem::file_size(path, failed) : 0;
-  if (failed || static_cast<double>(size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
+std::optional<std::uint64_t> large_size(const std::string& path, const InputArguments& arguments) {
+  const std::optional<std::uint64_t> size = file_size(path);
+  if (!size || static_cast<double>(*size) <= 1e6 * arguments.stream_above_mb) return std::nullopt;
   return size;
 }
 
 // Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
 Result<std::optional<LoadedFile>> read_large(const std::string& path, const InputArguments& arguments,
                                              const PointsWanted& seen, Progress* progress) {
-  const std::optional<std::uintmax_t> size = large_size(path, arguments);
+  const std::optional<std::uint64_t> size = large_size(path, arguments);
   if (!size) return std::nullopt;
   FileSource source(path, *size);
-  std::vector<std::byte> head(std::min<std::uintmax_t>(*size, 1 << 20));
+  std::vector<std::byte> head(static_cast<std::size_t>(std::min<std::uint64_t>(*size, 1 << 20)));
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
   auto streamed = stream_front(source, path, seen.view, seen.points, progress);
   if (!streamed) return std::unexpected(streamed.error());

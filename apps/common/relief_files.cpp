@@ -1,6 +1,7 @@
 #include "common/relief_files.h"
 
 #include "common/export_file.h"
+#include "common/files.h"
 #include "relievo/io/write.h"
 #include "relievo/picture/preview.h"
 #include "relievo/picture/reach_picture.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/files.h"
+#include "common/output_files.h"
 #include "relievo/core/length.h"
 #include "relievo/make_relief.h"
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "common/files.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/text.h"
 
@@ -10,7 +11,6 @@ namespace relievo::app {
 namespace {
 
 using Json = nlohmann::json;
-namespace fs = std::filesystem;
 
 // Reads one file; every method fails with the place it was at.
 class SceneReader {
@@ -63,10 +63,8 @@ class SceneReader {
   Result<void> read_path(const Json& model, const std::string& place, std::string& path) const {
     const auto file = model.find("file");
     if (file == model.end() || !file->is_string()) return fail(place, "expected the name of a file");
-    path = (fs::path(name_).parent_path() / file->get<std::string>()).string();
-    std::error_code ignored;
-    if (!fs::exists(path, ignored))
-      return fail(place, cat("expected a file that is there, found no '", path, "'"));
+    path = (std::filesystem::path(name_).parent_path() / file->get<std::string>()).string();
+    if (!is_there(path)) return fail(place, cat("expected a file that is there, found no '", path, "'"));
     return {};
   }
 

@@ -130,10 +130,6 @@ Descriptor make_locked(char* name, std::string_view stem) {
 
 }  // namespace
 
-std::unexpected<Error> system_error(ErrorKind kind, const std::string& path, const std::string& expected) {
-  return std::unexpected(Error{kind, path, {}, expected + ": " + std::strerror(errno)});
-}
-
 TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
   const std::string stem = stem_for(path), pattern = stem + std::string(pattern_end);
   errno = ENAMETOOLONG;

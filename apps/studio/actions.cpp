@@ -7,15 +7,12 @@
 #include "common/files.h"
 #include "common/project_file.h"
 #include "relievo/core/text.h"
-#include "studio/request_guard.h"
 #include "studio/requests.h"
 
 namespace relievo::app::studio {
 namespace {
 
 using Json = nlohmann::json;
-using httplib::Request;
-using httplib::Response;
 
 constexpr std::size_t most_picture = 200'000;  // bytes
 
@@ -26,8 +23,7 @@ double time_of(const Json& state) {
 
 // Returns whether the scan lies where it is said to.
 bool is_there(const ScanSource& input) {
-  std::error_code ignored;
-  return !input.sample.empty() || std::filesystem::is_regular_file(input.path, ignored);
+  return !input.sample.empty() || file_size(input.path);
 }
 
 Result<ScanSource> input_in(const Json& json) {
@@ -58,14 +54,14 @@ const std::map<std::string, Actions::Action, std::less<>> Actions::actions_{
     {"piece", &Actions::piece},
     {"cancel_piece", &Actions::cancel_piece}};
 
-Actions::Actions(OpenDocuments& documents, const Store& store) : documents_(documents), store_(store) {}
+Actions::Actions(OpenDocuments& documents, Store& store) : documents_(documents), store_(store) {}
 
 bool Actions::has(std::string_view name) const {
   return actions_.contains(name);
 }
 
-void Actions::run(std::string_view name, const Json& json, Response& response) {
-  (this->*actions_.find(name)->second)(json, response);
+void Actions::run(std::string_view name, const Json& json, Answer& to) {
+  (this->*actions_.find(name)->second)(json, to);
 }
 
 // Returns a document as the page kept it; null if it did not.
@@ -84,60 +80,60 @@ Actions::Change& Actions::change_of(const std::string& id) {
 }
 
 // Tells the document of a scan, and all that is kept of it. A scan that is gone may be among those that were dropped.
-void Actions::document(const Json& json, Response& response) {
+void Actions::document(const Json& json, Answer& to) {
   Result<ScanSource> input = input_in(json);
-  if (!input) return answer(response, input.error());
-  const std::lock_guard lock(storing_);
+  if (!input) return answer(to, input.error());
+  const Lock lock(storing_);
   if (!is_there(*input)) input = store_.find_scan(input->hash).value_or(*input);
   const std::string id = document_of(*input);
-  answer(response, {{"document", id},
-                    {"input", to_json(*input)},
-                    {"is_there", is_there(*input)},
-                    {"kept", kept_state(id)}});
+  answer(to, {{"document", id},
+              {"input", to_json(*input)},
+              {"is_there", is_there(*input)},
+              {"kept", kept_state(id)}});
 }
 
-void Actions::open(const Json& json, Response& response) {
+void Actions::open(const Json& json, Answer& to) {
   const Result<ScanSource> input = input_in(json);
-  if (!input) return answer(response, input.error());
+  if (!input) return answer(to, input.error());
   const std::string id = document_of(*input);
   documents_.open(id, json.value("tab", ""))->show(*input, preparation_texts(json));
-  const std::lock_guard lock(storing_);
+  const Lock lock(storing_);
   store_.touch(id);
-  answer(response, {{"document", id}});
+  answer(to, {{"document", id}});
 }
 
-void Actions::leave(const Json& json, Response& response) {
+void Actions::leave(const Json& json, Answer& to) {
   documents_.leave(json.value("tab", ""));
-  answer(response, Json::object());
+  answer(to, Json::object());
 }
 
 // The newer state of a document wins: who comes with an older one gets the newer.
-void Actions::keep(const Json& json, Response& response) {
+void Actions::keep(const Json& json, Answer& to) {
   const std::string id = json.value("document", "");
   const Json state = json.value("state", Json());
-  if (!state.is_object()) return refuse(response, 400, "expected a state");
-  const std::lock_guard lock(storing_);
+  if (!state.is_object()) return refuse(to, 400, "expected a state");
+  const Lock lock(storing_);
   Change& change = change_of(id);
   if (time_of(state) < change.time_ms)
-    return answer(response, {{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
+    return answer(to, {{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
   const auto ok = store_.keep_document(id, state.dump(), json.value("is_moving", false));
-  if (!ok) return answer(response, ok.error());
+  if (!ok) return answer(to, ok.error());
   change = {time_of(state), json.value("tab", "")};
-  answer(response, Json::object());
+  answer(to, Json::object());
 }
 
-void Actions::keep_picture(const Json& json, Response& response) {
+void Actions::keep_picture(const Json& json, Answer& to) {
   const std::string picture = json.value("picture", "");
   if (!picture.starts_with("data:image/jpeg;base64,") || picture.size() > most_picture)
-    return refuse(response, 400, "expected a small picture");
-  const std::lock_guard lock(storing_);
+    return refuse(to, 400, "expected a small picture");
+  const Lock lock(storing_);
   const auto ok = store_.keep_picture(json.value("document", ""), picture);
-  ok ? answer(response, Json::object()) : answer(response, ok.error());
+  ok ? answer(to, Json::object()) : answer(to, ok.error());
 }
 
-void Actions::recent(const Json&, Response& response) {
-  const std::lock_guard lock(storing_);
-  answer(response, {{"recent", recent_list()}});
+void Actions::recent(const Json&, Answer& to) {
+  const Lock lock(storing_);
+  answer(to, {{"recent", recent_list()}});
 }
 
 Json Actions::recent_list() const {
@@ -151,41 +147,37 @@ Json Actions::recent_list() const {
 }
 
 // Makes a project file that contains its scan.
-void Actions::save(const Json& json, Response& response) {
+void Actions::save(const Json& json, Answer& to) {
   const Json project = json.value("project", Json());
   const Result<ScanSource> input = input_in(project);
-  if (!input) return answer(response, input.error());
+  if (!input) return answer(to, input.error());
   if (!input->sample.empty() || ending_of(input->path) == "json")
-    return refuse(response, 400, "expected a scan of one file");
+    return refuse(to, 400, "expected a scan of one file");
   const Result<std::vector<std::byte>> scan = read_file(input->path);
-  if (!scan) return answer(response, scan.error());
+  if (!scan) return answer(to, scan.error());
   const auto file = pack_project(project.dump(1) + "\n", input->name, *scan);
-  if (!file) return answer(response, file.error());
-  response.status = 200;
-  response.set_content(reinterpret_cast<const char*>(file->data()), file->size(), "application/zip");
+  if (!file) return answer(to, file.error());
+  to = {200, "application/zip", {reinterpret_cast<const char*>(file->data()), file->size()}};
 }
 
-void Actions::take_scan(const Request& request, Response& response, const httplib::ContentReader& read) {
-  if (!is_welcome(request, response, most_scan)) return;
-  DroppedScan scan = store_.begin_scan(request.get_param_value("name"));
-  const auto take = [&](std::string_view bytes) { return scan.append(bytes); };
-  if (!read_body(read, response, most_scan, take)) return;
-  const std::lock_guard lock(storing_);
-  const Result<ScanSource> input = store_.keep(scan);
-  input ? answer(response, {{"input", to_json(*input)}}) : answer(response, input.error());
+void Actions::take_scan(const std::string& name, const BodyReader& read, Answer& to) {
+  const std::unique_ptr<DroppedScan> scan = store_.begin_scan(name);
+  if (!read([&](std::string_view bytes) { return scan->append(bytes); })) return;
+  const Lock lock(storing_);
+  const Result<ScanSource> input = store_.keep(*scan);
+  input ? answer(to, {{"input", to_json(*input)}}) : answer(to, input.error());
 }
 
-void Actions::take_project(const Request& request, Response& response, const httplib::ContentReader& read) {
-  if (!is_welcome(request, response, most_scan)) return;
+void Actions::take_project(const std::string& name, const BodyReader& read, Answer& to) {
   std::vector<std::byte> body;
   const auto take = [&](std::string_view bytes) {
     const auto more = std::as_bytes(std::span(bytes));
     body.insert(body.end(), more.begin(), more.end());
     return Result<void>{};
   };
-  if (!read_body(read, response, most_scan, take)) return;
-  const Result<Json> project = project_in(body, request.get_param_value("name"), {});
-  project ? answer(response, *project) : answer(response, project.error());
+  if (!read(take)) return;
+  const Result<Json> project = project_in(body, name, {});
+  project ? answer(to, *project) : answer(to, project.error());
 }
 
 // Returns what the page needs of a project file. A relative path starts at `folder`.
@@ -195,12 +187,12 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   RELIEVO_TRY(Project project, read_project(file.text, name));
   RELIEVO_CHECK(parse_options(project.options));
   ScanSource& input = project.input;
-  const std::lock_guard lock(storing_);
+  const Lock lock(storing_);
   if (file.scan) {
-    DroppedScan scan = store_.begin_scan(file.scan->name);
+    const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.scan->name);
     RELIEVO_CHECK(
-        scan.append({reinterpret_cast<const char*>(file.scan->bytes.data()), file.scan->bytes.size()}));
-    RELIEVO_TRY(input, store_.keep(scan));
+        scan->append({reinterpret_cast<const char*>(file.scan->bytes.data()), file.scan->bytes.size()}));
+    RELIEVO_TRY(input, store_.keep(*scan));
   }
   if (!folder.empty() && input.sample.empty())
     input.path = (std::filesystem::path(folder) / input.path).lexically_normal().string();
@@ -211,14 +203,14 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
               {"studio", Json::parse(file.text).value("studio", Json::object())}};
 }
 
-Result<void> Actions::begin_with(const std::string& path) {
+Result<void> Actions::begin_with(const std::string& path, const std::string& full) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(path));
-  const std::filesystem::path full = std::filesystem::absolute(path);
+  const std::filesystem::path place = full;
   if (ending_of(path) == "relievo") {
-    RELIEVO_TRY(first_, project_in(bytes, path, full.parent_path().string()));
+    RELIEVO_TRY(first_, project_in(bytes, path, place.parent_path().string()));
     return {};
   }
-  const ScanSource input{{}, full.lexically_normal().string(), full.filename().string(), {}};
+  const ScanSource input{{}, place.lexically_normal().string(), place.filename().string(), {}};
   first_ = {{"input", to_json(input)}, {"is_there", true}};
   // The page prepares a kept document in its own view.
   if (store_.document(document_of(input)).empty()) {
@@ -240,7 +232,7 @@ Json Actions::status_of(const OpenDocuments::Entry& entry) {
 
 std::vector<Json> Actions::statuses() {
   std::vector<Json> all;
-  const std::lock_guard lock(storing_);
+  const Lock lock(storing_);
   for (const OpenDocuments::Entry& entry : documents_.all()) all.push_back(status_of(entry));
   return all;
 }

@@ -1,15 +1,15 @@
 // The actions that the page can ask for, as JSON in and out. Tested by apps/studio/tests/server.test.mjs.
 #pragma once
 
-#include "studio/answers.h"
-
+#include <functional>
 #include <map>
-#include <mutex>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "relievo/core/parallel.h"
+#include "studio/answers.h"
 #include "studio/open_documents.h"
 #include "studio/store.h"
 
@@ -17,24 +17,27 @@ namespace relievo::app::studio {
 
 constexpr std::size_t most_scan = std::size_t{4} << 30;  // bytes of a dropped file
 
+// Reads the body of a request: passes it on piece by piece, and returns whether all of it came and was taken.
+using BodyReader = std::function<bool(const std::function<Result<void>(std::string_view)>& take)>;
+
 // Every method may be called from any thread.
 class Actions {
  public:
-  Actions(OpenDocuments& documents, const Store& store);
+  Actions(OpenDocuments& documents, Store& store);
 
   bool has(std::string_view name) const;
 
   // Does the action of that name, which has() knows.
-  void run(std::string_view name, const nlohmann::json& json, httplib::Response& response);
+  void run(std::string_view name, const nlohmann::json& json, Answer& to);
 
-  // Takes a file of the browser piece by piece: a scan, or a project with or without its scan.
-  void take_scan(const httplib::Request& request, httplib::Response& response,
-                 const httplib::ContentReader& read);
-  void take_project(const httplib::Request& request, httplib::Response& response,
-                    const httplib::ContentReader& read);
+  // Takes a file of the browser piece by piece: a scan, or a project with or without its scan. Where the body does not
+  // come whole, nothing is answered.
+  void take_scan(const std::string& name, const BodyReader& read, Answer& to);
+  void take_project(const std::string& name, const BodyReader& read, Answer& to);
 
-  // Has the first page begin with a scan or a project. Errors: kind input if it cannot be read.
-  Result<void> begin_with(const std::string& path);
+  // Has the first page begin with a scan or a project; `full` is its path from the root. Errors: kind input if it cannot
+  // be read.
+  Result<void> begin_with(const std::string& path, const std::string& full);
 
   // Returns what the page needs to know before it can show anything.
   nlohmann::json about();
@@ -43,7 +46,7 @@ class Actions {
   std::vector<nlohmann::json> statuses();
 
  private:
-  using Action = void (Actions::*)(const nlohmann::json&, httplib::Response&);
+  using Action = void (Actions::*)(const nlohmann::json&, Answer&);
 
   // When a document was changed, in milliseconds since 1970, and by which tab.
   struct Change {
@@ -51,28 +54,28 @@ class Actions {
     std::string tab;
   };
 
-  void document(const nlohmann::json& json, httplib::Response& response);
-  void open(const nlohmann::json& json, httplib::Response& response);
-  void leave(const nlohmann::json& json, httplib::Response& response);
-  void keep(const nlohmann::json& json, httplib::Response& response);
-  void keep_picture(const nlohmann::json& json, httplib::Response& response);
-  void recent(const nlohmann::json& json, httplib::Response& response);
-  void save(const nlohmann::json& json, httplib::Response& response);
+  void document(const nlohmann::json& json, Answer& to);
+  void open(const nlohmann::json& json, Answer& to);
+  void leave(const nlohmann::json& json, Answer& to);
+  void keep(const nlohmann::json& json, Answer& to);
+  void keep_picture(const nlohmann::json& json, Answer& to);
+  void recent(const nlohmann::json& json, Answer& to);
+  void save(const nlohmann::json& json, Answer& to);
 
-  std::shared_ptr<Engine> engine_of(const nlohmann::json& json, httplib::Response& response);
-  void view(const nlohmann::json& json, httplib::Response& response);
-  void cancel(const nlohmann::json& json, httplib::Response& response);
-  void facts(const nlohmann::json& json, httplib::Response& response);
-  void views(const nlohmann::json& json, httplib::Response& response);
-  void status(const nlohmann::json& json, httplib::Response& response);
-  void frame(const nlohmann::json& json, httplib::Response& response);
-  void scan(const nlohmann::json& json, httplib::Response& response);
-  void profile(const nlohmann::json& json, httplib::Response& response);
-  void reach(const nlohmann::json& json, httplib::Response& response);
-  void check(const nlohmann::json& json, httplib::Response& response);
-  void piece(const nlohmann::json& json, httplib::Response& response);
-  void cancel_piece(const nlohmann::json& json, httplib::Response& response);
-  void make_file(const nlohmann::json& json, httplib::Response& response);
+  std::shared_ptr<Engine> engine_of(const nlohmann::json& json, Answer& to);
+  void view(const nlohmann::json& json, Answer& to);
+  void cancel(const nlohmann::json& json, Answer& to);
+  void facts(const nlohmann::json& json, Answer& to);
+  void views(const nlohmann::json& json, Answer& to);
+  void status(const nlohmann::json& json, Answer& to);
+  void frame(const nlohmann::json& json, Answer& to);
+  void scan(const nlohmann::json& json, Answer& to);
+  void profile(const nlohmann::json& json, Answer& to);
+  void reach(const nlohmann::json& json, Answer& to);
+  void check(const nlohmann::json& json, Answer& to);
+  void piece(const nlohmann::json& json, Answer& to);
+  void cancel_piece(const nlohmann::json& json, Answer& to);
+  void make_file(const nlohmann::json& json, Answer& to);
 
   Result<nlohmann::json> project_in(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder);
@@ -84,8 +87,8 @@ class Actions {
   static const std::map<std::string, Action, std::less<>> actions_;
 
   OpenDocuments& documents_;
-  const Store& store_;
-  std::mutex storing_;                     // guards the store and what follows
+  Store& store_;
+  Mutex storing_;                          // guards the store and what follows
   std::map<std::string, Change> changes_;  // by document
   nlohmann::json first_;                   // with which the first page begins; null for nothing
 };

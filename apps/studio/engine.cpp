@@ -3,7 +3,6 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <mutex>
 #include <new>
 
 #include "common/wording.h"
@@ -82,10 +81,10 @@ struct Engine::State {
   Guarded<Shared> shared;
 
   Guarded<Making> making;
-  std::mutex making_mutex;  // guards `piece`; pictures are drawn meanwhile
+  Mutex making_mutex;  // guards `piece`; pictures are drawn meanwhile
   MadePiece piece;
 
-  std::mutex drawing_mutex;  // guards what follows up to the session
+  Mutex drawing_mutex;  // guards what follows up to the session
   std::optional<Drawing> drawing;
   std::uint64_t drawn_model = 0;
   std::shared_ptr<const Cloud> drawn_cloud;
@@ -225,35 +224,35 @@ EngineStatus Engine::status() const {
 }
 
 Result<ModelFacts> Engine::facts() {
-  const std::lock_guard lock(state_->drawing_mutex);
+  const Lock lock(state_->drawing_mutex);
   const Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
   return drawing->facts();
 }
 
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
-  const std::lock_guard lock(state_->drawing_mutex);
+  const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
   return drawing->picture(request);
 }
 
 Result<std::vector<float>> Engine::profile(const PictureRequest& request, const SectionLine& line) {
-  const std::lock_guard lock(state_->drawing_mutex);
+  const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
   return drawing->profile(request, line);
 }
 
 Result<double> Engine::reachable_height(const ReliefOptions& options) {
-  const std::lock_guard lock(state_->drawing_mutex);
+  const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
   return drawing->reachable_height(options);
 }
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
-  const std::lock_guard lock(state_->drawing_mutex);
+  const Lock lock(state_->drawing_mutex);
   const auto cloud = state_->scan_in_use().cloud();
   if (!cloud) return nothing_open();
   if (cloud != state_->drawn_cloud) state_->cloud_renderer.emplace(*cloud);
@@ -290,7 +289,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
-  const std::lock_guard lock(state_->making_mutex);
+  const Lock lock(state_->making_mutex);
   MadePiece& last = state_->piece;
   if (last.made && last.key == key && last.model == shown.number) return last.made;
   Progress progress([this](std::string_view stage, double fraction) {

@@ -5,7 +5,7 @@
 namespace relievo::app::studio {
 
 std::shared_ptr<Engine> OpenDocuments::find(const std::string& document) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   const auto found = std::ranges::find(entries_, document, &Entry::document);
   if (found == entries_.end()) return nullptr;
   entries_.splice(entries_.begin(), entries_, found);
@@ -13,7 +13,7 @@ std::shared_ptr<Engine> OpenDocuments::find(const std::string& document) {
 }
 
 std::shared_ptr<Engine> OpenDocuments::open(const std::string& document, const std::string& tab) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   if (!tab.empty()) tabs_[tab] = document;
   const auto found = std::ranges::find(entries_, document, &Entry::document);
   if (found == entries_.end())
@@ -25,12 +25,12 @@ std::shared_ptr<Engine> OpenDocuments::open(const std::string& document, const s
 }
 
 void OpenDocuments::leave(const std::string& tab) {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   tabs_.erase(tab);
 }
 
 std::vector<OpenDocuments::Entry> OpenDocuments::all() {
-  const std::lock_guard lock(mutex_);
+  const Lock lock(mutex_);
   forget_idle();
   return {entries_.begin(), entries_.end()};
 }

@@ -4,10 +4,10 @@
 #include <list>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
+#include "relievo/core/parallel.h"
 #include "studio/engine.h"
 
 namespace relievo::app::studio {
@@ -42,7 +42,7 @@ class OpenDocuments {
   void close_others();
   void forget_idle();
 
-  std::mutex mutex_;
+  Mutex mutex_;
   std::list<Entry> entries_;
   std::map<std::string, std::string> tabs_;       // by tab, the document that it shows
   std::vector<std::shared_ptr<Engine>> closing_;  // whose cancelled work has yet to end

@@ -14,147 +14,144 @@
 namespace relievo::app::studio {
 
 using Json = nlohmann::json;
-using httplib::Response;
 
 // Returns the engine of the document that the request names; otherwise answers that it is not open.
-std::shared_ptr<Engine> Actions::engine_of(const Json& json, Response& response) {
+std::shared_ptr<Engine> Actions::engine_of(const Json& json, Answer& to) {
   auto engine = documents_.find(json.value("document", ""));
   if (!engine)
-    answer(response, {{"error", {{"kind", "closed"}, {"text", "expected a document that is open"}}}}, 409);
+    answer(to, {{"error", {{"kind", "closed"}, {"text", "expected a document that is open"}}}}, 409);
   return engine;
 }
 
-void Actions::view(const Json& json, Response& response) {
-  const auto engine = engine_of(json, response);
+void Actions::view(const Json& json, Answer& to) {
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   const auto ok = engine->choose_view(preparation_texts(json));
-  ok ? answer(response, Json::object()) : answer(response, ok.error());
+  ok ? answer(to, Json::object()) : answer(to, ok.error());
 }
 
-void Actions::cancel(const Json& json, Response& response) {
-  const auto engine = engine_of(json, response);
+void Actions::cancel(const Json& json, Answer& to) {
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   engine->cancel();
-  answer(response, Json::object());
+  answer(to, Json::object());
 }
 
-void Actions::facts(const Json& json, Response& response) {
-  const auto engine = engine_of(json, response);
+void Actions::facts(const Json& json, Answer& to) {
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   const Result<ModelFacts> facts = engine->facts();
-  facts ? answer(response, to_json(*facts)) : answer(response, facts.error());
+  facts ? answer(to, to_json(*facts)) : answer(to, facts.error());
 }
 
-void Actions::views(const Json& json, Response& response) {
-  const auto engine = engine_of(json, response);
+void Actions::views(const Json& json, Answer& to) {
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   const auto views = engine->suggest_views();
-  if (!views) return answer(response, views.error());
+  if (!views) return answer(to, views.error());
   Json sides = Json::array();
   for (const ViewGuess& side : *views) sides.push_back({{"view", side.name}, {"up", side.up}});
-  answer(response, {{"views", sides}});
+  answer(to, {{"views", sides}});
 }
 
-void Actions::status(const Json& json, Response& response) {
-  const auto engine = engine_of(json, response);
+void Actions::status(const Json& json, Answer& to) {
+  const auto engine = engine_of(json, to);
   if (!engine) return;
-  const std::lock_guard lock(storing_);
-  answer(response, status_of({json.value("document", ""), engine}));
+  const Lock lock(storing_);
+  answer(to, status_of({json.value("document", ""), engine}));
 }
 
-void Actions::frame(const Json& json, Response& response) {
+void Actions::frame(const Json& json, Answer& to) {
   const Result<PictureRequest> request = picture_request(json);
-  if (!request) return answer(response, request.error());
-  const auto engine = engine_of(json, response);
+  if (!request) return answer(to, request.error());
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   const Result<PictureAnswer> made = engine->picture(*request);
-  if (!made) return answer(response, made.error());
-  answer(response, made->picture, to_json(*made));
+  if (!made) return answer(to, made.error());
+  answer(to, made->picture, to_json(*made));
 }
 
-void Actions::scan(const Json& json, Response& response) {
+void Actions::scan(const Json& json, Answer& to) {
   const Result<View> view = view_from(json);
   const Result<PictureRequest> size = picture_request(json);
-  if (!view || !size) return answer(response, view ? size.error() : view.error());
-  const auto engine = engine_of(json, response);
+  if (!view || !size) return answer(to, view ? size.error() : view.error());
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   const Result<Picture> picture = engine->scan_picture(*view, size->render.width, size->render.height);
-  if (!picture) return answer(response, picture.error());
-  answer(response, *picture, {{"width", picture->image.width}, {"height", picture->image.height}});
+  if (!picture) return answer(to, picture.error());
+  answer(to, *picture, {{"width", picture->image.width}, {"height", picture->image.height}});
 }
 
-void Actions::profile(const Json& json, Response& response) {
+void Actions::profile(const Json& json, Answer& to) {
   const Result<PictureRequest> request = picture_request(json);
-  const Result<Vec2> from = place_from(json, "from"), to = place_from(json, "to");
-  if (!request) return answer(response, request.error());
-  if (!from || !to) return answer(response, from ? to.error() : from.error());
-  const auto engine = engine_of(json, response);
+  const Result<Vec2> from = place_from(json, "from"), until = place_from(json, "to");
+  if (!request) return answer(to, request.error());
+  if (!from || !until) return answer(to, from ? until.error() : from.error());
+  const auto engine = engine_of(json, to);
   if (!engine) return;
-  const auto heights = engine->profile(*request, {*from, *to});
-  if (!heights) return answer(response, heights.error());
-  answer(response, {{"heights_mm", *heights}});
+  const auto heights = engine->profile(*request, {*from, *until});
+  if (!heights) return answer(to, heights.error());
+  answer(to, {{"heights_mm", *heights}});
 }
 
-void Actions::reach(const Json& json, Response& response) {
+void Actions::reach(const Json& json, Answer& to) {
   const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), "options");
-  if (!options) return answer(response, options.error());
-  const auto engine = engine_of(json, response);
+  if (!options) return answer(to, options.error());
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   const Result<double> height = engine->reachable_height(*options);
-  height ? answer(response, {{"height_mm", *height}}) : answer(response, height.error());
+  height ? answer(to, {{"height_mm", *height}}) : answer(to, height.error());
 }
 
 // Tells whether options can be read and do not contradict each other.
-void Actions::check(const Json& json, Response& response) {
+void Actions::check(const Json& json, Answer& to) {
   const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), "options");
-  if (!options) return answer(response, options.error());
+  if (!options) return answer(to, options.error());
   const Result<void> checked = relievo::check(*options);
-  checked ? answer(response, Json::object()) : answer(response, checked.error());
+  checked ? answer(to, Json::object()) : answer(to, checked.error());
 }
 
 // Makes the piece as export writes it, and tells how large it is.
-void Actions::piece(const Json& json, Response& response) {
+void Actions::piece(const Json& json, Answer& to) {
   const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), "options");
-  if (!options) return answer(response, options.error());
-  const auto engine = engine_of(json, response);
+  if (!options) return answer(to, options.error());
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   const auto made = engine->piece(*options, json["options"].dump());
-  if (!made) return answer(response, made.error());
+  if (!made) return answer(to, made.error());
   const Solid& solid = (*made)->solid;
   const Vec3 size = size_mm(solid);
-  answer(response, {{"triangles", solid.triangles.size()},
-                    {"points", solid.points.size()},
-                    {"size_mm", {size.x(), size.y(), size.z()}},
-                    {"height_mm", (*made)->report.height_mm}});
+  answer(to, {{"triangles", solid.triangles.size()},
+              {"points", solid.points.size()},
+              {"size_mm", {size.x(), size.y(), size.z()}},
+              {"height_mm", (*made)->report.height_mm}});
 }
 
-void Actions::cancel_piece(const Json& json, Response& response) {
-  const auto engine = engine_of(json, response);
+void Actions::cancel_piece(const Json& json, Answer& to) {
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   engine->cancel_making();
-  answer(response, Json::object());
+  answer(to, Json::object());
 }
 
-void Actions::make_file(const Json& json, Response& response) {
+void Actions::make_file(const Json& json, Answer& to) {
   const Result<ReliefOptions> wanted = options_from_json(json.value("options", Json()), "options");
-  if (!wanted) return answer(response, wanted.error());
+  if (!wanted) return answer(to, wanted.error());
   const Result<int> pixels = pixels_from(json);
-  if (!pixels) return answer(response, pixels.error());
-  const auto engine = engine_of(json, response);
+  if (!pixels) return answer(to, pixels.error());
+  const auto engine = engine_of(json, to);
   if (!engine) return;
   Result<ExportedFile> file =
       engine->make_file({*wanted, json["options"].dump(), json.value("format", ""), *pixels});
-  if (!file) return answer(response, file.error());
-  response.status = 200;
-  response.body = std::move(file->bytes);
-  response.set_header("Content-Type", file->type);
+  if (!file) return answer(to, file.error());
+  to = {200, std::move(file->type), std::move(file->bytes)};
 }
 
 Json Actions::about() {
   Json samples = Json::array();
   for (const SampleInfo& sample : relievo::samples())
     samples.push_back({{"name", sample.name}, {"description", sample.description}});
-  const std::lock_guard lock(storing_);
+  const Lock lock(storing_);
   return {{"version", version},
           {"options", option_list()},
           {"readable", readable_formats()},

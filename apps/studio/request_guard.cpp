@@ -4,9 +4,9 @@
 
 #include <array>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 
 #include "relievo/core/text.h"
+#include "studio/http_answers.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -36,13 +36,6 @@ bool is_equal(std::string_view a, std::string_view b) {
 }
 
 }  // namespace
-
-void refuse(Response& response, int status, const std::string& text) {
-  const nlohmann::json error{{"error", {{"kind", "request"}, {"text", text}}}};
-  response.status = status;
-  response.set_content(error.dump(), "application/json");
-  response.set_header("Connection", "close");
-}
 
 RequestGuard::RequestGuard(const std::string& former_token)
     : token_(former_token.size() == 32 ? former_token : random_token()) {}

@@ -11,10 +11,6 @@
 
 namespace relievo::app::studio {
 
-// Answers with an error that the page can show, and closes the connection without reading the rest of the
-// request.
-void refuse(httplib::Response& response, int status, const std::string& text);
-
 // Has a random token for the page's address and checks that requests know it and come from there.
 class RequestGuard {
  public:

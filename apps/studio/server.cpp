@@ -7,6 +7,7 @@
 
 #include "common/files.h"
 #include "relievo/core/text.h"
+#include "studio/http_answers.h"
 #include "studio/http_server.h"
 #include "studio/page_files.h"
 #include "studio/request_guard.h"
@@ -72,7 +73,7 @@ class StatusStream {
 
 struct Server::State {
   Actions& actions;
-  const Store& store;
+  const DiskStore& store;
   ServerOptions options;
   const std::string run_name = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
   RequestGuard guard;
@@ -80,7 +81,7 @@ struct Server::State {
   std::atomic<bool> had_page = false, is_stopping = false;
   HttpServer http;
 
-  State(Actions& a, const Store& s, const ServerOptions& o)
+  State(Actions& a, const DiskStore& s, const ServerOptions& o)
       : actions(a), store(s), options(o), guard(s.address().token) {
     set_up();
   }
@@ -88,7 +89,11 @@ struct Server::State {
   // -------------------------------------------------------------------------------------------------- reads
 
   void get(const std::string& name, Response& response) {
-    if (name == "api/about") return answer(response, actions.about());
+    if (name == "api/about") {
+      Answer about;
+      answer(about, actions.about());
+      return send(std::move(about), response);
+    }
     if (name == "api/events") return follow(response);
     send_file(name.empty() ? "index.html" : name, response);
   }
@@ -139,8 +144,7 @@ struct Server::State {
 
   void post(const Request& request, Response& response, const httplib::ContentReader& read) {
     const std::string name = request.path.substr(guard.token().size() + 2);
-    if (name == "api/upload") return actions.take_scan(request, response, read);
-    if (name == "api/project") return actions.take_project(request, response, read);
+    if (name == "api/upload" || name == "api/project") return take_file(name, request, response, read);
     const std::string action = name.starts_with("api/") ? name.substr(4) : "";
     if (!actions.has(action)) return refuse(response, 404, "no such action");
     if (!is_welcome(request, response, most_json)) return;
@@ -152,9 +156,23 @@ struct Server::State {
     if (!read_body(read, response, most_json, take)) return;
     const ScopedCount count(waiting);
     if (count.number() > most_waiting) return refuse(response, 503, "too much at once");
+    Answer made;
     const Result<Json> json = parse_body(body);
-    if (!json) return answer(response, json.error());
-    actions.run(action, *json, response);
+    json ? actions.run(action, *json, made) : answer(made, json.error());
+    send(std::move(made), response);
+  }
+
+  void take_file(const std::string& name, const Request& request, Response& response,
+                 const httplib::ContentReader& read) {
+    if (!is_welcome(request, response, most_scan)) return;
+    bool is_whole = false;
+    const BodyReader body = [&](const auto& take) {
+      return is_whole = read_body(read, response, most_scan, take);
+    };
+    Answer made;
+    const std::string file = request.get_param_value("name");
+    name == "api/upload" ? actions.take_scan(file, body, made) : actions.take_project(file, body, made);
+    if (is_whole) send(std::move(made), response);
   }
 
   void set_up() {
@@ -193,7 +211,7 @@ struct Server::State {
   }
 };
 
-Server::Server(Actions& actions, const Store& store, const ServerOptions& options)
+Server::Server(Actions& actions, const DiskStore& store, const ServerOptions& options)
     : state_(std::make_unique<State>(actions, store, options)) {}
 Server::~Server() = default;
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "studio/actions.h"
-#include "studio/store.h"
+#include "studio/disk_store.h"
 
 namespace relievo::app::studio {
 
@@ -21,7 +21,7 @@ struct ServerOptions {
 // were sent to this machine by name, and that no other web site sent.
 class Server {
  public:
-  Server(Actions& actions, const Store& store, const ServerOptions& options);
+  Server(Actions& actions, const DiskStore& store, const ServerOptions& options);
   ~Server();
 
   // Opens the port and returns the page's address. Errors: kind option if the port is taken.

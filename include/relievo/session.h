@@ -57,7 +57,8 @@ class Session {
   SessionStatus status() const;
   std::shared_ptr<const ReliefModel> model() const;  // the newest; null before the first
 
-  // Waits until nothing is left to do. Returns false if that takes longer than the timeout.
+  // Waits until nothing is left to do. Returns false if that takes longer than the timeout. Where there are no threads,
+  // this call does what open() asked for; with a timeout of 0 it does nothing.
   bool wait_until_idle(std::chrono::milliseconds timeout);
 
  private:

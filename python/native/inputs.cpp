@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "common/files.h"
+#include "common/output_files.h"
 #include "native/arrays.h"
 #include "native/errors.h"
 #include "relievo/core/text.h"

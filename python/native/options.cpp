@@ -1,6 +1,5 @@
 #include "native/options.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -10,13 +9,6 @@
 
 namespace relievo::python {
 namespace {
-
-std::string keyword_of(const OptionField& field) {
-  std::string keyword(field.name);
-  std::ranges::replace(keyword, '-', '_');
-  if (field.unit == "MM") return keyword + "_mm";
-  return field.unit == "DEG" ? keyword + "_deg" : keyword;
-}
 
 [[noreturn]] void raise_type(const std::string& keyword, const char* expected, py::handle value) {
   throw py::type_error(cat(keyword, ": expected ", expected, ", found ", Py_TYPE(value.ptr())->tp_name));
@@ -35,11 +27,11 @@ struct KeywordReader {
   void operator()(const OptionField& field, std::string& value) const {
     const py::object found = find(field);
     if (found.is_none()) return;
-    if (!py::isinstance<py::str>(found)) raise_type(keyword_of(field), "a text", found);
+    if (!py::isinstance<py::str>(found)) raise_type(app::keyword_of(field), "a text", found);
     value = found.cast<std::string>();
   }
 
-  py::object find(const OptionField& field) const { return given.attr("get")(keyword_of(field)); }
+  py::object find(const OptionField& field) const { return given.attr("get")(app::keyword_of(field)); }
 
   // Lengths may be texts with a unit, as on the command line.
   std::optional<double> take_number(const OptionField& field) const {
@@ -54,41 +46,27 @@ struct KeywordReader {
     const double number = PyBool_Check(found.ptr()) ? -1 : PyFloat_AsDouble(found.ptr());
     if (PyBool_Check(found.ptr()) || PyErr_Occurred()) {
       PyErr_Clear();
-      raise_type(keyword_of(field), is_length ? "a number or a length such as '4in'" : "a number", found);
+      raise_type(app::keyword_of(field), is_length ? "a number or a length such as '4in'" : "a number",
+                 found);
     }
     return number;
   }
 };
 
-// Returns the table for Python: what option_list() has, and the keyword.
 py::object table() {
-  nlohmann::json list = app::option_list();
-  std::size_t i = 0;
-  for (const ReliefField& field : option_fields()) {
-    list[i]["keyword"] = keyword_of(field);
-    list[i++]["default_text"] = app::default_text(field);
-  }
-  DepthTexts depth;
-  visit(depth, [&](const OptionField& field, const auto& value) {
-    nlohmann::json entry{{"keyword", keyword_of(field)}, {"name", field.name},    {"unit", field.unit},
-                         {"help", field.help},           {"default_text", value}, {"default", value}};
-    if (!field.choices.empty()) entry["choices"] = field.choices;
-    entry["is_of_input"] = true;
-    list.push_back(entry);
-  });
-  return py::module_::import("json").attr("loads")(list.dump());
+  return py::module_::import("json").attr("loads")(app::keyword_list().dump());
 }
 
 }  // namespace
 
 std::string keyword_of(std::string_view name) {
   for (const ReliefField& field : option_fields())
-    if (field.name == name) return keyword_of(field);
+    if (field.name == name) return app::keyword_of(field);
   if (name == "base-image") return "base_image";
   DepthTexts depth;
   std::string keyword(name);
   visit(depth, [&](const OptionField& field, const auto&) {
-    if (field.name == name) keyword = keyword_of(field);
+    if (field.name == name) keyword = app::keyword_of(field);
   });
   return keyword;
 }

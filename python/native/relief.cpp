@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "common/export_file.h"
+#include "common/files.h"
 #include "common/make_report.h"
 #include "common/relief_files.h"
-#include "common/wording.h"
 #include "native/arrays.h"
 #include "native/call.h"
 #include "native/errors.h"
@@ -28,13 +28,14 @@ py::bytes bytes_of(std::string_view text) {
 }
 
 SharedRelief make(const py::list& sources, const py::dict& keywords, const py::object& callback) {
-  const MakeOrder order = order_of(sources, keywords);
+  const PythonOrder order = order_of(sources, keywords);
   return watched_value(callback, [&](Progress& progress) -> Result<SharedRelief> {
-    RELIEVO_TRY(const Loaded loaded, load(order, progress));
+    RELIEVO_TRY(const app::LoadedOrder loaded, load(order, progress));
     Result<MadeRelief> made = make_relief(loaded.input.scene, loaded.options, &progress);
     if (!made && made.error().input.empty()) made.error().input = names_of(order.sources);
     if (!made) return std::unexpected(made.error());
-    return finished(*std::move(made), facts_of(order, loaded), loaded.options, progress);
+    return std::make_shared<app::FinishedRelief>(app::finished(
+        *std::move(made), app::facts_of(order, paths_of(order.sources), loaded), loaded.options, progress));
   });
 }
 
@@ -86,21 +87,13 @@ py::bytes to_bytes(const SharedRelief& relief, const std::string& format, int he
   return bytes_of(unlocked([&] { return app::export_file(relief->made, *known, heightmap_px); }).bytes);
 }
 
-Result<PreviewOptions> preview_options(int size, const std::string& material) {
-  PreviewOptions options;
-  options.longer_side_px = size;
-  if (size < 1 || size > 5461) return option_error("size", cat("expected 1 to 5461 pixels, found ", size));
-  RELIEVO_TRY(options.material, parse_choice("material", material, material_choices));
-  return options;
-}
-
 py::array preview(const SharedRelief& relief, int size, const std::string& material) {
-  const PreviewOptions options = value_or_raise(preview_options(size, material));
+  const PreviewOptions options = value_or_raise(app::preview_options(size, material));
   return array_of(unlocked([&] { return render_preview(relief->made.solid, options); }));
 }
 
 py::bytes preview_png(const SharedRelief& relief, int size, const std::string& material) {
-  const PreviewOptions options = value_or_raise(preview_options(size, material));
+  const PreviewOptions options = value_or_raise(app::preview_options(size, material));
   const auto png = unlocked([&] { return write_png(render_preview(relief->made.solid, options)); });
   return bytes_of({reinterpret_cast<const char*>(png.data()), png.size()});
 }
@@ -159,14 +152,9 @@ std::string scan_path_of(const py::dict& keywords) {
 
 }  // namespace
 
-MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
-  MakeOrder order{sources_of(sources),
-                  texts_of(keywords),
-                  {},
-                  input_arguments(keywords),
-                  {},
-                  scan_path_of(keywords),
-                  nullptr};
+PythonOrder order_of(const py::list& sources, const py::dict& keywords) {
+  PythonOrder order{{texts_of(keywords), {}, input_arguments(keywords), {}}, sources_of(sources)};
+  order.scan_path = scan_path_of(keywords);
   for (const ReliefField& field : option_fields()) {
     const std::string keyword = keyword_of(field.name);
     if (keywords.contains(keyword) && !keywords[keyword.c_str()].is_none()) order.given.emplace(field.name);
@@ -181,53 +169,25 @@ MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
   return order;
 }
 
-Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<app::Project>& project) {
-  OptionTexts texts = order.texts;
-  const auto is_given = [&](std::string_view name) { return order.given.contains(std::string(name)); };
-  if (project) texts = app::with_given(project->options, order.texts, is_given);
-  const bool has_image = order.base_image || !order.base_image_path.empty();
-  if (has_image && texts.base == OptionTexts{}.base && !is_given("base")) texts.base = "image";
-  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
-  RELIEVO_TRY(std::shared_ptr<const Image<float>> image, app::read_base_image(order.base_image_path));
-  RELIEVO_CHECK(app::take_base_image(image ? std::move(image) : order.base_image, options.base));
-  return options;
-}
-
-Result<Loaded> load(const MakeOrder& order, Progress& progress) {
+Result<app::LoadedOrder> load(const PythonOrder& order, Progress& progress) {
   RELIEVO_TRY(const std::optional<app::StoredProject> stored, find_project(order.sources, order.scan_path));
   std::optional<app::Project> project;
   if (stored) project = stored->project;
-  RELIEVO_TRY(ReliefOptions options, options_of(order, project));
+  RELIEVO_TRY(ReliefOptions options, app::options_of(order, project));
   if (!stored) {
     RELIEVO_TRY(app::SceneInput input,
                 read_sources(order.sources, order.in, {options.view, options.points}, &progress));
     options.view = chosen_view(input.scene, options.view);
-    return Loaded{std::move(input), std::move(options)};
+    return app::LoadedOrder{std::move(input), std::move(options)};
   }
   RELIEVO_CHECK(progress.stage("read", 0));
   RELIEVO_TRY(Scene scene, app::load_project_scan(*stored, [&] { return progress.is_cancelled(); }));
   options.view = chosen_view(scene, options.view);
-  return Loaded{{std::move(scene), {}}, std::move(options), std::move(project)};
-}
-
-InputFacts facts_of(const MakeOrder& order, const Loaded& loaded) {
-  InputFacts facts{paths_of(order.sources), loaded.input.remarks,
-                   app::models_report(loaded.input.scene, loaded.options.view)};
-  facts.paths.insert(facts.paths.end(), {order.base_image_path, order.scan_path});
-  return facts;
-}
-
-SharedRelief finished(MadeRelief made, const InputFacts& facts, const ReliefOptions& options,
-                      Progress& progress) {
-  progress.finish();
-  FinishedRelief relief{std::move(made), {}, facts.remarks, facts.paths, options.draft_deg};
-  for (std::string& line : app::remarks_on(relief.made.report)) relief.remarks.push_back(std::move(line));
-  relief.report = app::make_report({relief.made, facts.models, LengthUnit::mm, progress.times()});
-  return std::make_shared<FinishedRelief>(std::move(relief));
+  return app::LoadedOrder{{std::move(scene), {}}, std::move(options), std::move(project)};
 }
 
 void add_relief(py::module_& module) {
-  py::class_<FinishedRelief, SharedRelief>(module, "Relief")
+  py::class_<app::FinishedRelief, SharedRelief>(module, "Relief")
       .def("save",
            [](const SharedRelief& relief, const py::dict& paths, const std::string& units, int heightmap_px,
               int preview_px) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "core/number.h"
 #include "relievo/core/text.h"
 
 namespace relievo {
@@ -26,12 +26,11 @@ bool is_ambiguous(std::string_view number) {
 }
 
 // Removes a number without a sign from the beginning of the text and returns it; nothing if there is no finite number.
-// std::from_chars does not depend on the locale, in which a comma might be the only decimal point.
+// parse_double() does not depend on the locale, in which a comma might be the only decimal point.
 std::optional<double> take_number(std::string_view& text) {
   std::string digits(text);
   std::ranges::replace(digits, ',', '.');
-  double value = 0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  const auto [value, end, error] = parse_double(digits);
   const auto size = static_cast<std::size_t>(end - digits.data());
   if (error != std::errc() || !std::isfinite(value) || text.front() == '-') return std::nullopt;
   if (is_ambiguous(text.substr(0, size))) return std::nullopt;

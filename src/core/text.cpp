@@ -2,13 +2,14 @@
 
 #include <cmath>
 
+#include "core/number.h"
+
 namespace relievo {
 
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
   while (true) {
-    double number = 0;
-    const auto [rest, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+    const auto [number, rest, status] = parse_double(text);
     if (status != std::errc{} || !std::isfinite(number)) return std::nullopt;
     numbers.push_back(number);
     text.remove_prefix(static_cast<std::size_t>(rest - text.data()));

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <limits>
 
+#include "core/number.h"
+
 namespace relievo::io {
 namespace {
 
@@ -54,8 +56,7 @@ std::string_view before_comment(std::string_view line) {
 std::optional<double> parse_number(std::string_view word) {
   word = without_plus(word);
   const char* last = word.data() + word.size();
-  double value = 0;
-  const auto [end, code] = std::from_chars(word.data(), last, value);
+  auto [value, end, code] = parse_double(word);
   if (code == std::errc::invalid_argument) return std::nullopt;
   if (code == std::errc::result_out_of_range) {
     value = is_tiny(word) ? 0 : std::numeric_limits<double>::infinity();

@@ -1,13 +1,13 @@
 #include "relievo/plate/tool.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
 
 #include "core/angle.h"
+#include "core/number.h"
 #include "geometry/dilation.h"
 #include "plate/height_field.h"
 #include "relievo/core/image.h"
@@ -40,8 +40,7 @@ std::optional<double> length_in(std::string_view text, LengthUnit bare, double l
 }
 
 std::optional<double> angle_in(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const auto [value, end, error] = parse_double(text);
   const bool is_whole = error == std::errc() && end == text.data() + text.size();
   return is_whole ? in_range(value, 1, 170) : std::nullopt;
 }

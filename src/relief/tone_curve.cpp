@@ -1,9 +1,9 @@
 #include "relievo/relief/tone_curve.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "core/number.h"
 #include "relievo/core/text.h"
 
 namespace relievo {
@@ -34,8 +34,7 @@ std::vector<double> monotone_slopes(const std::vector<Vec2>& points) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  double number = 0;
-  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const auto [number, end, problem] = parse_double(text);
   if (problem != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return number;
 }

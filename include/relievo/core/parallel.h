@@ -1,4 +1,5 @@
-// Parallel loops, and the only file of the library that creates threads. Work is cut into blocks whose limits
+// Parallel loops, and the only file of the library that creates threads; where a system has none, as WebAssembly here, the
+// calling thread does all work. Work is cut into blocks whose limits
 // depend on the amount of work alone, never on the number of threads, so that results have the same bits for
 // any number of threads. Tested by tests/core/parallel_test.cpp.
 #pragma once
@@ -86,28 +87,40 @@ class BlockFlags {
   std::vector<std::atomic<std::uint8_t>> flags_;
 };
 
+// Admits one thread at a time.
+#if defined(__wasi__)
+class Mutex {
+ public:
+  void lock() {}
+  void unlock() {}
+};
+#else
+using Mutex = std::mutex;
+#endif
+using Lock = std::lock_guard<Mutex>;
+
 // A value that threads share. with() is the only access to it and admits one caller at a time.
 template <typename T>
 class Guarded {
  public:
   template <typename F>
   decltype(auto) with(F&& f) {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     return std::forward<F>(f)(value_);
   }
   template <typename F>
   decltype(auto) with(F&& f) const {
-    const std::lock_guard lock(mutex_);
+    const Lock lock(mutex_);
     return std::forward<F>(f)(value_);
   }
 
  private:
-  mutable std::mutex mutex_;
+  mutable Mutex mutex_;
   T value_;
 };
 
 // A thread that calls one function repeatedly as long as it returns true, and then sleeps until wake(). Its
-// methods may be called from any other thread.
+// methods may be called from any other thread. Where there are no threads, wait_until_idle() calls the function.
 class BackgroundLoop {
  public:
   explicit BackgroundLoop(std::function<bool()> step);
@@ -116,7 +129,7 @@ class BackgroundLoop {
   void wake();
 
   // Waits until the loop sleeps and has nothing left to do. Returns false if that takes longer than the
-  // timeout.
+  // timeout. Without threads no call of the function begins after the timeout.
   bool wait_until_idle(std::chrono::milliseconds timeout);
 
  private:

@@ -1,0 +1,50 @@
+#include "common/make_order.h"
+
+#include <utility>
+
+#include "common/make_report.h"
+#include "common/wording.h"
+#include "relievo/core/choice.h"
+#include "relievo/core/text.h"
+#include "relievo/picture/material.h"
+
+namespace relievo::app {
+
+Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Project>& project) {
+  OptionTexts texts = order.texts;
+  const auto is_given = [&](std::string_view name) { return order.given.contains(std::string(name)); };
+  if (project) texts = with_given(project->options, order.texts, is_given);
+  const bool has_image = order.base_image || !order.base_image_path.empty();
+  if (has_image && texts.base == OptionTexts{}.base && !is_given("base")) texts.base = "image";
+  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
+  RELIEVO_TRY(std::shared_ptr<const Image<float>> image, read_base_image(order.base_image_path));
+  RELIEVO_CHECK(take_base_image(image ? std::move(image) : order.base_image, options.base));
+  return options;
+}
+
+InputFacts facts_of(const MakeOrder& order, std::vector<std::string> paths, const LoadedOrder& loaded) {
+  InputFacts facts{std::move(paths), loaded.input.remarks,
+                   models_report(loaded.input.scene, loaded.options.view)};
+  facts.paths.insert(facts.paths.end(), {order.base_image_path, order.scan_path});
+  return facts;
+}
+
+FinishedRelief finished(MadeRelief made, const InputFacts& facts, const ReliefOptions& options,
+                        Progress& progress) {
+  progress.finish();
+  FinishedRelief relief{std::move(made), {}, facts.remarks, facts.paths, options.draft_deg};
+  for (std::string& line : remarks_on(relief.made.report)) relief.remarks.push_back(std::move(line));
+  relief.report = make_report({relief.made, facts.models, LengthUnit::mm, progress.times()});
+  return relief;
+}
+
+Result<PreviewOptions> preview_options(int longer_side_px, std::string_view material) {
+  PreviewOptions options;
+  options.longer_side_px = longer_side_px;
+  if (longer_side_px < 1 || longer_side_px > 5461)
+    return option_error("size", cat("expected 1 to 5461 pixels, found ", longer_side_px));
+  RELIEVO_TRY(options.material, parse_choice("material", material, material_choices));
+  return options;
+}
+
+}  // namespace relievo::app

@@ -1,0 +1,31 @@
+// Files that are written, as wholes. Tested by tests/cli/files_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "relievo/core/error.h"
+
+namespace relievo::app {
+
+// Checks the path of an output before the work for it begins. Errors: kind option if it has none of the endings,
+// given as ".stl" (any will do if there are none), or leads to one of the files in `taken`; kind output if no file
+// could be written there: folder missing or read-only, or the path is a folder or a device.
+Result<void> check_output(const std::string& path, const std::vector<std::string_view>& endings,
+                          std::span<const std::string> taken = {});
+
+// A finished file, not yet written.
+struct OutputFile {
+  std::string path;
+  std::vector<std::byte> bytes;
+};
+
+// Writes all files (at most 8) to temporary names in their folders and, when all are complete, renames them:
+// readers see an old file or the whole new one, and if one cannot be written, all stay as they were. Errors:
+// kind output.
+Result<void> write_files(std::span<const OutputFile> files);
+
+}  // namespace relievo::app

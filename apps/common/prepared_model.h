@@ -1,0 +1,64 @@
+// A model that is prepared once, and its frames and reliefs, for Python and WebAssembly.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "common/make_order.h"
+#include "relievo/core/parallel.h"
+#include "relievo/picture/render.h"
+#include "relievo/relief/frame.h"
+#include "relievo/relief/relief.h"
+
+namespace relievo::app {
+
+// A frame with its heights in millimetres.
+struct FrameInMm {
+  Frame frame;
+  double mm_per_unit = 1;
+};
+
+// A picture of a frame, as users ask for it.
+struct PictureOrder {
+  int width, height;
+  double yaw_deg, pitch_deg, zoom;
+  std::string material;
+  bool is_fine;
+};
+
+// Every method may be called from any thread.
+class PreparedModel {
+ public:
+  // Prepares the model of an order; `name` is that of its inputs. Errors: those of sample_for_view() and prepare().
+  static Result<std::shared_ptr<PreparedModel>> prepare(const LoadedOrder& loaded, std::string name,
+                                                        InputFacts facts, Progress& progress);
+
+  const ReliefModel& model() const { return *model_; }
+
+  // Errors: those of options_of() and make_relief().
+  Result<FinishedRelief> make(const MakeOrder& order, Progress& progress) const;
+
+  // Errors: those of options_of(); kind option for a method that has no frames.
+  Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
+
+  // Draws a frame of this model. Errors: kind input for a frame of another model, kind option.
+  Result<Picture> picture(const FrameInMm& shown, const PictureOrder& order);
+
+ private:
+  PreparedModel(const LoadedOrder& loaded, std::string name, InputFacts facts, std::vector<SampleNote> notes,
+                std::shared_ptr<const ReliefModel> model);
+
+  std::string name_;
+  InputFacts facts_;
+  std::optional<Project> project_;
+  std::vector<SampleNote> notes_;
+  std::shared_ptr<const ReliefModel> model_;
+  double longer_side_;  // of the surface
+
+  Mutex mutex_;  // guards what follows, which is not for concurrent use
+  FrameMaker frames_;
+  FrameRenderer renderer_;
+};
+
+}  // namespace relievo::app

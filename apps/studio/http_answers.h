@@ -1,0 +1,30 @@
+// Answers and bodies of requests over HTTP. Bodies have limits. Tested by apps/studio/tests/server.test.mjs.
+#pragma once
+
+#include "studio/answers.h"
+
+// After the headers above: it defines a macro _res that Eigen cannot live with.
+#include <httplib.h>
+
+#include <exception>
+#include <functional>
+#include <string_view>
+
+namespace relievo::app::studio {
+
+void send(Answer answer, httplib::Response& response);
+
+// Sends an error that the page can show, and closes the connection without reading the rest of the request.
+void refuse(httplib::Response& response, int status, const std::string& text);
+
+// Answers after an exception: JSON of a wrong type where a text or number belongs, and files too large to be made.
+void answer(httplib::Response& response, const std::exception_ptr& exception);
+
+// Returns whether a body may come; otherwise refuses it by what its head says of it, before any of it is read.
+bool is_welcome(const httplib::Request& request, httplib::Response& response, std::size_t most_bytes);
+
+// Reads a body piece by piece; returns whether all of it came and was taken, and otherwise refuses it.
+bool read_body(const httplib::ContentReader& read, httplib::Response& response, std::size_t most_bytes,
+               const std::function<Result<void>(std::string_view)>& take);
+
+}  // namespace relievo::app::studio

@@ -1,0 +1,258 @@
+#include "web/calls.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <variant>
+
+#include "common/export_file.h"
+#include "common/files.h"
+#include "common/make_report.h"
+#include "common/option_list.h"
+#include "common/prepared_model.h"
+#include "common/relief_files.h"
+#include "common/stage_names.h"
+#include "relievo/core/choice.h"
+#include "relievo/core/text.h"
+#include "relievo/core/version.h"
+#include "relievo/io/read.h"
+#include "relievo/io/write.h"
+#include "relievo/picture/height_map.h"
+#include "relievo/samples/sample.h"
+#include "relievo/scan/surface.h"
+#include "web/host.h"
+#include "web/order.h"
+
+namespace relievo::app::web {
+namespace {
+
+using Json = nlohmann::json;
+using Kept =
+    std::variant<std::shared_ptr<FinishedRelief>, std::shared_ptr<PreparedModel>, std::shared_ptr<FrameInMm>>;
+
+// What calls have made, by number, until it is forgotten.
+std::map<int, Kept>& kept() {
+  static std::map<int, Kept> all;
+  return all;
+}
+
+int keep(Kept made) {
+  static int last = 0;
+  kept().emplace(++last, std::move(made));
+  return last;
+}
+
+int integer(const Json& json, const char* key, int otherwise) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? static_cast<int>(found->get<double>()) : otherwise;
+}
+
+double number(const Json& json, const char* key, double otherwise) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? found->get<double>() : otherwise;
+}
+
+std::string text(const Json& json, const char* key, std::string otherwise = {}) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : otherwise;
+}
+
+// Returns what an earlier call has made.
+template <typename T>
+Result<std::shared_ptr<T>> find(const Json& json, const char* key) {
+  const auto found = kept().find(integer(json, key, 0));
+  const auto* const made = found == kept().end() ? nullptr : std::get_if<std::shared_ptr<T>>(&found->second);
+  if (!made) return option_error(key, "expected one that was not released");
+  return *made;
+}
+
+template <typename T>
+std::vector<std::byte> bytes_of_all(const std::vector<T>& values) {
+  const auto bytes = std::as_bytes(std::span(values));
+  return {bytes.begin(), bytes.end()};
+}
+
+Json relief_json(std::shared_ptr<FinishedRelief> relief) {
+  const Json report = relief->report, remarks = relief->remarks;
+  return {{"relief", keep(std::move(relief))}, {"report", report}, {"remarks", remarks}};
+}
+
+std::string name_of(const FileOrder& order) {
+  return joined(order.inputs);
+}
+
+// --------------------------------------------------------------------------------------------------- making
+
+Result<CallAnswer> about(const Json&) {
+  Json all = Json::array();
+  for (const SampleInfo& sample : samples())
+    all.push_back({{"name", sample.name}, {"description", sample.description}});
+  Json stages = Json::object();
+  for (const auto& [stage, words] : stage_names()) stages[std::string(stage)] = words;
+  return CallAnswer{{{"version", version},
+                     {"options", keyword_list()},
+                     {"formats", format_list()},
+                     {"endings", readable_endings()},
+                     {"stages", stages},
+                     {"samples", all}}};
+}
+
+Result<CallAnswer> make(const Json& json) {
+  RELIEVO_TRY(const FileOrder order, order_from(json));
+  HostProgress progress;
+  RELIEVO_TRY(const LoadedOrder loaded, load(order, progress));
+  Result<MadeRelief> made = make_relief(loaded.input.scene, loaded.options, &progress);
+  if (!made && made.error().input.empty()) made.error().input = name_of(order);
+  if (!made) return std::unexpected(made.error());
+  return CallAnswer{relief_json(std::make_shared<FinishedRelief>(
+      finished(*std::move(made), facts_of(order, order.inputs, loaded), loaded.options, progress)))};
+}
+
+Result<CallAnswer> make_sample_file(const Json& json) {
+  const SampleOptions options{static_cast<std::size_t>(number(json, "points", SampleOptions{}.points)),
+                              number(json, "noise", SampleOptions{}.noise)};
+  RELIEVO_TRY(const Cloud cloud, make_sample(text(json, "name"), options));
+  return CallAnswer{{}, write_ply(cloud, {})};
+}
+
+// --------------------------------------------------------------------------------------------------- results
+
+// Returns one file of a relief: {"relief", "path", "kind"}, kind one of those of ReliefFiles.
+Result<CallAnswer> file(const Json& json) {
+  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
+  ReliefFiles files;
+  RELIEVO_TRY(files.unit, parse_unit(text(json, "units", "mm")));
+  files.heightmap_px = integer(json, "heightmap_px", files.heightmap_px);
+  files.preview_px = integer(json, "preview_px", files.preview_px);
+  if (files.heightmap_px < 16 || files.heightmap_px > 16384)
+    return option_error("heightmap-size", cat("expected 16 to 16384 pixels, found ", files.heightmap_px));
+  RELIEVO_CHECK(preview_options(files.preview_px, "plaster"));
+  const std::string kind = text(json, "kind", "solid");
+  std::string ReliefFiles::*const path = kind == "preview"        ? &ReliefFiles::preview
+                                         : kind == "heightmap"    ? &ReliefFiles::heightmap
+                                         : kind == "tool_picture" ? &ReliefFiles::tool_picture
+                                                                  : &ReliefFiles::solid;
+  files.*path = text(json, "path");
+  if (kind == "solid" && !find_solid_format(ending_of(files.solid)))
+    return option_error("output", cat("expected a file ending in ", either(solid_endings())));
+  if (kind == "tool_picture" && !relief->made.report.reach)
+    return option_error("tool-picture", "expected a tool, which it shows");
+  RELIEVO_TRY(std::vector<OutputFile> made, relief_files(files, relief->made, relief->draft_deg));
+  return CallAnswer{{}, std::move(made.at(0).bytes)};
+}
+
+Result<CallAnswer> heights(const Json& json) {
+  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
+  const int size = integer(json, "size", 1024);
+  if (size < 1 || size > 32768) return option_error("size", cat("expected 1 to 32768 pixels, found ", size));
+  const MadeRelief& made = relief->made;
+  const HeightsMm map = make_heights_mm(made.report.wrap ? made.flat : made.solid, size);
+  return CallAnswer{
+      {{"width", map.image.width}, {"height", map.image.height}, {"mm_per_pixel", map.mm_per_pixel}},
+      bytes_of_all(map.image.pixels)};
+}
+
+Result<CallAnswer> vertices(const Json& json) {
+  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
+  return CallAnswer{{}, bytes_of_all(relief->made.solid.points)};
+}
+
+Result<CallAnswer> faces(const Json& json) {
+  RELIEVO_TRY(const auto relief, find<FinishedRelief>(json, "relief"));
+  return CallAnswer{{}, bytes_of_all(relief->made.solid.triangles)};
+}
+
+// -------------------------------------------------------------------------------------------------- sessions
+
+Result<CallAnswer> open(const Json& json) {
+  RELIEVO_TRY(const FileOrder order, order_from(json));
+  HostProgress progress;
+  RELIEVO_TRY(const LoadedOrder loaded, load(order, progress));
+  auto model =
+      PreparedModel::prepare(loaded, name_of(order), facts_of(order, order.inputs, loaded), progress);
+  if (!model && model.error().input.empty()) model.error().input = name_of(order);
+  if (!model) return std::unexpected(model.error());
+  const Surface& surface = (*model)->model().surface();
+  Json about{{"points", surface.points.size()}, {"triangles", surface.triangulation.triangles.size()}};
+  about["session"] = keep(std::move(*model));
+  return CallAnswer{std::move(about)};
+}
+
+Result<CallAnswer> make_of_session(const Json& json) {
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
+  RELIEVO_TRY(const FileOrder order, order_from(json));
+  HostProgress progress;
+  RELIEVO_TRY(FinishedRelief relief, model->make(order, progress));
+  return CallAnswer{relief_json(std::make_shared<FinishedRelief>(std::move(relief)))};
+}
+
+Result<CallAnswer> frame(const Json& json) {
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
+  RELIEVO_TRY(const FileOrder order, order_from(json));
+  RELIEVO_TRY(const auto made, model->frame(order));
+  const Frame& f = made->frame;
+  return CallAnswer{{{"frame", keep(made)},
+                     {"height_mm", f.height * made->mm_per_unit},
+                     {"is_height_met", f.is_height_met},
+                     {"u", f.options.shape.compression.u}}};
+}
+
+Result<CallAnswer> frame_heights(const Json& json) {
+  RELIEVO_TRY(const auto shown, find<FrameInMm>(json, "frame"));
+  return CallAnswer{{}, bytes_of_all(shown->frame.heights)};
+}
+
+Result<CallAnswer> surface_points(const Json& json) {
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
+  return CallAnswer{{}, bytes_of_all(model->model().surface().points)};
+}
+
+Result<CallAnswer> surface_triangles(const Json& json) {
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
+  return CallAnswer{{}, bytes_of_all(model->model().surface().triangulation.triangles)};
+}
+
+Result<CallAnswer> picture(const Json& json) {
+  RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
+  RELIEVO_TRY(const auto shown, find<FrameInMm>(json, "frame"));
+  const PictureOrder order{integer(json, "width", 800),     integer(json, "height", 600),
+                           number(json, "yaw_deg", 0),      number(json, "pitch_deg", 0),
+                           number(json, "zoom", 1),         text(json, "material", "plaster"),
+                           integer(json, "is_fine", 0) != 0};
+  RELIEVO_TRY(const Picture made, model->picture(*shown, order));
+  return CallAnswer{
+      {{"width", made.image.width}, {"height", made.image.height}, {"channels", made.image.channels}},
+      bytes_of_all(made.image.pixels)};
+}
+
+Result<CallAnswer> release(const Json& json) {
+  kept().erase(integer(json, "number", 0));
+  return CallAnswer{};
+}
+
+using Function = Result<CallAnswer> (*)(const Json&);
+constexpr std::pair<std::string_view, Function> functions[] = {{"about", about},
+                                                               {"make", make},
+                                                               {"sample", make_sample_file},
+                                                               {"file", file},
+                                                               {"heights", heights},
+                                                               {"vertices", vertices},
+                                                               {"faces", faces},
+                                                               {"open", open},
+                                                               {"session_make", make_of_session},
+                                                               {"frame", frame},
+                                                               {"frame_heights", frame_heights},
+                                                               {"surface_points", surface_points},
+                                                               {"surface_triangles", surface_triangles},
+                                                               {"picture", picture},
+                                                               {"release", release}};
+
+}  // namespace
+
+Result<CallAnswer> call(std::string_view name, const Json& arguments) {
+  for (const auto& [known, function] : functions)
+    if (known == name) return function(arguments);
+  return option_error("call", cat("expected the name of a function, found '", name, "'"));
+}
+
+}  // namespace relievo::app::web

@@ -1,0 +1,21 @@
+# For the web, rooms that do not compute for long are compiled for size: files are read and written in a fraction of the
+# time that a relief takes. They are a target of their own, whose objects are part of the library.
+set(RELIEVO_PRECOMPILED relievo)
+if(NOT RELIEVO_WEB)
+  return()
+endif()
+
+get_target_property(small_sources relievo SOURCES)
+list(FILTER small_sources INCLUDE REGEX "/src/(io|pipeline)/")
+get_target_property(other_sources relievo SOURCES)
+list(REMOVE_ITEM other_sources ${small_sources})
+set_target_properties(relievo PROPERTIES SOURCES "${other_sources}")
+
+add_library(relievo_small OBJECT ${small_sources})
+target_include_directories(relievo_small PRIVATE include src)
+target_link_libraries(relievo_small PRIVATE Eigen3::Eigen ${RELIEVO_LINKED} nanoflann::nanoflann nlohmann_json::nlohmann_json)
+target_compile_options(relievo_small PRIVATE -Oz)
+relievo_compiler_options(relievo_small)
+relievo_fast_build(relievo_small)
+target_link_libraries(relievo PRIVATE relievo_small)
+set(RELIEVO_PRECOMPILED relievo_small)

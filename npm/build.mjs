@@ -1,0 +1,50 @@
+// Puts the package together: build.mjs MODULE FOLDER, where MODULE is the WebAssembly module and FOLDER a new folder. The
+// options, their types and their documentation come from the module itself.
+import fs from "node:fs";
+import path from "node:path";
+import zlib from "node:zlib";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const here = path.dirname(fileURLToPath(import.meta.url));
+const [module, folder] = process.argv.slice(2);
+
+const camelCase = (keyword) => keyword.replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
+
+function writeModule() {
+  const packed = zlib.gzipSync(fs.readFileSync(module), { level: 9 });
+  fs.writeFileSync(path.join(folder, "src/module.js"),
+    `// The WebAssembly module, compressed by gzip, in base64.\nexport const compressedModule = "${packed.toString("base64")}";\n`);
+}
+
+function typeOf(option) {
+  const isText = option.choices || typeof option.default === "string" || !("min" in option || "max" in option || typeof option.default === "number" || typeof option.default === "object");
+  if (option.choices && !option.is_of_input && !["TEXT", "VIEW"].includes(option.unit))
+    return [...option.choices.map((choice) => JSON.stringify(choice)), "(string & {})"].join(" | ");
+  if (isText) return "string";
+  return option.unit === "MM" ? "number | string" : "number";
+}
+
+function optionTypes(table) {
+  const lines = table.map((option) => {
+    const range = "min" in option || "max" in option ? ` From ${option.min ?? "-infinity"} to ${option.max ?? "infinity"}.` : "";
+    const initial = option.default_text ? ` Default: ${option.default_text}.` : "";
+    const text = `${option.help.charAt(0).toUpperCase()}${option.help.slice(1)}.${range}${initial}`.replaceAll("*/", "* /");
+    return `  /** ${text} */\n  ${camelCase(option.keyword)}?: ${typeOf(option)};`;
+  });
+  return `/** What a relief is made by. Lengths are millimetres, or texts with a unit such as "4in". */\nexport interface ReliefOptions {\n${lines.join("\n")}\n}\n`;
+}
+
+fs.rmSync(folder, { recursive: true, force: true });
+fs.mkdirSync(folder, { recursive: true });
+for (const part of ["src", "bin", "README.md"]) fs.cpSync(path.join(here, part), path.join(folder, part), { recursive: true });
+fs.copyFileSync(path.join(here, "../LICENSE"), path.join(folder, "LICENSE"));
+fs.copyFileSync(path.join(here, "../packaging/dependencies.txt"), path.join(folder, "LIBRARIES.txt"));
+writeModule();
+const { Engine } = await import(pathToFileURL(path.resolve(folder, "src/engine.js")));
+const { json: about } = (await Engine.create()).call("about");
+fs.writeFileSync(path.join(folder, "src/options.js"),
+  ["version", "options", "samples", "endings", "stages"].map((name) =>
+    `export const ${name === "options" ? "optionTable" : name} = ${JSON.stringify(about[name], null, 1)};\n`).join(""));
+fs.writeFileSync(path.join(folder, "src/options.d.ts"), optionTypes(about.options));
+const packageJson = JSON.parse(fs.readFileSync(path.join(here, "package.json"), "utf8"));
+fs.writeFileSync(path.join(folder, "package.json"), JSON.stringify({ ...packageJson, version: about.version }, null, 2) + "\n");

@@ -1,0 +1,90 @@
+// One instance of the engine: its memory, the files that it sees, and calls with JSON.
+import { compressedModule } from "./module.js";
+import { asFile, wasi } from "./files.js";
+
+// An error of the engine: in which input or option, where in it, and what was expected there.
+export class RelievoError extends Error {
+  constructor({ kind, input = "", place = "", expected = "", message }) {
+    super(message ?? expected);
+    this.name = "RelievoError";
+    Object.assign(this, { kind, input, place, expected });
+  }
+}
+
+const MEMORY = "expected more memory: a program in WebAssembly has at most 4 GiB; fewer points, the option points or a coarser scan need less";
+
+async function inflate(base64) {
+  const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return new Response(stream).arrayBuffer();
+}
+
+let compiled;
+
+// Returns the compiled module, which all instances share.
+function module() {
+  compiled ??= inflate(compressedModule).then((bytes) => WebAssembly.compile(bytes));
+  return compiled;
+}
+
+// The memory of an instance is given back when nothing refers to it any more.
+export class Engine {
+  #exports;
+  #files = new Map();
+  #lastFailure;
+  #log = "";
+  progress = null; // (stage, fraction) => false to cancel
+
+  static async create() {
+    const engine = new Engine();
+    const memory = () => engine.#exports.memory.buffer;
+    const imports = {
+      wasi_snapshot_preview1: wasi(engine.#files, memory, (text) => { engine.#log += text; }),
+      relievo: {
+        progress: (at, size, fraction) => (engine.progress?.(engine.#text(at, size), fraction) === false ? 1 : 0),
+        fail: (at, size) => { throw engine.#failure(engine.#text(at, size)); },
+      },
+    };
+    const instance = await WebAssembly.instantiate(await module(), imports);
+    engine.#exports = instance.exports;
+    instance.exports._initialize();
+    return engine;
+  }
+
+  // Lets the engine see a file of that name, whose folders are separated by "/".
+  addFile(name, source) {
+    this.#files.set(name.replace(/^\.?\/+/, ""), asFile(source));
+  }
+
+  // Calls a function of the engine. Returns its answer and its bytes, which are a copy.
+  call(name, options = {}) {
+    if (this.#lastFailure) throw this.#lastFailure;
+    const request = new TextEncoder().encode(JSON.stringify({ ...options, call: name }));
+    let at, answer;
+    try {
+      at = this.#exports.relievo_allocate(request.length);
+      new Uint8Array(this.#exports.memory.buffer, at, request.length).set(request);
+      answer = this.#exports.relievo_call(at, request.length);
+      this.#exports.relievo_free(at);
+    } catch (error) {
+      throw this.#lastFailure ?? this.#failure(this.#log || error.message, error);
+    }
+    const [isError, text, textSize, bytes, byteCount] = new Uint32Array(this.#exports.memory.buffer, answer, 5);
+    const json = JSON.parse(this.#text(text, textSize) || "null");
+    if (isError) throw new RelievoError(json);
+    return { json, bytes: new Uint8Array(this.#exports.memory.buffer, bytes, byteCount).slice() };
+  }
+
+  #text(at, size) {
+    return new TextDecoder().decode(new Uint8Array(this.#exports.memory.buffer, at, size));
+  }
+
+  // After a failure the instance is in no state to go on.
+  #failure(reason, cause) {
+    const isMemory = reason === "memory" || cause instanceof RangeError;
+    this.#lastFailure = new RelievoError({ kind: isMemory ? "memory" : "failure",
+      expected: isMemory ? MEMORY : `expected to go on, but the engine ended: ${reason}` });
+    this.#lastFailure.cause = cause;
+    return this.#lastFailure;
+  }
+}

@@ -1,0 +1,142 @@
+import type { ReliefOptions } from "./options.js";
+export type { ReliefOptions };
+
+export type Bytes = Uint8Array | ArrayBuffer;
+
+/** A file that is read piece by piece. read() fills `to` as far as the file goes and returns the number of bytes. */
+export interface ReadableFile {
+  size: number;
+  read(offset: number, to: Uint8Array): number;
+}
+
+export interface CloudArrays {
+  /** x, y and z of each point. */
+  points: ArrayLike<number>;
+  normals?: ArrayLike<number>;
+  /** Red, green and blue of each point, 0 to 255. */
+  colours?: ArrayLike<number>;
+  /** The three corners of each triangle. */
+  faces?: ArrayLike<number>;
+}
+
+export interface DepthArrays {
+  /** Depths row by row from the top; 0 is missing. */
+  depths: ArrayLike<number>;
+  width: number;
+  height: number;
+}
+
+/** A scan: the bytes of a file, several files by name, or arrays. */
+export type Source = Bytes | ReadableFile | CloudArrays | DepthArrays | { [name: string]: Bytes | ReadableFile };
+
+export interface InputOptions {
+  /** The name of the file, whose ending tells text formats apart. */
+  name?: string;
+  /** The camera of a depth image, as numbers. */
+  camera?: string;
+  /** Larger files are read piece by piece where that is possible. Default: 512. */
+  streamAboveMb?: number;
+  /** The height map of a base of kind image, PNG or TIFF. */
+  baseImage?: Bytes | { name: string; bytes: Bytes };
+}
+
+export interface Watching {
+  /** Called at the beginning of each stage; returning false cancels. */
+  progress?: (stage: string, fraction: number) => boolean | void;
+  /** Looked at between stages. */
+  signal?: AbortSignal;
+}
+
+export type MakeOptions = ReliefOptions & InputOptions & Watching;
+export type Units = "mm" | "in";
+
+export interface HeightMap {
+  width: number;
+  height: number;
+  mmPerPixel: number;
+  /** Millimetres above the lowest point, row by row from the top. */
+  heights: Float32Array;
+}
+
+export interface Report {
+  height_mm: number;
+  size_mm: [number, number, number];
+  input_points: number;
+  visible_points: number;
+  seconds: { [stage: string]: number };
+  [key: string]: unknown;
+}
+
+export declare class Relief {
+  private constructor();
+  readonly report: Report;
+  readonly remarks: string[];
+  solid(format?: "stl" | "3mf" | "ply" | "obj", options?: { units?: Units }): Uint8Array;
+  heightMapFile(format?: "png" | "tif" | "tiff", options?: { size?: number; units?: Units }): Uint8Array;
+  preview(options?: { size?: number }): Uint8Array;
+  toolPicture(): Uint8Array;
+  heightMap(options?: { size?: number }): HeightMap;
+  readonly vertices: Float64Array;
+  readonly faces: Uint32Array;
+}
+
+export declare function make(source: Source, options?: MakeOptions): Promise<Relief>;
+
+export interface PictureOptions {
+  width?: number;
+  height?: number;
+  yawDeg?: number;
+  pitchDeg?: number;
+  zoom?: number;
+  material?: string;
+  fine?: boolean;
+}
+
+export declare class Frame {
+  private constructor();
+  readonly heightMm: number;
+  readonly isHeightMet: boolean;
+  readonly u: number;
+  readonly heights: Float32Array;
+  release(): void;
+}
+
+export declare class Session {
+  private constructor();
+  static open(source: Source, options?: MakeOptions): Promise<Session>;
+  readonly pointCount: number;
+  readonly triangleCount: number;
+  frame(options?: ReliefOptions): Frame;
+  picture(frame: Frame, options?: PictureOptions): { width: number; height: number; pixels: Uint8ClampedArray };
+  make(options?: ReliefOptions & Watching): Relief;
+  readonly points: Float64Array;
+  readonly triangles: Uint32Array;
+}
+
+export declare function sample(name: string, options?: { points?: number; noise?: number }): Promise<Uint8Array>;
+
+export declare class RelievoError extends Error {
+  constructor(fields: { kind: string; input?: string; place?: string; expected?: string; message?: string });
+  readonly kind: "input" | "option" | "geometry" | "cancelled" | "output" | "memory" | "failure";
+  /** The file or the option. */
+  readonly input: string;
+  /** Where in the file, such as "line 12". */
+  readonly place: string;
+  readonly expected: string;
+}
+
+export interface Option {
+  name: string;
+  keyword: string;
+  unit: string;
+  help: string;
+  default_text: string;
+  default?: unknown;
+  min?: number;
+  max?: number;
+  choices?: string[];
+}
+
+export declare const optionTable: readonly Option[];
+export declare const samples: readonly { name: string; description: string }[];
+export declare const version: string;

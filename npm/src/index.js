@@ -1,0 +1,176 @@
+// Relievo in JavaScript: scans in, reliefs out.
+import { Engine, RelievoError } from "./engine.js";
+import { filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
+import { optionTable, samples, version } from "./options.js";
+
+export { RelievoError, optionTable, samples, version };
+
+const BASE_IMAGE = "base-image/";
+
+function call(engine, name, request = {}) {
+  try {
+    return engine.call(name, request);
+  } catch (error) {
+    throw withKeyword(error);
+  }
+}
+
+// Calls with progress, which cancels as soon as the signal is aborted or the callback returns false.
+function watchedCall(engine, name, request, { progress, signal } = {}) {
+  signal?.throwIfAborted();
+  engine.progress = (stage, fraction) => progress?.(stage, fraction) !== false && !signal?.aborted;
+  try {
+    return call(engine, name, request);
+  } finally {
+    engine.progress = null;
+  }
+}
+
+// Returns an engine that sees the files, and the request to make something of them.
+async function engineWith(source, options = {}) {
+  const engine = await Engine.create();
+  const files = filesOf(source, options.name);
+  for (const [name, file] of files) engine.addFile(name, file);
+  const request = { ...requestOf(options), inputs: modelsOf(files) };
+  if (options.baseImage) {
+    request.base_image = BASE_IMAGE + (options.baseImage.name ?? "base.png");
+    engine.addFile(request.base_image, options.baseImage.bytes ?? options.baseImage);
+  }
+  return { engine, request };
+}
+
+// A finished relief.
+export class Relief {
+  #engine;
+  #number;
+
+  constructor(engine, json) {
+    this.#engine = engine;
+    this.#number = json.relief;
+    this.report = json.report;
+    this.remarks = json.remarks;
+  }
+
+  // Returns the solid as the bytes of a file: "stl", "3mf", "ply" or "obj".
+  solid(format = "stl", { units = "mm" } = {}) {
+    return this.#file("solid", `relief.${format}`, { units });
+  }
+
+  // Returns the heights of the front as a file: a PNG of 16 bits, or a TIFF ("tif") in millimetres.
+  heightMapFile(format = "png", { size = 1024, units = "mm" } = {}) {
+    return this.#file("heightmap", `heights.${format}`, { heightmap_px: size, units });
+  }
+
+  // Returns a picture of the relief, front and oblique, as the bytes of a PNG.
+  preview({ size = 1200 } = {}) {
+    return this.#file("preview", "preview.png", { preview_px: size });
+  }
+
+  // Returns a picture of what the tool reaches as the bytes of a PNG.
+  toolPicture() {
+    return this.#file("tool_picture", "tool.png", {});
+  }
+
+  // Returns the heights of the front in millimetres: { width, height, mmPerPixel, heights }, row by row from the top.
+  heightMap({ size = 1024 } = {}) {
+    const { json, bytes } = call(this.#engine, "heights", { relief: this.#number, size });
+    return { width: json.width, height: json.height, mmPerPixel: json.mm_per_pixel, heights: new Float32Array(bytes.buffer) };
+  }
+
+  // Returns x, y and z of each corner, in millimetres.
+  get vertices() {
+    return new Float64Array(call(this.#engine, "vertices", { relief: this.#number }).bytes.buffer);
+  }
+
+  // Returns the three corners of each triangle.
+  get faces() {
+    return new Uint32Array(call(this.#engine, "faces", { relief: this.#number }).bytes.buffer);
+  }
+
+  #file(kind, path, options) {
+    return call(this.#engine, "file", { relief: this.#number, kind, path, ...options }).bytes;
+  }
+}
+
+// Makes a relief of a scan.
+export async function make(source, options = {}) {
+  const { engine, request } = await engineWith(source, options);
+  return new Relief(engine, watchedCall(engine, "make", request, options).json);
+}
+
+// A frame of a session. It holds memory of the engine until release() is called or nothing refers to it.
+export class Frame {
+  #engine;
+  #number;
+
+  constructor(engine, json) {
+    this.#engine = engine;
+    this.#number = json.frame;
+    this.heightMm = json.height_mm;
+    this.isHeightMet = json.is_height_met;
+    this.u = json.u;
+  }
+
+  // Returns the height of each point of the session's surface, in millimetres.
+  get heights() {
+    return new Float32Array(call(this.#engine, "frame_heights", { frame: this.#number }).bytes.buffer);
+  }
+
+  // Returns { width, height, pixels }, four values a pixel, as ImageData takes them.
+  picture(session, { width = 800, height = 600, yawDeg = 0, pitchDeg = 0, zoom = 1, material = "plaster", fine = false } = {}) {
+    const { json, bytes } = call(this.#engine, "picture", { session, frame: this.#number, width, height, yaw_deg: yawDeg,
+      pitch_deg: pitchDeg, zoom, material, is_fine: fine ? 1 : 0 });
+    return { width: json.width, height: json.height, pixels: new Uint8ClampedArray(bytes.buffer) };
+  }
+
+  release() {
+    call(this.#engine, "release", { number: this.#number });
+  }
+}
+
+// A scan that is prepared once, and then shown with any options within milliseconds.
+export class Session {
+  #engine;
+  #number;
+
+  constructor(engine, json) {
+    this.#engine = engine;
+    this.#number = json.session;
+    this.pointCount = json.points;
+    this.triangleCount = json.triangles;
+  }
+
+  // Prepares a scan. Of the options those of the view, and those of reading, belong here.
+  static async open(source, options = {}) {
+    const { engine, request } = await engineWith(source, options);
+    return new Session(engine, watchedCall(engine, "open", request, options).json);
+  }
+
+  frame(options = {}) {
+    return new Frame(this.#engine, call(this.#engine, "frame", { session: this.#number, ...requestOf(options) }).json);
+  }
+
+  picture(frame, options = {}) {
+    return frame.picture(this.#number, options);
+  }
+
+  make(options = {}) {
+    const request = { session: this.#number, ...requestOf(options) };
+    return new Relief(this.#engine, watchedCall(this.#engine, "session_make", request, options).json);
+  }
+
+  // Returns the points of the surface, x, y and z each, and its triangles.
+  get points() {
+    return new Float64Array(call(this.#engine, "surface_points", { session: this.#number }).bytes.buffer);
+  }
+
+  get triangles() {
+    return new Uint32Array(call(this.#engine, "surface_triangles", { session: this.#number }).bytes.buffer);
+  }
+}
+
+// Returns a generated scan as the bytes of a PLY file; see samples.
+export async function sample(name, { points = 300000, noise = 0.15 } = {}) {
+  const engine = await Engine.create();
+  return call(engine, "sample", { name, points, noise }).bytes;
+}

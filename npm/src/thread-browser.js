@@ -1,0 +1,3 @@
+import { answer } from "./thread.js";
+
+self.onmessage = ({ data }) => answer(data, (message) => self.postMessage(message));

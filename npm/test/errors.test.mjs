@@ -1,0 +1,94 @@
+// What is wrong is said: in which file or option, where, and what was expected.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { relievo } from "./support.mjs";
+
+const { make, sample, Session, RelievoError } = relievo;
+const text = (lines) => new TextEncoder().encode(lines.join("\n") + "\n");
+
+async function errorOf(work) {
+  try {
+    await work();
+  } catch (error) {
+    assert.ok(error instanceof RelievoError, error.stack);
+    return error;
+  }
+  assert.fail("expected an error");
+}
+
+test("a broken file has its name, the place and what was expected", async () => {
+  const broken = text(["ply", "format ascii 1.0", "element vertex 2", "property float x", "property float y",
+    "property float z", "end_header", "1 2 3", "1 2 abc"]);
+  const error = await errorOf(() => make({ "scan.ply": broken }));
+  assert.equal(error.kind, "input");
+  assert.equal(error.input, "scan.ply");
+  assert.equal(error.place, "line 9");
+  assert.match(error.message, /^scan\.ply, line 9: expected .*abc/);
+});
+
+test("broken pictures end in errors, not in the end of the engine", async () => {
+  const png = new Uint8Array(200).fill(7);
+  png.set([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13, 0x49, 0x48, 0x44, 0x52]);
+  assert.equal((await errorOf(() => make({ "depth.png": png }))).kind, "input");
+  const tiff = new Uint8Array(300).fill(255);
+  tiff.set([0x49, 0x49, 0x2a, 0, 8, 0, 0, 0]);
+  assert.equal((await errorOf(() => make({ "depth.tif": tiff }))).kind, "input");
+});
+
+test("a file of 3 GB that cannot be read by pieces is refused before it is read", async () => {
+  let bytesRead = 0;
+  const huge = { size: 3e9, read: (_, to) => { bytesRead += to.length; return to.length; } };
+  const error = await errorOf(() => make({ "scan.obj": huge }));
+  assert.match(error.message, /^scan\.obj: expected at most 2048 MiB/);
+  assert.ok(bytesRead <= 2 ** 21, `${bytesRead} bytes were read`);
+});
+
+test("options have names and ranges", async () => {
+  const cloud = await sample("shell", { points: 20000 });
+  assert.match((await errorOf(() => make(cloud, { hight: 2 }))).message, /^hight: expected the name of an option/);
+  const range = await errorOf(() => make(cloud, { heightMm: -1 }));
+  assert.equal(range.kind, "option");
+  assert.equal(range.input, "heightMm");
+  assert.equal((await errorOf(() => make(cloud, { heightMm: "two" }))).kind, "option");
+  await assert.rejects(() => make("scan.ply"), TypeError);
+});
+
+test("progress names stages and cancels", async () => {
+  const cloud = await sample("shell", { points: 20000 });
+  const fractions = [];
+  await make(cloud, { progress: (_, fraction) => { fractions.push(fraction); } });
+  assert.ok(fractions.length > 5);
+  assert.deepEqual(fractions, [...fractions].sort((a, b) => a - b));
+  const error = await errorOf(() => make(cloud, { progress: (stage) => stage !== "normals" }));
+  assert.equal(error.kind, "cancelled");
+});
+
+test("lengths may have units, and arrays are scans", async () => {
+  const points = [], n = 120;
+  for (let y = 0; y < n; y++) for (let x = 0; x < n; x++) points.push(x, y, 8 * Math.sin(x / 9) * Math.cos(y / 11));
+  const relief = await make({ points }, { heightMm: "0.1in" });
+  assert.ok(Math.abs(relief.report.height_mm - 2.54) < 1e-6);
+  const { vertices, faces } = relief;
+  const z = vertices.filter((_, i) => i % 3 === 2);
+  assert.ok(faces.every((corner) => corner < vertices.length / 3));
+  assert.ok(Math.min(...faces.subarray(0, 1000)) >= 0 && z.reduce((a, b) => Math.max(a, b), 0) > 2.54);
+  const map = relief.heightMap({ size: 200 });
+  assert.equal(Math.max(map.width, map.height), 200);
+  assert.ok(Math.abs(map.heights.reduce((a, b) => Math.max(a, b), 0) - 2.54) < 0.2);
+  const depths = new Float32Array(n * n).map((_, i) => 100 + points[3 * i + 2]);
+  const fromDepths = await make({ depths, width: n, height: n }, { heightMm: 1, background: "keep" });
+  assert.ok(Math.abs(fromDepths.report.height_mm - 1) < 1e-6);
+});
+
+test("a session makes frames, pictures and the relief of make()", async () => {
+  const cloud = await sample("still_life", { points: 20000 });
+  const session = await Session.open(cloud);
+  const frame = session.frame({ heightMm: 3 });
+  assert.ok(frame.isHeightMet && Math.abs(frame.heightMm - 3) < 0.1);
+  assert.equal(frame.heights.length, session.pointCount);
+  const { width, height, pixels } = session.picture(frame, { width: 320, height: 200 });
+  assert.equal(pixels.length, 4 * width * height);
+  frame.release();
+  const relief = session.make({ heightMm: 3 });
+  assert.deepEqual(relief.solid("stl"), (await make(cloud, { heightMm: 3 })).solid("stl"));
+});

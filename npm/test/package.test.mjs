@@ -1,0 +1,115 @@
+// The package as npm installs it: in an empty folder, as a module, with a bundler, under tsc --strict, and as a program.
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import os from "node:os";
+import { packageFolder, relievo } from "./support.mjs";
+
+const tools = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "node_modules");
+let folder;
+
+function node(args) {
+  return spawnSync(process.execPath, args, { cwd: folder, encoding: "utf8" });
+}
+
+before(async () => {
+  folder = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-install-"));
+  execFileSync("npm", ["pack", packageFolder, "--silent", "--pack-destination", folder]);
+  const [tarball] = fs.readdirSync(folder);
+  fs.writeFileSync(path.join(folder, "package.json"), JSON.stringify({ private: true, type: "module" }));
+  execFileSync("npm", ["install", "--offline", "--no-audit", "--no-fund", "--silent", `./${tarball}`], { cwd: folder });
+  fs.writeFileSync(path.join(folder, "scan.ply"), await relievo.sample("shell", { points: 20000 }));
+});
+after(() => fs.rmSync(folder, { recursive: true, force: true }));
+
+test("README's example runs", () => {
+  const readme = fs.readFileSync(path.join(folder, "node_modules/relievo/README.md"), "utf8");
+  fs.writeFileSync(path.join(folder, "example.js"), readme.match(/```js\n([^]*?)```/)[1]);
+  const { status, stdout, stderr } = node(["example.js"]);
+  assert.equal(status, 0, stderr);
+  assert.match(stdout, /\[ 1\d\d\./);
+  assert.ok(fs.statSync(path.join(folder, "coin.stl")).size > 1e5);
+  assert.equal(fs.readFileSync(path.join(folder, "coin.png")).subarray(1, 4).toString(), "PNG");
+});
+
+test("the program makes a relief with the native flags", () => {
+  const program = path.join(folder, "node_modules/.bin/relievo");
+  const { status, stderr } = node([program, "make", "scan.ply", "-o", "medal.stl", "--height", "2", "--outline=circle", "--report", "r.json", "--heightmap", "h.png"]);
+  assert.equal(status, 0, stderr);
+  assert.match(stderr, /medal\.stl: \d+ of 20000 points, height 2 mm/);
+  const report = JSON.parse(fs.readFileSync(path.join(folder, "r.json")));
+  assert.equal(report.height_mm.toFixed(6), "2.000000");
+  assert.equal(fs.statSync(path.join(folder, "medal.stl")).size % 50, 84 % 50);
+});
+
+test("the program fails with one line", () => {
+  const program = path.join(folder, "node_modules/.bin/relievo");
+  fs.writeFileSync(path.join(folder, "broken.ply"), "ply\nformat ascii 1.0\n");
+  for (const [args, message] of [
+    [["make", "broken.ply", "-o", "b.stl"], /^relievo: broken\.ply.*expected/],
+    [["make", "scan.ply", "-o", "b.txt"], /^relievo: .*expected a file ending in/],
+    [["make", "missing.ply", "-o", "b.stl"], /^relievo: .*missing\.ply/],
+    [["make", "scan.ply", "-o", "b.stl", "--hight", "2"], /^relievo: --hight: expected a flag/]]) {
+    const { status, stderr } = node([program, ...args]);
+    assert.equal(status, 1, stderr);
+    assert.match(stderr, message);
+    assert.equal(stderr.trim().split("\n").length, 1, stderr);
+  }
+  assert.ok(!fs.existsSync(path.join(folder, "b.stl")));
+});
+
+test("a worker makes a relief, and can be ended", () => {
+  fs.writeFileSync(path.join(folder, "worker.js"), `
+    import fs from "node:fs";
+    import { RelievoWorker } from "relievo/worker";
+    const worker = new RelievoWorker(), scan = fs.readFileSync("scan.ply");
+    let stages = 0;
+    const { solids, report } = await worker.make(scan, { heightMm: 2, progress: () => { stages++; } }, { solids: ["3mf"] });
+    const stop = new AbortController();
+    setTimeout(() => stop.abort(), 50);
+    const kind = await worker.make(scan, { signal: stop.signal }).then(() => "made", (error) => error.kind);
+    const wrong = await worker.make(scan, { heightMm: -1 }).then(() => "made", (error) => error.input);
+    console.log(Object.keys(solids), report.height_mm.toFixed(3), stages > 5, kind, wrong);`);
+  const { status, stdout, stderr } = node(["worker.js"]);
+  assert.equal(status, 0, stderr);
+  assert.equal(stdout.trim(), "[ '3mf' ] 2.000 true cancelled heightMm");
+});
+
+test("a bundle for browsers has all inside", () => {
+  fs.writeFileSync(path.join(folder, "page.js"), `
+    import { make, sample } from "relievo";
+    const relief = await make(await sample("shell", { points: 20000 }), { heightMm: 2 });
+    console.log(relief.solid("stl").length);`);
+  execFileSync(path.join(tools, ".bin/esbuild"), ["page.js", "--bundle", "--format=esm", "--platform=browser", "--outfile=bundle.mjs",
+    "--log-level=warning"], { cwd: folder, stdio: "pipe" });
+  fs.mkdirSync(path.join(folder, "alone"));
+  fs.renameSync(path.join(folder, "bundle.mjs"), path.join(folder, "alone/bundle.mjs"));
+  const { status, stdout, stderr } = node(["alone/bundle.mjs"]);
+  assert.equal(status, 0, stderr);
+  assert.ok(Number(stdout) > 1e5);
+});
+
+test("types hold under tsc --strict", () => {
+  const compile = (name, text) => {
+    fs.writeFileSync(path.join(folder, name), text);
+    return spawnSync(path.join(tools, ".bin/tsc"), ["--strict", "--noEmit", "--target", "es2022", "--module", "nodenext", "--lib", "es2022,dom",
+      "--types", "", name], { cwd: folder, encoding: "utf8" });
+  };
+  const right = compile("right.ts", `
+    import { make, Session, RelievoError, type ReliefOptions } from "relievo";
+    import { RelievoWorker } from "relievo/worker";
+    const options: ReliefOptions = { heightMm: "4in", outline: "circle", draftDeg: 15, tone: "0,1" };
+    const relief = await make({ points: new Float64Array(9) }, { ...options, progress: (stage: string) => stage !== "normals" });
+    const size: number = relief.report.size_mm[2] + relief.heightMap({ size: 10 }).heights.length;
+    const session = await Session.open(new Uint8Array());
+    const pixels: Uint8ClampedArray = session.picture(session.frame(options), { yawDeg: 3 }).pixels;
+    const made = await new RelievoWorker().make(new ArrayBuffer(1), options, { preview: {} });
+    try { console.log(size, pixels, made.preview?.length); } catch (error) { if (error instanceof RelievoError) console.log(error.place); }
+    export {};`);
+  assert.equal(right.status, 0, right.stdout);
+  const wrong = compile("wrong.ts", `import { make } from "relievo"; make(new Uint8Array(), { hightMm: 2 }); make("scan.ply");`);
+  assert.match(wrong.stdout, /hightMm/);
+  assert.match(wrong.stdout, /scan\.ply|string/);
+});

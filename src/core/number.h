@@ -1,0 +1,23 @@
+// Numbers from text, independent of the locale. Tested by tests/core/number_test.cpp.
+#pragma once
+
+#include <charconv>
+#include <string_view>
+
+namespace relievo {
+
+struct ParsedNumber {
+  double value = 0;
+  const char* end = nullptr;  // of the number in the text
+  std::errc error = {};       // as std::from_chars() reports it
+};
+
+// Does what std::from_chars() does for a double, also where the standard library has it for integers alone.
+ParsedNumber parse_double(std::string_view text);
+
+namespace detail {
+// The implementation for such a library, which tests compare with std::from_chars().
+ParsedNumber parse_double_by_hand(std::string_view text);
+}  // namespace detail
+
+}  // namespace relievo
