@@ -16,7 +16,7 @@
 
 namespace relievo::app {
 
-// How to make a relief.
+// Tells how to make a relief.
 struct MakeOrder {
   OptionTexts texts;
   std::set<std::string> given;  // names of the options that are not left to their defaults
@@ -36,7 +36,7 @@ struct LoadedOrder {
   std::optional<Project> project = {};
 };
 
-// What the inputs of a relief leave behind, without the scans themselves.
+// Holds what a relief's report tells of its inputs, without the scans themselves.
 struct InputFacts {
   std::vector<std::string> paths, remarks;  // paths: of files that must not be overwritten
   nlohmann::json models;

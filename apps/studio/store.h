@@ -31,7 +31,7 @@ struct KeptDocument {
 // Returns the name of the document of that scan: 16 hexadecimal digits.
 std::string document_of(const ScanSource& input);
 
-// Where documents and scans are kept. Not for concurrent use, but for begin_scan().
+// Keeps documents and scans. Not for concurrent use, but for begin_scan().
 class Store {
  public:
   static constexpr std::size_t most_recent = 24;

@@ -30,7 +30,7 @@ using Json = nlohmann::json;
 using Kept =
     std::variant<std::shared_ptr<FinishedRelief>, std::shared_ptr<PreparedModel>, std::shared_ptr<FrameInMm>>;
 
-// What calls have made, by number, until it is forgotten.
+// Holds by number what calls have made, until it is forgotten.
 std::map<int, Kept>& kept() {
   static std::map<int, Kept> all;
   return all;

@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::json;
 using namespace relievo::app::web;
 
-// What the host reads of an answer; it is valid until the next call.
+// Shows the host an answer; it is valid until the next call.
 struct AnswerView {
   std::uint32_t is_error;
   const char* text;

@@ -1,4 +1,4 @@
-// What the program needs of the JavaScript that runs it, besides WASI's files and clock.
+// Declares what the program needs of the JavaScript that runs it, besides WASI's files and clock.
 #pragma once
 
 #include "relievo/core/progress.h"

@@ -1,4 +1,4 @@
-// What Python makes a relief of: paths, bytes of files, arrays.
+// Reads what Python makes a relief of: paths, bytes of files, arrays.
 #pragma once
 
 #include <pybind11/pybind11.h>

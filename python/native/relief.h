@@ -11,7 +11,7 @@
 
 namespace relievo::python {
 
-// What to make, from Python's objects: the sources and a dict of keywords.
+// Holds what to make, from Python's objects: the sources and a dict of keywords.
 struct PythonOrder : app::MakeOrder {
   std::vector<Source> sources;
 };
