@@ -85,14 +85,13 @@ Result<std::optional<StoredProject>> find_project(const std::vector<std::string>
 Result<Scene> load_project_scan(const StoredProject& stored, const std::function<bool()>& is_unwanted) {
   ScanSource source = stored.project.input;
   if (!stored.located.empty()) {
-    source.path = std::filesystem::absolute(stored.located).string();
+    source.path = stored.located;
     return load_input(source, {}, is_unwanted);
   }
   if (stored.packed) return load_scan(source, stored.packed->bytes, stored.packed->name, is_unwanted);
   Result<Scene> scene = load_input(source, stored.folder, is_unwanted);
-  std::error_code ignored;
-  if (!scene && source.sample.empty() &&
-      !std::filesystem::exists(std::filesystem::path(stored.folder) / source.path, ignored))
+  const std::string path = (std::filesystem::path(stored.folder) / source.path).string();
+  if (!scene && source.sample.empty() && !is_there(path))
     scene.error().expected += cat("; name the place of ", source.name, " with --scan");
   return scene;
 }
