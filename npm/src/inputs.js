@@ -1,4 +1,4 @@
-// What users pass, as files and requests of the engine.
+// Turns what users pass into files and requests of the engine.
 import { cloudFile, depthFile } from "./arrays.js";
 import { optionTable } from "./options.js";
 import { RelievoError } from "./engine.js";

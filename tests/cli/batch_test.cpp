@@ -87,7 +87,7 @@ TEST_F(BatchRun, SurvivesFailedAndKilledJobs) {
   EXPECT_EQ(journal_lines(), 4U);
 }
 
-// What was made stays, an error that will come again is not tried again, a killed job is.
+// A second run keeps what was made and tries a killed job again, but not one whose error would come again.
 TEST_F(BatchRun, DoesNothingTwice) {
   run_jobs();
   EXPECT_EQ(run_jobs(), (Counts{0, 1, 3}));

@@ -31,7 +31,7 @@ TEST(ScanSize, IsThatOfAPicture) {
   EXPECT_EQ(size.points, 0U);
 }
 
-// Of every format, no fewer points are expected than a tenth of those that are read: an estimate may be rough,
+// The points expected of a file are at least a tenth of those that are read, for every format: an estimate may be rough,
 // but memory must not be gravely underestimated.
 TEST(ScanSize, IsNotFarBelowThePointsOfAnyFormat) {
   for (const FileSample& sample : format_samples()) {

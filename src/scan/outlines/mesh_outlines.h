@@ -10,7 +10,7 @@ namespace relievo {
 
 // Returns the outlines of a mesh in view coordinates: the parts of its edges where the visible surface ends before
 // nothing, or before a surface that lies farther behind than `pixel`. All triangles must be counter-clockwise as seen.
-// Where an outline passes behind another surface, it ends within half a pixel of the true place.
+// An outline that passes behind another surface ends within half a pixel of the true place.
 std::vector<OutlineSegment> seen_outlines(std::span<const Vec3> points, std::span<const Triangle> triangles,
                                           double pixel);
 
