@@ -7,6 +7,7 @@
 #include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/picture/material.h"
+#include "relievo/scene.h"
 
 namespace relievo::app {
 
@@ -20,6 +21,23 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Pro
   RELIEVO_TRY(std::shared_ptr<const Image<float>> image, read_base_image(order.base_image_path));
   RELIEVO_CHECK(take_base_image(image ? std::move(image) : order.base_image, options.base));
   return options;
+}
+
+Result<LoadedOrder> load_order(const MakeOrder& order, const std::optional<StoredProject>& stored,
+                               const std::function<Result<SceneInput>(const ReliefOptions&)>& read,
+                               Progress& progress) {
+  std::optional<Project> project;
+  if (stored) project = stored->project;
+  RELIEVO_TRY(ReliefOptions options, options_of(order, project));
+  if (!stored) {
+    RELIEVO_TRY(SceneInput input, read(options));
+    options.view = chosen_view(input.scene, options.view);
+    return LoadedOrder{std::move(input), std::move(options)};
+  }
+  RELIEVO_CHECK(progress.stage("read", 0));
+  RELIEVO_TRY(Scene scene, load_project_scan(*stored, [&] { return progress.is_cancelled(); }));
+  options.view = chosen_view(scene, options.view);
+  return LoadedOrder{{std::move(scene), {}}, std::move(options), std::move(project)};
 }
 
 InputFacts facts_of(const MakeOrder& order, std::vector<std::string> paths, const LoadedOrder& loaded) {

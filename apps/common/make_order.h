@@ -1,6 +1,7 @@
 // Orders for reliefs as Python and WebAssembly give them, and the reliefs that come of them.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "common/project.h"
+#include "common/project_file.h"
 #include "common/read_inputs.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/preview.h"
@@ -35,6 +36,12 @@ struct LoadedOrder {
   ReliefOptions options;
   std::optional<Project> project = {};
 };
+
+// Returns the scene of an order: that of its project or, without one, what `read` returns. Errors: those of options_of(),
+// load_project_scan() and `read`.
+Result<LoadedOrder> load_order(const MakeOrder& order, const std::optional<StoredProject>& stored,
+                               const std::function<Result<SceneInput>(const ReliefOptions&)>& read,
+                               Progress& progress);
 
 // Holds what a relief's report tells of its inputs, without the scans themselves.
 struct InputFacts {

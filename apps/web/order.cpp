@@ -6,7 +6,6 @@
 #include "common/project_file.h"
 #include "relievo/core/length.h"
 #include "relievo/core/text.h"
-#include "relievo/scene.h"
 
 namespace relievo::app::web {
 namespace {
@@ -96,19 +95,10 @@ Result<FileOrder> order_from(const Json& json) {
 Result<LoadedOrder> load(const FileOrder& order, Progress& progress) {
   if (order.inputs.empty()) return option_error("inputs", "expected at least one file");
   RELIEVO_TRY(const std::optional<StoredProject> stored, find_project(order.inputs, order.scan_path));
-  std::optional<Project> project;
-  if (stored) project = stored->project;
-  RELIEVO_TRY(ReliefOptions options, options_of(order, project));
-  if (!stored) {
-    RELIEVO_TRY(SceneInput input,
-                read_scene(order.inputs, order.in, {options.view, options.points}, &progress));
-    options.view = chosen_view(input.scene, options.view);
-    return LoadedOrder{std::move(input), std::move(options)};
-  }
-  RELIEVO_CHECK(progress.stage("read", 0));
-  RELIEVO_TRY(Scene scene, load_project_scan(*stored));
-  options.view = chosen_view(scene, options.view);
-  return LoadedOrder{{std::move(scene), {}}, std::move(options), std::move(project)};
+  const auto read = [&](const ReliefOptions& options) {
+    return read_scene(order.inputs, order.in, {options.view, options.points}, &progress);
+  };
+  return load_order(order, stored, read, progress);
 }
 
 }  // namespace relievo::app::web

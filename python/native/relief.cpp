@@ -171,19 +171,10 @@ PythonOrder order_of(const py::list& sources, const py::dict& keywords) {
 
 Result<app::LoadedOrder> load(const PythonOrder& order, Progress& progress) {
   RELIEVO_TRY(const std::optional<app::StoredProject> stored, find_project(order.sources, order.scan_path));
-  std::optional<app::Project> project;
-  if (stored) project = stored->project;
-  RELIEVO_TRY(ReliefOptions options, app::options_of(order, project));
-  if (!stored) {
-    RELIEVO_TRY(app::SceneInput input,
-                read_sources(order.sources, order.in, {options.view, options.points}, &progress));
-    options.view = chosen_view(input.scene, options.view);
-    return app::LoadedOrder{std::move(input), std::move(options)};
-  }
-  RELIEVO_CHECK(progress.stage("read", 0));
-  RELIEVO_TRY(Scene scene, app::load_project_scan(*stored, [&] { return progress.is_cancelled(); }));
-  options.view = chosen_view(scene, options.view);
-  return app::LoadedOrder{{std::move(scene), {}}, std::move(options), std::move(project)};
+  const auto read = [&](const ReliefOptions& options) {
+    return read_sources(order.sources, order.in, {options.view, options.points}, &progress);
+  };
+  return app::load_order(order, stored, read, progress);
 }
 
 void add_relief(py::module_& module) {
