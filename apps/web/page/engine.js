@@ -7,6 +7,7 @@ import {BrowserStore} from "./store.js";
 
 export {EngineError, TAB};
 
+const MOST_UPLOAD = 2 ** 31; // bytes: half of the memory that WebAssembly has
 const RUN = TAB; // the engine lives as long as its page
 const content = (id) => document.getElementById(id).textContent;
 const closed = () => new EngineError("closed", "expected a document that is open");
@@ -121,7 +122,7 @@ export class Engine {
   async about() {
     await this.#store.open();
     const {body} = await this.#call("about");
-    return {...body, recent: await this.recent(), notice: this.#store.notice, limits: LIMITS};
+    return {...body, recent: await this.recent(), notice: this.#store.notice, limits: LIMITS, most_upload: MOST_UPLOAD};
   }
 
   follow(onStatus, _onLost, say) {

@@ -69,7 +69,7 @@ Result<CallAnswer> call(std::string_view name, const Json& json) {
     return CallAnswer{{{"hash", hash}}};
   }
   if (name == "project") return take_project(json);
-  if (name == "unpacked") return CallAnswer{{}, studio.store.take_bytes()};
+  if (name == "unpacked") return CallAnswer{Json::object(), studio.store.take_bytes()};
   if (name == "work") {
     studio.documents.work();
     return CallAnswer{};
