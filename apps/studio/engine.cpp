@@ -78,6 +78,7 @@ struct MadePiece {
 }  // namespace
 
 struct Engine::State {
+  std::function<void()> changed;
   Guarded<Shared> shared;
 
   Guarded<Making> making;
@@ -104,6 +105,7 @@ struct Engine::State {
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
     };
+    preparation.changed = changed;
     session.open(std::move(preparation));
   }
 
@@ -164,7 +166,9 @@ struct Engine::State {
   }
 };
 
-Engine::Engine() : state_(std::make_unique<State>()) {}
+Engine::Engine(std::function<void()> changed) : state_(std::make_unique<State>()) {
+  state_->changed = std::move(changed);
+}
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const PreparationTexts& view) {
@@ -210,6 +214,11 @@ void Engine::cancel() {
 
 bool Engine::is_idle() {
   return state_->session.wait_until_idle(std::chrono::milliseconds(0));
+}
+
+void Engine::work() {
+  while (!state_->session.wait_until_idle(std::chrono::hours(1))) {
+  }
 }
 
 EngineStatus Engine::status() const {
@@ -297,6 +306,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
       m.stage = stage;
       m.fraction = fraction;
     });
+    if (state_->changed) state_->changed();
   });
   state_->making.with([&](Making& m) { m = {"waiting", 0, &progress}; });
   Result<MadeRelief> made = make_relief(*model, options, &progress);

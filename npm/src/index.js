@@ -1,11 +1,20 @@
 // Relievo in JavaScript: scans in, reliefs out.
+import { compile } from "./compile.js";
 import { Engine, RelievoError } from "./engine.js";
 import { filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
+import { compressedModule } from "./module.js";
 import { optionTable, samples, version } from "./options.js";
 
 export { RelievoError, optionTable, samples, version };
 
 const BASE_IMAGE = "base-image/";
+
+let module; // compiled, which all instances share
+
+async function newEngine() {
+  module ??= compile(compressedModule);
+  return Engine.create(await module);
+}
 
 function call(engine, name, request = {}) {
   try {
@@ -28,7 +37,7 @@ function watchedCall(engine, name, request, { progress, signal } = {}) {
 
 // Returns an engine that sees the files, and the request to make something of them.
 async function engineWith(source, options = {}) {
-  const engine = await Engine.create();
+  const engine = await newEngine();
   const files = filesOf(source, options.name);
   for (const [name, file] of files) engine.addFile(name, file);
   const request = { ...requestOf(options), inputs: modelsOf(files) };
@@ -171,6 +180,6 @@ export class Session {
 
 // Returns a generated scan as the bytes of a PLY file; see samples.
 export async function sample(name, { points = 300000, noise = 0.15 } = {}) {
-  const engine = await Engine.create();
+  const engine = await newEngine();
   return call(engine, "sample", { name, points, noise }).bytes;
 }

@@ -12,7 +12,7 @@ export function takeArrowKeys(group) {
   };
 }
 
-// Calls `open` with a file that is dropped; shows the veil while a file is dragged over the page.
+// Calls `open` with the files that are dropped; shows the veil while a file is dragged over the page.
 export function takeDrops(veil, open) {
   const show = (isShown) => (event) => {
     if (!event.dataTransfer?.types.includes("Files")) return;
@@ -23,7 +23,7 @@ export function takeDrops(veil, open) {
   addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
   addEventListener("drop", (event) => {
     show(false)(event);
-    open(event.dataTransfer?.files[0]);
+    open([...(event.dataTransfer?.files ?? [])]);
   });
 }
 

@@ -277,7 +277,7 @@ function openInput(input, work) {
   return opened.open(input, work).catch(failed);
 }
 
-const openFile = (file) => file && projects.openFile(file).catch(failed);
+const openFiles = (files) => files.length && projects.openFiles(files).catch(failed);
 
 // Shows that bytes are on their way to the engine or back, which takes a moment for large scans.
 async function take(bytes) {
@@ -328,7 +328,7 @@ function wire() {
   click("#cancel", () => engine.cancel().catch(failed));
   click("#choose-view", () => views.show(doc.now.options));
   $("#file").onchange = (event) => {
-    openFile(event.target.files[0]);
+    openFiles([...event.target.files]);
     event.target.value = "";
   };
   $("#unit").onchange = (event) => chooseUnit(event.target.value);
@@ -339,7 +339,7 @@ function wire() {
   $("#denoise").onchange = (event) => doc.change({options: {denoise: event.target.value}});
   $("#denoise-auto").onchange = (event) =>
     doc.change({options: {denoise: event.target.checked ? "auto" : $("#denoise").value}});
-  takeDrops($("#veil"), openFile);
+  takeDrops($("#veil"), openFiles);
   takeKeys({
     commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
     isReady: () => facts && !$("#studio").hidden, hold: (isHeld) => stage.hold(isHeld),
@@ -376,9 +376,11 @@ async function start() {
   chooseUnit($("#unit").value);
   try {
     $("#readable").textContent = about.readable;
+    $("#file").multiple = engine.takesSeveral;
+    $("#limits").replaceChildren(...about.limits.map((text) => make("li", {}, text)));
     $("#file").accept = [...about.endings, ".zip", ".relievo"].join();
     showSamples(openInput);
-    engine.follow((status) => opened.followed(status), engineLost);
+    engine.follow((status) => opened.followed(status), engineLost, toast);
     await resume(about);
   } catch (error) {
     failed(error);

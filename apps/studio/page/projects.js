@@ -16,12 +16,13 @@ export class Projects {
     };
   }
 
-  // Opens a scan or a project that was dropped or chosen.
-  async openFile(file) {
-    const most = about.most_upload;
-    if (file.size > most)
-      throw new Error(`${file.name} has ${fileSize(file.size)}: expected at most ${fileSize(most)}.`);
-    if (!file.name.endsWith(".relievo")) return this.open(await this.take(this.engine.upload(file)));
+  // Opens a scan or a project that was dropped or chosen, or a scan of several files.
+  async openFiles(files) {
+    const [file] = files, most = about.most_upload, tooLarge = files.find(({size}) => size > most);
+    if (tooLarge)
+      throw new Error(`${tooLarge.name} has ${fileSize(tooLarge.size)}: expected at most ${fileSize(most)}.`);
+    if (files.length > 1 && !this.engine.takesSeveral) throw new Error("Expected one file at a time.");
+    if (!file.name.endsWith(".relievo")) return this.open(await this.take(this.engine.upload(files)));
     const project = await this.take(this.engine.readProject(file));
     return this.openProject(project);
   }
@@ -39,7 +40,7 @@ export class Projects {
   }
 
   async located(file) {
-    const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload(file));
+    const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload([file]));
     if (!hash || input.hash === hash) return this.open(input, work);
     offer(`${file.name} is not ${name} as it was when this work was kept.`, "Use it all the same",
       () => this.open(input, work).catch(this.failed));
