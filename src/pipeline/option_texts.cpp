@@ -35,7 +35,7 @@ std::vector<std::string_view> all_method_names() {
 
 std::string_view method_without_one() {
   static const std::string text =
-      cat(name_of(Method::layered), " with a height, else ", name_of(Method::paper));
+      cat(name_of(Method::paper), " with an alpha, else ", name_of(Method::layered));
   return text;
 }
 
@@ -47,7 +47,7 @@ std::vector<ReliefField> shape_rows() {
                   &OptionTexts::width_mm,
                   width_of},
       ReliefField{{"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4,
-                   1e5, "what alpha gives, 2.4 for a lithophane"},
+                   1e5, "5 % of the width, or what the view reaches; by method paper what alpha gives; 2.4 for a lithophane"},
                   &OptionTexts::height_mm},
       ReliefField{
           {"alpha", "A", "the paper's height coefficient, more is flatter; not together with height", 0, 1e9},

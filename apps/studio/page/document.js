@@ -4,7 +4,7 @@
 import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
-const START = {view: "auto", height: 4, method: "layered",
+const START = {view: "auto", height: 5, method: "layered",
   mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.

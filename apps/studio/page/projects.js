@@ -4,6 +4,7 @@ import {about} from "./about.js";
 import {$, download, fileSize} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer} from "./messages.js";
+import {sceneFile} from "./scene_panel.js";
 
 export class Projects {
   // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way.
@@ -16,7 +17,21 @@ export class Projects {
     };
   }
 
-  // Opens a scan or a project that was dropped or chosen.
+  // Opens what was dropped or chosen: a scan, a project, or several scans as a scene.
+  async openFiles(files) {
+    if (files.length < 2) return files.length ? this.openFile(files[0]) : null;
+    if (files.some(({name}) => /\.(relievo|json|zip)$/i.test(name)))
+      throw new Error("Several files at once: expected scans alone, to be put side by side.");
+    const models = [];
+    for (const file of files) models.push({file: (await this.take(this.engine.upload(file))).path});
+    return this.openScene(models);
+  }
+
+  async openScene(models, work = null) {
+    return this.open(await this.take(this.engine.upload(sceneFile(models))), work);
+  }
+
+  // Opens a scan or a project.
   async openFile(file) {
     const most = about.most_upload;
     if (file.size > most)

@@ -7,6 +7,7 @@ import {Measure} from "./measure.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
+const FINISH_MS = 500; // and after which the finished piece is made
 const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
 export const TABLE_LIGHTS = [
   {name: "Upper left", light: [-1, 1, 1]},
@@ -43,7 +44,7 @@ export class Stage {
     this.camera = {...FRONT};
     this.tool = "light";
     this.share = 1; // of the pixels of a side, while things move
-    this.wanted = this.shown = this.fine = 0;
+    this.wanted = this.shown = this.fine = this.finished = 0;
     this.isReady = false;
     this.pixelsPerMm = 1;
     this.measure = new Measure(this);
@@ -67,6 +68,7 @@ export class Stage {
   invalidate() {
     ++this.wanted;
     this.changedAt = performance.now();
+    this.unwanted?.abort(); // a picture at rest
     this.showBusy();
     this.pump();
   }
@@ -78,15 +80,15 @@ export class Stage {
   }
 
   showBusy() {
-    this.element.setAttribute("aria-busy", Boolean(this.isAwaiting || this.fine !== this.wanted));
+    this.element.setAttribute("aria-busy", Boolean(this.isAwaiting || this.finished !== this.wanted));
   }
 
   // The one queue of the studio: asks for one picture at a time, always of the newest state.
   async pump() {
     if (this.isBusy || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
-    if (this.fine === this.wanted) return;
-    const rest = this.changedAt + REST_MS - performance.now();
+    if (this.finished === this.wanted) return;
+    const pause = this.fine === this.wanted ? FINISH_MS : REST_MS, rest = this.changedAt + pause - performance.now();
     clearTimeout(this.timer);
     if (rest > 0) this.timer = setTimeout(() => this.pump(), rest);
     else this.draw(true);
@@ -94,17 +96,22 @@ export class Stage {
 
   async draw(isFine) {
     this.isBusy = true;
-    const number = this.wanted, start = performance.now(), changedAt = this.changedAt;
+    const number = this.wanted, start = performance.now(), changedAt = this.changedAt, isLast = this.fine === number;
+    this.unwanted = isFine ? new AbortController() : null;
     try {
-      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, changedAt));
+      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, changedAt, isLast));
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
+      if (isLast || (isFine && (this.isTable || this.about?.is_finished))) this.finished = number;
     } catch (error) {
-      this.shown = this.fine = number;
-      this.on.failed(error);
+      if (error.kind !== "cancelled" && error.name !== "AbortError") {
+        this.shown = this.fine = this.finished = number;
+        this.on.failed(error);
+      }
     }
     this.isBusy = false;
+    this.unwanted = null;
     this.showBusy();
     this.pump();
   }
@@ -114,9 +121,11 @@ export class Stage {
     return {width: Math.round(this.size.width * scale), height: Math.round(this.size.height * scale)};
   }
 
-  async drawRelief(isFine, changedAt) {
-    const {model} = this;
-    const {image, about} = await this.engine.frame(this.request({...this.pixels(isFine), fine: isFine}));
+  // The last picture of a state shows the piece as it will be exported.
+  async drawRelief(isFine, changedAt, isLast) {
+    const {model} = this, signal = this.unwanted?.signal;
+    const {image, about} = await this.engine.frame(
+      this.request({...this.pixels(isFine), fine: isFine, finished: isLast}), {signal});
     if (!this.isReady || model !== this.model) return; // another document or view is shown by now
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
