@@ -56,6 +56,7 @@ struct ReliefOptions : NumericOptions {
   View view;
   Outline outline = Outline::rectangle;
   std::optional<Vec2> plate_mm;  // width and height of the plate; as small as the relief allows
+  Vec2 shift_mm = Vec2::Zero();  // of the relief from the middle of such a plate, right and up
   BaseOptions base;              // of kind image: with its height map
   WrapOptions wrap;
   Form form = Form::relief;

@@ -88,7 +88,10 @@ std::pair<std::string, double> size_of_plate(const ReliefOptions& options) {
 }
 
 Result<void> check_plate_size(const ReliefOptions& options) {
-  if (!options.diameter_mm && !options.plate_mm) return {};
+  if (!options.diameter_mm && !options.plate_mm) {
+    if (options.shift_mm.isZero()) return {};
+    return option_error("shift", "expected a size of the plate with it, diameter or plate");
+  }
   if (options.diameter_mm && options.plate_mm)
     return option_error("plate", "expected either plate or diameter, found both");
   if (options.diameter_mm && options.outline != Outline::circle)

@@ -9,7 +9,7 @@ const START = {view: "auto", height: 5, method: "layered",
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",
-  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "base", "wrap", "form",
+  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "shift", "base", "wrap", "form",
   "tool", "finish", "points", "resolution", "tolerance", "triangles", "draft"];
 
 export const FIRST = Object.freeze({

@@ -6,27 +6,27 @@ import {takeArrowKeys} from "./inputs.js";
 import {paint} from "./stage.js";
 
 // A rectangular plate with nothing besides.
-export const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", rim: null, "rim-height": null,
+export const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null, "rim-height": null,
   "rim-bevel": null, base: "plane", wrap: "none", form: "relief", draft: null});
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
 const round = {...PLAIN, outline: "circle", width: null, margin: 1};
-const RIM = ["diameter", "rim", "rim-height", "rim-bevel"];
+const RIM = ["diameter", "shift", "rim", "rim-height", "rim-bevel"];
 
 // `part` are the options that a kind sets when it is chosen, `rows` those that it shows besides those of all kinds.
 export const KINDS = {
   relief: {label: "Plaque", title: "Plaque: 100 mm long, 5 mm high", part: plaque, material: "plaster",
-    rows: ["plate", "base", "form"]},
+    rows: ["plate", "shift", "base", "form"]},
   coin: {label: "Coin", title: "Coin or medal: 40 mm across, 1.6 mm high, with a rim", material: "silver",
     part: {...round, diameter: 40, rim: 1.5, height: 1.6, thickness: 2}, rows: [...RIM, "base"]},
   wood: {label: "Carving", title: "Carving in wood: 180 mm long, 10 mm high", material: "walnut",
     part: {...plaque, outline: "round", corner: 12, width: 180, height: 10, margin: 12, thickness: 12},
-    rows: ["plate", "base", "form"]},
+    rows: ["plate", "shift", "base", "form"]},
   die: {label: "Seal", title: "Seal or die: the negative, 30 mm across, 1.2 mm deep, with walls that come off",
     material: "bronze", part: {...round, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
     rows: [...RIM, "draft"]},
   lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
-    material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4}, rows: ["plate"]},
+    material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4}, rows: ["plate", "shift"]},
   shell: {label: "Bent", title: "Bent around a body, such as a vase or a ring", material: "plaster",
     part: {...plaque, wrap: "cylinder:turn=180"}, rows: ["plate", "wrap", "form"],
     camera: {yaw: -28, pitch: 18}},

@@ -8,7 +8,8 @@ import {lengthText, millimetresPerUnit, parseLength, typedNumber} from "./length
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
-const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size", rim: "Rim width",
+const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
+  shift: "Figure moved by", rim: "Rim width",
   "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
@@ -23,7 +24,7 @@ const SUGGESTED = {
     "sphere:diameter=80"],
   tool: ["ball:3", "ball:1", "flat:3", "v:60", "v:30:0.5"],
 };
-const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed"};
+const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed", shift: "0,0"};
 const UNITS = {MM: "mm", DEG: "°"};
 export const ROWS = Object.keys(LABELS);
 
@@ -46,8 +47,8 @@ function besides(name, value, {outline, diameter, plate}, shownWidth) {
   }
   const isFree = {diameter: value === "circle", plate: ["rectangle", "round", "ellipse"].includes(value)};
   if (name === "outline" && ((diameter && !isFree.diameter) || (plate && !isFree.plate)))
-    return {diameter: null, plate: "", width: shownWidth};
-  return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth} : {};
+    return {diameter: null, plate: "", shift: "", width: shownWidth};
+  return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
 export class PieceRows {
