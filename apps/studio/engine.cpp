@@ -252,12 +252,13 @@ Result<void> Engine::finish(const PictureRequest& request) {
 }
 
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
-  if (request.is_finished)
+  if (request.is_finished) {
     RELIEVO_CHECK(finish(request));
-  else
+  } else {
     state_->making.with([](Making& m) {
       if (m.progress && m.is_for_picture) m.progress->cancel();
     });
+  }
   const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();

@@ -86,7 +86,7 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   nlohmann::json json = nlohmann::json::parse(GetParam());
   json["height"] = json.value("height", 4.0);
   const ReliefOptions options = *app::options_from_json(json, "options");
-  app::studio::PictureRequest request{options, json.dump(), {}, false, {}};
+  app::studio::PictureRequest request{options, json.dump(), {}, false, false, {}};
   request.render.width = 480;
   request.render.height = 400;
   request.render.is_fine = request.is_finished = true;

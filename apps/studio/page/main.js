@@ -14,6 +14,7 @@ import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindCards} from "./kinds.js";
 import {PieceRows} from "./pieces.js";
+import {Placing} from "./placing.js";
 import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
 import {Projects} from "./projects.js";
@@ -29,7 +30,8 @@ import {ViewDialog, viewName} from "./views.js";
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
 
 const doc = new Document((before) => changed(before));
-const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed});
+const placing = new Placing({doc, shownWidth, setWidth: (width) => slide("width", width), say: toast});
+const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed, placing});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
@@ -275,6 +277,7 @@ function refused() {
 let reopening = 0;
 function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
+  if (error.kind === "option" && stage.drag?.tool === "place") return placing.squeeze();
   if (error.kind !== "closed") return toast(error.message);
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.reopen().catch(failed), 200);
@@ -355,7 +358,7 @@ const COMMANDS = {
 };
 const KEYS = {
   l: () => modes.setTool("light"), o: () => modes.setTool("turn"), h: () => modes.setTool("pan"),
-  s: () => modes.setTool("section"), m: () => modes.setTool("measure"), f: () => stage.fit(),
+  p: () => modes.setTool("place"), s: () => modes.setTool("section"), m: () => modes.setTool("measure"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
   Escape: () => doc.cancelStroke() || modes.setTable(false),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),

@@ -80,7 +80,14 @@ export class Measure {
   }
 
   marks() {
-    const marks = this.dimensionMarks(), {line, pointer, stage: {size}} = this;
+    const marks = this.dimensionMarks(), {angle} = this.stage.drag ?? {};
+    if (angle) {
+      const middle = this.stage.toPixels(this.stage.figureMiddle());
+      marks.push(...labelled(middle, middle, `${Math.round(Math.abs(angle))}° to the ${angle > 0 ? "left" : "right"}`, "none",
+        this.stage.size));
+    }
+    if (this.stage.tool === "place") return marks;
+    const {line, pointer, stage: {size}} = this;
     if (line) {
       const [from, to] = [line.from, line.to].map((place) => this.stage.toPixels(place));
       const rise = line.heights ? `, ${line.heights[1] >= line.heights[0] ? "+" : "−"}` +

@@ -174,10 +174,10 @@ export class Stage {
     this.element.dataset.tool = tool;
     const does = {
       light: "move the light", turn: "turn the relief", pan: "move the picture", section: "move the section",
-      measure: "measure",
+      measure: "measure", place: "move the figure on its plate",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
-    if (tool === "section" || tool === "measure") this.camera = {...this.camera, yaw: 0, pitch: 0};
+    if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};
     if (tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.invalidate();
@@ -247,7 +247,7 @@ export class Stage {
       marks.push(make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height}));
     }
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
-    if (this.tool === "measure") marks.push(...this.measure.marks());
+    if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
     if (this.sun) {
       const [x, y] = this.sun;
       marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}),
@@ -275,6 +275,7 @@ export class Stage {
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
+    if (tool === "place" && !this.on.placing.begin(this.about.size_mm)) return this.release();
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
@@ -285,6 +286,7 @@ export class Stage {
     if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
     if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
     if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
+    if (tool === "place") this.place(event, dx, dy);
     const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
     if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
     if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
@@ -299,6 +301,7 @@ export class Stage {
   }
 
   release() {
+    if (this.drag?.angle) this.on.placing.turn(this.drag.angle);
     this.drag = null;
     this.sun = null;
     this.element.classList.remove("dragging");
@@ -320,6 +323,20 @@ export class Stage {
     this.doc.change({light}, "light");
   }
 
+  // With shift the figure is turned, about its middle, when the drag ends: the model is then prepared anew.
+  place(event, dx, dy) {
+    const {drag} = this, [x, y] = this.toPixels(this.figureMiddle());
+    const angleAt = (px, py) => degrees(Math.atan2(y - py, px - x));
+    if (event.shiftKey) drag.angle = angleAt(event.offsetX, event.offsetY) - angleAt(drag.x, drag.y);
+    else if (!drag.angle) this.on.placing.move(dx / this.pixelsPerMm, -dy / this.pixelsPerMm);
+    this.drawOverlay();
+  }
+
+  figureMiddle() {
+    const [low, high] = this.about?.relief_mm ?? [[0, 0], [0, 0]];
+    return [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
+  }
+
   turn(yaw, pitch) {
     const {camera} = this;
     this.camera = {...camera, yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)};
@@ -339,6 +356,7 @@ export class Stage {
 
   zoom(event) {
     event.preventDefault();
+    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005));
     const zoom = clamp(this.camera.zoom * Math.exp(-event.deltaY * 0.0015), 0.3, 40);
     const [x, y] = this.toPlace(event.offsetX, event.offsetY), rest = 1 - this.camera.zoom / zoom;
     const {camera} = this;
@@ -362,6 +380,7 @@ export class Stage {
     }
     if (this.tool === "turn") this.turn(x * 5 * size, -y * 5 * size);
     if (this.tool === "pan") this.shift(x * 20 * size / this.pixelsPerMm, y * 20 * size / this.pixelsPerMm);
+    if (this.tool === "place" && this.on.placing.begin(this.about.size_mm)) this.on.placing.move(x * size, y * size);
     if (this.tool === "section") {
       const moved = ([px, py]) => [px + x * size, py + y * size];
       this.setLine({from: moved(this.line.from), to: moved(this.line.to)});
