@@ -231,7 +231,8 @@ Result<ModelFacts> Engine::facts() {
   return drawing->facts();
 }
 
-// Makes the piece that a picture is to show, while other pictures are drawn.
+// Makes the piece that a picture is to show, while other pictures are drawn. If one of them cancels it, the picture shows what
+// there is.
 Result<void> Engine::finish(const PictureRequest& request) {
   if (state_->session.status().is_preparing) return {};  // another model, whose piece will be asked for
   std::optional<PieceOrder> order;
@@ -244,10 +245,12 @@ Result<void> Engine::finish(const PictureRequest& request) {
     RELIEVO_TRY(order, drawing->missing_piece(request));
   }
   if (!order) return {};
-  RELIEVO_TRY(auto made, piece(order->options, order->key, true));
+  auto made = piece(order->options, order->key, true);
+  if (!made && made.error().kind == ErrorKind::cancelled) return {};
+  if (!made) return std::unexpected(made.error());
   const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
-  if (drawing && state_->drawn_model == model) drawing->take(std::move(made), *order);
+  if (drawing && state_->drawn_model == model) drawing->take(std::move(*made), *order);
   return {};
 }
 

@@ -38,7 +38,7 @@ const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name
 const modes = new Modes({stage, doc});
 const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth});
-const isAtRest = () => !stage.drag && doc.stroke === null && stage.fine === stage.wanted;
+const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
 const scanPanel = new ScanPanel({doc});
 const tour = new Tour();

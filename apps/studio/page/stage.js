@@ -3,30 +3,14 @@
 
 import {$, clamp, make} from "./controls.js";
 import {engineOptions} from "./document.js";
+import {TABLE_LIGHTS, angles, degrees, direction} from "./lights.js";
 import {Measure} from "./measure.js";
+import {takePinches} from "./pinch.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
 const FINISH_MS = 500; // and after which the finished piece is made
 const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
-export const TABLE_LIGHTS = [
-  {name: "Upper left", light: [-1, 1, 1]},
-  {name: "Upper right", light: [1, 1, 1]},
-  {name: "Raking, left", light: [-1, 0.12, 0.3]},
-  {name: "Raking, above", light: [0.1, 1, 0.3]},
-];
-
-const degrees = (radians) => radians * 180 / Math.PI;
-const radians = (angle) => angle * Math.PI / 180;
-
-// Converts azimuth and elevation in degrees to a direction, and back.
-const direction = (azimuth, elevation) => {
-  const flat = Math.cos(radians(elevation));
-  return [flat * Math.cos(radians(azimuth)), flat * Math.sin(radians(azimuth)), Math.sin(radians(elevation))];
-};
-const angles = ([x, y, z]) =>
-  ({azimuth: degrees(Math.atan2(y, x)), elevation: degrees(Math.atan2(z, Math.hypot(x, y)))});
-
 export function paint(canvas, image) {
   if (canvas.width !== image.width) canvas.width = image.width;
   if (canvas.height !== image.height) canvas.height = image.height;
@@ -103,7 +87,8 @@ export class Stage {
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
-      if (isLast || (isFine && (this.isTable || this.about?.is_finished))) this.finished = number;
+      if (isFine && (this.isTable || this.isAwaiting || this.about?.is_finished)) this.finished = number;
+      else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
     } catch (error) {
       if (error.kind !== "cancelled" && error.name !== "AbortError") {
         this.shown = this.fine = this.finished = number;
@@ -267,11 +252,12 @@ export class Stage {
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
     stage.onkeydown = (event) => this.key(event);
+    takePinches(stage, {begin: () => this.giveUp(), move: (...pinch) => this.pinch(...pinch)});
     new ResizeObserver(() => this.invalidate()).observe(stage);
   }
 
   press(event) {
-    if (event.target.id === "split" || event.button > 1) return;
+    if (event.target.id === "split" || event.button > 1 || !event.isPrimary) return;
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
@@ -354,11 +340,27 @@ export class Stage {
     this.invalidate();
   }
 
+  // The first of two fingers moved nothing.
+  giveUp() {
+    this.doc.cancelStroke();
+    this.release();
+  }
+
+  pinch([fromX, fromY], [x, y], ratio) {
+    this.zoomBy(ratio, x, y);
+    this.shift((fromX - x) / this.pixelsPerMm, (y - fromY) / this.pixelsPerMm);
+  }
+
   zoom(event) {
     event.preventDefault();
     if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005));
-    const zoom = clamp(this.camera.zoom * Math.exp(-event.deltaY * 0.0015), 0.3, 40);
-    const [x, y] = this.toPlace(event.offsetX, event.offsetY), rest = 1 - this.camera.zoom / zoom;
+    this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
+  }
+
+  // Zooms around a pixel.
+  zoomBy(factor, atX, atY) {
+    const zoom = clamp(this.camera.zoom * factor, 0.3, 40);
+    const [x, y] = this.toPlace(atX, atY), rest = 1 - this.camera.zoom / zoom;
     const {camera} = this;
     this.camera = {...camera, zoom, x: camera.x + rest * (x - camera.x), y: camera.y + rest * (y - camera.y)};
     if (zoom <= 1) this.camera = {...this.camera, x: 0, y: 0};
