@@ -66,6 +66,7 @@ struct Making {
   std::string stage;
   double fraction = 0;
   Progress* progress = nullptr;  // null while nothing is made
+  bool is_for_picture = false;   // in place of a file
 };
 
 // The piece that was made last.
@@ -239,7 +240,37 @@ Result<ModelFacts> Engine::facts() {
   return drawing->facts();
 }
 
+// Makes the piece that a picture is to show, while other pictures are drawn. If one of them cancels it, the picture shows what
+// there is.
+Result<void> Engine::finish(const PictureRequest& request) {
+  if (state_->session.status().is_preparing) return {};  // another model, whose piece will be asked for
+  std::optional<PieceOrder> order;
+  std::uint64_t model = 0;
+  {
+    const Lock lock(state_->drawing_mutex);
+    Drawing* const drawing = state_->current_drawing();
+    if (!drawing) return nothing_open();
+    model = state_->drawn_model;
+    RELIEVO_TRY(order, drawing->missing_piece(request));
+  }
+  if (!order) return {};
+  auto made = piece(order->options, order->key, true);
+  if (!made && made.error().kind == ErrorKind::cancelled) return {};
+  if (!made) return std::unexpected(made.error());
+  const Lock lock(state_->drawing_mutex);
+  Drawing* const drawing = state_->current_drawing();
+  if (drawing && state_->drawn_model == model) drawing->take(std::move(*made), *order);
+  return {};
+}
+
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
+  if (request.is_finished) {
+    RELIEVO_CHECK(finish(request));
+  } else {
+    state_->making.with([](Making& m) {
+      if (m.progress && m.is_for_picture) m.progress->cancel();
+    });
+  }
   const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
@@ -289,8 +320,8 @@ Result<ExportedFile> Engine::make_file(const FileRequest& request) {
   return export_file(*made, *known, request.heightmap_px);
 }
 
-Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options,
-                                                        const std::string& key) {
+Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, const std::string& key,
+                                                        bool is_for_picture) {
   const ShownModel shown = state_->shared.with([](const Shared& s) { return s.shown; });
   const auto& model = shown.model;
   if (!model) return nothing_open();
@@ -308,7 +339,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
     });
     if (state_->changed) state_->changed();
   });
-  state_->making.with([&](Making& m) { m = {"waiting", 0, &progress}; });
+  state_->making.with([&](Making& m) { m = {"waiting", 0, &progress, is_for_picture}; });
   Result<MadeRelief> made = make_relief(*model, options, &progress);
   state_->making.with([](Making& m) { m = {}; });
   if (!made) return std::unexpected(made.error());

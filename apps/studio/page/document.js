@@ -4,12 +4,12 @@
 import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
-const START = {view: "auto", height: 4, method: "layered",
+const START = {view: "auto", height: 5, method: "layered",
   mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",
-  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "base", "wrap", "form",
+  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "shift", "base", "wrap", "form",
   "tool", "finish", "points", "resolution", "tolerance", "triangles", "draft"];
 
 export const FIRST = Object.freeze({

@@ -17,7 +17,7 @@
 //                                  options, studio}
 //   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise, mode, points} as on the command line
 //   facts(), suggestViews()     -> facts about the model; {view, up} of each side, best first
-//   frame(request), scan(request)-> {image: ImageData, about}
+//   frame(request, {signal}), scan(request)-> {image: ImageData, about}; a picture that is aborted is cancelled
 //   profile(request)            -> heights in mm
 //   reach(options)              -> the largest height in mm
 //   check(options)                 throws unless the options can be read
@@ -57,8 +57,8 @@ async function send(path, options) {
 const post = (path, body, options = {}) =>
   send(`api/${path}`, {method: "POST", body: JSON.stringify(body), ...options});
 
-async function picture(path, request) {
-  const response = await post(path, request);
+async function picture(path, request, options) {
+  const response = await post(path, request, options);
   const about = JSON.parse(response.headers.get("X-Relievo"));
   const pixels = new Uint8ClampedArray(await response.arrayBuffer());
   return {image: new ImageData(pixels, about.width, about.height), about};
@@ -148,8 +148,8 @@ export class Engine {
     return (await (await this.post("views")).json()).views;
   }
 
-  frame(request) {
-    return picture("frame", {document: this.document, ...request});
+  frame(request, options) {
+    return picture("frame", {document: this.document, ...request}, options);
   }
 
   scan(request) {

@@ -1,5 +1,14 @@
 // Handles keys, and files that are dropped on the page.
 
+// Panels stay open or closed as they were left.
+export function keepPanels(panels, storage) {
+  for (const panel of panels) {
+    const key = `panel:${panel.querySelector("summary").textContent.trim()}`, was = storage.getItem(key);
+    if (was) panel.open = was === "open";
+    panel.addEventListener("toggle", () => storage.setItem(key, panel.open ? "open" : "closed"));
+  }
+}
+
 // Arrow keys move within a radio group.
 export function takeArrowKeys(group) {
   group.onkeydown = (event) => {

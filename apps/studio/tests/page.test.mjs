@@ -36,10 +36,15 @@ after(async () => {
 async function start(...args) {
   engine = await new EngineProcess(state, ...args).ready();
   await page.goto(engine.address);
+  await openPanels();
 }
+
+// Panels stay open when the page is loaded anew.
+const openPanels = () => page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
 
 const button = (name) => page.getByRole("button", {name, exact: true});
 const slider = (name) => page.getByRole("slider", {name, exact: true});
+const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
 const field = (name) => page.getByRole("spinbutton", {name, exact: true});
 const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
 const value = async (name) => Number(await field(name).inputValue());
@@ -154,25 +159,24 @@ test("moves sliders by wheel and double click, too", {skip}, async () => {
 });
 
 test("takes numbers as people type them, and refuses others in one line", {skip}, async () => {
-  const width = await value("Width in mm"), typed = [["1/8in", "3.175"], ["4in", "101.6"], ["2,5", "2.5"],
+  const width = await value("Longer side in mm"), typed = [["1/8in", "3.175"], ["4in", "101.6"], ["2,5", "2.5"],
     ["3+0.5", "3.5"], ["12 mm", "12.0"], ["1cm", "10.0"]];
   for (const [text, shown] of typed) {
-    await set("Width in mm", text);
-    assert.equal(await field("Width in mm").inputValue(), shown, text);
+    await set("Longer side in mm", text);
+    assert.equal(await field("Longer side in mm").inputValue(), shown, text);
   }
   const alert = page.getByRole("alert");
   for (const text of ["4ft", "1,234", "12mmm", "0", "1e9"]) {
-    await set("Width in mm", text);
-    await alert.getByText(`Width: expected a number from 0.1 to 100000 mm, such as`).waitFor();
+    await set("Longer side in mm", text);
+    await alert.getByText(`Longer side: expected a number from 0.1 to 100000 mm, such as`).waitFor();
     assert.ok((await alert.innerText()).endsWith(`found '${text}'.`), text);
-    assert.equal(await field("Width in mm").inputValue(), "10.0");
+    assert.equal(await field("Longer side in mm").inputValue(), "10.0");
   }
-  await set("Saturation value", "1mm");
-  await alert.getByText("Saturation: expected a number from 0 to 100, such as").waitFor();
-  await field("Width in mm").press("ArrowUp");
-  assert.ok((await value("Width in mm")) > 10);
-  await set("Width in mm", width);
-  await page.locator("details", {hasText: "Making"}).locator("summary").click();
+  await set("Crispness value", "1mm");
+  await alert.getByText("Crispness: expected a number from 0 to 100, such as").waitFor();
+  await field("Longer side in mm").press("ArrowUp");
+  assert.ok((await value("Longer side in mm")) > 10);
+  await set("Longer side in mm", width);
   await page.getByLabel("Draft angle").fill("15 degrees");
   await page.getByLabel("Draft angle").press("Enter");
   await alert.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
@@ -184,15 +188,15 @@ test("keeps a locked height while saturation moves", {skip}, async () => {
   await untilHeight(3, 0.01);
   const first = await picture();
   assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
-  await press(slider("Saturation"), "ArrowRight", 30);
-  assert.ok((await value("Saturation value")) > 0.1);
+  await press(slider("Crispness"), "ArrowRight", 30);
+  assert.ok((await value("Crispness value")) > 0.1);
   await becomesOther(first);
   await untilHeight(3, 0.01);
 });
 
 test("lets the height follow when it is not locked", {skip}, async () => {
   await button("Lock the height").click();
-  await set("Detail value", 0.3);
+  await set("Fine detail value", 0.3);
   await picture();
   assert.ok(Math.abs((await heightShown()) - 3) > 0.05);
   assert.ok(Math.abs((await value("Height in mm")) - (await heightShown())) < 0.01);
@@ -208,8 +212,8 @@ test("undoes and redoes, step by step", {skip}, async () => {
   const before = await picture();
   assert.ok(difference(before, last) > 0.2);
   let steps = 0; // more than one if the machine is so slow that the keys were pressed with pauses
-  do await button("Undo").click(); while (++steps < 30 && (await value("Saturation value")) > 0);
-  assert.equal(await value("Saturation value"), 0);
+  do await button("Undo").click(); while (++steps < 30 && (await value("Crispness value")) > 0);
+  assert.equal(await value("Crispness value"), 0);
   while (steps-- > 0) await button("Redo").click();
   await becomesSame(before);
 });
@@ -218,7 +222,7 @@ test("shapes the tone curve with presets and keys", {skip}, async () => {
   const first = await picture();
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   await becomesOther(first);
-  assert.ok(await slider("Saturation").isDisabled());
+  assert.ok(await slider("Crispness").isDisabled());
   const point = page.getByRole("slider", {name: /Curve point 2 of/});
   await press(point, "ArrowUp", 5);
   await page.getByRole("combobox", {name: "Tone curve preset"}).waitFor();
@@ -310,7 +314,7 @@ test("changes the method", {skip}, async () => {
 });
 
 test("changes the method's own rim with it, and no other", {skip}, async () => {
-  const rim = page.getByRole("slider", {name: "Soft rim"});
+  const rim = page.getByRole("slider", {name: "Soft edge"});
   const method = page.getByRole("combobox", {name: "Method"});
   const first = await picture();
   assert.equal(await rim.getAttribute("aria-valuetext"), "0.5 sampling distances");
@@ -453,26 +457,26 @@ test("fits the relief into a plate of the size that is asked for", {skip}, async
     await page.getByLabel(label, {exact: true}).fill(text);
     await page.getByLabel(label, {exact: true}).press("Enter");
   };
-  const width = await value("Width in mm");
+  const width = await value("Longer side in mm");
   await enter("Plate size", "20cm x 150");
   await page.getByText(/piece 200\.00 × 150\.00/).waitFor();
-  assert.notEqual(await value("Width in mm"), width);
-  await page.getByLabel("Kind of work").selectOption("Coin or medal");
+  assert.notEqual(await value("Longer side in mm"), width);
+  await kind("Coin").click();
   await enter("Diameter", "80");
   await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
-  const most = await value("Width in mm");
-  await set("Width in mm", 30);
+  const most = await value("Longer side in mm");
+  await set("Longer side in mm", 30);
   await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
-  assert.equal(await value("Width in mm"), 30);
-  await set("Width in mm", 500); // the plate leaves less
-  assert.equal(await value("Width in mm"), most);
-  await page.getByLabel("Kind of work").selectOption("Die");
+  assert.equal(await value("Longer side in mm"), 30);
+  await set("Longer side in mm", 500); // the plate leaves less
+  assert.equal(await value("Longer side in mm"), most);
+  await kind("Seal").click();
   assert.equal(await page.getByLabel("Diameter", {exact: true}).inputValue(), "80");
   await picture();
   assert.ok((await size())[0] > 80, "the die is larger than its coin");
-  while (await page.getByLabel("Kind of work").inputValue() !== "relief") await button("Undo").click();
+  while (!await kind("Plaque").isChecked()) await button("Undo").click();
   await button("Undo").click();
-  assert.equal(await value("Width in mm"), width);
+  assert.equal(await value("Longer side in mm"), width);
 });
 
 test("goes on after a reload and after a new start of the engine", {skip}, async () => {

@@ -5,14 +5,16 @@
 
 #include "relievo/picture/render.h"
 #include "relievo/plate/solid.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
 
 // Draws one solid as render_preview() does, on nothing (opacity 0) but its soft shadow. Not for concurrent use.
 class SolidRenderer {
  public:
-  // Shares the solid, which has at least one triangle.
-  explicit SolidRenderer(std::shared_ptr<const Solid> solid);
+  // Shares the solid, which has at least one triangle. With the reach of a tool on it, what the tool leaves standing is
+  // coloured, from orange to red.
+  explicit SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach = {});
   SolidRenderer(SolidRenderer&&) noexcept;
   ~SolidRenderer();
 
