@@ -19,8 +19,8 @@ constexpr double rows_end = 3.2;         // points nearer than this to an outlin
 constexpr double replaced_within = .65;  // by a point of a row that is as near
 constexpr double widest_gap = 1.6;       // radius of an empty circle inside the surface
 constexpr double sliver_width = .02;
-constexpr double widest_sample = 1.9;    // radius of such a circle that one point in its middle fills
-constexpr double cell_size = .7;         // of the set of new points; none in a gap is nearer to another
+constexpr double widest_sample = 1.9;  // radius of such a circle that one point in its middle fills
+constexpr double cell_size = .7;       // of the set of new points; none in a gap is nearer to another
 
 // Returns nothing for a triangle without area.
 std::optional<Vec2> circumcentre(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -41,7 +41,8 @@ void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std
     const double shift = std::fmod(row, 2) == 0 ? 0 : .5;
     for (double k = std::ceil(low.x() / spacing - shift); (k + shift) * spacing <= high.x(); ++k) {
       const Vec2 p((k + shift) * spacing, row * row_height);
-      if (cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0) places.push_back(p);
+      if (cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0)
+        places.push_back(p);
     }
   }
 }
@@ -192,8 +193,7 @@ class NewSurface {
       const NearestSegment near = silhouettes_.nearest(centre, std::max(3 * surface.rho, longest));
       // A triangle between points of one silhouette alone, where that is nearly straight, is ground: empty circles as
       // large as its own are not inside.
-      const bool is_sliver =
-          is_on(a) && is_on(b) && is_on(c) && near.distance < sliver_width * surface.rho;
+      const bool is_sliver = is_on(a) && is_on(b) && is_on(c) && near.distance < sliver_width * surface.rho;
       boundary.is_inside[t] = near.segment == no_index || (near.is_left && !is_sliver);
     });
     drop_crumbs(surface);

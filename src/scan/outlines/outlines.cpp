@@ -31,16 +31,6 @@ double area_of(const Surface& surface, const Triangle& t) {
   return cross(at(1) - at(0), at(2) - at(0)) / 2;
 }
 
-// Returns whether no surface with the normals of two neighbouring points connects them. The chord of a circle is
-// perpendicular to the mean of the normals at its ends. is_jump() would not do: at the edge of a surface that turns
-// away from the viewer, the normal there explains any depth.
-bool is_occlusion(const Surface& surface, Index a, Index b) {
-  const Vec3 step = surface.points[b] - surface.points[a];
-  const Vec3 sum = (surface.normals[a] + surface.normals[b]).cast<double>();
-  const double rise = std::abs(sum.head<2>().dot(step.head<2>())) / std::max(sum.z(), .2);
-  return std::abs(step.z()) > 2 * rise + least_occlusion * surface.rho;
-}
-
 // Connected triangles that are all inside or all outside.
 class Pieces {
  public:
@@ -237,8 +227,7 @@ class JumpLines {
   void cross_triangle(Index t) {
     const Triangle& corners = surface_.triangulation.triangles[t];
     std::array<bool, 3> jumps;
-    for (Index i = 0; i < 3; ++i)
-      jumps[i] = is_across(corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    for (Index i = 0; i < 3; ++i) jumps[i] = is_across(corners[(i + 1) % 3], corners[(i + 2) % 3]);
     const int count = jumps[0] + jumps[1] + jumps[2];
     if (count < 2) return;
     Index alone = 0;  // the corner whose two sides are crossed
@@ -268,6 +257,13 @@ class JumpLines {
 };
 
 }  // namespace
+
+bool is_occlusion(const Surface& surface, Index a, Index b) {
+  const Vec3 step = surface.points[b] - surface.points[a];
+  const Vec3 sum = (surface.normals[a] + surface.normals[b]).cast<double>();
+  const double rise = std::abs(sum.head<2>().dot(step.head<2>())) / std::max(sum.z(), .2);
+  return std::abs(step.z()) > 2 * rise + least_occlusion * surface.rho;
+}
 
 bool drop_crumbs(Surface& surface) {
   Pieces pieces(surface);
