@@ -219,7 +219,8 @@ TEST_F(BatchProgram, DoesSeveralJobsInTurn) {
     const auto record = nlohmann::json::parse(line);
     status[record["name"]] = record["status"];
   }
-  const std::map<std::string, std::string> expected{{"1", "made"}, {"2", "made"}, {"3", "made"}, {"bad", "failed"}};
+  const std::map<std::string, std::string> expected{
+      {"1", "made"}, {"2", "made"}, {"3", "made"}, {"bad", "failed"}};
   EXPECT_EQ(status, expected) << jobs.out;
   EXPECT_TRUE(fs::exists(folder_ / "out/1.stl") && fs::exists(folder_ / "out/3.stl"));
 }
@@ -230,7 +231,8 @@ TEST_F(BatchProgram, EndsAfterTheJobWhoseRecordNobodyTakes) {
   std::string command = "batch -o out";
   std::istringstream listed(list.out);
   for (std::string line; std::getline(listed, line);) command += cat(" --job '", line, "'");
-  const std::string script = cat("cd '", folder_.string(), "'; '" RELIEVO_CLI "' ", command, " > /dev/full 2> error");
+  const std::string script =
+      cat("cd '", folder_.string(), "'; '" RELIEVO_CLI "' ", command, " > /dev/full 2> error");
   EXPECT_NE(std::system(script.c_str()), 0);
   EXPECT_NE(read_all(folder_ / "error").find("expected a reader of records"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder_ / "out/1.stl"));
