@@ -37,13 +37,13 @@ Result<void> check_ranges(const ReliefOptions& options) {
 Result<void> check_method(const ReliefOptions& options) {
   const Method method = options.effective_method();
   if (method != Method::paper && !options.height_mm)
-    return option_error("method", cat("expected a height with method ", name_of(method)));
+    return option_error("method", cat("expected a height with method ", name_of(method), ", found none"));
   const bool is_shaped = options.saturation || options.detail || options.steepest_deg ||
                          options.boundary_width || options.tone || options.steps > 0;
   if (is_shaped && !has_shape(method))
     return option_error(
         "method", cat("expected none of saturation, detail, steepest, boundary, tone and steps with method ",
-                      name_of(method)));
+                      name_of(method), ", found some"));
   return {};
 }
 
