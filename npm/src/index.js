@@ -1,20 +1,12 @@
 // Relievo in JavaScript: scans in, reliefs out.
-import { compile } from "./compile.js";
-import { Engine, RelievoError } from "./engine.js";
+import { RelievoError } from "./engine.js";
 import { filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
-import { compressedModule } from "./module.js";
+import { newEngine } from "./new_engine.js";
 import { optionTable, samples, version } from "./options.js";
 
 export { RelievoError, optionTable, samples, version };
 
 const BASE_IMAGE = "base-image/";
-
-let module; // compiled, which all instances share
-
-async function newEngine() {
-  module ??= compile(compressedModule);
-  return Engine.create(await module);
-}
 
 function call(engine, name, request = {}) {
   try {

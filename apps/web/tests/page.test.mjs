@@ -54,7 +54,9 @@ class Studio {
   }
 
   async setHeight(mm) {
-    await this.height.fill(String(mm));
+    await this.height.click();
+    await this.height.press("ControlOrMeta+a");
+    await this.height.pressSequentially(String(mm));
     await this.height.press("Enter");
     await this.page.getByText(new RegExp(`height ${mm.toFixed(2)} mm`)).waitFor();
   }
@@ -69,8 +71,12 @@ class Studio {
       return place;
     }
     await trigger();
-    const isWhole = () => fs.existsSync(place) && fs.statSync(place).size > 0 && !fs.existsSync(`${place}.part`);
-    return eventually(() => isWhole() && place);
+    let size = 0; // the file grows until it is whole
+    return eventually(() => {
+      const before = size;
+      size = fs.existsSync(place) && !fs.existsSync(`${place}.part`) ? fs.statSync(place).size : 0;
+      return size > 0 && size === before && place;
+    });
   }
 
   async exported(name) {

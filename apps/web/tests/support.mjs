@@ -11,12 +11,10 @@ const tests = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.me
 export const pageFolder = process.env.PAGE ?? path.resolve("build/web/page");
 const driver = path.join(tests, "node_modules/playwright-core");
 
-// Debian's browsers. Stock Firefox speaks WebDriver BiDi, which tells nothing of downloads: it saves them by itself.
+// Debian's browsers. Stock Firefox speaks WebDriver BiDi, which tells nothing of downloads from memory.
 const BROWSERS = {
   chromium: {path: "/usr/bin/chromium", options: () => ({args: ["--no-sandbox", "--disable-gpu", "--no-first-run"]})},
-  firefox: {path: "/usr/bin/firefox-esr", options: (folder) => ({channel: "moz-firefox", firefoxUserPrefs: {
-    "browser.download.folderList": 2, "browser.download.dir": folder, "browser.download.useDownloadDir": true,
-    "browser.download.always_ask_before_handling_new_types": false}})},
+  firefox: {path: "/usr/bin/firefox-esr", options: (downloadsPath) => ({channel: "moz-firefox", downloadsPath})},
 };
 export const browserNames = Object.keys(BROWSERS);
 
