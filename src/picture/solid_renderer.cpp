@@ -25,8 +25,10 @@ struct SolidRenderer::State {
   }
 };
 
+SolidRenderer::SolidRenderer(std::shared_ptr<const Solid> solid)
+    : state_(std::make_unique<State>(std::move(solid))) {}
 SolidRenderer::SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach)
-    : state_(std::make_unique<State>(std::move(solid))) {
+    : SolidRenderer(std::move(solid)) {
   state_->reach = std::move(reach);
 }
 SolidRenderer::SolidRenderer(SolidRenderer&&) noexcept = default;

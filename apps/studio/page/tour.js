@@ -10,6 +10,7 @@ const STEPS = [
   {at: ".tools", text: "Turn, cut and measure the piece, and compare it with the scan. What you see is what is made."},
   {at: "#export", text: "Export files for printing, milling or striking. All you do is kept; Undo goes all the way back."},
 ];
+const OFFER_MS = 30000;
 const GAP = 24, EDGE = 10;
 
 export class Tour {
@@ -31,7 +32,7 @@ export class Tour {
   offer() {
     if (localStorage.getItem("toured")) return;
     localStorage.setItem("toured", "yes");
-    offer("New here? Five steps show what is where.", "Show me", () => this.start());
+    offer("New here? Five steps show what is where.", "Show me", () => this.start(), OFFER_MS);
   }
 
   start() {
