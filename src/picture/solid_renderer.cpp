@@ -42,7 +42,8 @@ void SolidRenderer::render(const RenderOptions& options, Picture& picture) {
   }
   const ScreenTransform transform = camera_transform(state_->size, options);
   picture.pixels_per_mm = transform.pixels_per_mm;
-  draw_body(state_->body, transform, {options.material, options.light, options.has_shadows, options.is_fine, state_->reach},
+  draw_body(state_->body, transform,
+            {options.material, options.light, options.has_shadows, options.is_fine, state_->reach},
             state_->cache, picture.image);
 }
 

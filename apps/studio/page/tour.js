@@ -8,7 +8,7 @@ const STEPS = [
   {at: "#shape", text: "Shape the relief. The height is met exactly; the lock keeps it while you change the rest."},
   {at: "#stage", text: "Drag on the relief to move the light. A raking light shows what the hand will feel."},
   {at: ".tools", text: "Turn, cut and measure the piece, and compare it with the scan. What you see is what is made."},
-  {at: "#export", text: "Export files for printing, milling or striking. All you do is kept; Undo goes all the way back."},
+  {at: "#export", text: "Export files for printing, milling or striking. All is kept; Undo goes all the way back."},
 ];
 const OFFER_MS = 30000;
 const GAP = 24, EDGE = 10;

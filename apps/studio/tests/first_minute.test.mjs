@@ -1,5 +1,5 @@
-// The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as one
-// scene.
+// The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as
+// one scene.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";

@@ -40,7 +40,8 @@ async function start(...args) {
 }
 
 // Panels stay open when the page is loaded anew.
-const openPanels = () => page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+const openPanels = () => page.locator(".inspector details").evaluateAll((all) =>
+  all.forEach((panel) => (panel.open = true)));
 
 const button = (name) => page.getByRole("button", {name, exact: true});
 const slider = (name) => page.getByRole("slider", {name, exact: true});
@@ -659,7 +660,10 @@ test("takes two fingers for a closer look, which move nothing else", {skip}, asy
   await send("touchStart", fingers(50));
   for (let apart = 60; apart <= 100; apart += 10) await send("touchMove", fingers(apart));
   await send("touchEnd", []);
-  await eventually(async () => assert.ok(Math.abs((await plate()) / before - 2) < 0.05, `${await plate()} of ${before}`));
+  await eventually(async () => {
+    const now = await plate();
+    assert.ok(Math.abs(now / before - 2) < 0.05, `${now} of ${before}`);
+  });
   assert.equal(await tablet.locator("#undo").isEnabled(), light);
   await touched.close();
 });
