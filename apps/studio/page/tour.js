@@ -16,7 +16,7 @@ const GAP = 24, EDGE = 10;
 export class Tour {
   constructor() {
     this.text = make("p", {"aria-live": "polite"});
-    this.next = make("button", {class: "primary", onclick: () => this.show(this.step + 1)});
+    this.next = make("button", {class: "primary", onclick: () => this.show(this.step + 1)}, "Next");
     this.element = make("div", {class: "tour", role: "dialog", "aria-label": "Tour", hidden: true}, this.text,
       make("div", {class: "buttons"}, this.next,
         make("button", {class: "quiet", onclick: () => this.end()}, "Close")));
