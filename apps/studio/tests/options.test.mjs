@@ -97,6 +97,17 @@ for (const [name, {value, first = {}, kind}] of Object.entries(CASES))
     });
   });
 
+test("opens a project without a height as make makes it", {skip}, async () => {
+  const steps = await page.evaluate(async () => {
+    const {stepOfProject} = await import(new URL("document.js", location));
+    return [{width: 60}, {method: "paper"}, {alpha: 2}].map((options) => stepOfProject({options}));
+  });
+  assert.deepEqual(steps.map(({options: {height, method, detail}}) => [height, method, detail]),
+    [[3, "layered", 0.04], [5, "paper", 0.02], [5, "paper", 0.02]]);
+  assert.deepEqual(steps.map(({isHeightLocked}) => isHeightLocked), [true, false, false]);
+  assert.ok(Math.abs(steps[1].u / 4 ** -0.01 - 1) < 1e-12 && Math.abs(steps[2].u / 2 ** -0.01 - 1) < 1e-12);
+});
+
 test("opens a project with the paper's height coefficient", {skip}, async () => {
   const step = await page.evaluate(async () =>
     (await import(new URL("document.js", location))).stepOfProject({options: {alpha: 4, saturation: 0.5}}));
