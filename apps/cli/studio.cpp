@@ -42,7 +42,8 @@ std::string tunnel_command(const std::string& address) {
   if (!(connection >> word >> word >> host >> host_port)) return {};
   const std::string port = address.substr(17, address.find('/', 17) - 17);  // behind "http://127.0.0.1:"
   const std::string user = variable("USER").empty() ? "" : variable("USER") + "@";
-  return cat("ssh -N -L ", port, ":127.0.0.1:", port, host_port == "22" ? "" : cat(" -p ", host_port), " ", user, host);
+  return cat("ssh -N -L ", port, ":127.0.0.1:", port, host_port == "22" ? "" : cat(" -p ", host_port), " ",
+             user, host);
 }
 
 Result<void> studio(const StudioArguments& arguments) {
@@ -57,7 +58,8 @@ Result<void> studio(const StudioArguments& arguments) {
   if (!address) return std::unexpected(address.error());
   std::printf("Relievo studio: %s\nCtrl-C ends it; so does closing the page.\n", address->c_str());
   if (const std::string tunnel = tunnel_command(*address); !tunnel.empty())
-    std::printf("From the machine that you sit at, make a tunnel, then open the address there:\n  %s\n", tunnel.c_str());
+    std::printf("From the machine that you sit at, make a tunnel, then open the address there:\n  %s\n",
+                tunnel.c_str());
   std::fflush(stdout);
   if (!store.notice().empty()) std::fprintf(stderr, "relievo: %s\n", store.notice().c_str());
   if (arguments.is_browser_wanted) show(*address);

@@ -209,7 +209,8 @@ void DiskStore::remove_old_scans() const {
     const fs::path path = kept.input.path;
     used.insert(path.parent_path());
     if (path.extension() != ".json") continue;
-    const auto models = read_scene_file(read_text(path), path.string());  // of several files that were dropped
+    const auto models =
+        read_scene_file(read_text(path), path.string());  // of several files that were dropped
     for (const SceneEntry& model : models.value_or(std::vector<SceneEntry>()))
       used.insert(fs::path(model.path).parent_path());
   }

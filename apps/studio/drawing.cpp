@@ -83,10 +83,14 @@ Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const Relie
     return sized;
   }
   const Vec2 plate = options.plate_mm.value_or(Vec2::Constant(options.diameter_mm.value_or(0)));
-  const std::vector<double> sizes{plate.x(),         plate.y(),
-                                  options.margin_mm, options.rim_mm.value_or(0),
-                                  options.corner_mm, static_cast<double>(options.outline),
-                                  options.shift_mm.x(), options.shift_mm.y()};
+  const std::vector<double> sizes{plate.x(),
+                                  plate.y(),
+                                  options.margin_mm,
+                                  options.rim_mm.value_or(0),
+                                  options.corner_mm,
+                                  static_cast<double>(options.outline),
+                                  options.shift_mm.x(),
+                                  options.shift_mm.y()};
   if (sizes != sizes_ || !most_mm_) {
     sized.width_mm.reset();
     RELIEVO_TRY(const ReliefOptions largest, relievo::with_width(surface, sized));

@@ -20,8 +20,8 @@ namespace relievo::app::studio {
 struct ModelFacts {
   std::size_t input_points = 0, visible_points = 0, points = 0, triangles = 0, hull = 0;
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // of the relief's box, in the scan's units
-  double area = 0;   // of the relief without its ground, in those units squared
-  double noise = 0;  // that was removed, in sampling distances
+  double area = 0;         // of the relief without its ground, in those units squared
+  double noise = 0;        // that was removed, in sampling distances
   std::size_t crumbs = 0;  // small pieces that were left out
   double rho = 0, delta = 0;
   Mat3 rotation = Mat3::Identity();
@@ -52,7 +52,8 @@ struct PictureAnswer {
   struct Reach {
     double share = 1, left_mm = 0;
   };
-  std::optional<Reach> reach;  // of the tool: share of the front that it reaches, and the most that it leaves standing
+  std::optional<Reach>
+      reach;  // of the tool: share of the front that it reaches, and the most that it leaves standing
 
   // The rest tells how a relief was made; a picture of the model itself leaves it at its defaults.
   Compression compression;  // that was found
@@ -105,7 +106,9 @@ class Drawing {
   Result<std::optional<PieceOrder>> missing_piece(PictureRequest request);
 
   // Takes the piece of such an order.
-  void take(std::shared_ptr<const MadeRelief> made, const PieceOrder& order) { piece_.take(std::move(made), order); }
+  void take(std::shared_ptr<const MadeRelief> made, const PieceOrder& order) {
+    piece_.take(std::move(made), order);
+  }
 
   // Returns the height in mm of the highest relief that the options allow, see FrameCache::highest().
   // Errors: those of with_width().

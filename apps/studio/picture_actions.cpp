@@ -2,8 +2,8 @@
 #include <nlohmann/json.hpp>
 
 #include "common/export_file.h"
-#include "common/make_report.h"
 #include "common/files.h"
+#include "common/make_report.h"
 #include "common/option_list.h"
 #include "common/scene_file.h"
 #include "relievo/core/text.h"
@@ -27,8 +27,10 @@ static Json models_of(const ScanSource& input) {
       read_scene_file({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, input.path);
   for (const auto& [path, pose] : entries.value_or(std::vector<SceneEntry>())) {
     const Vec3& turn = pose.rotate_deg;
-    models.push_back({{"file", path}, {"rotate", {turn.x(), turn.y(), turn.z()}},
-                      {"scale", pose.scale}, {"mirror", pose.is_mirrored}});
+    models.push_back({{"file", path},
+                      {"rotate", {turn.x(), turn.y(), turn.z()}},
+                      {"scale", pose.scale},
+                      {"mirror", pose.is_mirrored}});
     if (const auto& move = pose.translate) models.back()["translate"] = {move->x(), move->y(), move->z()};
   }
   return models;

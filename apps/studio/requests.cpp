@@ -122,8 +122,9 @@ Result<PictureRequest> picture_request(const Json& json) {
   if (!options) return std::unexpected(options.error());
   Result<RenderOptions> render = render_from(json);
   if (!render) return std::unexpected(render.error());
-  PictureRequest request{std::move(*options), json.value("options", Json::object()).dump(), std::nullopt,
-                         flag(json, "original"), flag(json, "finished"), *render};
+  PictureRequest request{std::move(*options),    json.value("options", Json::object()).dump(),
+                         std::nullopt,           flag(json, "original"),
+                         flag(json, "finished"), *render};
   if (json.contains("u")) {
     request.u = number(json, "u", {0, 1e12, 1});
     if (!request.u) return wrong("u", "expected a number that is not negative");

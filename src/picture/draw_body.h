@@ -16,7 +16,7 @@ struct DrawParams {
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
   bool has_shadows = true;
-  bool is_fine = false;  // more samples per pixel and finer shadows
+  bool is_fine = false;                         // more samples per pixel and finer shadows
   std::shared_ptr<const ToolReach> reach = {};  // of the body's front: what is left of it is coloured
 };
 

@@ -46,9 +46,11 @@ std::vector<ReliefField> shape_rows() {
                    1e5, "100, or as much as diameter or plate allow"},
                   &OptionTexts::width_mm,
                   width_of},
-      ReliefField{{"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4,
-                   1e5, "5 % of the width, or what the view reaches; by method paper what alpha gives; 2.4 for a lithophane"},
-                  &OptionTexts::height_mm},
+      ReliefField{
+          {"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4, 1e5,
+           "5 % of the width, or what the view reaches; by method paper what alpha gives; 2.4 for a "
+           "lithophane"},
+          &OptionTexts::height_mm},
       ReliefField{
           {"alpha", "A", "the paper's height coefficient, more is flatter; not together with height", 0, 1e9},
           &OptionTexts::alpha,
@@ -176,7 +178,8 @@ std::vector<ReliefField> plate_rows() {
           &OptionTexts::plate},
       ReliefField{{.name = "shift",
                    .unit = "X,Y",
-                   .help = "how far the relief lies to the right of the middle of a plate whose size is given, and above it",
+                   .help = "how far the relief lies to the right of the middle of a plate whose size is "
+                           "given, and above it",
                    .otherwise = "0,0"},
                   &OptionTexts::shift},
       ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5}, &OptionTexts::margin_mm},

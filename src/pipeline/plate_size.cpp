@@ -58,9 +58,9 @@ Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& op
   sized.width_mm = options.width_mm.value_or(largest);
   constexpr double rounding = 1 + 1e-6;  // of a width that was read off a report
   if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding) return sized;
-  return option_error("width",
-                      cat("expected at most ", std::max(0.0, largest), " mm, which the plate leaves with its margin",
-                          options.rim_mm ? " and rim" : "", ", found ", *sized.width_mm, " mm"));
+  return option_error(
+      "width", cat("expected at most ", std::max(0.0, largest), " mm, which the plate leaves with its margin",
+                   options.rim_mm ? " and rim" : "", ", found ", *sized.width_mm, " mm"));
 }
 
 }  // namespace relievo

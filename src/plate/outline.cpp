@@ -211,8 +211,11 @@ Result<Vec2> parse_shift(std::string_view text, LengthUnit bare) {
                          up = parse_length(text.substr(middle + 1), bare);
     if (right && up && std::max(std::abs(*right), std::abs(*up)) <= 1e5) return Vec2(*right, *up);
   }
-  return std::unexpected(Error{
-      ErrorKind::option, {}, {}, cat("expected lengths to the right and up such as 10,-5, found '", text, "'")});
+  return std::unexpected(
+      Error{ErrorKind::option,
+            {},
+            {},
+            cat("expected lengths to the right and up such as 10,-5, found '", text, "'")});
 }
 
 bool has_free_size(Outline outline) {

@@ -19,8 +19,8 @@ namespace {
 using app::studio::Drawing;
 
 std::shared_ptr<const ReliefModel> model() {
-  static const auto made = std::make_shared<const ReliefModel>(
-      *prepare(*make_sample("still_life", {.points = 20000}), View{}));
+  static const auto made =
+      std::make_shared<const ReliefModel>(*prepare(*make_sample("still_life", {.points = 20000}), View{}));
   return made;
 }
 
@@ -116,8 +116,9 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
 INSTANTIATE_TEST_SUITE_P(
     Pieces, PictureOfPiece,
     testing::Values(
-        R"({})", R"({"method": "paper", "margin": 12, "thickness": 8})", R"({"outline": "round", "corner": 15})",
-        R"({"outline": "ellipse"})", R"({"outline": "circle", "rim": 4})", R"({"outline": "none"})",
+        R"({})", R"({"method": "paper", "margin": 12, "thickness": 8})",
+        R"({"outline": "round", "corner": 15})", R"({"outline": "ellipse"})",
+        R"({"outline": "circle", "rim": 4})", R"({"outline": "none"})",
         R"({"rim": 3, "rim-height": 2, "rim-bevel": 1})", R"({"plate": "150x140", "rim": 5})",
         R"({"diameter": 80, "outline": "circle", "rim": 2, "height": 3})", R"({"form": "mirror"})",
         R"({"form": "die", "outline": "circle", "rim": 3})", R"({"form": "lithophane", "height": 2.4})",

@@ -192,7 +192,9 @@ TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   options.outline = Outline::round;
   options.plate_mm = Vec2(120, 90);
   options.width_mm = 40;
-  const auto place = [&](const ReliefOptions& o) { return make_relief(*model, o)->report.offset.head<2>().eval(); };
+  const auto place = [&](const ReliefOptions& o) {
+    return make_relief(*model, o)->report.offset.head<2>().eval();
+  };
   const Vec2 middle = place(options);
   options.shift_mm = Vec2(12, -7);
   EXPECT_LT((place(options) - middle - options.shift_mm).norm(), 1e-9);

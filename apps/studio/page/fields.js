@@ -3,8 +3,8 @@
 import {optionOf} from "./about.js";
 import {spread} from "./controls.js";
 
-// Labels say what the eye sees; `symbol` is that of the paper, for the tip. `hand` is what the slider spans. A number may be
-// typed within the whole range of the option.
+// Labels say what the eye sees; `symbol` is that of the paper, for the tip. `hand` is what the slider spans. A
+// number may be typed within the whole range of the option.
 const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
   width: {label: "Longer side", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#shape"},

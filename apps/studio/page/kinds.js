@@ -6,8 +6,8 @@ import {takeArrowKeys} from "./inputs.js";
 import {paint} from "./stage.js";
 
 // A rectangular plate with nothing besides.
-export const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null, "rim-height": null,
-  "rim-bevel": null, base: "plane", wrap: "none", form: "relief", draft: null});
+export const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,
+  "rim-height": null, "rim-bevel": null, base: "plane", wrap: "none", form: "relief", draft: null});
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
 const round = {...PLAIN, outline: "circle", width: null, margin: 1};
@@ -26,7 +26,8 @@ export const KINDS = {
     material: "bronze", part: {...round, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
     rows: [...RIM, "draft"]},
   lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
-    material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4}, rows: ["plate", "shift"]},
+    material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4},
+    rows: ["plate", "shift"]},
   shell: {label: "Bent", title: "Bent around a body, such as a vase or a ring", material: "plaster",
     part: {...plaque, wrap: "cylinder:turn=180"}, rows: ["plate", "wrap", "form"],
     camera: {yaw: -28, pitch: 18}},

@@ -333,8 +333,9 @@ function wire() {
   click("#drop", () => $("#file").click());
   click("#save", saveProject);
   click("#export", () => exporting.open());
-  click("#help", () => $("#help-dialog").showModal());
-  $("#help-dialog").onclose = () => $("#help-dialog").returnValue === "tour" && facts && tour.start();
+  click("#help", () => help.showModal());
+  const help = $("#help-dialog");
+  help.onclose = () => help.returnValue === "tour" && facts && tour.start();
   click("#home", () => showStart(true));
   click("#back", () => showStart(false));
   click("#cancel", () => engine.cancel().catch(failed));

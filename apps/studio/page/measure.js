@@ -10,7 +10,7 @@ const GAP = 14; // pixels from the piece to its dimensions
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
-// Returns a line between two pixels with the text in its middle, on a ground that keeps it readable, and within the picture.
+// Returns a line between two pixels with the text in its middle, on a ground that keeps it readable, within the picture.
 function labelled([x1, y1], [x2, y2], text, kind, picture) {
   const width = 7.2 * text.length + 10, x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
   const y = clamp((y1 + y2) / 2, 11, picture.height - 11);
@@ -83,8 +83,8 @@ export class Measure {
     const marks = this.dimensionMarks(), {angle} = this.stage.drag ?? {};
     if (angle) {
       const middle = this.stage.toPixels(this.stage.figureMiddle());
-      marks.push(...labelled(middle, middle, `${Math.round(Math.abs(angle))}° to the ${angle > 0 ? "left" : "right"}`, "none",
-        this.stage.size));
+      const text = `${Math.round(Math.abs(angle))}° to the ${angle > 0 ? "left" : "right"}`;
+      marks.push(...labelled(middle, middle, text, "none", this.stage.size));
     }
     if (this.stage.tool === "place") return marks;
     const {line, pointer, stage: {size}} = this;

@@ -1,5 +1,5 @@
-// Two fingers on an element: calls begin() when the second is down, and move(from, to, ratio) with the middles between them in
-// pixels of the element, and by how much they went apart.
+// Two fingers on an element: calls begin() when the second is down, and move(from, to, ratio) with the middles between
+// them in pixels of the element, and by how much they went apart.
 
 export function takePinches(element, {begin, move}) {
   const fingers = new Map();

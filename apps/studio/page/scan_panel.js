@@ -49,7 +49,8 @@ export class ScanPanel {
   }
 
   cut(at, share) {
-    const numbers = numbersOf(this.doc.now.options.crop), isFar = FULL[at] === 1, other = at < 4 ? (at + 2) % 4 : 9 - at;
+    const numbers = numbersOf(this.doc.now.options.crop), other = at < 4 ? (at + 2) % 4 : 9 - at;
+    const isFar = FULL[at] === 1;
     numbers[at] = isFar ? Math.max(1 - share, numbers[other] + 0.05) : Math.min(share, numbers[other] - 0.05);
     this.doc.change({options: {crop: cropText(numbers)}});
   }

@@ -29,7 +29,9 @@ export class ScenePanel {
   row(model, at) {
     const name = nameOf(model.file), [across, upright, roll] = model.rotate;
     const field = (label, range, value, part) => {
-      const input = make("input", {value, inputmode: "decimal", autocomplete: "off", "aria-label": `${label} of ${name}`});
+      const input = make("input", {
+        value, inputmode: "decimal", autocomplete: "off", "aria-label": `${label} of ${name}`,
+      });
       input.onchange = () => {
         const number = typedNumber(input.value, range, this.say);
         if (number === null) input.value = value;
@@ -39,7 +41,8 @@ export class ScenePanel {
     };
     const mirror = make("input", {type: "checkbox", checked: model.mirror, "aria-label": `Mirror ${name}`});
     mirror.onchange = () => this.change(at, {mirror: mirror.checked});
-    const remove = make("button", {class: "quiet", "aria-label": `Remove ${name}`, onclick: () => this.remove(at)}, "Remove");
+    const remove = make("button", {class: "quiet", "aria-label": `Remove ${name}`}, "Remove");
+    remove.onclick = () => this.remove(at);
     remove.disabled = this.models.length === 1;
     return make("li", {}, make("div", {class: "pair"}, make("b", {}, name), remove),
       field("Turn left or right (°)", TURN, upright, (turn) => ({rotate: [across, turn, roll]})),

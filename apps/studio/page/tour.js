@@ -8,14 +8,15 @@ const STEPS = [
   {at: "#shape", text: "Shape the relief. The height is met exactly; the lock keeps it while you change the rest."},
   {at: "#stage", text: "Drag on the relief to move the light. A raking light shows what the hand will feel."},
   {at: ".tools", text: "Turn, cut and measure the piece, and compare it with the scan. What you see is what is made."},
-  {at: "#export", text: "Export files for printing, milling or striking. All you do is kept; Undo goes all the way back."},
+  {at: "#export", text: "Export files for printing, milling or striking. All is kept; Undo goes all the way back."},
 ];
+const OFFER_MS = 30000;
 const GAP = 24, EDGE = 10;
 
 export class Tour {
   constructor() {
     this.text = make("p", {"aria-live": "polite"});
-    this.next = make("button", {class: "primary", onclick: () => this.show(this.step + 1)});
+    this.next = make("button", {class: "primary", onclick: () => this.show(this.step + 1)}, "Next");
     this.element = make("div", {class: "tour", role: "dialog", "aria-label": "Tour", hidden: true}, this.text,
       make("div", {class: "buttons"}, this.next,
         make("button", {class: "quiet", onclick: () => this.end()}, "Close")));
@@ -31,7 +32,7 @@ export class Tour {
   offer() {
     if (localStorage.getItem("toured")) return;
     localStorage.setItem("toured", "yes");
-    offer("New here? Five steps show what is where.", "Show me", () => this.start());
+    offer("New here? Five steps show what is where.", "Show me", () => this.start(), OFFER_MS);
   }
 
   start() {

@@ -1,5 +1,5 @@
-// The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as one
-// scene.
+// The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as
+// one scene.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";
@@ -113,7 +113,7 @@ test("offers what can be done about the scan, and cuts it", {skip}, async () => 
   const before = await points();
   await page.getByRole("button", {name: /notes? on the scan/}).click();
   await page.getByText(/^Removed noise of [\d.]+ sampling distances\./).waitFor();
-  const noise = page.getByLabel("Denoise");
+  const noise = page.locator("#denoise");
   assert.ok(Number(await noise.inputValue()) > 0);
   await button("Keep it").click();
   await eventually(async () => assert.equal(await noise.inputValue(), "0"));

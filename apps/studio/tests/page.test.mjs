@@ -40,7 +40,8 @@ async function start(...args) {
 }
 
 // Panels stay open when the page is loaded anew.
-const openPanels = () => page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+const openPanels = () => page.locator(".inspector details").evaluateAll((all) =>
+  all.forEach((panel) => (panel.open = true)));
 
 const button = (name) => page.getByRole("button", {name, exact: true});
 const slider = (name) => page.getByRole("slider", {name, exact: true});
@@ -437,6 +438,69 @@ test("tells the size of the file beforehand", {skip}, async () => {
   await dialog.getByRole("button", {name: "Cancel"}).click();
 });
 
+test("exports several files at once, named for their form, and can be cancelled", {skip}, async () => {
+  await page.locator("#form").selectOption("mirror");
+  await untilReady();
+  await button("Export").click();
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByText(/triangles/).waitFor();
+  await dialog.getByRole("checkbox", {name: /^3MF/}).check();
+  await dialog.getByRole("checkbox", {name: /^Height map/}).check();
+  await dialog.getByLabel("Longer side in pixels").fill("300");
+  const names = [];
+  const listen = (download) => names.push(download.suggestedFilename());
+  page.on("download", listen);
+  await dialog.getByRole("button", {name: "Export"}).click();
+  await eventually(() => assert.deepEqual([...names].sort(),
+    ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]));
+  page.off("download", listen);
+  await dialog.waitFor({state: "hidden"});
+  await set("Height in mm", 2.4); // another piece, which is not made yet
+  await button("Export").click();
+  await dialog.getByRole("button", {name: "Cancel"}).click();
+  await dialog.waitFor({state: "hidden"});
+  for (const name of ["3mf", "heightmap"])
+    await page.locator(`#formats [value="${name}"]`).evaluate((box) => (box.checked = false));
+  for (let step = 0; step < 2; ++step) await button("Undo").click();
+  await untilReady();
+});
+
+test("can be used by the keyboard alone", {skip}, async () => {
+  await page.locator("#home").focus();
+  const seen = new Set(), all = await page.evaluate(() => [...document.querySelectorAll(
+    "header button, #studio button, #studio input, #studio select, #studio summary, #stage")]
+    .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0).length);
+  for (let i = 0; i < all + 30; ++i) {
+    seen.add(await page.evaluate(() => {
+      document.activeElement.dataset.reached = "yes";
+      return document.activeElement.id || document.activeElement.textContent;
+    }));
+    await page.keyboard.press("Tab");
+  }
+  const missed = await page.evaluate(() => [...document.querySelectorAll(
+    "header button, #studio button, #studio input, #studio select, #studio summary, #stage")]
+    .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0 &&
+      element.dataset.reached !== "yes").map((element) => element.outerHTML.slice(0, 90)));
+  assert.deepEqual(missed, [], `${seen.size} were reached`);
+  const material = () => page.locator("#materials [aria-checked=true]").getAttribute("data-material");
+  const before = await material();
+  await page.locator("#materials [aria-checked=true]").focus(); // in a group by arrows
+  await page.keyboard.press("ArrowRight");
+  assert.notEqual(await material(), before);
+  await button("Undo").focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await material(), before);
+});
+
+test("moves nothing by itself where motion is to be reduced", {skip}, async () => {
+  const longest = () => page.evaluate(() => Math.max(...[...document.querySelectorAll("*")].map((element) =>
+    parseFloat(getComputedStyle(element).transitionDuration))));
+  assert.ok((await longest()) > 0);
+  await page.emulateMedia({reducedMotion: "reduce"});
+  assert.equal(await longest(), 0);
+  await page.emulateMedia({reducedMotion: "no-preference"});
+});
+
 test("cuts a round plate", {skip}, async () => {
   await page.getByRole("combobox", {name: "Outline"}).selectOption("Circle");
   await picture();
@@ -577,6 +641,33 @@ test("has everything within reach on a phone", {skip}, async () => {
   }
   await button("Back to the relief").click();
   await page.setViewportSize({width: 1280, height: 800});
+});
+
+test("takes two fingers for a closer look, which move nothing else", {skip}, async (context) => {
+  if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
+  const touched = await browser.newContext({viewport: {width: 820, height: 1180}, hasTouch: true});
+  const tablet = await touched.newPage(), cdp = await touched.newCDPSession(tablet);
+  await tablet.goto(engine.address);
+  await tablet.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await tablet.getByText(/points.*height/).waitFor();
+  const {x, y, width, height} = await tablet.locator("#stage").boundingBox();
+  const fingers = (apart) => [-1, 1].map((side, id) => ({x: x + width / 2 + side * apart, y: y + height / 2, id}));
+  const send = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
+  await tablet.getByRole("radio", {name: "Measure"}).click();
+  const plate = () => tablet.locator("#overlay line.dimension").evaluateAll((lines) =>
+    Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
+  await eventually(async () => assert.ok((await plate()) > 100));
+  const before = await plate(), light = await tablet.locator("#undo").isEnabled();
+  await send("touchStart", fingers(50).slice(0, 1));
+  await send("touchStart", fingers(50));
+  for (let apart = 60; apart <= 100; apart += 10) await send("touchMove", fingers(apart));
+  await send("touchEnd", []);
+  await eventually(async () => {
+    const now = await plate();
+    assert.ok(Math.abs(now / before - 2) < 0.05, `${now} of ${before}`);
+  });
+  assert.equal(await tablet.locator("#undo").isEnabled(), light);
+  await touched.close();
 });
 
 test("complains about nothing", {skip}, () => assert.deepEqual(complaints, []));

@@ -71,7 +71,9 @@ test("wants its token", async () => {
 
 test("refuses other hosts and origins", async () => {
   const {pathname, port} = engine.url;
-  for (const Host of ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1.evil.example:${port}`, "127.0.0.1:", "localhost:80x"])
+  const hosts = ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1.evil.example:${port}`,
+    "127.0.0.1:", "localhost:80x"];
+  for (const Host of hosts)
     assert.ok([400, 403].includes(await status(engine.request(pathname, {headers: {Host}}))), Host);
   const origins = ["http://evil.example", "null", `https://127.0.0.1:${port}`, `http://127.0.0.1:${+port + 1}`,
     `http://127.0.0.1:${port}.evil.example`];

@@ -106,8 +106,8 @@ export async function eventually(check) {
   }
 }
 
-// Returns {launch} of the browser that the environment names, Chromium otherwise, or {missing}: a text that says what is
-// missing. Firefox is driven by WebDriver BiDi, which the channel stands for.
+// Returns {launch} of the browser that the environment names, Chromium otherwise, or {missing}: a text that says what
+// is missing. Firefox is driven by WebDriver BiDi, which the channel stands for.
 export async function findBrowser(name = process.env.BROWSER || "chromium") {
   const isFirefox = name === "firefox";
   const executablePath = (isFirefox ? FIREFOX : CHROMIUM).find((candidate) => candidate && existsSync(candidate));

@@ -12,9 +12,11 @@ namespace relievo {
 // Draws one solid as render_preview() does, on nothing (opacity 0) but its soft shadow. Not for concurrent use.
 class SolidRenderer {
  public:
-  // Shares the solid, which has at least one triangle. With the reach of a tool on it, what the tool leaves standing is
-  // coloured, from orange to red.
-  explicit SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach = {});
+  // Shares the solid, which has at least one triangle.
+  explicit SolidRenderer(std::shared_ptr<const Solid> solid);
+
+  // Colours what the tool leaves standing on the solid, from orange to red. Shares its reach.
+  SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach);
   SolidRenderer(SolidRenderer&&) noexcept;
   ~SolidRenderer();
 
