@@ -85,6 +85,7 @@ Json renamed(Json json) {
 OptionTexts with_given(OptionTexts own, const OptionTexts& given,
                        const std::function<bool(std::string_view)>& is_given) {
   if (is_given("alpha")) own.height_mm = std::nullopt;
+  if (is_given("alpha") && !is_given("method")) own.method.clear();  // which is then the paper's
   for (const ReliefField& field : option_fields())
     if (is_given(field.name))
       std::visit([&](const auto member) { own.*member = given.*member; }, field.value);

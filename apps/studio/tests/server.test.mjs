@@ -1,6 +1,6 @@
 // Sends the server requests: those of its page, and those that do not come from it, are broken, or are too many.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
+import {spawn, spawnSync} from "node:child_process";
 import {existsSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import net from "node:net";
 import path from "node:path";
@@ -71,7 +71,9 @@ test("wants its token", async () => {
 
 test("refuses other hosts and origins", async () => {
   const {pathname, port} = engine.url;
-  for (const Host of ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1:${+port + 1}`])
+  const hosts = ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1.evil.example:${port}`,
+    "127.0.0.1:", "localhost:80x"];
+  for (const Host of hosts)
     assert.ok([400, 403].includes(await status(engine.request(pathname, {headers: {Host}}))), Host);
   const origins = ["http://evil.example", "null", `https://127.0.0.1:${port}`, `http://127.0.0.1:${+port + 1}`,
     `http://127.0.0.1:${port}.evil.example`];
@@ -79,8 +81,25 @@ test("refuses other hosts and origins", async () => {
     assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin}})), 403, Origin);
   assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin: `http://127.0.0.1:${port}`}})), 200);
   assert.equal(await status(engine.request(pathname, {headers: {Host: `localhost:${port}`}})), 200);
+  const tunnel = {Host: "localhost:9000", Origin: "http://localhost:9000"}; // whose port is another one
+  assert.equal(await status(engine.post("frame", FRAME, {headers: tunnel})), 200);
+  assert.equal(await status(engine.post("frame", FRAME, {headers: {...tunnel, Origin: "http://localhost:9001"}})), 403);
   const foreign = await engine.request(pathname, {headers: {Host: "evil.example"}});
   assert.ok(!foreign.body.toString().includes(pathname), "the token must not leak");
+});
+
+test("says how to reach it through ssh", async () => {
+  const place = temporaryFolder(), args = ["studio", "--no-browser", "--state", place];
+  const env = {...process.env, SSH_CONNECTION: "10.0.0.7 50000 10.0.0.9 2222", USER: "ada"};
+  const child = spawn(PROGRAM, args, {env}), out = await new Promise((resolve) => {
+    let text = "";
+    child.stdout.on("data", (data) => (text += data).includes("ssh -N") && resolve(text));
+  });
+  const [, port] = out.match(/127\.0\.0\.1:(\d+)/);
+  assert.ok(out.includes(`\n  ssh -N -L ${port}:127.0.0.1:${port} -p 2222 ada@10.0.0.9\n`), out);
+  child.kill("SIGINT");
+  await new Promise((resolve) => child.on("exit", resolve));
+  removeFolder(place);
 });
 
 test("is not reached from other machines", async () => {
