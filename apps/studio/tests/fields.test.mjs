@@ -135,7 +135,7 @@ test("ends no drag when the pause after another slider's step is over", {skip}, 
     const {Document, FIRST} = await import(new URL("document.js", location));
     const doc = new Document(() => {}), counts = [];
     doc.begin(FIRST);
-    for (const [height, ended] of [[5, "width"], [6, "height"], [7, null]]) {
+    for (const [height, ended] of [[6, "width"], [7, "height"], [8, null]]) {
       doc.change({options: {height}}, "height");
       counts.push(doc.steps.length);
       doc.endStroke(ended);
