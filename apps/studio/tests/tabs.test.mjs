@@ -150,8 +150,8 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   await tab.mouse.up();
   await tab.getByRole("alert").getByText(/engine has stopped/).waitFor();
   const dragged = await height(tab).inputValue();
-  await tab.getByRole("spinbutton", {name: "Margin in mm"}).fill("8");
-  await tab.getByRole("spinbutton", {name: "Margin in mm"}).press("Enter");
+  await tab.getByRole("spinbutton", {name: "Longer side in mm"}).fill("80");
+  await tab.getByRole("spinbutton", {name: "Longer side in mm"}).press("Enter");
   const address = engine.address;
   engine = await new EngineProcess(state).ready();
   assert.equal(engine.address, address);
@@ -161,7 +161,7 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   await tab.waitForTimeout(200);
   const {kept} = await engine.json("document", {input: {path: scan}}), {options} = kept.steps[kept.at];
   assert.equal(options.height.toFixed(2), dragged);
-  assert.equal(options.margin, 8);
+  assert.equal(options.width, 80);
   await tab.close();
 });
 
