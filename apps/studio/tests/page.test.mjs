@@ -4,7 +4,8 @@ import {spawnSync} from "node:child_process";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, eventually, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, eventually, findBrowser, readStl, removeFolder, temporaryFolder,
+  type} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -51,8 +52,7 @@ const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
 const value = async (name) => Number(await field(name).inputValue());
 
 async function set(name, number) {
-  await field(name).fill(String(number));
-  await field(name).press("Enter");
+  await enter(field(name), String(number));
 }
 
 async function press(locator, key, times) {
@@ -178,8 +178,7 @@ test("takes numbers as people type them, and refuses others in one line", {skip}
   await field("Longer side in mm").press("ArrowUp");
   assert.ok((await value("Longer side in mm")) > 10);
   await set("Longer side in mm", width);
-  await page.getByLabel("Draft angle").fill("15 degrees");
-  await page.getByLabel("Draft angle").press("Enter");
+  await enter(page.getByLabel("Draft angle"), "15 degrees");
   await alert.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
   assert.equal(await page.getByLabel("Draft angle").inputValue(), "");
 });
@@ -446,7 +445,7 @@ test("exports several files at once, named for their form, and can be cancelled"
   await dialog.getByText(/triangles/).waitFor();
   await dialog.getByRole("checkbox", {name: /^3MF/}).check();
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
-  await dialog.getByLabel("Longer side in pixels").fill("300");
+  await type(dialog.getByLabel("Longer side in pixels"), "300");
   const names = [];
   const listen = (download) => names.push(download.suggestedFilename());
   page.on("download", listen);
@@ -517,16 +516,13 @@ test("cuts a round plate", {skip}, async () => {
 
 test("fits the relief into a plate of the size that is asked for", {skip}, async () => {
   const size = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
-  const enter = async (label, text) => {
-    await page.getByLabel(label, {exact: true}).fill(text);
-    await page.getByLabel(label, {exact: true}).press("Enter");
-  };
+  const labelled = (label) => page.getByLabel(label, {exact: true});
   const width = await value("Longer side in mm");
-  await enter("Plate size", "20cm x 150");
+  await enter(labelled("Plate size"), "20cm x 150");
   await page.getByText(/piece 200\.00 × 150\.00/).waitFor();
   assert.notEqual(await value("Longer side in mm"), width);
   await kind("Coin").click();
-  await enter("Diameter", "80");
+  await enter(labelled("Diameter"), "80");
   await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
   const most = await value("Longer side in mm");
   await set("Longer side in mm", 30);

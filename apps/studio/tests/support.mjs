@@ -94,6 +94,17 @@ export class EngineProcess {
   }
 }
 
+// Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets.
+export async function type(field, text) {
+  await field.selectText();
+  await (text === "" ? field.press("Delete") : field.pressSequentially(text));
+}
+
+export async function enter(field, text) {
+  await type(field, text);
+  await field.press("Enter");
+}
+
 // Repeats a check until it no longer throws, for 10 seconds: what a page shows follows its events a little later.
 export async function eventually(check) {
   for (const end = Date.now() + 10000; ;) {

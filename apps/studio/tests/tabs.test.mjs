@@ -4,7 +4,7 @@ import {spawnSync} from "node:child_process";
 import {readFileSync, renameSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -59,10 +59,7 @@ test("works in nine tabs at once, whichever has the stream of events", {skip}, a
 
 const title = (of) => of.locator("#title");
 const height = (of) => of.getByRole("spinbutton", {name: "Height in mm"});
-const setHeight = async (of, text) => {
-  await height(of).fill(text);
-  await height(of).press("Enter");
-};
+const setHeight = (of, text) => enter(height(of), text);
 const untilHeight = async (of, text) => {
   for (let i = 0; i < 400 && (await height(of).inputValue()) !== text; ++i) await of.waitForTimeout(50);
   assert.equal(await height(of).inputValue(), text);
@@ -150,8 +147,7 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   await tab.mouse.up();
   await tab.getByRole("alert").getByText(/engine has stopped/).waitFor();
   const dragged = await height(tab).inputValue();
-  await tab.getByRole("spinbutton", {name: "Longer side in mm"}).fill("80");
-  await tab.getByRole("spinbutton", {name: "Longer side in mm"}).press("Enter");
+  await enter(tab.getByRole("spinbutton", {name: "Longer side in mm"}), "80");
   const address = engine.address;
   engine = await new EngineProcess(state).ready();
   assert.equal(engine.address, address);
