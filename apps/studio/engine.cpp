@@ -79,6 +79,7 @@ struct MadePiece {
 }  // namespace
 
 struct Engine::State {
+  std::function<void()> changed;
   Guarded<Shared> shared;
 
   Guarded<Making> making;
@@ -105,6 +106,7 @@ struct Engine::State {
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
     };
+    preparation.changed = changed;
     session.open(std::move(preparation));
   }
 
@@ -165,7 +167,9 @@ struct Engine::State {
   }
 };
 
-Engine::Engine() : state_(std::make_unique<State>()) {}
+Engine::Engine(std::function<void()> changed) : state_(std::make_unique<State>()) {
+  state_->changed = std::move(changed);
+}
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const PreparationTexts& view) {
@@ -211,6 +215,11 @@ void Engine::cancel() {
 
 bool Engine::is_idle() {
   return state_->session.wait_until_idle(std::chrono::milliseconds(0));
+}
+
+void Engine::work() {
+  while (!state_->session.wait_until_idle(std::chrono::hours(1))) {
+  }
 }
 
 EngineStatus Engine::status() const {
@@ -328,6 +337,7 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
       m.stage = stage;
       m.fraction = fraction;
     });
+    if (state_->changed) state_->changed();
   });
   state_->making.with([&](Making& m) { m = {"waiting", 0, &progress, is_for_picture}; });
   Result<MadeRelief> made = make_relief(*model, options, &progress);

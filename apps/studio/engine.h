@@ -1,6 +1,7 @@
 // The native engine behind the page: one scan, its relief, and pictures of both.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,7 +48,8 @@ struct FileRequest {
 // Every method may be called from any thread. Those that draw wait for each other.
 class Engine {
  public:
-  Engine();
+  // Where there are no threads, `changed` is called when status() has changed within a call.
+  explicit Engine(std::function<void()> changed = {});
   ~Engine();
 
   // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
@@ -65,6 +67,9 @@ class Engine {
 
   // Returns whether nothing runs, not even work that was cancelled.
   bool is_idle();
+
+  // Where there are no threads: does what open(), show() and choose_view() asked for.
+  void work();
 
   EngineStatus status() const;
 

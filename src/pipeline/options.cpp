@@ -43,7 +43,7 @@ Result<void> check_method(const ReliefOptions& options) {
   if (is_shaped && !has_shape(method))
     return option_error(
         "method", cat("expected none of saturation, detail, steepest, boundary, tone and steps with method ",
-                      name_of(method)));
+                      name_of(method), ", found some"));
   return {};
 }
 

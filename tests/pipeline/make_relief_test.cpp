@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/simd.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
@@ -309,6 +310,29 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
   options.boundary_width = 2;
   options.steepest_deg = 10;
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
+}
+
+// Other instructions give the very same relief; the bound for other compilers and targets is 1e-5 of the height, which
+// scripts/compare-builds measures.
+TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
+  const auto reliefs_of = [](bool is_allowed) {
+    const bool could = uses_avx2();
+    allow_avx2(is_allowed);
+    std::vector<std::vector<Vec3>> points;
+    for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
+      ReliefOptions options;
+      options.method = method;
+      options.height_mm = 2;
+      options.resolution_mm = 1;
+      const auto made = make_relief(test::torus(6000, 1.5, .4), options);
+      points.push_back(made ? made->solid.points : std::vector<Vec3>{});
+    }
+    allow_avx2(could);
+    return points;
+  };
+  const auto narrow = reliefs_of(false), wide = reliefs_of(true);
+  EXPECT_FALSE(narrow.front().empty());
+  EXPECT_EQ(narrow, wide);
 }
 
 TEST(MakeRelief, AToneCurveReplacesTheSaturation) {

@@ -32,7 +32,7 @@ export function takeDrops(veil, open) {
   addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
   addEventListener("drop", (event) => {
     show(false)(event);
-    open([...event.dataTransfer?.files ?? []]);
+    open([...(event.dataTransfer?.files ?? [])]);
   });
 }
 

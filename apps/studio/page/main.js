@@ -383,9 +383,10 @@ async function start() {
   chooseUnit($("#unit").value);
   try {
     $("#readable").textContent = about.readable;
+    $("#limits").replaceChildren(...about.limits.map((text) => make("li", {}, text)));
     $("#file").accept = [...about.endings, ".zip", ".relievo"].join();
     showSamples(openInput);
-    engine.follow((status) => opened.followed(status), engineLost);
+    engine.follow((status) => opened.followed(status), engineLost, toast);
     await resume(about);
   } catch (error) {
     failed(error);

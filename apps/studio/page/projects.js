@@ -6,6 +6,9 @@ import {projectOf, stepOfProject} from "./document.js";
 import {offer} from "./messages.js";
 import {sceneFile} from "./scene_panel.js";
 
+// Returns whether one of several files is a scan or scene that names the others.
+const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
+
 export class Projects {
   // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way.
   constructor({engine, open, take, failed}) {
@@ -17,28 +20,30 @@ export class Projects {
     };
   }
 
-  // Opens what was dropped or chosen: a scan, a project, or several scans as a scene.
+  // Opens what was dropped or chosen: a project, a scan, perhaps of several files, or several scans as a scene.
   async openFiles(files) {
-    if (files.length < 2) return files.length ? this.openFile(files[0]) : null;
-    if (files.some(({name}) => /\.(relievo|json|zip)$/i.test(name)))
+    if (!files.length) return null;
+    const most = about.most_upload, tooLarge = files.find(({size}) => size > most);
+    if (tooLarge)
+      throw new Error(`${tooLarge.name} has ${fileSize(tooLarge.size)}: expected at most ${fileSize(most)}.`);
+    if (files.length === 1 && files[0].name.endsWith(".relievo"))
+      return this.openProject(await this.take(this.engine.readProject(files[0])));
+    if (files.length === 1 || refersToOthers(files)) return this.openScan(files);
+    if (files.some(({name}) => /\.(relievo|zip)$/i.test(name)))
       throw new Error("Several files at once: expected scans alone, to be put side by side.");
     const models = [];
-    for (const file of files) models.push({file: (await this.take(this.engine.upload(file))).path});
+    for (const file of files) models.push({file: (await this.take(this.engine.upload([file]))).path});
     return this.openScene(models);
   }
 
-  async openScene(models, work = null) {
-    return this.open(await this.take(this.engine.upload(sceneFile(models))), work);
+  async openScan(files, work = null) {
+    if (files.length > 1 && !this.engine.takesSeveral)
+      throw new Error("Expected one file: put a .gltf and the files that it names into one ZIP archive.");
+    return this.open(await this.take(this.engine.upload(files)), work);
   }
 
-  // Opens a scan or a project.
-  async openFile(file) {
-    const most = about.most_upload;
-    if (file.size > most)
-      throw new Error(`${file.name} has ${fileSize(file.size)}: expected at most ${fileSize(most)}.`);
-    if (!file.name.endsWith(".relievo")) return this.open(await this.take(this.engine.upload(file)));
-    const project = await this.take(this.engine.readProject(file));
-    return this.openProject(project);
+  openScene(models, work = null) {
+    return this.openScan([sceneFile(models)], work);
   }
 
   async openProject(project) {
@@ -54,7 +59,7 @@ export class Projects {
   }
 
   async located(file) {
-    const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload(file));
+    const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload([file]));
     if (!hash || input.hash === hash) return this.open(input, work);
     offer(`${file.name} is not ${name} as it was when this work was kept.`, "Use it all the same",
       () => this.open(input, work).catch(this.failed));
