@@ -24,7 +24,8 @@ await page.getByRole("button", {name: /green man/i}).click();
 await page.getByText(/points.*height/).waitFor({timeout: 60000});
 await page.getByRole("radio", {name: "Coin"}).click();
 await page.getByRole("radio", {name: "Bronze"}).click();
-await page.waitForTimeout(8000); // until each kind of work has its picture
+await page.waitForFunction(() => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
+  canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0), null, {timeout: 120000});
 await take(page, "main");
 await page.close();
 

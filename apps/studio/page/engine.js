@@ -1,5 +1,5 @@
-// The engine as the page sees it, in the program `relievo studio`. Everything that knows HTTP is in this file. In the page
-// that is one file alone, apps/web/page/engine.js takes its place.
+// The engine as the page sees it, in the program `relievo studio`. Everything that knows HTTP is in this file. In the
+// page that is one file alone, apps/web/page/engine.js takes its place.
 //
 // An Engine has
 //   about()                     -> version, options, readable, endings, formats, views, materials, stages, curve,

@@ -359,7 +359,8 @@ const COMMANDS = {
 };
 const KEYS = {
   l: () => modes.setTool("light"), o: () => modes.setTool("turn"), h: () => modes.setTool("pan"),
-  p: () => modes.setTool("place"), s: () => modes.setTool("section"), m: () => modes.setTool("measure"), f: () => stage.fit(),
+  p: () => modes.setTool("place"), s: () => modes.setTool("section"),
+  m: () => modes.setTool("measure"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
   Escape: () => doc.cancelStroke() || modes.setTable(false),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),

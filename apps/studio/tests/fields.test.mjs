@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, findBrowser, removeFolder, temporaryFolder, type} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, findBrowser, removeFolder, savedFiles, temporaryFolder,
+  type} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -103,10 +104,10 @@ test("shows and takes inches, and keeps millimetres", {skip}, async () => {
 
 test("exports when Enter is pressed", {skip}, async () => {
   await page.keyboard.press("Control+e");
-  const dialog = page.getByRole("dialog", {name: "Export"}), download = page.waitForEvent("download");
+  const dialog = page.getByRole("dialog", {name: "Export"});
   await dialog.getByText(/triangles/).waitFor();
-  await enter(dialog.getByLabel("File name"), "medal");
-  assert.equal((await download).suggestedFilename(), "medal.stl");
+  const [file] = await savedFiles(found, page, 1, () => enter(dialog.getByLabel("File name"), "medal"));
+  assert.equal(file.name, "medal.stl");
   await dialog.waitFor({state: "hidden"});
 });
 

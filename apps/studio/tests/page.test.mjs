@@ -4,8 +4,8 @@ import {spawnSync} from "node:child_process";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, eventually, findBrowser, readStl, removeFolder, temporaryFolder,
-  type} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
+  temporaryFolder, type} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -112,10 +112,9 @@ async function untilReady() {
 }
 
 async function saveAs(trigger, file) {
-  const download = page.waitForEvent("download");
-  await trigger();
-  await (await download).saveAs(file);
-  return readFileSync(file);
+  const [{bytes}] = await savedFiles(found, page, 1, trigger);
+  writeFileSync(file, bytes);
+  return bytes;
 }
 
 async function choose(side) {
@@ -446,13 +445,8 @@ test("exports several files at once, named for their form, and can be cancelled"
   await dialog.getByRole("checkbox", {name: /^3MF/}).check();
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
   await type(dialog.getByLabel("Longer side in pixels"), "300");
-  const names = [];
-  const listen = (download) => names.push(download.suggestedFilename());
-  page.on("download", listen);
-  await dialog.getByRole("button", {name: "Export"}).click();
-  await eventually(() => assert.deepEqual([...names].sort(),
-    ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]));
-  page.off("download", listen);
+  const files = await savedFiles(found, page, 3, () => dialog.getByRole("button", {name: "Export"}).click());
+  assert.deepEqual(files.map(({name}) => name), ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]);
   await dialog.waitFor({state: "hidden"});
   await set("Height in mm", 2.4); // another piece, which is not made yet
   await button("Export").click();
@@ -629,7 +623,8 @@ test("has everything within reach on a phone", {skip}, async () => {
   assert.deepEqual(await beyond(), []);
   const stage = await page.locator("#stage").boundingBox();
   assert.ok(stage.width === 390 && stage.height > 300, JSON.stringify(stage));
-  for (const summary of await page.locator(".inspector details:not([hidden]) > summary").all()) await summary.scrollIntoViewIfNeeded();
+  for (const summary of await page.locator(".inspector details:not([hidden]) > summary").all())
+    await summary.scrollIntoViewIfNeeded();
   for (const name of ["Export", "Choose view", "Relievo, start page"]) {
     await button(name).click();
     assert.deepEqual(await beyond(), [], name);

@@ -1,10 +1,11 @@
 // Several tabs of one browser on one studio.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {readFileSync, renameSync} from "node:fs";
+import {renameSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, findBrowser, readStl, removeFolder, savedFiles,
+  temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -74,11 +75,9 @@ const openScan = async (of, sample) => {
 
 async function exported(tab) {
   await tab.getByRole("button", {name: "Export", exact: true}).click();
-  const download = tab.waitForEvent("download");
-  await tab.getByRole("dialog", {name: "Export"}).getByRole("button", {name: "Export"}).click();
-  const file = path.join(folder, "exported.stl");
-  await (await download).saveAs(file);
-  return {name: (await download).suggestedFilename(), height: readStl(readFileSync(file)).size[2]};
+  const [{name, bytes}] = await savedFiles(found, tab, 1, () =>
+    tab.getByRole("dialog", {name: "Export"}).getByRole("button", {name: "Export"}).click());
+  return {name, height: readStl(bytes).size[2]};
 }
 
 test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
