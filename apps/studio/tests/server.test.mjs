@@ -47,7 +47,8 @@ test("serves the page and nothing else", async () => {
   const page = await engine.get("");
   assert.equal(page.status, 200);
   const wanted = {"content-security-policy": /^default-src 'none'; .*frame-ancestors 'none'$/,
-    "x-frame-options": /^DENY$/, "x-content-type-options": /^nosniff$/, "referrer-policy": /^no-referrer$/, "permissions-policy": /camera=\(\)/,
+    "x-frame-options": /^DENY$/, "x-content-type-options": /^nosniff$/, "referrer-policy": /^no-referrer$/,
+    "permissions-policy": /camera=\(\)/,
     "cross-origin-opener-policy": /^same-origin$/, "cross-origin-embedder-policy": /^require-corp$/,
     "cross-origin-resource-policy": /^same-origin$/, "cache-control": /^no-store$/};
   for (const answer of [page, await engine.get("gone.js"), await engine.request("/")])
