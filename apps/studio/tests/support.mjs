@@ -94,6 +94,10 @@ export class EngineProcess {
   }
 }
 
+// Runs in the page: whether each kind of work has its picture.
+export const areKindsDrawn = () => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
+  canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0);
+
 // Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets.
 export async function type(field, text) {
   await field.selectText();
