@@ -115,11 +115,12 @@ export class PieceRows {
       const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;
       if (document.activeElement !== input || input.matches("select") || name === entered) input.value = shown;
-      if (unit === "mm" || PAIRS[name])
+      if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
         element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
       if (isOfPiece(name) && name !== "outline")
         element.hidden = !KINDS[kind].rows.includes(name) && value === (PLAIN[name] ?? "");
     }
+    this.shownUnit = lengthUnit.unit;
     this.rows.finish.element.hidden = !options.tool || options.tool === "none";
   }
 }
