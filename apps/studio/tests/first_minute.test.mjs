@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -138,8 +138,7 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
   });
   await openPanel("Making");
   const before = await orange(), tool = page.locator("#tool");
-  await tool.fill("ball:8");
-  await tool.press("Enter");
+  await enter(tool, "ball:8");
   await page.getByText(/^The tool reaches [\d.]+ % of the front, and leaves up to [\d.]+ mm/).waitFor();
   const marked = await orange();
   assert.ok(marked > before + 5000, `${marked} after ${before}`);
@@ -165,8 +164,7 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   await page.locator("#scene li").nth(1).getByText("ammonite.ply").waitFor();
   const width = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
   const [across, up] = await width();
-  await page.getByLabel("Size (%) of ammonite.ply").fill("50");
-  await page.getByLabel("Size (%) of ammonite.ply").press("Enter");
+  await enter(page.getByLabel("Size (%) of ammonite.ply"), "50");
   await eventually(async () => {
     const [x, y] = await width();
     assert.ok(x / y < 0.95 * across / up, `${x} × ${y} after ${across} × ${up}`);
