@@ -122,8 +122,9 @@ Result<PictureRequest> picture_request(const Json& json) {
   if (!options) return std::unexpected(options.error());
   Result<RenderOptions> render = render_from(json);
   if (!render) return std::unexpected(render.error());
-  PictureRequest request{std::move(*options), json.value("options", Json::object()).dump(), std::nullopt,
-                         flag(json, "original"), *render};
+  PictureRequest request{std::move(*options),    json.value("options", Json::object()).dump(),
+                         std::nullopt,           flag(json, "original"),
+                         flag(json, "finished"), *render};
   if (json.contains("u")) {
     request.u = number(json, "u", {0, 1e12, 1});
     if (!request.u) return wrong("u", "expected a number that is not negative");
@@ -192,6 +193,7 @@ Json to_json(const ModelFacts& facts) {
           {"area", facts.area},
           {"rho", facts.rho},
           {"noise", facts.noise},
+          {"crumbs", facts.crumbs},
           {"delta", facts.delta},
           {"rotation", rotation},
           {"remarks", facts.remarks},
@@ -199,12 +201,14 @@ Json to_json(const ModelFacts& facts) {
 }
 
 Json to_json(const PictureAnswer& answer) {
-  Json relief;
+  Json relief, reach;
+  if (answer.reach) reach = {{"share", answer.reach->share}, {"left_mm", answer.reach->left_mm}};
   if (answer.relief_mm)
     for (const Vec2& corner : *answer.relief_mm) relief.push_back({corner.x(), corner.y()});
   return {{"width", answer.picture.image.width},
           {"height", answer.picture.image.height},
           {"pixels_per_mm", answer.picture.pixels_per_mm},
+          {"is_finished", answer.is_finished},
           {"scene", answer.scene},
           {"curve", {{"share", rounded(answer.curve.share)}, {"kept", rounded(answer.curve.kept)}}},
           {"height_mm", answer.height_mm},
@@ -212,6 +216,7 @@ Json to_json(const PictureAnswer& answer) {
           {"size_mm", to_json(answer.size_mm)},
           {"most_width_mm", answer.most_width_mm ? Json(*answer.most_width_mm) : Json()},
           {"relief_mm", relief},
+          {"tool", reach},
           {"is_height_met", answer.is_height_met},
           {"u", number_or_null(answer.compression.u)},
           {"beta", answer.compression.beta},

@@ -6,6 +6,7 @@
 
 #include "relief/height_search.h"
 #include "relief/height_span.h"
+#include "relief/jump_lift.h"
 #include "relief/membrane/height_correction.h"
 #include "relief/membrane/membrane_tuning.h"
 #include "relief/step_heights.h"
@@ -27,6 +28,7 @@ struct ReliefModel::State {
   Surface surface;
   std::vector<PointLayers> layers;
   StepHeights steps;
+  JumpLift jump_lift;
   HeightCorrection correction;
   MembraneTuning tuning;
   std::variant<HeightSystem, SubspaceModel> solver;
@@ -54,6 +56,9 @@ const SubspaceModel* ReliefModel::subspace() const {
 }
 const StepHeights& ReliefModel::steps() const {
   return state_->steps;
+}
+const JumpLift& ReliefModel::jump_lift() const {
+  return state_->jump_lift;
 }
 const HeightCorrection& ReliefModel::correction() const {
   return state_->correction;
@@ -89,25 +94,32 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   if (!system) return std::unexpected(system.error());
   RELIEVO_CHECK(check_cancelled(progress));
   StepHeights steps = find_step_heights(surface, weights, *system);
+  JumpLift jump_lift = JumpLift::find({surface, layers, weights, *system});
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
   HeightCorrection correction(surface, weights);
   RELIEVO_CHECK(check_cancelled(progress));
-  const Result<MembraneTuning> tuning = tune_membrane({surface, layers, correction, *system}, progress);
+  const Result<MembraneTuning> tuning =
+      tune_membrane({surface, layers, correction, *system, jump_lift}, progress);
   if (!tuning) return std::unexpected(tuning.error());
   if (resolve_mode(mode, surface) == Mode::exact)
-    return ReliefModel(
-        std::unique_ptr<const State>(new State{std::move(surface), std::move(layers), std::move(steps),
-                                               std::move(correction), *tuning, std::move(*system)}));
+    return ReliefModel(std::unique_ptr<const State>(
+        new State{std::move(surface), std::move(layers), std::move(steps), std::move(jump_lift),
+                  std::move(correction), *tuning, std::move(*system)}));
   Result<SubspaceModel> subspace = prepare_subspace(surface, layers, std::move(*system), progress);
   if (!subspace) return std::unexpected(subspace.error());
-  return ReliefModel(std::unique_ptr<const State>(new State{
-      std::move(surface), {}, std::move(steps), std::move(correction), *tuning, std::move(*subspace)}));
+  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface),
+                                                            {},
+                                                            std::move(steps),
+                                                            std::move(jump_lift),
+                                                            std::move(correction),
+                                                            *tuning,
+                                                            std::move(*subspace)}));
 }
 
 std::size_t ReliefModel::memory() const {
   const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->solver);
   return solver + surface().memory() + layers().size_bytes() + correction().memory() +
-         steps().z.size() * sizeof(float);
+         steps().z.size() * sizeof(float) + jump_lift().memory();
 }
 
 namespace {
@@ -155,6 +167,7 @@ class ReliefModel::Maker {
     RaisedHeights<double> heights{relief.heights, input_, spans_};
     with_style(relief.shape, [&](const auto& style) {
       if (height) *height /= style.height_share();
+      model_.jump_lift().add_to(heights.z, relief.shape);
       add_steps(model_.steps(), relief.shape.steps, height, heights.z);
       style.raise(heights);
     });
