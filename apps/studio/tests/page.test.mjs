@@ -101,6 +101,8 @@ async function untilHeight(wanted, tolerance) {
 }
 
 async function openFile(file) {
+  // Firefox's driver tells of the first dialog only.
+  if (found.name === "firefox") return page.locator("#file").setInputFiles(file);
   const chooser = page.waitForEvent("filechooser");
   await button("Open").click();
   await (await chooser).setFiles(file);
