@@ -358,7 +358,7 @@ export class Stage {
 
   zoom(event) {
     event.preventDefault();
-    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005));
+    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
     this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
   }
 

@@ -101,6 +101,8 @@ async function untilHeight(wanted, tolerance) {
 }
 
 async function openFile(file) {
+  // Firefox's driver tells of the first dialog only.
+  if (found.name === "firefox") return page.locator("#file").setInputFiles(file);
   const chooser = page.waitForEvent("filechooser");
   await button("Open").click();
   await (await chooser).setFiles(file);
@@ -152,8 +154,10 @@ test("moves sliders by wheel and double click, too", {skip}, async () => {
   await slider("Steepest wall").hover();
   await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await value("Steepest wall in degrees")) < 76));
-  await slider("Steepest wall").dblclick();
-  assert.equal(await value("Steepest wall in degrees"), 76);
+  await eventually(async () => { // again if the machine is so slow that these were two clicks
+    await slider("Steepest wall").dblclick();
+    assert.equal(await value("Steepest wall in degrees"), 76);
+  });
   await set("Height in mm", "nonsense");
   assert.equal(await value("Height in mm"), height);
 });
@@ -485,11 +489,13 @@ test("can be used by the keyboard alone", {skip}, async () => {
   assert.equal(await material(), before);
 });
 
-test("moves nothing by itself where motion is to be reduced", {skip}, async () => {
+test("moves nothing by itself where motion is to be reduced", {skip}, async (context) => {
   const longest = () => page.evaluate(() => Math.max(...[...document.querySelectorAll("*")].map((element) =>
     parseFloat(getComputedStyle(element).transitionDuration))));
   assert.ok((await longest()) > 0);
   await page.emulateMedia({reducedMotion: "reduce"});
+  if (!await page.evaluate(() => matchMedia("(prefers-reduced-motion: reduce)").matches))
+    return context.skip("the browser's driver does not reduce motion");
   assert.equal(await longest(), 0);
   await page.emulateMedia({reducedMotion: "no-preference"});
 });

@@ -100,7 +100,8 @@ export const areKindsDrawn = () => [...document.querySelectorAll("#kinds canvas"
 
 // Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets.
 export async function type(field, text) {
-  await field.selectText();
+  await field.focus();
+  await field.press("ControlOrMeta+a");
   await (text === "" ? field.press("Delete") : field.pressSequentially(text));
 }
 
