@@ -1,5 +1,5 @@
 // Takes the README's pictures of the studio: node apps/studio/bench/screenshots.mjs
-import {EngineProcess, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
+import {EngineProcess, areKindsDrawn, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
 
 const found = await findBrowser();
 if (found.missing) throw new Error(found.missing);
@@ -24,7 +24,7 @@ await page.getByRole("button", {name: /green man/i}).click();
 await page.getByText(/points.*height/).waitFor({timeout: 60000});
 await page.getByRole("radio", {name: "Coin"}).click();
 await page.getByRole("radio", {name: "Bronze"}).click();
-await page.waitForTimeout(8000); // until each kind of work has its picture
+await page.waitForFunction(areKindsDrawn, null, {timeout: 120000});
 await take(page, "main");
 await page.close();
 

@@ -262,7 +262,7 @@ async function arrived(status) {
   stage.await(false);
   stage.share = 1;
   scanPanel.tell(facts);
-  scenePanel.show(facts.models);
+  scenePanel.show(engine.takesSeveral ? [] : facts.models); // whose files no other scene finds
   tour.offer();
   $("#save").hidden = $("#export").hidden = false;
   stage.invalidate();
@@ -359,7 +359,8 @@ const COMMANDS = {
 };
 const KEYS = {
   l: () => modes.setTool("light"), o: () => modes.setTool("turn"), h: () => modes.setTool("pan"),
-  p: () => modes.setTool("place"), s: () => modes.setTool("section"), m: () => modes.setTool("measure"), f: () => stage.fit(),
+  p: () => modes.setTool("place"), s: () => modes.setTool("section"),
+  m: () => modes.setTool("measure"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
   Escape: () => doc.cancelStroke() || modes.setTable(false),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
