@@ -73,6 +73,6 @@ for (const [name, options, flags] of SAMPLES)
   });
 
 const data = process.env.RELIEVO_SHARED_DATA;
-const scans = data && fs.existsSync(data) ? ["falcon", "igea", "squirrel"] : [];
+const scans = data && fs.existsSync(data) ? ["bimba", "falcon", "igea", "squirrel", "gargoyle"] : [];
 for (const name of scans.filter((scan) => fs.existsSync(path.join(data, `${scan}.ply`))))
   test(`the scan ${name}`, { skip }, (t) => compareScan(t, path.join(data, `${name}.ply`), { heightMm: 2 }, ["--height", "2"]));

@@ -1,4 +1,4 @@
-// How the scan is prepared: what was found out about it, each with what can be done, where it is cut, and its noise.
+// The panel shows the findings about a scan, each with its remedy, and sets where the scan is cut and its noise.
 
 import {$, make} from "./controls.js";
 
