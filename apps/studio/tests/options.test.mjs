@@ -91,7 +91,7 @@ for (const [name, {value, first = {}, kind}] of Object.entries(CASES))
     else await reaches(() => frame.options[name] === value);
     await eventually(async () => { // back to the beginning
       const undo = page.getByRole("button", {name: "Undo"});
-      while (await undo.isEnabled()) await undo.click();
+      while (await undo.isEnabled()) await undo.click({timeout: 2000});
       await page.locator('[role="application"][aria-busy="false"]').first().waitFor({timeout: 2000});
     });
   });

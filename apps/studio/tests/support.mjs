@@ -98,8 +98,12 @@ export class EngineProcess {
 export const areKindsDrawn = () => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
   canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0);
 
-// Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets.
+// Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets. Waits until
+// the field takes keys: those that a disabled field gets would go to the field before.
 export async function type(field, text) {
+  await eventually(async () => {
+    if (!(await field.isEnabled())) throw new Error(`disabled: ${field}`);
+  });
   await field.focus();
   await field.press("ControlOrMeta+a");
   await (text === "" ? field.press("Delete") : field.pressSequentially(text));
