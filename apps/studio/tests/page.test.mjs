@@ -40,9 +40,11 @@ async function start(...args) {
   await openPanels();
 }
 
-// Panels stay open when the page is loaded anew.
-const openPanels = () => page.locator(".inspector details").evaluateAll((all) =>
-  all.forEach((panel) => (panel.open = true)));
+// Panels stay open when the page is loaded anew, once its program listens to them.
+async function openPanels() {
+  await page.waitForFunction(() => document.querySelector("#undo").onclick !== null);
+  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+}
 
 const button = (name) => page.getByRole("button", {name, exact: true});
 const slider = (name) => page.getByRole("slider", {name, exact: true});
