@@ -18,19 +18,22 @@ const take = async (page, name) => {
   await page.screenshot({path: `docs/pictures/studio-${name}.jpg`, type: "jpeg", quality: 90});
 };
 
+const untilKindsAreDrawn = (page) => page.waitForFunction(areKindsDrawn, null, {timeout: 120000});
+
 const page = await open("light");
 await take(page, "start");
 await page.getByRole("button", {name: /green man/i}).click();
 await page.getByText(/points.*height/).waitFor({timeout: 60000});
 await page.getByRole("radio", {name: "Coin"}).click();
 await page.getByRole("radio", {name: "Bronze"}).click();
-await page.waitForFunction(areKindsDrawn, null, {timeout: 120000});
+await untilKindsAreDrawn(page);
 await take(page, "main");
 await page.close();
 
 const dark = await open("dark");
 await dark.getByText(/points.*height/).waitFor({timeout: 60000});
 await dark.getByRole("radio", {name: "Plaque"}).click();
+await untilKindsAreDrawn(dark);
 await dark.getByRole("button", {name: "Light table"}).click();
 await take(dark, "light-table");
 await browser.close();
