@@ -94,7 +94,7 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   if (!system) return std::unexpected(system.error());
   RELIEVO_CHECK(check_cancelled(progress));
   StepHeights steps = find_step_heights(surface, weights, *system);
-  JumpLift jump_lift = JumpLift::find({surface, layers, weights, *system});
+  JumpLift jump_lift = JumpLift::find({surface, layers, *system});
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
   HeightCorrection correction(surface, weights);
   RELIEVO_CHECK(check_cancelled(progress));
