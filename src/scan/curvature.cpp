@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/quantile.h"
-#include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
+#include "scan/measure_with_tree.h"
 
 namespace relievo {
 namespace {
@@ -52,8 +52,8 @@ double fitted_curvature(std::span<const Neighbour> neighbours, double radius) {
 
 class CurvatureEstimator {
  public:
-  CurvatureEstimator(const Cloud& cloud, const Spacing& spacing, const CurvatureOptions& options)
-      : cloud_(cloud), spacing_(spacing), options_(options), tree_(cloud.points) {}
+  CurvatureEstimator(const SearchableCloud& searchable, const CurvatureOptions& options)
+      : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options), tree_(searchable.tree) {}
 
   double at(Index i, std::vector<KdTree<Vec3>::Match>& matches, std::vector<Neighbour>& neighbours) const {
     // At least rho: near coincident points the local spacing is almost 0, and the fit would see noise only.
@@ -73,16 +73,21 @@ class CurvatureEstimator {
   const Cloud& cloud_;
   const Spacing& spacing_;
   const CurvatureOptions& options_;
-  KdTree<Vec3> tree_;
+  const KdTree<Vec3>& tree_;
 };
 
 }  // namespace
 
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options, const Progress* progress) {
+  return mean_curvature({cloud, spacing, KdTree<Vec3>(cloud.points)}, queries, options, progress);
+}
+
+std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<const Index> queries,
+                                   const CurvatureOptions& options, const Progress* progress) {
   std::vector<double> curvature(queries.size(), 0.0);
-  if (!cloud.has_normals() || !(spacing.rho > 0)) return curvature;
-  const CurvatureEstimator estimator(cloud, spacing, options);
+  if (!searchable.cloud.has_normals() || !(searchable.spacing.rho > 0)) return curvature;
+  const CurvatureEstimator estimator(searchable, options);
   parallel_ranges(queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<KdTree<Vec3>::Match> matches;
     std::vector<Neighbour> neighbours;

@@ -4,6 +4,7 @@
 import {$, clamp, make} from "./controls.js";
 import {engineOptions} from "./document.js";
 import {Measure} from "./measure.js";
+import {directionsOf, Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
@@ -33,7 +34,8 @@ export function paint(canvas, image) {
 }
 
 export class Stage {
-  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error).
+  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() where the view
+  // of the document is to be prepared again.
   constructor(engine, doc, on) {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
@@ -47,6 +49,8 @@ export class Stage {
     this.isReady = false;
     this.pixelsPerMm = 1;
     this.measure = new Measure(this);
+    this.turning = new Turning(this);
+    this.turned = null; // directions of the view that is shown until it is prepared
     this.listen();
   }
 
@@ -60,6 +64,7 @@ export class Stage {
     const step = this.doc.now;
     const {material, light} = step;
     const request = {options: engineOptions(step), material, light, camera: this.camera, ...extra};
+    if (this.turned) request.turned = this.turned;
     if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
     return request;
   }
@@ -71,10 +76,17 @@ export class Stage {
     this.pump();
   }
 
-  // Shows that another model is being prepared.
+  // Shows that another model is being prepared, and until then a coarse relief of its view.
   await(isAwaiting) {
     this.isAwaiting = isAwaiting;
+    if (this.drag?.tool !== "model") this.turned = isAwaiting ? directionsOf(this.doc.now.options) : null;
     this.showBusy();
+  }
+
+  // Shows the model from a direction; null shows what is prepared.
+  showTurned(turned) {
+    this.turned = turned;
+    this.invalidate();
   }
 
   showBusy() {
@@ -164,7 +176,7 @@ export class Stage {
     this.tool = tool;
     this.element.dataset.tool = tool;
     const does = {
-      light: "move the light", turn: "turn the relief", pan: "move the picture", section: "move the section",
+      light: "move the light", model: "turn the model", turn: "turn the relief", pan: "move the picture", section: "move the section",
       measure: "measure",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
@@ -269,17 +281,19 @@ export class Stage {
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
+    if (tool === "model") this.turning.begin();
   }
 
   move(event) {
     const {tool, x, y} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
     if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
+    if (tool === "model") this.turning.drag(dx, dy, event.shiftKey);
     if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
     if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
     const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
     if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
     if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
-    if (tool === "turn" || tool === "pan") Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+    if (tool === "turn" || tool === "pan" || tool === "model") Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
   }
 
   // The cursor tells what a drag would take.
@@ -290,7 +304,9 @@ export class Stage {
   }
 
   release() {
+    const isTurned = this.drag?.tool === "model";
     this.drag = null;
+    if (isTurned) this.turning.end();
     this.sun = null;
     this.element.classList.remove("dragging");
     this.doc.endStroke();
@@ -350,6 +366,11 @@ export class Stage {
     if (this.tool === "light") {
       const {azimuth, elevation} = angles(this.doc.now.light);
       this.setLight(azimuth - x * 10 * size, elevation + y * 5 * size);
+    }
+    if (this.tool === "model") {
+      this.turning.begin();
+      this.turning.turn(radians(x * 10 * size), radians(-y * 10 * size));
+      this.turning.end();
     }
     if (this.tool === "turn") this.turn(x * 5 * size, -y * 5 * size);
     if (this.tool === "pan") this.shift(x * 20 * size / this.pixelsPerMm, y * 20 * size / this.pixelsPerMm);
