@@ -15,7 +15,8 @@ SurfaceDetail detail_of(const TurnedSurface& turned) {
   SurfaceDetail detail{front.corner, front.cell, {}, {}};
   detail.xy.resize(front.normal.width, front.normal.height);
   parallel_for(detail.xy.size(), [&](std::size_t i) {
-    detail.xy[i] = front.normal[i].z() > 0 ? faded_xy(front.normal[i]) : Vec2f::Constant(none);
+    const bool is_smooth = front.normal[i].z() > 0 && !front.is_edge[i];
+    detail.xy[i] = is_smooth ? faded_xy(front.normal[i]) : Vec2f::Constant(none);
   });
   const std::vector<Vec3f>& normals = turned.surface.normals;
   detail.own.resize(normals.size());

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/disjoint_sets.h"
 #include "relievo/core/parallel.h"
@@ -243,21 +244,99 @@ FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std:
   return cells;
 }
 
-void clear_small_pieces(FrontCells& front, std::size_t least) {
-  const int width = front.normal.width;
+namespace {
+
+// Returns the sets of neighbouring cells that are all covered, or all not.
+DisjointSets pieces_of(const FrontCells& front) {
   DisjointSets sets(front.normal.size());
   const auto join = [&](int x, int y, int dx, int dy) {
-    if (front.is_covered(x, y) && front.is_covered(x + dx, y + dy))
-      sets.join(static_cast<Index>(front.normal.index(x, y)),
-                static_cast<Index>(front.normal.index(x + dx, y + dy)));
+    if (!front.normal.contains(x + dx, y + dy)) return;
+    if (front.is_covered(x, y) != front.is_covered(x + dx, y + dy)) return;
+    sets.join(static_cast<Index>(front.normal.index(x, y)),
+              static_cast<Index>(front.normal.index(x + dx, y + dy)));
   };
   for (int y = 0; y < front.normal.height; ++y)
-    for (int x = 0; x < width; ++x) join(x, y, 1, 0), join(x, y, 0, 1);
+    for (int x = 0; x < front.normal.width; ++x) join(x, y, 1, 0), join(x, y, 0, 1);
+  return sets;
+}
+
+struct Filling {
+  Index cell;
+  float depth;
+  Vec3f normal;
+};
+
+// Returns what the cell would be filled with; nothing without a covered neighbour.
+std::optional<Filling> filling_of(const FrontCells& front, Index cell) {
+  const int x = static_cast<int>(cell) % front.normal.width, y = static_cast<int>(cell) / front.normal.width;
+  Filling filling{cell, 0, Vec3f::Zero()};
+  float count = 0;
+  for (int j = y - 1; j <= y + 1; ++j)
+    for (int i = x - 1; i <= x + 1; ++i) {
+      if (!front.is_covered(i, j)) continue;
+      filling.depth += front.depth.at(i, j);
+      filling.normal += front.normal.at(i, j);
+      ++count;
+    }
+  if (count == 0) return std::nullopt;
+  filling.depth /= count;
+  filling.normal.normalize();
+  return filling;
+}
+
+}  // namespace
+
+void clear_small_pieces(FrontCells& front, std::size_t least) {
+  DisjointSets pieces = pieces_of(front);
   for (Index i = 0; i < front.normal.size(); ++i) {
-    if (front.normal[i].z() <= 0 || sets.size_of(i) >= least) continue;
+    if (front.normal[i].z() <= 0 || pieces.size_of(i) >= least) continue;
     front.normal[i] = Vec3f::Zero();
     --front.covered;
   }
+}
+
+void fill_small_holes(FrontCells& front, std::size_t most) {
+  DisjointSets pieces = pieces_of(front);
+  std::vector<Index> empty;
+  for (Index i = 0; i < front.normal.size(); ++i)
+    if (front.normal[i].z() <= 0 && pieces.size_of(i) <= most) empty.push_back(i);
+  while (!empty.empty()) {
+    std::vector<Filling> found;
+    for (const Index cell : empty)
+      if (const auto filling = filling_of(front, cell)) found.push_back(*filling);
+    for (const Filling& f : found) front.depth[f.cell] = f.depth, front.normal[f.cell] = f.normal;
+    front.covered += found.size();
+    std::erase_if(empty, [&](Index cell) { return front.normal[cell].z() > 0; });
+    if (found.empty()) return;
+  }
+}
+
+namespace {
+
+// Returns whether no surface spans two neighbouring cells, see is_jump().
+bool is_edge_between(const FrontCells& front, int x, int y, int dx, int dy) {
+  if (!front.is_covered(x + dx, y + dy)) return true;
+  const Vec2f step = front.cell * Vec2f(static_cast<float>(dx), static_cast<float>(dy));
+  const auto rise = [&](const Vec3f& n) { return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1F); };
+  const float rises = std::max(rise(front.normal.at(x, y)), rise(front.normal.at(x + dx, y + dy)));
+  return std::abs(front.depth.at(x, y) - front.depth.at(x + dx, y + dy)) > 2 * rises + 3 * front.cell;
+}
+
+}  // namespace
+
+void mark_edges(FrontCells& front) {
+  front.is_edge.resize(front.normal.width, front.normal.height);
+  parallel_for(
+      static_cast<std::size_t>(front.normal.height),
+      [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < front.normal.width; ++x)
+          front.is_edge.at(x, y) =
+              front.is_covered(x, y) &&
+              (is_edge_between(front, x, y, 1, 0) || is_edge_between(front, x, y, -1, 0) ||
+               is_edge_between(front, x, y, 0, 1) || is_edge_between(front, x, y, 0, -1));
+      },
+      16);
 }
 
 }  // namespace relievo

@@ -24,6 +24,7 @@ struct FrontCells {
   Image<float> depth;            // at the centre of the cell; minus infinity where no point covers it
   Image<Vec3f> normal;           // mean of the visible points around, unit length; zero where there are none
   Image8 is_behind;              // whether a point that faces away lies in the cell
+  Image8 is_edge;                // whether the surface ends at a covered cell, or jumps: set by mark_edges()
   std::size_t covered = 0;       // number of cells with a normal
 
   Vec2f centre(int x, int y) const {
@@ -38,5 +39,11 @@ FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std:
 
 // Clears what is connected to fewer than `least` covered cells.
 void clear_small_pieces(FrontCells& front, std::size_t least);
+
+// Covers holes of at most `most` cells by what is around them.
+void fill_small_holes(FrontCells& front, std::size_t most);
+
+// Sets `is_edge`.
+void mark_edges(FrontCells& front);
 
 }  // namespace relievo

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "geometry/hilbert.h"
 #include "relievo/core/parallel.h"
@@ -17,6 +18,8 @@ constexpr std::size_t most_drawn = 1'000'000;
 // Limits of the local spacing, in rho: see visible.cpp.
 constexpr double least_spacing = .25, largest_spacing = 4;
 constexpr std::size_t cells_per_point = 9;
+constexpr double largest_hole = 5;       // radius in spacings of holes that are closed: see BoundaryOptions
+constexpr std::size_t least_cells = 16;  // fewer show nothing
 // Smaller pieces are crumbs, as in find_surface(): share of the covered cells.
 constexpr double crumb_share = .005;
 constexpr float hole_fill_distance = 3;  // from what is visible, in spacings: see VisibleOptions
@@ -25,12 +28,15 @@ constexpr float hole_fill_distance = 3;  // from what is visible, in spacings: s
 class CellChoice {
  public:
   CellChoice(const FrontCells& front, std::size_t points, float spacing)
-      : front_(front),
-        step_(std::max(1, static_cast<int>(std::lround(
-                              std::sqrt(static_cast<double>(front.covered) / static_cast<double>(points)))))),
-        hole_reach_(static_cast<int>(std::ceil(hole_fill_distance * spacing / front.cell))) {}
+      : front_(front), hole_reach_(static_cast<int>(std::ceil(hole_fill_distance * spacing / front.cell))) {
+    const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
+    step_ = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
+    is_quincunx_ = step_ == 1 && cells > std::numbers::sqrt2;
+  }
 
-  int step() const { return step_; }
+  // Returns the distance between points, in cells, and the same rounded up.
+  double spacing() const { return is_quincunx_ ? std::numbers::sqrt2 : step_; }
+  int reach() const { return is_quincunx_ ? 2 : step_; }
 
   // Returns the numbers of the cells, row by row.
   std::vector<Index> chosen() const {
@@ -52,24 +58,12 @@ class CellChoice {
  private:
   // Rows of a step's width are shifted by half a step, so that triangles are about equilateral.
   bool is_regular(int x, int y) const {
+    if (is_quincunx_) return (x + y) % 2 == 0;
     return y % step_ == 0 && (x + y / step_ % 2 * (step_ / 2)) % step_ == 0;
   }
   bool is_chosen(int x, int y) const {
-    if (front_.is_covered(x, y)) return is_regular(x, y) || ((x + y) % 2 == 0 && is_at_edge(x, y));
+    if (front_.is_covered(x, y)) return is_regular(x, y) || ((x + y) % 2 == 0 && front_.is_edge.at(x, y));
     return is_regular(x, y) && front_.is_behind.at(x, y) && is_far_from_front(x, y);
-  }
-  bool is_at_edge(int x, int y) const {
-    return is_edge(x, y, 1, 0) || is_edge(x, y, -1, 0) || is_edge(x, y, 0, 1) || is_edge(x, y, 0, -1);
-  }
-  // Returns whether no surface spans two neighbouring cells, see is_jump().
-  bool is_edge(int x, int y, int dx, int dy) const {
-    if (!front_.is_covered(x + dx, y + dy)) return true;
-    const Vec2f step = front_.cell * Vec2f(static_cast<float>(dx), static_cast<float>(dy));
-    const auto rise = [&](const Vec3f& n) {
-      return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1F);
-    };
-    const float rises = std::max(rise(front_.normal.at(x, y)), rise(front_.normal.at(x + dx, y + dy)));
-    return std::abs(front_.depth.at(x, y) - front_.depth.at(x + dx, y + dy)) > 2 * rises + 3 * front_.cell;
   }
   bool is_far_from_front(int x, int y) const {
     for (int j = y - hole_reach_; j <= y + hole_reach_; ++j)
@@ -79,7 +73,8 @@ class CellChoice {
   }
 
   const FrontCells& front_;
-  int step_, hole_reach_;
+  int step_ = 1, hole_reach_;
+  bool is_quincunx_ = false;  // every second cell, like the black fields of a chessboard
 };
 
 // Measures the front around the centres of cells, over as many cells as a point of the surface stands for.
@@ -142,7 +137,7 @@ std::vector<double> put_points(const FrontCells& front, const CellChoice& choice
   const std::vector<Index> order = hilbert_order(places);
   cells = pick(cells, order);
   places = pick(places, order);
-  const CellMeasures measures(front, choice.step());
+  const CellMeasures measures(front, choice.reach());
   const float lowest = lowest_depth(front);
   surface.points.resize(cells.size());
   surface.normals.resize(cells.size());
@@ -219,6 +214,11 @@ Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, 
   RELIEVO_CHECK(check_cancelled(progress));
   if (!view.has_crumbs)
     clear_small_pieces(made.front, static_cast<std::size_t>(crumb_share * static_cast<double>(made.front.covered)));
+  const double hole_radius = largest_hole * scan.rho / static_cast<double>(made.front.cell);
+  fill_small_holes(made.front, static_cast<std::size_t>(std::numbers::pi * hole_radius * hole_radius));
+  mark_edges(made.front);
+  if (made.front.covered < least_cells)
+    return geometry_error("expected points that face the viewer; try another view");
   Surface& surface = made.surface;
   const CellChoice choice(made.front, points, static_cast<float>(scan.rho));
   const std::vector<double> k = put_points(made.front, choice, surface);
@@ -232,7 +232,7 @@ Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, 
   surface.curvature = normalise(k);
   surface.view = view;
   surface.centre = scan.centre;
-  surface.rho = static_cast<double>(choice.step()) * static_cast<double>(made.front.cell);
+  surface.rho = choice.spacing() * static_cast<double>(made.front.cell);
   surface.diagonal = scan.diagonal;
   surface.input_points = scan.points.size();
   surface.visible_points = surface.points.size();
