@@ -211,7 +211,8 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
 
 Result<double> Drawing::reachable_height(const ReliefOptions& asked) {
   RELIEVO_TRY(const ReliefOptions options, plate_width_.with_width(model_->surface(), asked));
-  return frames_.highest(frame_options({options, {}, std::nullopt, std::nullopt, false, {}})) * mm_per_unit(options);
+  return frames_.highest(frame_options({options, {}, std::nullopt, std::nullopt, false, {}})) *
+         mm_per_unit(options);
 }
 
 Result<std::vector<float>> Drawing::profile(PictureRequest request, const SectionLine& line) {

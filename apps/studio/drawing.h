@@ -30,9 +30,10 @@ struct ModelFacts {
 };
 
 struct PictureRequest {
-  ReliefOptions options;     // its view is ignored
-  std::string key;           // the options as text: equal for equal options
-  std::optional<View> turned;  // the view that is shown while the model is turned, in place of the one prepared
+  ReliefOptions options;  // its view is ignored
+  std::string key;        // the options as text: equal for equal options
+  std::optional<View>
+      turned;                // the view that is shown while the model is turned, in place of the one prepared
   std::optional<double> u;   // of the compression, in place of a height, which then follows the shape
   bool is_original = false;  // shows the model itself in place of its relief
   RenderOptions render;      // its lengths are set from the options

@@ -13,7 +13,7 @@ struct CachedFrame {
   const Frame* frame = nullptr;
   std::span<const float> gains = {};  // of the frame, if they are wanted, see Shown
   double stretch = 1;                 // factor of the heights in the picture
-  bool is_new = false;  // was made for this call
+  bool is_new = false;                // was made for this call
 };
 
 // Makes frames of one model, which must outlive the cache. Not for concurrent use.

@@ -122,8 +122,9 @@ Result<PictureRequest> picture_request(const Json& json) {
   if (!options) return std::unexpected(options.error());
   Result<RenderOptions> render = render_from(json);
   if (!render) return std::unexpected(render.error());
-  PictureRequest request{std::move(*options), json.value("options", Json::object()).dump(), std::nullopt,
-                         std::nullopt, flag(json, "original"), *render};
+  PictureRequest request{std::move(*options),    json.value("options", Json::object()).dump(),
+                         std::nullopt,           std::nullopt,
+                         flag(json, "original"), *render};
   if (const auto turned = json.find("turned"); turned != json.end()) {
     RELIEVO_TRY(View view, view_from(*turned));
     view.crop = request.options.view.crop;

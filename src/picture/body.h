@@ -42,8 +42,8 @@ struct DrawnBody {
   double mm_per_place = 1;
   std::span<const float> heights;  // times mm_per_height
   float mm_per_height = 1;
-  std::span<const Vec3f> normals;  // of the points of the relief, unit length
-  float stretch = 1;               // by which these normals are to be steeper
+  std::span<const Vec3f> normals;         // of the points of the relief, unit length
+  float stretch = 1;                      // by which these normals are to be steeper
   const SurfaceDetail* detail = nullptr;  // shown between the points, with `gains`, see Shown
   std::span<const float> gains = {};
   Vec2f middle = Vec2f::Zero();  // of the surface's points, where `detail` is

@@ -45,7 +45,8 @@ PlateMesh plate_mesh(const Surface& surface) {
   // A thin triangle on the hull may have been flipped with one of the ground: then it has a corner of the plate.
   const auto is_of_points = [&](const Triangle& t) { return std::ranges::max(t) < surface.points.size(); };
   for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
-    if (surface.boundary.is_inside[t] && is_of_points(solid->triangles[t])) mesh.parts.parts[t] = Part::relief;
+    if (surface.boundary.is_inside[t] && is_of_points(solid->triangles[t]))
+      mesh.parts.parts[t] = Part::relief;
   mesh.triangles = std::move(solid->triangles);
   return mesh;
 }

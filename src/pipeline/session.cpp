@@ -27,7 +27,7 @@ struct Shared {
   std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
 
-  View prepared_view;                          // asked for last
+  View prepared_view;  // asked for last
 
   void cancel_turning() {
     if (turning) turning->cancel();

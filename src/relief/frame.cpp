@@ -51,7 +51,7 @@ struct FrameMaker::Packed {
   double boundary_width = 0;  // that boundary_weight is for
   WeightTable weight;
   std::vector<HeightSpan<float>> spans;
-  Shape made = {};  // of the last frame
+  Shape made = {};                              // of the last frame
   HeightSearch::Track last_height, last_steps;  // where the last locked height was found, by u or by steps
   bool needs_steps = false;                     // whether slopes alone did not reach it
 

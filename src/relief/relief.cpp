@@ -115,11 +115,13 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
     return ReliefModel(std::unique_ptr<const State>(
         new State{std::move(surface), std::move(parts.layers), std::move(parts.steps),
                   std::move(parts.correction), *tuning, std::move(parts.system)}));
-  Result<SubspaceModel> subspace =
-      prepare_subspace(surface, parts.layers, std::move(parts.system), progress);
+  Result<SubspaceModel> subspace = prepare_subspace(surface, parts.layers, std::move(parts.system), progress);
   if (!subspace) return std::unexpected(subspace.error());
-  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), {}, std::move(parts.steps),
-                                                            std::move(parts.correction), *tuning,
+  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface),
+                                                            {},
+                                                            std::move(parts.steps),
+                                                            std::move(parts.correction),
+                                                            *tuning,
                                                             std::move(*subspace)}));
 }
 

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "relievo/core/parallel.h"
+#include "relievo/io/read.h"
 #include "relievo/make_relief.h"
+#include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
 #include "scan/measured_cloud.h"
 #include "support/picture_similarity.h"
 #include "support/shapes.h"
-#include "relievo/io/read.h"
-#include "relievo/scan/scan_file.h"
 #include "support/shared_scans.h"
 
 namespace relievo {

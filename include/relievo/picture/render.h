@@ -48,7 +48,8 @@ struct RenderOptions {
 // below upwards. Where the scan
 // shows nothing, or an edge, it is not a number.
 struct SurfaceDetail {
-  Vec2f corner = Vec2f::Zero();  // of the first cell, in the units and from the origin of the surface's points
+  Vec2f corner =
+      Vec2f::Zero();  // of the first cell, in the units and from the origin of the surface's points
   float cell = 1;
   Image<Vec2f> xy;
   std::vector<Vec2f> own;  // per point of the surface: the same of its own normal

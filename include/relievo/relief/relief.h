@@ -43,7 +43,8 @@ class ReliefModel {
 
   // Does the same for exact reliefs, but tunes nothing: the height correction has the parameters of a model of the same
   // scan in another view, or without one its defaults. For reliefs that are shown for a moment.
-  static Result<ReliefModel> prepare_like(const ReliefModel* other, Surface surface, Progress* progress = nullptr);
+  static Result<ReliefModel> prepare_like(const ReliefModel* other, Surface surface,
+                                          Progress* progress = nullptr);
 
   ReliefModel(ReliefModel&&) noexcept;
   ReliefModel& operator=(ReliefModel&&) noexcept;

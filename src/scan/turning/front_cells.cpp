@@ -76,7 +76,8 @@ class FrontDrawing {
   FrontCells draw(std::size_t wanted) {
     set_cells(wanted);
     sort_into_bands();
-    parallel_for(bands(), [this](std::size_t b) { draw_band(static_cast<int>(b)); }, 1);
+    parallel_for(
+        bands(), [this](std::size_t b) { draw_band(static_cast<int>(b)); }, 1);
     cells_.covered = static_cast<std::size_t>(
         std::ranges::count_if(cells_.normal.pixels, [](const Vec3f& n) { return n.z() > 0; }));
     return std::move(cells_);
@@ -93,7 +94,7 @@ class FrontDrawing {
   // Returns about how much of the box the points cover, by a coarse mask of those that face the viewer.
   float covered_area() const {
     constexpr int side = 64;
-    using Mask = std::array<std::uint8_t, static_cast<std::size_t>(side* side)>;
+    using Mask = std::array<std::uint8_t, static_cast<std::size_t>(side * side)>;
     const Vec3f size = box_.size();
     const float cell = std::max({size.x(), size.y(), 1e-30F}) / side;
     const Mask mask = parallel_reduce(
@@ -150,8 +151,7 @@ class FrontDrawing {
       for (std::size_t i = begin; i < end; ++i) add(points_[i], mine, behind_[begin / block]);
     });
     for (const std::vector<Vec2f>& places : behind_)
-      for (const Vec2f& p : places)
-        cells_.is_behind.at(static_cast<int>(p.x()), static_cast<int>(p.y())) = 1;
+      for (const Vec2f& p : places) cells_.is_behind.at(static_cast<int>(p.x()), static_cast<int>(p.y())) = 1;
   }
 
   void add(const FrontPoint& point, Bands& to, std::vector<Vec2f>& behind) const {
@@ -209,8 +209,8 @@ class FrontDrawing {
     });
     const int x = static_cast<int>(disc.place.x()), y = static_cast<int>(disc.place.y());
     if (y / band_rows != band) return;
-    const float dz =
-        disc.slope.dot(Vec2f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F) - disc.place.head<2>());
+    const float dz = disc.slope.dot(Vec2f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F) -
+                                    disc.place.head<2>());
     float& depth = cells_.depth.at(x, y);
     depth = std::max(depth, disc.place.z() + std::clamp(dz, -1.F, 1.F));
   }
@@ -222,7 +222,8 @@ class FrontDrawing {
         depth_tolerance * std::max(disc.spacing, .5F) / std::max(disc.normal.z(), least_facing);
     each_cell(disc, radius, band, [&](int x, int y, const Vec2f& step) {
       const float rest = 1 - step.squaredNorm() / radius_sq, depth = cells_.depth.at(x, y);
-      if (rest <= 0 || depth == -infinity || disc.place.z() + disc.slope.dot(step) + tolerance < depth) return;
+      if (rest <= 0 || depth == -infinity || disc.place.z() + disc.slope.dot(step) + tolerance < depth)
+        return;
       cells_.normal.at(x, y) += rest * rest * disc.normal;
     });
   }

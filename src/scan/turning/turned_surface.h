@@ -10,7 +10,7 @@ namespace relievo {
 
 class MeasuredCloud;
 
-// The points of a scan as they are drawn, at most about a million, evenly taken from larger scans.
+// The points of a scan as they are drawn, at most 600,000, evenly taken from larger scans.
 struct TurningScan {
   explicit TurningScan(const MeasuredCloud& measured);
 
