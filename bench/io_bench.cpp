@@ -1,12 +1,19 @@
-// Reading a generated cloud with normals: binary PLY, ascii PLY and XYZ text.
+// Reading a generated cloud with normals: binary PLY, ascii PLY and XYZ text; and a mesh from binary STL. Assimp, where it is
+// installed, reads the same bytes.
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <string>
+
+#ifdef RELIEVO_BENCH_ASSIMP
+#include <assimp/Importer.hpp>
+#endif
 
 namespace relievo {
 namespace {
@@ -68,6 +75,56 @@ void read_xyz(benchmark::State& state) {
   read(state, std::as_bytes(std::span(text)));
 }
 
+// Triangles of three neighbours each.
+std::string stl_of(std::size_t triangles) {
+  const Cloud cloud = make_sphere(triangles + 2);
+  std::string file(84, '\0');
+  std::memcpy(file.data() + 80, &triangles, 4);
+  for (std::size_t i = 0; i < triangles; ++i) {
+    std::array<float, 12> numbers{};
+    for (std::size_t k = 3; k < 12; ++k)
+      numbers[k] = static_cast<float>(cloud.points[i + k / 3 - 1][static_cast<int>(k % 3)]);
+    file.append(reinterpret_cast<const char*>(numbers.data()), sizeof numbers).append(2, '\0');
+  }
+  return file;
+}
+
+void read_binary_stl(benchmark::State& state) {
+  const std::string file = stl_of(static_cast<std::size_t>(state.range(0)));
+  read(state, std::as_bytes(std::span(file)));
+}
+
+#ifdef RELIEVO_BENCH_ASSIMP
+void read_by_assimp(benchmark::State& state, std::span<const std::byte> bytes, const char* ending) {
+  for (auto _ : state) {
+    Assimp::Importer importer;
+    if (!importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, ending))
+      state.SkipWithError(importer.GetErrorString());
+  }
+  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(bytes.size()));
+}
+
+void assimp_binary_ply(benchmark::State& state) {
+  read_by_assimp(state, write_ply(make_sphere(static_cast<std::size_t>(state.range(0)))), "ply");
+}
+
+void assimp_ascii_ply(benchmark::State& state) {
+  const auto points = static_cast<std::size_t>(state.range(0));
+  const std::string text = ascii_header(points) + as_text(make_sphere(points));
+  read_by_assimp(state, std::as_bytes(std::span(text)), "ply");
+}
+
+void assimp_binary_stl(benchmark::State& state) {
+  const std::string file = stl_of(static_cast<std::size_t>(state.range(0)));
+  read_by_assimp(state, std::as_bytes(std::span(file)), "stl");
+}
+
+BENCHMARK(assimp_binary_ply)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(assimp_ascii_ply)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(assimp_binary_stl)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
+#endif
+
+BENCHMARK(read_binary_stl)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(read_binary_ply)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(read_ascii_ply)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(read_xyz)->Arg(100000)->Arg(1000000)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -41,7 +41,7 @@ fs.copyFileSync(path.join(here, "../LICENSE"), path.join(folder, "LICENSE"));
 fs.copyFileSync(path.join(here, "../packaging/dependencies.txt"), path.join(folder, "LIBRARIES.txt"));
 writeModule();
 const { Engine } = await import(pathToFileURL(path.resolve(folder, "src/engine.js")));
-const { json: about } = (await Engine.create()).call("about");
+const { json: about } = (await Engine.create(await WebAssembly.compile(fs.readFileSync(module)))).call("about");
 fs.writeFileSync(path.join(folder, "src/options.js"),
   ["version", "options", "samples", "endings", "stages"].map((name) =>
     `export const ${name === "options" ? "optionTable" : name} = ${JSON.stringify(about[name], null, 1)};\n`).join(""));

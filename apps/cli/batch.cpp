@@ -21,7 +21,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct BatchArguments : MakeOptions {
-  std::string input, outputs, kinds = "stl,preview", match, shard, job;
+  std::string input, outputs, kinds = "stl,preview", match, shard;
+  std::vector<std::string> jobs;
   bool is_list = false, is_finish = false, is_quiet = false, tries_failed_again = false;
   batch::RunLimits limits;
 };
@@ -175,11 +176,11 @@ std::optional<batch::Record> made_since_listed(const batch::Job& job, const batc
   return found == records.end() ? std::nullopt : std::optional(found->second);
 }
 
-Result<void> do_job(const BatchArguments& arguments) {
-  RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
-  const auto json = nlohmann::json::parse(arguments.job, nullptr, false);
+// Does the job of a line that list() has printed, and prints its record.
+Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& workshop,
+                             const batch::Journal& journal) {
+  const auto json = nlohmann::json::parse(listed, nullptr, false);
   RELIEVO_TRY(batch::Job job, batch::job_from_json(json));
-  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
   RELIEVO_TRY(const Descriptor lock, batch::lock_job(workshop.outputs, job.name));
   batch::Work work{std::move(job), std::nullopt, 0};
   if (json.contains("before")) work.before = batch::record_from_line(json["before"].dump());
@@ -191,8 +192,23 @@ Result<void> do_job(const BatchArguments& arguments) {
   nlohmann::json line = to_json(end.record);
   line["is_kept"] = end.is_kept;
   std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
-  if (end.record.is_made) return {};
-  return std::unexpected(Error{ErrorKind::geometry, {}, {}, end.record.error});
+  // Each line is flushed, so that the program ends after the job at work if nobody reads its records any more.
+  if (std::fflush(stdout) != 0)
+    return system_error(ErrorKind::output, work.job.name, "expected a reader of records");
+  return end.record;
+}
+
+// Does the jobs in turn. A job that fails does not keep the others from being done.
+Result<void> do_jobs(const BatchArguments& arguments) {
+  RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
+  RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
+  std::string failed;
+  for (const std::string& listed : arguments.jobs) {
+    RELIEVO_TRY(const batch::Record record, do_job(listed, workshop, journal));
+    if (!record.is_made) failed += cat(failed.empty() ? "" : "\n", record.error);
+  }
+  if (failed.empty()) return {};
+  return std::unexpected(Error{ErrorKind::geometry, {}, {}, failed});
 }
 
 Result<void> run_all(const BatchOrder& order, const BatchArguments& arguments, const Shard& shard) {
@@ -213,7 +229,7 @@ Result<void> run_all(const BatchOrder& order, const BatchArguments& arguments, c
 }
 
 Result<void> batch_command(const BatchArguments& arguments, const CLI::App& command) {
-  if (!arguments.job.empty()) return do_job(arguments);
+  if (!arguments.jobs.empty()) return do_jobs(arguments);
   RELIEVO_TRY(const Shard shard, parse_shard(arguments.shard));
   RELIEVO_TRY(const BatchOrder order, order_of(arguments, command));
   if (arguments.is_list) return list(order, arguments);
@@ -230,9 +246,9 @@ void add_modes(CLI::App& command, BatchArguments& arguments) {
   auto* const list =
       command.add_flag("--list", arguments.is_list, "print a line of JSON for each scan and do none");
   auto* const finish = command.add_flag("--pages", arguments.is_finish, "do no scan, write the pages only");
-  auto* const job =
-      command.add_option("--job", arguments.job, "do the scan of a line that --list has printed");
-  job->type_name("JSON");
+  auto* const job = command.add_option(
+      "--job", arguments.jobs, "do the scan of a line that --list has printed; may be given several times");
+  job->type_name("JSON")->allow_extra_args(false);
   for (CLI::Option* mode : {list, finish, job}) mode->excludes(shard);
   list->excludes(finish)->excludes(job);
   finish->excludes(job);

@@ -21,13 +21,33 @@ std::string line_of(Error error, const CLI::App& program) {
   return error.message();
 }
 
+// Returns what CLI11 found wrong, in the words of all other messages.
+std::string words_of(const CLI::Error& error) {
+  const std::string text = error.what();
+  const auto between = [&](std::string_view before, std::string_view after) {
+    const std::size_t begin = text.find(before) + before.size();
+    return text.substr(begin, text.find(after, begin) - begin);
+  };
+  const std::string flag = text.substr(0, text.find(':'));
+  if (text.contains(" not in range "))
+    return cat(flag, ": expected a number from ", between(" in range ", "\n"), ", found ",
+               between(": Value ", " "));
+  if (text.starts_with("Could not convert: "))
+    return cat(between("convert: ", " ="), ": expected a number, found '", between(" = ", "\n"), "'");
+  if (text.contains(" not expected: "))
+    return cat("expected only known options, found '", between(" not expected: ", "\n"), "'");
+  if (text == "A subcommand is required") return "expected a command such as make, found none";
+  if (text.ends_with(" is required")) return cat("expected ", between("", " is required"), ", found none");
+  return text;
+}
+
 void add_commands(CLI::App& program, Result<void>& result) {
   program.set_version_flag("--version", std::string("relievo ") + version);
   program.require_subcommand(1);
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
     const auto commands = app->get_subcommands();  // those that the user named
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
-    return std::string(error.what()) + "; see relievo " + command + "--help";
+    return words_of(error) + "; see relievo " + command + "--help";
   });
   add_make(program, result);
   add_info(program, result);

@@ -2,9 +2,12 @@
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <sstream>
+#include <string>
 #include <thread>
 
 #include "cli/commands.h"
+#include "relievo/core/text.h"
 #include "studio/actions.h"
 #include "studio/disk_store.h"
 #include "studio/server.h"
@@ -26,6 +29,23 @@ void show(const std::string& address) {
   }).detach();
 }
 
+std::string variable(const char* name) {
+  const char* const value = std::getenv(name);
+  return value ? value : "";
+}
+
+// Returns the command that makes the address reachable from the machine that this one was reached from by ssh; "" if it was
+// not. The variable has the address and the port of that machine and of this one.
+std::string tunnel_command(const std::string& address) {
+  std::istringstream connection(variable("SSH_CONNECTION"));
+  std::string word, host, host_port;
+  if (!(connection >> word >> word >> host >> host_port)) return {};
+  const std::string port = address.substr(17, address.find('/', 17) - 17);  // behind "http://127.0.0.1:"
+  const std::string user = variable("USER").empty() ? "" : variable("USER") + "@";
+  return cat("ssh -N -L ", port, ":127.0.0.1:", port, host_port == "22" ? "" : cat(" -p ", host_port), " ",
+             user, host);
+}
+
 Result<void> studio(const StudioArguments& arguments) {
   studio::DiskStore store(arguments.state.empty() ? studio::DiskStore::default_folder() : arguments.state);
   studio::OpenDocuments documents;
@@ -37,6 +57,9 @@ Result<void> studio(const StudioArguments& arguments) {
   const Result<std::string> address = server.bind();
   if (!address) return std::unexpected(address.error());
   std::printf("Relievo studio: %s\nCtrl-C ends it; so does closing the page.\n", address->c_str());
+  if (const std::string tunnel = tunnel_command(*address); !tunnel.empty())
+    std::printf("From the machine that you sit at, make a tunnel, then open the address there:\n  %s\n",
+                tunnel.c_str());
   std::fflush(stdout);
   if (!store.notice().empty()) std::fprintf(stderr, "relievo: %s\n", store.notice().c_str());
   if (arguments.is_browser_wanted) show(*address);

@@ -61,6 +61,8 @@ nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime
       {"steps", report.steps},
       {"height_requested_mm",
        report.height_requested_mm ? nlohmann::json(*report.height_requested_mm) : nlohmann::json()},
+      {"height_usual_mm",
+       report.height_usual_mm ? nlohmann::json(*report.height_usual_mm) : nlohmann::json()},
       {"height_mm", report.height_mm},
       {"below_ground_mm", report.below_ground_mm},
       {"steepest_deg", report.steepest_deg},

@@ -15,7 +15,7 @@ Result<FrameOptions> frame_options(const ReliefOptions& options, double mm_per_u
     return option_error(
         "method", cat("expected layered or paper for frames, found ", name_of(options.effective_method())));
   FrameOptions frame{shape_of(options), std::nullopt, nullptr};
-  if (options.height_mm) frame.height = *options.height_mm / mm_per_unit;
+  if (const auto height_mm = options.effective_height_mm()) frame.height = *height_mm / mm_per_unit;
   return frame;
 }
 

@@ -11,6 +11,7 @@
 
 #include "common/descriptor.h"
 #include "common/files.h"
+#include "common/json_found.h"
 #include "common/read_inputs.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/option_field.h"
@@ -35,7 +36,7 @@ std::string text_or_nothing(const Json& json, const char* key) {
 // Takes one field from the JSON if it is there; remembers the first of a wrong type.
 struct FieldReader {
   const Json& json;
-  std::string wrong;
+  std::string wrong, wrong_type;
   std::size_t taken = 0;
 
   void operator()(const OptionField& field, double& value) { take(field, value, json_number); }
@@ -56,6 +57,7 @@ struct FieldReader {
       value = found->template get<Value>();
     } else if (wrong.empty()) {
       wrong = field.name;
+      wrong_type = std::is_same_v<T, std::string> ? "expected a text" : "expected a number";
     }
   }
 };
@@ -83,6 +85,7 @@ Json renamed(Json json) {
 OptionTexts with_given(OptionTexts own, const OptionTexts& given,
                        const std::function<bool(std::string_view)>& is_given) {
   if (is_given("alpha")) own.height_mm = std::nullopt;
+  if (is_given("alpha") && !is_given("method")) own.method.clear();  // which is then the paper's
   for (const ReliefField& field : option_fields())
     if (is_given(field.name))
       std::visit([&](const auto member) { own.*member = given.*member; }, field.value);
@@ -105,12 +108,13 @@ Json to_json(const OptionTexts& options) {
 }
 
 Result<OptionTexts> texts_from_json(const Json& given, std::string_view name) {
-  if (!given.is_object()) return fail(name, "options", "expected an object");
+  if (!given.is_object()) return fail(name, "options", "expected an object" + found(given));
   const Json json = renamed(given);
   OptionTexts options;
-  FieldReader reader{json, {}};
+  FieldReader reader{json, {}, {}};
   visit(options, reader);
-  if (!reader.wrong.empty()) return fail(name, cat("options.", reader.wrong), "expected a value of its type");
+  if (!reader.wrong.empty())
+    return fail(name, cat("options.", reader.wrong), reader.wrong_type + found(json[reader.wrong]));
   if (reader.taken != json.size())
     return fail(name, "options", cat("expected known options, found '", unknown_name(json), "'"));
   return options;
@@ -131,11 +135,12 @@ Json to_json(const ScanSource& input) {
 }
 
 Result<ScanSource> input_from_json(const Json& json, std::string_view name) {
-  if (!json.is_object()) return fail(name, "input", "expected an object");
+  if (!json.is_object()) return fail(name, "input", "expected an object" + found(json));
   ScanSource input{text_or_nothing(json, "sample"), text_or_nothing(json, "path"),
                    text_or_nothing(json, "name"), text_or_nothing(json, "hash")};
   if (input.sample.empty() == input.path.empty())
-    return fail(name, "input", "expected either a path or a sample");
+    return fail(name, "input",
+                cat("expected either a path or a sample, found ", input.path.empty() ? "none" : "both"));
   if (input.name.empty())
     input.name = input.sample.empty() ? std::filesystem::path(input.path).filename().string() : input.sample;
   return input;
@@ -145,9 +150,9 @@ Result<Project> read_project(std::string_view text, std::string_view name) {
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded())
     return fail(name, json_error_place(text), "expected a project in JSON, found text that is none");
-  if (!json.is_object()) return fail(name, {}, "expected a project in JSON");
+  if (!json.is_object()) return fail(name, {}, "expected a project in JSON" + found(json));
   if (!json.contains("relievo") || json["relievo"] != 1)
-    return fail(name, "relievo", "expected a project of version 1");
+    return fail(name, "relievo", "expected a project of version 1" + found(json.value("relievo", Json())));
   RELIEVO_TRY(const ScanSource input, input_from_json(json.value("input", Json()), name));
   RELIEVO_TRY(const OptionTexts options, texts_from_json(json.value("options", Json()), name));
   return Project{input, options};

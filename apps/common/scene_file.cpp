@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/files.h"
+#include "common/json_found.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/text.h"
 
@@ -18,11 +19,11 @@ class SceneReader {
   explicit SceneReader(const std::string& name) : name_(name) {}
 
   Result<std::vector<SceneEntry>> read(const Json& scene) const {
-    if (!scene.is_object()) return fail({}, "expected a scene in JSON, {\"models\": [...]}");
+    if (!scene.is_object()) return fail({}, "expected a scene in JSON, {\"models\": [...]}" + found(scene));
     if (auto ok = check_keys(scene, {}, {"models"}); !ok) return std::unexpected(ok.error());
     const auto models = scene.find("models");
     if (models == scene.end() || !models->is_array() || models->empty())
-      return fail("models", "expected a list of at least one model");
+      return fail("models", "expected a list of at least one model" + found(scene.value("models", Json())));
     std::vector<SceneEntry> entries;
     for (std::size_t i = 0; i < models->size(); ++i) {
       Result<SceneEntry> entry = read_model((*models)[i], cat("models[", i, "]"));
@@ -50,7 +51,7 @@ class SceneReader {
   }
 
   Result<SceneEntry> read_model(const Json& model, const std::string& place) const {
-    if (!model.is_object()) return fail(place, "expected an object");
+    if (!model.is_object()) return fail(place, "expected an object" + found(model));
     if (auto ok = check_keys(model, place, {"file", "rotate", "translate", "scale", "mirror"}); !ok)
       return std::unexpected(ok.error());
     SceneEntry entry;
@@ -62,7 +63,8 @@ class SceneReader {
 
   Result<void> read_path(const Json& model, const std::string& place, std::string& path) const {
     const auto file = model.find("file");
-    if (file == model.end() || !file->is_string()) return fail(place, "expected the name of a file");
+    if (file == model.end() || !file->is_string())
+      return fail(place, "expected the name of a file" + found(model.value("file", Json())));
     path = (std::filesystem::path(name_).parent_path() / file->get<std::string>()).string();
     if (!is_there(path)) return fail(place, cat("expected a file that is there, found no '", path, "'"));
     return {};
@@ -77,11 +79,11 @@ class SceneReader {
         return ok;
     if (const auto scale = model.find("scale"); scale != model.end()) {
       if (!scale->is_number() || !(scale->get<double>() >= 1e-6 && scale->get<double>() <= 1e6))
-        return fail(place + ".scale", "expected a number from 1e-06 to 1e+06");
+        return fail(place + ".scale", "expected a number from 1e-06 to 1e+06" + found(*scale));
       pose.scale = scale->get<double>();
     }
     if (const auto mirror = model.find("mirror"); mirror != model.end()) {
-      if (!mirror->is_boolean()) return fail(place + ".mirror", "expected true or false");
+      if (!mirror->is_boolean()) return fail(place + ".mirror", "expected true or false" + found(*mirror));
       pose.is_mirrored = mirror->get<bool>();
     }
     return {};
@@ -90,7 +92,7 @@ class SceneReader {
   Result<void> read_three(const Json& values, const std::string& place, const char* what, Vec3& to) const {
     const auto is_number = [](const Json& value) { return value.is_number(); };
     if (!values.is_array() || values.size() != 3 || !std::ranges::all_of(values, is_number))
-      return fail(place, cat("expected three ", what));
+      return fail(place, cat("expected three ", what, found(values)));
     for (int axis = 0; axis < 3; ++axis) to[axis] = values[static_cast<std::size_t>(axis)].get<double>();
     return {};
   }

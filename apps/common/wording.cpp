@@ -64,6 +64,11 @@ std::vector<std::string> remarks_on(const ScanFacts& facts) {
 
 std::vector<std::string> remarks_on(const ReliefReport& report) {
   std::vector<std::string> lines;
+  if (report.height_usual_mm)
+    lines.push_back(cat("no height was asked for: it is ", std::round(1e3 * report.height_mm) / 1e3, " mm, ",
+                        report.height_mm < .999 * *report.height_usual_mm ? "which is what the view reaches"
+                                                                          : "5 % of the width",
+                        "; method 'paper' has a height of its own"));
   if (report.has_idle_alpha)
     lines.push_back("alpha has no effect at saturation 0; a height sets how flat the relief is");
   if (report.has_needed_steps)

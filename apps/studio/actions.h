@@ -15,7 +15,7 @@
 
 namespace relievo::app::studio {
 
-constexpr std::size_t most_scan = std::size_t{4} << 30;  // bytes of a dropped file
+constexpr std::uint64_t most_scan = std::uint64_t{4} << 30;  // bytes of a dropped file
 
 // Reads the body of a request: passes it on piece by piece, and returns whether all of it came and was taken.
 using BodyReader = std::function<bool(const std::function<Result<void>(std::string_view)>& take)>;

@@ -14,6 +14,7 @@
 #include <span>
 
 #include "common/files.h"
+#include "common/scene_file.h"
 #include "common/temporary_file.h"
 #include "relievo/core/text.h"
 
@@ -204,7 +205,15 @@ std::optional<ScanSource> DiskStore::find_scan(const std::string& hash) const {
 
 void DiskStore::remove_old_scans() const {
   std::set<fs::path> used;
-  for (const KeptDocument& kept : recent()) used.insert(fs::path(kept.input.path).parent_path());
+  for (const KeptDocument& kept : recent()) {
+    const fs::path path = kept.input.path;
+    used.insert(path.parent_path());
+    if (path.extension() != ".json") continue;
+    const auto models =
+        read_scene_file(read_text(path), path.string());  // of several files that were dropped
+    for (const SceneEntry& model : models.value_or(std::vector<SceneEntry>()))
+      used.insert(fs::path(model.path).parent_path());
+  }
   std::error_code ignored;
   std::vector<fs::path> old;
   for (const auto& entry : fs::directory_iterator(fs::path(folder_) / "scans", ignored))

@@ -53,6 +53,7 @@ ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
           .corner = box.min.head<2>(),
           .area = area_of(surface),
           .noise = surface.removed_noise,
+          .crumbs = surface.crumbs,
           .rho = surface.rho,
           .delta = surface.curvature.delta,
           .rotation = surface.view.R_view_model,
@@ -77,9 +78,14 @@ Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const Relie
     return sized;
   }
   const Vec2 plate = options.plate_mm.value_or(Vec2::Constant(options.diameter_mm.value_or(0)));
-  const std::vector<double> sizes{plate.x(),         plate.y(),
-                                  options.margin_mm, options.rim_mm.value_or(0),
-                                  options.corner_mm, static_cast<double>(options.outline)};
+  const std::vector<double> sizes{plate.x(),
+                                  plate.y(),
+                                  options.margin_mm,
+                                  options.rim_mm.value_or(0),
+                                  options.corner_mm,
+                                  static_cast<double>(options.outline),
+                                  options.shift_mm.x(),
+                                  options.shift_mm.y()};
   if (sizes != sizes_ || !most_mm_) {
     sized.width_mm.reset();
     RELIEVO_TRY(const ReliefOptions largest, relievo::with_width(surface, sized));
@@ -157,30 +163,41 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
 }
 
 // A piece has the height of the frame, which is met or the largest that can be reached.
-Result<SolidRenderer*> Drawing::piece(const PictureRequest& request, const CachedFrame& cached,
-                                      bool is_fine) {
+PieceOrder Drawing::order_of(const PictureRequest& request, const CachedFrame& cached) const {
   constexpr double within = .999;  // of the largest height, so that rounding does not put it out of reach
-  ReliefOptions options = request.options;
+  PieceOrder order{request.options, request.key};
   const Frame& frame = *cached.frame;
-  if (request.u || !frame.is_height_met)
-    options.height_mm = within * frame.height * cached.stretch * mm_per_unit(options);
-  return piece_.renderer(options, cat(request.key, " ", options.height_mm.value_or(0)), is_fine);
+  if (!request.u && frame.is_height_met) return order;
+  order.options.height_mm = within * frame.height * cached.stretch * mm_per_unit(request.options);
+  order.key = cat(request.key, " ", *order.options.height_mm);
+  return order;
+}
+
+Result<std::optional<PieceOrder>> Drawing::missing_piece(PictureRequest request) {
+  RELIEVO_TRY(request.options, plate_width_.with_width(model_->surface(), request.options));
+  PieceOrder order = order_of(request, frame(request, true));
+  if (piece_.is_finished(order.key)) return std::nullopt;
+  return order;
 }
 
 Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& render,
                            const CachedFrame& cached, PictureAnswer& answer) {
   const auto start = std::chrono::steady_clock::now();
-  if (is_plain(request.options)) {
+  const PieceOrder order = order_of(request, cached);
+  const bool is_frame = is_plain(request.options) && !request.is_finished;
+  answer.is_finished = !is_frame && piece_.is_finished(order.key);
+  if (is_plain(request.options) && !answer.is_finished) {
     renderer_.render(shown(cached), render, answer.picture);
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
     answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
     const Vec2 half = facts_.size * render.mm_per_unit / 2;
     answer.relief_mm = {-half, half};
   } else {
-    RELIEVO_TRY(SolidRenderer* const solid, piece(request, cached, render.is_fine));
-    solid->render(render, answer.picture);
-    answer.size_mm = size_mm(*piece_.solid());
-    answer.relief_mm = relief_in(*piece_.solid(), request.options);
+    RELIEVO_TRY(DrawnPiece* const piece, piece_.drawn(order));
+    piece->renderer.render(render, answer.picture);
+    answer.size_mm = size_mm(*piece->solid);
+    answer.relief_mm = relief_in(*piece->solid, request.options);
+    if (piece->reach) answer.reach = {piece->reach->reached_share, piece->reach->largest_residual_mm};
   }
   answer.drawing_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {};
@@ -196,6 +213,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   if (request.is_original) {
     options.has_shadows = false;  // the model's own depth would bury the ground in them
     renderer_.render(renderer_.original(), options, answer.picture);
+    answer.is_finished = true;
     return answer;
   }
   const CachedFrame cached = this->frame(request, options.is_fine);
@@ -211,7 +229,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
 
 Result<double> Drawing::reachable_height(const ReliefOptions& asked) {
   RELIEVO_TRY(const ReliefOptions options, plate_width_.with_width(model_->surface(), asked));
-  return frames_.highest(frame_options({options, {}, std::nullopt, std::nullopt, false, {}})) *
+  return frames_.highest(frame_options({options, {}, std::nullopt, std::nullopt, false, false, {}})) *
          mm_per_unit(options);
 }
 
@@ -224,8 +242,8 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   if (request.is_original) return along(renderer_.original());
   const CachedFrame cached = frame(request, true);
   if (is_plain(request.options)) return along(shown(cached));
-  RELIEVO_CHECK(piece(request, cached, false));
-  return section_of(*piece_.solid(), line);
+  RELIEVO_TRY(const DrawnPiece* const piece, piece_.drawn(order_of(request, cached)));
+  return section_of(*piece->solid, line);
 }
 
 }  // namespace relievo::app::studio

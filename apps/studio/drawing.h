@@ -21,8 +21,9 @@ namespace relievo::app::studio {
 struct ModelFacts {
   std::size_t input_points = 0, visible_points = 0, points = 0, triangles = 0, hull = 0;
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // of the relief's box, in the scan's units
-  double area = 0;   // of the relief without its ground, in those units squared
-  double noise = 0;  // that was removed, in sampling distances
+  double area = 0;         // of the relief without its ground, in those units squared
+  double noise = 0;        // that was removed, in sampling distances
+  std::size_t crumbs = 0;  // small pieces that were left out
   double rho = 0, delta = 0;
   Mat3 rotation = Mat3::Identity();
   std::vector<std::string> remarks;
@@ -36,18 +37,26 @@ struct PictureRequest {
       turned;                // the view that is shown while the model is turned, in place of the one prepared
   std::optional<double> u;   // of the compression, in place of a height, which then follows the shape
   bool is_original = false;  // shows the model itself in place of its relief
+  bool is_finished = false;  // shows the piece as export makes it
   RenderOptions render;      // its lengths are set from the options
 };
 
 struct PictureAnswer {
   Picture picture;
-  std::uint64_t scene = 0;  // number of what the picture shows besides the relief: plate, camera, light ...
+  bool is_finished = false;  // shows the piece as export makes it, or the model itself
+  std::uint64_t scene = 0;   // number of what the picture shows besides the relief: plate, camera, light ...
   double drawing_s = 0;
   double width_mm = 0;                  // of the relief's longer side
   Vec3 size_mm = Vec3::Zero();          // of the piece
   std::optional<double> most_width_mm;  // that fits into a plate of the size asked for
   std::optional<std::array<Vec2, 2>>
       relief_mm;  // corners of the relief's box from the middle of the piece; none if bent
+
+  struct Reach {
+    double share = 1, left_mm = 0;
+  };
+  std::optional<Reach>
+      reach;  // of the tool: share of the front that it reaches, and the most that it leaves standing
 
   // The rest tells how a relief was made; a picture of the model itself leaves it at its defaults.
   Compression compression;  // that was found
@@ -93,9 +102,17 @@ class Drawing {
   // Keeps showing the last frame, whatever is asked for, until another model is drawn.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws a frame, with one solve unless the picture is to be fine, or the finished piece if the options ask for more than
-  // a rectangular plate. Errors: those of make_relief().
+  // Draws a frame, with one solve unless the picture is to be fine. If the options ask for more than a rectangular plate,
+  // draws a piece, see Piece::drawn(). Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
+
+  // Returns the order of the piece that the request would show; nothing if it is at hand. Errors: those of with_width().
+  Result<std::optional<PieceOrder>> missing_piece(PictureRequest request);
+
+  // Takes the piece of such an order.
+  void take(std::shared_ptr<const MadeRelief> made, const PieceOrder& order) {
+    piece_.take(std::move(made), order);
+  }
 
   // Returns the height in mm of the highest relief that the options allow, see FrameCache::highest().
   // Errors: those of with_width().
@@ -113,7 +130,7 @@ class Drawing {
   CachedFrame frame(const PictureRequest& request, bool is_exact);
   std::uint64_t number_of_scene(const RenderOptions& render);
   std::optional<std::array<Vec2, 2>> relief_in(const Solid& solid, const ReliefOptions& options) const;
-  Result<SolidRenderer*> piece(const PictureRequest& request, const CachedFrame& cached, bool is_fine);
+  PieceOrder order_of(const PictureRequest& request, const CachedFrame& cached) const;
   Result<void> draw(const PictureRequest& request, const RenderOptions& render, const CachedFrame& cached,
                     PictureAnswer& answer);
 

@@ -66,6 +66,7 @@ struct Making {
   std::string stage;
   double fraction = 0;
   Progress* progress = nullptr;  // null while nothing is made
+  bool is_for_picture = false;   // in place of a file
 };
 
 // The piece that was made last.
@@ -78,6 +79,7 @@ struct MadePiece {
 }  // namespace
 
 struct Engine::State {
+  std::function<void()> changed;
   Guarded<Shared> shared;
 
   Guarded<Making> making;
@@ -109,6 +111,7 @@ struct Engine::State {
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
     };
+    preparation.changed = changed;
     session.open(std::move(preparation));
   }
 
@@ -184,7 +187,9 @@ struct Engine::State {
   }
 };
 
-Engine::Engine() : state_(std::make_unique<State>()) {}
+Engine::Engine(std::function<void()> changed) : state_(std::make_unique<State>()) {
+  state_->changed = std::move(changed);
+}
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const PreparationTexts& view) {
@@ -232,6 +237,11 @@ bool Engine::is_idle() {
   return state_->session.wait_until_idle(std::chrono::milliseconds(0));
 }
 
+void Engine::work() {
+  while (!state_->session.wait_until_idle(std::chrono::hours(1))) {
+  }
+}
+
 EngineStatus Engine::status() const {
   const SessionStatus session = state_->session.status();
   const auto [stage, fraction] =
@@ -250,7 +260,37 @@ Result<ModelFacts> Engine::facts() {
   return drawing->facts();
 }
 
+// Makes the piece that a picture is to show, while other pictures are drawn. If one of them cancels it, the picture shows what
+// there is.
+Result<void> Engine::finish(const PictureRequest& request) {
+  if (state_->session.status().is_preparing) return {};  // another model, whose piece will be asked for
+  std::optional<PieceOrder> order;
+  std::uint64_t model = 0;
+  {
+    const Lock lock(state_->drawing_mutex);
+    Drawing* const drawing = state_->current_drawing();
+    if (!drawing) return nothing_open();
+    model = state_->drawn_model;
+    RELIEVO_TRY(order, drawing->missing_piece(request));
+  }
+  if (!order) return {};
+  auto made = piece(order->options, order->key, true);
+  if (!made && made.error().kind == ErrorKind::cancelled) return {};
+  if (!made) return std::unexpected(made.error());
+  const Lock lock(state_->drawing_mutex);
+  Drawing* const drawing = state_->current_drawing();
+  if (drawing && state_->drawn_model == model) drawing->take(std::move(*made), *order);
+  return {};
+}
+
 Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
+  if (request.is_finished) {
+    RELIEVO_CHECK(finish(request));
+  } else {
+    state_->making.with([](Making& m) {
+      if (m.progress && m.is_for_picture) m.progress->cancel();
+    });
+  }
   const Lock lock(state_->drawing_mutex);
   if (request.turned) {
     RELIEVO_TRY(Drawing* const turned, state_->turned_drawing(*request.turned));
@@ -304,8 +344,8 @@ Result<ExportedFile> Engine::make_file(const FileRequest& request) {
   return export_file(*made, *known, request.heightmap_px);
 }
 
-Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options,
-                                                        const std::string& key) {
+Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, const std::string& key,
+                                                        bool is_for_picture) {
   const ShownModel shown = state_->shared.with([](const Shared& s) { return s.shown; });
   const auto& model = shown.model;
   if (!model) return nothing_open();
@@ -321,8 +361,9 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
       m.stage = stage;
       m.fraction = fraction;
     });
+    if (state_->changed) state_->changed();
   });
-  state_->making.with([&](Making& m) { m = {"waiting", 0, &progress}; });
+  state_->making.with([&](Making& m) { m = {"waiting", 0, &progress, is_for_picture}; });
   Result<MadeRelief> made = make_relief(*model, options, &progress);
   state_->making.with([](Making& m) { m = {}; });
   if (!made) return std::unexpected(made.error());

@@ -1,6 +1,7 @@
 // The native engine behind the page: one scan, its relief, and pictures of both.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,7 +48,8 @@ struct FileRequest {
 // Every method may be called from any thread. Those that draw wait for each other.
 class Engine {
  public:
-  Engine();
+  // Where there are no threads, `changed` is called when status() has changed within a call.
+  explicit Engine(std::function<void()> changed = {});
   ~Engine();
 
   // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
@@ -66,12 +68,16 @@ class Engine {
   // Returns whether nothing runs, not even work that was cancelled.
   bool is_idle();
 
+  // Where there are no threads: does what open(), show() and choose_view() asked for.
+  void work();
+
   EngineStatus status() const;
 
   // Errors of the following: kind geometry if there is no relief yet.
   Result<ModelFacts> facts();
 
-  // See Drawing. While another view is prepared, pictures show the last frame of the model before it.
+  // See Drawing. While another view is prepared, pictures show the last frame of the model before it. A finished piece is
+  // made first; any other picture cancels that, so that nobody waits for it. Errors: also those of piece().
   Result<PictureAnswer> picture(const PictureRequest& request);
   Result<std::vector<float>> profile(const PictureRequest& request, const SectionLine& line);
 
@@ -86,7 +92,8 @@ class Engine {
 
   // Returns the finished relief as export writes it, and keeps it for the next call with these options. Errors: see
   // make_file(); kind cancelled after cancel_making().
-  Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options, const std::string& key);
+  Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options, const std::string& key,
+                                                  bool is_for_picture = false);
   void cancel_making();
 
   // Returns a file of the relief, the same bytes as `relievo make` writes. Errors: those of make_relief(); kind option for
@@ -95,6 +102,8 @@ class Engine {
 
  private:
   struct State;
+  Result<void> finish(const PictureRequest& request);
+
   std::unique_ptr<State> state_;
 };
 

@@ -17,7 +17,7 @@ std::shared_ptr<Engine> OpenDocuments::open(const std::string& document, const s
   if (!tab.empty()) tabs_[tab] = document;
   const auto found = std::ranges::find(entries_, document, &Entry::document);
   if (found == entries_.end())
-    entries_.push_front({document, std::make_shared<Engine>()});
+    entries_.push_front({document, std::make_shared<Engine>(changed_)});
   else
     entries_.splice(entries_.begin(), entries_, found);
   close_others();
@@ -54,6 +54,13 @@ void OpenDocuments::close_others() {
     closing_.push_back(entry->engine);
     entry = entries_.erase(entry);
   }
+  forget_idle();
+}
+
+void OpenDocuments::work() {
+  const Lock lock(mutex_);
+  for (const Entry& entry : entries_) entry.engine->work();
+  for (const std::shared_ptr<Engine>& engine : closing_) engine->work();
   forget_idle();
 }
 

@@ -1,6 +1,7 @@
 // The documents that are open: each has its scan, and an engine of its own. Tested by apps/studio/tests/tabs.test.mjs.
 #pragma once
 
+#include <functional>
 #include <list>
 #include <map>
 #include <memory>
@@ -24,6 +25,9 @@ class OpenDocuments {
     std::shared_ptr<Engine> engine;
   };
 
+  // `changed` is what engines call where there are no threads.
+  explicit OpenDocuments(std::function<void()> changed = {}) : changed_(std::move(changed)) {}
+
   // Returns the document's engine; null if the document is not open.
   std::shared_ptr<Engine> find(const std::string& document);
 
@@ -34,6 +38,9 @@ class OpenDocuments {
   // The tab is closed.
   void leave(const std::string& tab);
 
+  // Where there are no threads: does what the engines were asked for, see Engine::work().
+  void work();
+
   // Returns all, the one that was used last first.
   std::vector<Entry> all();
 
@@ -42,6 +49,7 @@ class OpenDocuments {
   void close_others();
   void forget_idle();
 
+  std::function<void()> changed_;
   Mutex mutex_;
   std::list<Entry> entries_;
   std::map<std::string, std::string> tabs_;       // by tab, the document that it shows

@@ -2,8 +2,10 @@
 #include <nlohmann/json.hpp>
 
 #include "common/export_file.h"
+#include "common/files.h"
 #include "common/make_report.h"
 #include "common/option_list.h"
+#include "common/scene_file.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 #include "relievo/io/read.h"
@@ -14,6 +16,25 @@
 namespace relievo::app::studio {
 
 using Json = nlohmann::json;
+
+// Returns the models of a scene file and how each stands, as such a file has them; none for other scans.
+static Json models_of(const ScanSource& input) {
+  Json models = Json::array();
+  if (!input.sample.empty() || ending_of(input.path) != "json") return models;
+  const auto bytes = read_file(input.path);
+  if (!bytes) return models;
+  const auto entries =
+      read_scene_file({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, input.path);
+  for (const auto& [path, pose] : entries.value_or(std::vector<SceneEntry>())) {
+    const Vec3& turn = pose.rotate_deg;
+    models.push_back({{"file", path},
+                      {"rotate", {turn.x(), turn.y(), turn.z()}},
+                      {"scale", pose.scale},
+                      {"mirror", pose.is_mirrored}});
+    if (const auto& move = pose.translate) models.back()["translate"] = {move->x(), move->y(), move->z()};
+  }
+  return models;
+}
 
 // Returns the engine of the document that the request names; otherwise answers that it is not open.
 std::shared_ptr<Engine> Actions::engine_of(const Json& json, Answer& to) {
@@ -41,7 +62,10 @@ void Actions::facts(const Json& json, Answer& to) {
   const auto engine = engine_of(json, to);
   if (!engine) return;
   const Result<ModelFacts> facts = engine->facts();
-  facts ? answer(to, to_json(*facts)) : answer(to, facts.error());
+  if (!facts) return answer(to, facts.error());
+  Json told = to_json(*facts);
+  told["models"] = models_of(engine->status().input);
+  answer(to, told);
 }
 
 void Actions::views(const Json& json, Answer& to) {

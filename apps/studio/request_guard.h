@@ -25,7 +25,7 @@ class RequestGuard {
   std::optional<std::string> admit(const httplib::Request& request, httplib::Response& response) const;
 
  private:
-  bool is_here(const std::string& host) const;
+  static bool is_here(const std::string& host);
 
   std::string token_;
   int port_ = 0;

@@ -122,9 +122,13 @@ Result<PictureRequest> picture_request(const Json& json) {
   if (!options) return std::unexpected(options.error());
   Result<RenderOptions> render = render_from(json);
   if (!render) return std::unexpected(render.error());
-  PictureRequest request{std::move(*options),    json.value("options", Json::object()).dump(),
-                         std::nullopt,           std::nullopt,
-                         flag(json, "original"), *render};
+  PictureRequest request{std::move(*options),
+                         json.value("options", Json::object()).dump(),
+                         std::nullopt,
+                         std::nullopt,
+                         flag(json, "original"),
+                         flag(json, "finished"),
+                         *render};
   if (const auto turned = json.find("turned"); turned != json.end()) {
     RELIEVO_TRY(View view, view_from(*turned));
     view.crop = request.options.view.crop;
@@ -201,6 +205,7 @@ Json to_json(const ModelFacts& facts) {
           {"area", facts.area},
           {"rho", facts.rho},
           {"noise", facts.noise},
+          {"crumbs", facts.crumbs},
           {"delta", facts.delta},
           {"rotation", rotation},
           {"remarks", facts.remarks},
@@ -208,12 +213,14 @@ Json to_json(const ModelFacts& facts) {
 }
 
 Json to_json(const PictureAnswer& answer) {
-  Json relief;
+  Json relief, reach;
+  if (answer.reach) reach = {{"share", answer.reach->share}, {"left_mm", answer.reach->left_mm}};
   if (answer.relief_mm)
     for (const Vec2& corner : *answer.relief_mm) relief.push_back({corner.x(), corner.y()});
   return {{"width", answer.picture.image.width},
           {"height", answer.picture.image.height},
           {"pixels_per_mm", answer.picture.pixels_per_mm},
+          {"is_finished", answer.is_finished},
           {"scene", answer.scene},
           {"curve", {{"share", rounded(answer.curve.share)}, {"kept", rounded(answer.curve.kept)}}},
           {"height_mm", answer.height_mm},
@@ -221,6 +228,7 @@ Json to_json(const PictureAnswer& answer) {
           {"size_mm", to_json(answer.size_mm)},
           {"most_width_mm", answer.most_width_mm ? Json(*answer.most_width_mm) : Json()},
           {"relief_mm", relief},
+          {"tool", reach},
           {"is_height_met", answer.is_height_met},
           {"u", number_or_null(answer.compression.u)},
           {"beta", answer.compression.beta},

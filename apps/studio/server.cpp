@@ -178,14 +178,19 @@ struct Server::State {
   void set_up() {
     http.set_tcp_nodelay(true);
     http.set_payload_max_length(most_scan);
-    http.set_default_headers({{"Cache-Control", "no-store"},
-                              {"Content-Security-Policy",
-                               "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' "
-                               "data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
-                               "frame-ancestors 'none'"},
-                              {"Referrer-Policy", "no-referrer"},
-                              {"Cross-Origin-Resource-Policy", "same-origin"},
-                              {"X-Content-Type-Options", "nosniff"}});
+    http.set_default_headers(
+        {{"Cache-Control", "no-store"},
+         {"Content-Security-Policy",
+          "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' "
+          "data: blob:; connect-src 'self'; base-uri 'none'; form-action 'none'; "
+          "frame-ancestors 'none'"},
+         {"Referrer-Policy", "no-referrer"},
+         {"Cross-Origin-Embedder-Policy", "require-corp"},
+         {"Cross-Origin-Opener-Policy", "same-origin"},
+         {"Cross-Origin-Resource-Policy", "same-origin"},
+         {"Permissions-Policy", "camera=(), display-capture=(), geolocation=(), microphone=(), usb=()"},
+         {"X-Content-Type-Options", "nosniff"},
+         {"X-Frame-Options", "DENY"}});
     http.set_pre_routing_handler([this](const Request& q, Response& s) { return before(q, s); });
     http.set_expect_100_continue_handler([this](const Request& q, Response& s) {
       return guard.admit(q, s) && is_welcome(q, s, most_scan) ? 100 : s.status;

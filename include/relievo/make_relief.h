@@ -30,6 +30,8 @@ struct ReliefReport {
   double u = 0;      // alpha^-beta, see Compression
   double steps = 0;  // share of the height that depth jumps take, see Shape
   std::optional<double> height_requested_mm;
+  std::optional<double>
+      height_usual_mm;         // that was aimed at where none was requested, see effective_height_mm()
   double height_mm = 0;        // reached, lowest to highest point of the front, above its base
   double below_ground_mm = 0;  // the part of height_mm that lies below the flat ground, in a die all of it
   double steepest_deg = 0;     // of the front's triangles, as files hold them

@@ -33,6 +33,7 @@ struct OptionTexts : NumericOptions, ViewTexts {
   std::string mode = "exact";
   std::string outline = "rectangle";  // see outline.h; with a diameter it is a circle
   std::string plate;                  // see parse_plate_size(); empty: none
+  std::string shift;                  // see parse_shift(); empty: none
   std::string base = "plane";         // see parse_base()
   std::string wrap = "none";          // see parse_wrap()
   std::string form = "relief";        // see forms.h

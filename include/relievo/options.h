@@ -20,7 +20,7 @@ namespace relievo {
 struct NumericOptions {
   std::optional<double> width_mm;      // longer side of the relief, without margin; see effective_width_mm()
   std::optional<double> diameter_mm;   // of the plate, which is then a circle; as small as the relief allows
-  std::optional<double> height_mm;     // lowest to highest point of the front; without it alpha rules
+  std::optional<double> height_mm;     // lowest to highest point of the front; see effective_height_mm()
   std::optional<double> alpha;         // the paper's height coefficient; 4
   std::optional<double> saturation;    // the paper's beta; see effective_saturation()
   std::optional<double> detail;        // the paper's gamma; see effective_detail()
@@ -50,12 +50,13 @@ inline constexpr std::array<Choice<Finish>, 2> finish_choices{
     {{"full", Finish::full}, {"reachable", Finish::reachable}}};
 
 struct ReliefOptions : NumericOptions {
-  std::optional<Method> method;   // layered with a height, else the paper's
+  std::optional<Method> method;   // the paper's with an alpha, else layered
   std::optional<ToneCurve> tone;  // in place of (6) and the saturation
   Mode mode = Mode::exact;
   View view;
   Outline outline = Outline::rectangle;
   std::optional<Vec2> plate_mm;  // width and height of the plate; as small as the relief allows
+  Vec2 shift_mm = Vec2::Zero();  // of the relief from the middle of such a plate, right and up
   BaseOptions base;              // of kind image: with its height map
   WrapOptions wrap;
   Form form = Form::relief;
@@ -66,14 +67,17 @@ struct ReliefOptions : NumericOptions {
   // model. The width is that for a plate without a size of its own, see with_width().
   double effective_width_mm() const { return width_mm.value_or(100); }
   Method effective_method() const;
+  // Nothing where the shape gives the height: by the paper's method, and for a lithophane. A height that was not asked for
+  // is a share of the width, or the largest that the view reaches.
+  std::optional<double> effective_height_mm() const;
   double effective_alpha() const { return alpha.value_or(4); }
   double effective_saturation() const;
   double effective_detail() const;
   double effective_boundary_width() const;
 };
 
-// Checks every range, and that options do not contradict each other: height and alpha; a method other than
-// the paper's without a height; saturation or detail for a method that has none; a size of the plate that its outline
+// Checks every range, and that options do not contradict each other: height and alpha; alpha and a method other than
+// the paper's; saturation or detail for a method that has none; a size of the plate that its outline
 // cannot have. Errors: kind option, naming the option.
 Result<void> check(const ReliefOptions& options);
 

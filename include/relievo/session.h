@@ -40,6 +40,10 @@ struct Preparation {
 
   // Called with the model just before status() says that it is ready. It must not call the session.
   std::function<void(const Model&)> ready = {};
+
+  // Called where it is set when status() has changed. It may call status() alone. Where there are threads, whoever watches
+  // asks from time to time instead.
+  std::function<void()> changed = {};
 };
 
 // Every method may be called from any thread, and none waits for work but turn(), wait_until_idle() and the

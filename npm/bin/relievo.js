@@ -2,7 +2,8 @@
 // The command line of the package: `relievo make` with the flags of the native program.
 import fs from "node:fs";
 import path from "node:path";
-import { Engine, RelievoError } from "../src/engine.js";
+import { RelievoError } from "../src/engine.js";
+import { newEngine } from "../src/new_engine.js";
 import { optionTable, version } from "../src/options.js";
 
 const OUTPUTS = { output: "solid", preview: "preview", heightmap: "heightmap", "tool-picture": "tool_picture", report: "report" };
@@ -92,7 +93,7 @@ async function make(args) {
   const { inputs, values } = parse(args);
   if (inputs.length === 0 || !values.output) fail(USAGE);
   const units = values.units ?? "mm";
-  const engine = await Engine.create();
+  const engine = await newEngine();
   const request = { inputs: addFiles(engine, inputs), options: {}, camera: values.camera };
   if (request.camera && fs.existsSync(request.camera)) request.camera = fs.readFileSync(request.camera, "utf8");
   if (values["stream-above"]) request.stream_above_mb = Number(values["stream-above"]);

@@ -1,5 +1,4 @@
 // One instance of the engine: its memory, the files that it sees, and calls with JSON.
-import { compressedModule } from "./module.js";
 import { asFile, wasi } from "./files.js";
 
 // An error of the engine: in which input or option, where in it, and what was expected there.
@@ -13,20 +12,6 @@ export class RelievoError extends Error {
 
 const MEMORY = "expected more memory: a program in WebAssembly has at most 4 GiB; fewer points, the option points or a coarser scan need less";
 
-async function inflate(base64) {
-  const packed = Uint8Array.from(atob(base64), (c) => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
-}
-
-let compiled;
-
-// Returns the compiled module, which all instances share.
-function module() {
-  compiled ??= inflate(compressedModule).then((bytes) => WebAssembly.compile(bytes));
-  return compiled;
-}
-
 // The memory of an instance is given back when nothing refers to it any more.
 export class Engine {
   #exports;
@@ -35,17 +20,19 @@ export class Engine {
   #log = "";
   progress = null; // (stage, fraction) => false to cancel
 
-  static async create() {
+  // `module` is a compiled one; `statuses` takes a text where the module tells of statuses.
+  static async create(module, statuses) {
     const engine = new Engine();
     const memory = () => engine.#exports.memory.buffer;
     const imports = {
       wasi_snapshot_preview1: wasi(engine.#files, memory, (text) => { engine.#log += text; }),
       relievo: {
         progress: (at, size, fraction) => (engine.progress?.(engine.#text(at, size), fraction) === false ? 1 : 0),
+        statuses: (at, size) => statuses(engine.#text(at, size)),
         fail: (at, size) => { throw engine.#failure(engine.#text(at, size)); },
       },
     };
-    const instance = await WebAssembly.instantiate(await module(), imports);
+    const instance = await WebAssembly.instantiate(module, imports);
     engine.#exports = instance.exports;
     instance.exports._initialize();
     return engine;

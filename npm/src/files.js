@@ -1,6 +1,6 @@
 // The files that the engine sees: names and bytes, which it reads by the functions of WASI.
 
-const BAD_FILE = 8, INVALID = 28, NOT_THERE = 44, UNKNOWN = 52;
+const BAD_FILE = 8, INVALID = 28, FAILED = 29, NOT_THERE = 44, UNKNOWN = 52;
 const REGULAR_FILE = 4, FOLDER = 3, CHARACTER_DEVICE = 2;
 const FIRST_FILE = 4; // after the standard streams and the root
 
@@ -48,7 +48,12 @@ export function wasi(files, memory, log) {
     let position = offset ?? entry.position, sum = 0;
     for (let i = 0; i < count; i++) {
       const at = view().getUint32(vectors + 8 * i, true), size = view().getUint32(vectors + 8 * i + 4, true);
-      const got = entry.file.read(position, bytes(at, size));
+      let got;
+      try {
+        got = entry.file.read(position, bytes(at, size));
+      } catch {
+        return FAILED; // as for a file that was changed or removed after it was chosen
+      }
       position += got;
       sum += got;
       if (got < size) break;

@@ -1,6 +1,7 @@
 // Relievo in JavaScript: scans in, reliefs out.
-import { Engine, RelievoError } from "./engine.js";
+import { RelievoError } from "./engine.js";
 import { filesOf, modelsOf, requestOf, withKeyword } from "./inputs.js";
+import { newEngine } from "./new_engine.js";
 import { optionTable, samples, version } from "./options.js";
 
 export { RelievoError, optionTable, samples, version };
@@ -28,7 +29,7 @@ function watchedCall(engine, name, request, { progress, signal } = {}) {
 
 // Returns an engine that sees the files, and the request to make something of them.
 async function engineWith(source, options = {}) {
-  const engine = await Engine.create();
+  const engine = await newEngine();
   const files = filesOf(source, options.name);
   for (const [name, file] of files) engine.addFile(name, file);
   const request = { ...requestOf(options), inputs: modelsOf(files) };
@@ -171,6 +172,6 @@ export class Session {
 
 // Returns a generated scan as the bytes of a PLY file; see samples.
 export async function sample(name, { points = 300000, noise = 0.15 } = {}) {
-  const engine = await Engine.create();
+  const engine = await newEngine();
   return call(engine, "sample", { name, points, noise }).bytes;
 }

@@ -8,12 +8,21 @@ import zlib from "node:zlib";
 import { packageFolder, temporaryFolder } from "./support.mjs";
 
 const LARGEST_MODULE = 900_000; // bytes of gzip -9
+const LARGEST_PAGE = 1_500_000; // bytes without the pictures of samples
 const LARGEST_TARBALL = 1_000_000;
 
-test("the module keeps to its size", (t) => {
-  const size = zlib.gzipSync(fs.readFileSync(process.env.MODULE), { level: 9 }).length;
-  t.diagnostic(`${size} bytes of gzip -9`);
-  assert.ok(size <= LARGEST_MODULE, `${size} bytes`);
+for (const module of process.env.MODULES.split(":"))
+  test(`the module ${path.basename(module)} keeps to its size`, (t) => {
+    const size = zlib.gzipSync(fs.readFileSync(module), { level: 9 }).length;
+    t.diagnostic(`${size} bytes of gzip -9`);
+    assert.ok(size <= LARGEST_MODULE, `${size} bytes`);
+  });
+
+test("the page keeps to its size", (t) => {
+  const page = fs.readFileSync(path.join(process.env.PAGE, "relievo.html"), "utf8");
+  const size = page.replace(/"data:image\/jpeg[^"]*"/g, "").length;
+  t.diagnostic(`${size} bytes`);
+  assert.ok(size <= LARGEST_PAGE, `${size} bytes`);
 });
 
 test("the tarball keeps to its size and has no dependencies", (t) => {

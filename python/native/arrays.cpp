@@ -77,15 +77,20 @@ void check_rows(const NamedArray& given, std::size_t size) {
 }
 
 template <int n>
+Eigen::Matrix<double, n, 1> finite_row(const NamedArray& given, py::ssize_t i, const auto& at) {
+  Eigen::Matrix<double, n, 1> row;
+  for (int c = 0; c < n; ++c) row[c] = static_cast<double>(at(i, c));
+  if (!row.allFinite()) raise_row(given, i, "expected finite numbers, found others");
+  return row;
+}
+
+template <int n>
 std::vector<Eigen::Matrix<double, n, 1>> rows_of(const NamedArray& given) {
   check_shape<n>(given);
   std::vector<Eigen::Matrix<double, n, 1>> rows(static_cast<std::size_t>(given.array.shape(0)));
   with_reader(given, [&](const auto& at) {
-    for (py::ssize_t i = 0; i < std::ssize(rows); ++i) {
-      auto& row = rows[static_cast<std::size_t>(i)];
-      for (int c = 0; c < n; ++c) row[c] = static_cast<double>(at(i, c));
-      if (!row.allFinite()) raise_row(given, i, "expected finite numbers, found others");
-    }
+    for (py::ssize_t i = 0; i < std::ssize(rows); ++i)
+      rows[static_cast<std::size_t>(i)] = finite_row<n>(given, i, at);
   });
   return rows;
 }
@@ -117,12 +122,13 @@ std::vector<Vec3f> normals_of(const NamedArray& given, std::size_t size) {
   check_shape<3>(given);
   check_rows(given, size);
   std::vector<Vec3f> normals(size);
-  const std::vector<Vec3> rows = rows_of<3>(given);
-  for (std::size_t i = 0; i < size; ++i) {
-    normals[i] = unit_normal(rows[i]);
-    if (normals[i].isZero(0))
-      raise_row(given, static_cast<py::ssize_t>(i), "expected a direction, found zeros");
-  }
+  with_reader(given, [&](const auto& at) {
+    for (py::ssize_t i = 0; i < std::ssize(normals); ++i) {
+      Vec3f& normal = normals[static_cast<std::size_t>(i)];
+      normal = unit_normal(finite_row<3>(given, i, at));
+      if (normal.isZero(0)) raise_row(given, i, "expected a direction, found zeros");
+    }
+  });
   return normals;
 }
 

@@ -22,6 +22,7 @@ import shutil
 import subprocess
 import sys
 import typing
+import uuid
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -30,6 +31,8 @@ Watch = typing.Callable[[Record, int, int], None]
 
 # A scan whose program was ended by the system, or that found a disk full, is tried so often in all.
 TRIES = 3
+# Dask gets up to so many scans as one task, as each task costs it, and a start of the program, several milliseconds.
+MOST_IN_TASK = 8
 # The name under which a worker states its memory in megabytes: dask worker --resources "relievo_mb=16000".
 RESOURCE = "relievo_mb"
 # By default Dask looks at its workers fifty to a hundred times a second, which takes several percent of the processors.
@@ -50,10 +53,6 @@ class Run:
     @property
     def failed(self) -> list[Record]:
         return [record for record in self.records if record["status"] != "made"]
-
-
-class TryAgain(Exception):
-    """Tells Dask to try a scan again. The argument is the record of the failure."""
 
 
 def run(
@@ -148,46 +147,65 @@ def _work(
     from distributed import as_completed
 
     # Where workers state their memory, no more runs on one than fits. A scan that is too large for all runs alone.
-    stated = [worker.get("resources", {}).get(RESOURCE) for worker in client.scheduler_info()["workers"].values()]
+    workers = client.scheduler_info()["workers"].values()
+    stated = [worker.get("resources", {}).get(RESOURCE) for worker in workers]
     most_mb = min(stated) if stated and all(stated) else None
 
-    def submit(line: str) -> typing.Any:
-        job = json.loads(line)
-        need = {RESOURCE: min(job["need_mb"], most_mb)} if most_mb else None
-        return client.submit(_do, program, flags, line, key=f"relief {job['name']}", retries=TRIES - 1, resources=need,
-                             pure=False)
+    def submit(task: list[str]) -> typing.Any:
+        jobs = [json.loads(line) for line in task]
+        need = {RESOURCE: min(max(job["need_mb"] for job in jobs), most_mb)} if most_mb else None
+        key = ("reliefs", f"{jobs[0]['name']} {uuid.uuid4().hex}")
+        return client.submit(_do, program, flags, task, key=key, resources=need, pure=False)
 
-    futures = {submit(line): line for line in lines}
-    for done, future in enumerate(as_completed(futures), 1):
-        record = _record_of(future, futures[future])
-        if watch:
-            watch(record, done, len(lines))
-        yield record
+    tasks = {submit(task): task for task in _tasks(lines, sum(worker["nthreads"] for worker in workers))}
+    tries = dict.fromkeys(lines, 0)
+    completed = as_completed(tasks)
+    done = 0
+    for future in completed:
+        records, error = _outcome(future)
+        for line in tasks.pop(future):
+            job = json.loads(line)
+            record = records.get(job["name"])
+            tries[line] += 1
+            # It is tried alone then, so that a scan that ends its worker takes no other scan with it.
+            if tries[line] < TRIES and (record is None or (record.get("may_succeed") and record["hash"])):
+                again = submit([line])
+                tasks[again] = [line]
+                completed.add(again)
+                continue
+            record = record or {"name": job["name"], "file": job["file"], "status": "failed", "error": error}
+            done += 1
+            if watch:
+                watch(record, done, len(lines))
+            yield record
         future.release()
 
 
-def _do(program: str, flags: list[str], line: str) -> Record:
-    """Does one scan, on a worker, and returns its record."""
-    ended = subprocess.run([program, "batch", *flags, "--job", line], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                           text=True, check=False)
+def _tasks(lines: list[str], threads: int) -> typing.Iterator[list[str]]:
+    """Divides lines into tasks, which become smaller so that all workers end at about the same time."""
+    start = 0
+    while start < len(lines):
+        size = max(1, min(MOST_IN_TASK, (len(lines) - start) // (4 * max(1, threads))))
+        yield lines[start : start + size]
+        start += size
+
+
+def _do(program: str, flags: list[str], lines: list[str]) -> list[Record]:
+    """Does the scans of those lines in turn, on a worker, and returns the records of those that the program has reached."""
+    jobs = [word for line in lines for word in ("--job", line)]
+    ended = subprocess.run([program, "batch", *flags, *jobs], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                           check=False)
     if not ended.stdout:
         raise RuntimeError(ended.stderr.strip() or f"{program} ended with {ended.returncode}")
-    record: Record = json.loads(ended.stdout)
-    if record.get("may_succeed") and record["hash"]:
-        raise TryAgain(record)
-    return record
+    return [json.loads(record) for record in ended.stdout.splitlines()]
 
 
-def _record_of(future: typing.Any, line: str) -> Record:
+def _outcome(future: typing.Any) -> tuple[dict[str, Record], str]:
+    """Returns the records of a task by the names of their scans, and why others of it have none."""
     error = future.exception()
-    if error is None:
-        made: Record = future.result()
-        return made
-    if type(error).__name__ == "TryAgain":  # the class of a worker is a copy of ours
-        failed: Record = error.args[0]
-        return failed
-    job = json.loads(line)
-    return {"name": job["name"], "file": job["file"], "status": "failed", "error": f"{type(error).__name__}: {error}"}
+    if error is not None:
+        return {}, f"{type(error).__name__}: {error}"
+    return {record["name"]: record for record in future.result()}, "expected a record, found none"
 
 
 def _main() -> None:

@@ -68,7 +68,18 @@ double kernel(double share) {
   return rest * rest;
 }
 
-// Returns the value at `at` of the quadratic that fits the samples around best.
+// Returns the place of the sample that is nearest along the course.
+Vec2 nearest_place(const Course& course, double at) {
+  Vec2 place = Vec2::Zero();
+  double least = 1e300;
+  course.between(at, at - course.length(), at + course.length(), [&](const Sample& s, double distance) {
+    if (std::abs(distance) < least) least = std::abs(distance), place = s.place;
+  });
+  return place;
+}
+
+// Returns the value at `at` of the quadratic that fits the samples around best, or the nearest sample if there are none
+// around, as between two corners.
 Vec2 fitted(const Course& course, double at, const Piece& piece, double window) {
   constexpr std::size_t enough = 5;
   Mat3 moments;
@@ -90,7 +101,7 @@ Vec2 fitted(const Course& course, double at, const Piece& piece, double window) 
     if (piece.end) add({piece.to, piece.end->place, firm}, piece.to - at);
     if (count >= enough) break;
   }
-  if (!(moments(0, 0) > 0)) return Vec2::Zero();
+  if (!(moments(0, 0) > 0)) return nearest_place(course, at);
   // A little of the identity keeps the fit defined where samples are few.
   moments(1, 1) += 1e-6 * moments(0, 0);
   moments(2, 2) += 1e-3 * moments(0, 0);

@@ -11,8 +11,8 @@
 namespace relievo {
 namespace {
 
-// A slope may exceed the steepest triangle around its point by this factor, which lets extrema be round.
-constexpr double most_over = 1.25;
+// A slope may differ from the mean of the triangles around its point by this factor more than these do.
+constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
@@ -78,6 +78,25 @@ SmoothSurface::SmoothSurface(std::span<const Vec3> points, std::span<const Trian
   find_slopes();
 }
 
+// The triangles around a point, which share it.
+struct SmoothSurface::Fan {
+  std::span<const Index> triangles;
+  std::vector<Vec2>& slopes;
+  Vec2 mean = Vec2::Zero();
+  bool is_closed = false;  // they enclose the point
+};
+
+// The slope lies among those of the triangles, or a little beyond: a slope that the other side of a bend has would swing to
+// and fro beside it. Where the triangles do not enclose the point, it may lie as far beyond as the point does.
+Vec2 SmoothSurface::limited(const Vec2& slope, const Fan& fan) {
+  const double off = (slope - fan.mean).norm();
+  if (!(off > 0)) return slope;
+  const Vec2 direction = (slope - fan.mean) / off;
+  double farthest = 0;
+  for (const Vec2& s : fan.slopes) farthest = std::max(farthest, direction.dot(s - fan.mean));
+  return fan.mean + std::min(off, (fan.is_closed ? most_over : most_over_at_edges) * farthest) * direction;
+}
+
 void SmoothSurface::find_slopes() {
   const auto around = grouped<Index>(points_.size(), [&](auto&& add) {
     for (Index t = 0; t < triangles_.size(); ++t)
@@ -87,32 +106,41 @@ void SmoothSurface::find_slopes() {
   const auto add_ring = [&](Index i, std::vector<Index>& ring) {
     for (const Index t : around[i]) ring.insert(ring.end(), triangles_[t].begin(), triangles_[t].end());
   };
+  const auto leave_one_of_each = [](std::vector<Index>& ring) {
+    std::ranges::sort(ring);
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+  };
   parallel_ranges(points_.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<Index> near, all;
+    std::vector<Vec2> slopes;
     for (auto i = static_cast<Index>(begin); i < end; ++i) {
       if (around[i].empty()) continue;
-      double steepest = 0, areas = 0;
-      Vec2 mean = Vec2::Zero();
-      for (const Index t : around[i]) {
-        const auto& [a, b, c] = triangles_[t];
-        const Vec2 slope = plane_slope(points_[a], points_[b], points_[c]);
-        const double area = cross((points_[b] - points_[a]).head<2>(), (points_[c] - points_[a]).head<2>());
-        steepest = std::max(steepest, slope.norm());
-        mean += area * slope;
-        areas += area;
-      }
-      if (areas > 0) mean /= areas;
       near.clear(), all.clear();
       add_ring(i, near);
+      leave_one_of_each(near);
       for (const Index j : near) add_ring(j, all);
-      std::ranges::sort(all);
-      all.erase(std::unique(all.begin(), all.end()), all.end());
+      leave_one_of_each(all);
       std::erase(all, i);
-      slopes_[i] = fitted_slope(points_, i, all, mean);
-      const double most = most_over * steepest;
-      if (slopes_[i].norm() > most) slopes_[i] *= most / slopes_[i].norm();
+      Fan fan{around[i], slopes};
+      fan.is_closed = near.size() == around[i].size() + 1;
+      measure(fan);
+      slopes_[i] = limited(fitted_slope(points_, i, all, fan.mean), fan);
     }
   });
+}
+
+// Sets the slopes of the triangles, and their mean.
+void SmoothSurface::measure(Fan& fan) const {
+  fan.slopes.clear();
+  double areas = 0;
+  for (const Index t : fan.triangles) {
+    const auto& [a, b, c] = triangles_[t];
+    fan.slopes.push_back(plane_slope(points_[a], points_[b], points_[c]));
+    const double area = cross((points_[b] - points_[a]).head<2>(), (points_[c] - points_[a]).head<2>());
+    fan.mean += area * fan.slopes.back();
+    areas += area;
+  }
+  if (areas > 0) fan.mean /= areas;
 }
 
 // The Bezier points of the three cubics over a triangle; cubic i lies between the side opposite to corner i and the

@@ -13,7 +13,7 @@ namespace relievo {
 // triangles marked as smooth that share edges. Other triangles stay plane, so that the surface has a crease along
 // their edges. Each smooth triangle is a reduced Clough-Tocher element: three cubics, quadratic surfaces are
 // reproduced. The slope at a point comes from the quadratic that fits the heights of up to two rings of smooth
-// triangles around it, and is at most a little steeper than these triangles.
+// triangles around it, and lies among those of the triangles that it touches, or a little beyond.
 class SmoothSurface {
  public:
   // A place in a triangle and what the surface is there.
@@ -36,8 +36,11 @@ class SmoothSurface {
     double a, b, ab, ba, as, bs, abs;  // ab is near a on the side to b, abs in the middle of the third
   };
   struct Element;
+  struct Fan;
 
   void find_slopes();
+  void measure(Fan& fan) const;
+  static Vec2 limited(const Vec2& slope, const Fan& fan);
   Element element(Index t) const;
   static Sample de_casteljau(const Third& third, const Vec3& inner, const Vec3& share,
                              const std::array<Vec2, 3>& corners);

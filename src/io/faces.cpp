@@ -5,6 +5,7 @@
 
 #include "geometry/weld.h"
 #include "io/polygon.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -54,6 +55,13 @@ bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::span<co
   for (std::size_t i = 2; kind == FaceKind::fan && i < corners.size(); ++i)
     add_triangle(corners[0], corners[i - 1], corners[i], triangles);
   return true;
+}
+
+std::string expected_corners(std::span<const std::int64_t> corners, std::span<const Vec3> points) {
+  const auto is_bad = [&](std::int64_t i) { return i < -1 || i >= std::ssize(points); };
+  const auto bad = std::ranges::find_if(corners, is_bad);
+  const std::int64_t found = bad == corners.end() ? -1 : *bad;
+  return cat("expected numbers of vertices below ", points.size(), ", found ", found);
 }
 
 Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles) {

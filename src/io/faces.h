@@ -18,6 +18,9 @@ enum class FaceKind { polygon, strip, fan };
 bool add_face(std::span<const std::int64_t> corners, FaceKind kind, std::span<const Vec3> points,
               std::vector<Triangle>& triangles);
 
+// Returns the message about a face that add_face() refuses: which corner is not the number of a point.
+std::string expected_corners(std::span<const std::int64_t> corners, std::span<const Vec3> points);
+
 // Returns the mesh of the triangles over a cloud's points, without triangles that have a corner which is not
 // finite. The cloud's normals, if any, become the corners' normals.
 Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles);

@@ -153,7 +153,7 @@ class OffReader {
     }
     if (const auto ended = end_row(words); !ended) return ended;
     if (add_face(corners_, FaceKind::polygon, cloud_.points, triangles)) return {};
-    return fail("expected numbers of vertices from 0 to " + std::to_string(vertices_ - 1) + ", found others");
+    return fail(expected_corners(corners_, cloud_.points));
   }
 
   Result<void> fail_at_end(std::string_view what, std::int64_t promised, std::int64_t found) const {

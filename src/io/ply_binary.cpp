@@ -143,9 +143,8 @@ Result<void> read_faces(const PlyElement& element, const FaceList& list, BinaryR
         !walked)
       return walked;
     if (!add_face(corners, list.kind, content.cloud.points, content.triangles))
-      return rows.fail("expected numbers of vertices below " + std::to_string(content.cloud.size()) +
-                       ", found others in row " + std::to_string(row) + " of element " +
-                       printable(element.name));
+      return rows.fail(expected_corners(corners, content.cloud.points) + " in row " + std::to_string(row) +
+                       " of element " + printable(element.name));
   }
   return {};
 }

@@ -75,7 +75,8 @@ class AsciiReader {
     if (!has_end_ || mesh_.points.size() % 3 != 0)
       return source_.error_in_line(lines_.number() + 1, "expected endsolid, found the end of the file");
     if (mesh_.triangles.empty())
-      return source_.error_in_line(lines_.number(), "expected at least one facet with three vertices");
+      return source_.error_in_line(lines_.number(),
+                                   "expected at least one facet with three vertices, found none");
     return as_raw(std::move(mesh_), "STL ascii");
   }
 

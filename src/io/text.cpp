@@ -84,6 +84,7 @@ std::string printable(std::string_view text, std::size_t most) {
 }
 
 std::string in_quotes(std::string_view text) {
+  if (text.empty()) return "nothing";
   std::string shown(1, '\'');
   shown += printable(text);
   shown += '\'';

@@ -74,7 +74,7 @@ std::optional<double> parse_number(std::string_view word);
 std::optional<std::int64_t> parse_integer(std::string_view word);
 
 // Return the text for messages, shortened to `most` bytes and with '?' for unprintable ones; in_quotes() puts
-// it in quotes.
+// it in quotes, and returns "nothing" for an empty text.
 std::string printable(std::string_view text, std::size_t most = 32);
 std::string in_quotes(std::string_view text);
 

@@ -5,6 +5,7 @@
 
 #include "picture/drop_shadow.h"
 #include "picture/light_map.h"
+#include "picture/reach_tint.h"
 #include "picture/shading.h"
 #include "relievo/core/parallel.h"
 #include "relievo/picture/render.h"
@@ -55,7 +56,8 @@ class Painter {
         to_viewer_(transform.to_viewer()),
         middle_(body.front.centre().head<2>().cast<float>()),
         half_side_mm_(std::max(1e-6F, static_cast<float>(body.front.longer_side()) / 2)),
-        shader_(params.material, direction_of(params.light), to_viewer_) {}
+        shader_(params.material, direction_of(params.light), to_viewer_),
+        tint_(params.reach, body.front) {}
 
   // Linear; the place is in pixels of the transform.
   Vec3f colour(const VisiblePoint& seen, float x, float y) const {
@@ -74,7 +76,7 @@ class Painter {
     lit.place.z() = height_mm(body_, seen);
     lit.height = body_.span_mm() > 0 ? (lit.place.z() - body_.lowest_mm()) / body_.span_mm() : 0;
     lit.light = light_.at(lit.place);
-    return shader_.colour(lit);
+    return tint_(shader_.colour(lit), lit.place);
   }
 
  private:
@@ -105,6 +107,7 @@ class Painter {
   Vec2f middle_;
   float half_side_mm_;
   Shader shader_;
+  ReachTint tint_;
 };
 
 void store(const Vec3f& colour, float coverage, const DisplayTable& display, std::uint8_t* rgba) {

@@ -1,11 +1,14 @@
 // The renderer of all pictures of bodies: previews, live pictures and comparisons.
 #pragma once
 
+#include <memory>
+
 #include "picture/body.h"
 #include "picture/screen_transform.h"
 #include "picture/visibility.h"
 #include "plate/height_field.h"
 #include "relievo/picture/material.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
 
@@ -13,7 +16,8 @@ struct DrawParams {
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
   bool has_shadows = true;
-  bool is_fine = false;  // more samples per pixel and finer shadows
+  bool is_fine = false;                         // more samples per pixel and finer shadows
+  std::shared_ptr<const ToolReach> reach = {};  // of the body's front: what is left of it is coloured
 };
 
 // Results that stay valid between pictures of the same body, if it is a height field.

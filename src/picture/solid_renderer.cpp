@@ -14,6 +14,7 @@ struct SolidRenderer::State {
   DrawnBody body{owner.body()};
   Vec3 size = size_around_ground(body);
   DrawCache cache = {};
+  std::shared_ptr<const ToolReach> reach = {};
 
   // Returns the size of the box around the origin that contains the body.
   static Vec3 size_around_ground(const DrawnBody& body) {
@@ -26,6 +27,10 @@ struct SolidRenderer::State {
 
 SolidRenderer::SolidRenderer(std::shared_ptr<const Solid> solid)
     : state_(std::make_unique<State>(std::move(solid))) {}
+SolidRenderer::SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach)
+    : SolidRenderer(std::move(solid)) {
+  state_->reach = std::move(reach);
+}
 SolidRenderer::SolidRenderer(SolidRenderer&&) noexcept = default;
 SolidRenderer::~SolidRenderer() = default;
 
@@ -37,7 +42,8 @@ void SolidRenderer::render(const RenderOptions& options, Picture& picture) {
   }
   const ScreenTransform transform = camera_transform(state_->size, options);
   picture.pixels_per_mm = transform.pixels_per_mm;
-  draw_body(state_->body, transform, {options.material, options.light, options.has_shadows, options.is_fine},
+  draw_body(state_->body, transform,
+            {options.material, options.light, options.has_shadows, options.is_fine, state_->reach},
             state_->cache, picture.image);
 }
 

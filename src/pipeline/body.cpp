@@ -90,6 +90,8 @@ PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
                      options.corner_mm, formed_rim(options, relief_mm), formed_base(options),
                      options.wrap};
   plate.size_mm = plate_size_of(options);
+  plate.shift_mm = options.shift_mm;
+  if (is_mirrored(options.form)) plate.shift_mm.x() *= -1;
   if (options.finish == Finish::reachable) plate.tool = options.tool;
   if (options.tolerance_mm)
     plate.tolerance_mm = std::clamp(bending_share * *options.tolerance_mm, 1e-4, plate.tolerance_mm);

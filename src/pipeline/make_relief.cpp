@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/angle.h"
@@ -41,12 +42,12 @@ Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
       "which the steps between level parts can take");
 }
 
-Result<Relief> shape_relief(const ReliefModel& model, ReliefOptions options, Progress* progress) {
+// Makes the relief of the height that the options give, or of the shape's own where they give none.
+Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, const Shape& shape,
+                            Progress* progress) {
   // A lithophane has no height to reach: its own is exact by construction.
-  if (options.form == Form::lithophane) options.height_mm.reset();
-  const double scale = mm_per_unit(model.surface(), options), height = options.height_mm.value_or(0) / scale;
-  const Shape shape = shape_of(options);
   if (options.form == Form::lithophane) return model.make(shape);
+  const double scale = mm_per_unit(model.surface(), options), height = options.height_mm.value_or(0) / scale;
   const Method method = options.effective_method();
   if (!options.draft_deg) {
     if (!options.height_mm) return make_free(model, shape);
@@ -61,12 +62,28 @@ Result<Relief> shape_relief(const ReliefModel& model, ReliefOptions options, Pro
   return make_with_draft(model, {method, shape, height, scale}, draft, progress);
 }
 
+// Makes the relief of the height that was asked for, or of the usual one: if the view does not reach that, the relief is
+// as high as its slopes make it.
+Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options, Progress* progress) {
+  const bool is_usual = !options.height_mm && options.effective_height_mm();
+  options.height_mm = options.effective_height_mm();
+  Result<Relief> relief = shape_relief(model, options, shape_of(options), progress);
+  const bool is_too_high = !relief && relief.error().kind == ErrorKind::geometry;
+  if (!is_usual || !is_too_high || !has_shape(options.effective_method())) return relief;
+  options.method = options.effective_method();
+  options.height_mm.reset();
+  Shape uncompressed = shape_of(options);
+  uncompressed.compression.u = std::numeric_limits<double>::infinity();
+  Result<Relief> highest = shape_relief(model, options, uncompressed, progress);
+  return highest ? std::move(highest) : std::move(relief);
+}
+
 // From a model to its body, by options that have passed check().
 Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
   const Surface& surface = model.surface();
   RELIEVO_TRY(const ReliefOptions options, with_width(surface, asked));
   RELIEVO_CHECK(begin_stage(progress, "relief", .85));
-  RELIEVO_TRY(const Relief relief, shape_relief(model, options, progress));
+  RELIEVO_TRY(const Relief relief, relief_of_height(model, options, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .95));
   RELIEVO_TRY(FormedBody made, make_formed_body(full_front(surface, relief, options), options, progress));
   auto& [formed, body] = made;

@@ -35,7 +35,7 @@ std::vector<std::string_view> all_method_names() {
 
 std::string_view method_without_one() {
   static const std::string text =
-      cat(name_of(Method::layered), " with a height, else ", name_of(Method::paper));
+      cat(name_of(Method::paper), " with an alpha, else ", name_of(Method::layered));
   return text;
 }
 
@@ -46,9 +46,11 @@ std::vector<ReliefField> shape_rows() {
                    1e5, "100, or as much as diameter or plate allow"},
                   &OptionTexts::width_mm,
                   width_of},
-      ReliefField{{"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4,
-                   1e5, "what alpha gives, 2.4 for a lithophane"},
-                  &OptionTexts::height_mm},
+      ReliefField{
+          {"height", "MM", "from the lowest to the highest point of the front, met exactly", 1e-4, 1e5,
+           "5 % of the width, or what the view reaches; by method paper what alpha gives; 2.4 for a "
+           "lithophane"},
+          &OptionTexts::height_mm},
       ReliefField{
           {"alpha", "A", "the paper's height coefficient, more is flatter; not together with height", 0, 1e9},
           &OptionTexts::alpha,
@@ -174,6 +176,12 @@ std::vector<ReliefField> plate_rows() {
                    "fits, or as width says: 200x150 or 8inx6in, with outline rectangle, round or ellipse",
            .otherwise = "what the relief needs"},
           &OptionTexts::plate},
+      ReliefField{{.name = "shift",
+                   .unit = "X,Y",
+                   .help = "how far the relief lies to the right of the middle of a plate whose size is "
+                           "given, and above it",
+                   .otherwise = "0,0"},
+                  &OptionTexts::shift},
       ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5}, &OptionTexts::margin_mm},
       ReliefField{{"thickness", "MM", "smallest thickness of the plate", .01, 1e5},
                   &OptionTexts::thickness_mm},
@@ -299,6 +307,11 @@ Result<ReliefOptions> parse_options(const OptionTexts& texts) {
     Result<Vec2> size = parse_plate_size(texts.plate);
     if (!size) return option_error("plate", size.error().expected);
     options.plate_mm = *size;
+  }
+  if (!texts.shift.empty()) {
+    Result<Vec2> shift = parse_shift(texts.shift);
+    if (!shift) return option_error("shift", shift.error().expected);
+    options.shift_mm = *shift;
   }
   RELIEVO_TRY(options.base, parse_base(texts.base));
   RELIEVO_TRY(options.wrap, parse_wrap(texts.wrap));

@@ -36,14 +36,14 @@ Result<void> check_ranges(const ReliefOptions& options) {
 
 Result<void> check_method(const ReliefOptions& options) {
   const Method method = options.effective_method();
-  if (method != Method::paper && !options.height_mm)
-    return option_error("method", cat("expected a height with method ", name_of(method)));
+  if (method != Method::paper && options.alpha)
+    return option_error("alpha", cat("expected method paper with it, found ", name_of(method)));
   const bool is_shaped = options.saturation || options.detail || options.steepest_deg ||
                          options.boundary_width || options.tone || options.steps > 0;
   if (is_shaped && !has_shape(method))
     return option_error(
         "method", cat("expected none of saturation, detail, steepest, boundary, tone and steps with method ",
-                      name_of(method)));
+                      name_of(method), ", found some"));
   return {};
 }
 
@@ -88,7 +88,10 @@ std::pair<std::string, double> size_of_plate(const ReliefOptions& options) {
 }
 
 Result<void> check_plate_size(const ReliefOptions& options) {
-  if (!options.diameter_mm && !options.plate_mm) return {};
+  if (!options.diameter_mm && !options.plate_mm) {
+    if (options.shift_mm.isZero()) return {};
+    return option_error("shift", "expected a size of the plate with it, diameter or plate");
+  }
   if (options.diameter_mm && options.plate_mm)
     return option_error("plate", "expected either plate or diameter, found both");
   if (options.diameter_mm && options.outline != Outline::circle)
@@ -112,7 +115,13 @@ double by_method(const ReliefOptions& options, double paper, double others) {
 }  // namespace
 
 Method ReliefOptions::effective_method() const {
-  return method.value_or(height_mm ? Method::layered : Method::paper);
+  return method.value_or(alpha ? Method::paper : Method::layered);
+}
+
+std::optional<double> ReliefOptions::effective_height_mm() const {
+  constexpr double share_of_width = .05;  // see docs/decisions/default-height.md
+  if (height_mm || effective_method() == Method::paper || form == Form::lithophane) return height_mm;
+  return share_of_width * effective_width_mm();
 }
 
 double ReliefOptions::effective_saturation() const {

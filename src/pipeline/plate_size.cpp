@@ -40,7 +40,8 @@ double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
     const Vec2 normal = Vec2(along.y(), -along.x()).normalized();
     double farthest = 0;
     for (const Vec2& p : hull) farthest = std::max(farthest, (p - middle).dot(normal));
-    if (farthest > 0) width = std::min(width, ((outline[i] - middle).dot(normal) - edge_mm) / farthest);
+    const double room_mm = (outline[i] - middle - options.shift_mm).dot(normal) - edge_mm;
+    if (farthest > 0) width = std::min(width, room_mm / farthest);
   }
   return width;
 }
@@ -57,9 +58,9 @@ Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& op
   sized.width_mm = options.width_mm.value_or(largest);
   constexpr double rounding = 1 + 1e-6;  // of a width that was read off a report
   if (*sized.width_mm > 0 && *sized.width_mm <= largest * rounding) return sized;
-  return option_error("width",
-                      cat("expected at most ", largest, " mm, which the plate leaves with its margin",
-                          options.rim_mm ? " and rim" : "", ", found ", *sized.width_mm, " mm"));
+  return option_error(
+      "width", cat("expected at most ", std::max(0.0, largest), " mm, which the plate leaves with its margin",
+                   options.rim_mm ? " and rim" : "", ", found ", *sized.width_mm, " mm"));
 }
 
 }  // namespace relievo

@@ -33,7 +33,7 @@ void report_surface(const Surface& surface, ReliefReport& report) {
 void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport& report) {
   const Compression& compression = shape.compression;
   // A given alpha is reported as it was given: computed from u it would have a rounding error.
-  const bool is_given = !options.height_mm && compression.beta > 0;
+  const bool is_given = !options.effective_height_mm() && compression.beta > 0;
   report.method = options.effective_method();
   report.alpha = is_given ? options.effective_alpha() : compression.alpha();
   if (compression.curve) report.alpha = std::numeric_limits<double>::quiet_NaN();
@@ -43,6 +43,7 @@ void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport
   report.steps = shape.steps;
   report.has_needed_steps = shape.steps > options.steps;
   report.height_requested_mm = options.height_mm;
+  if (!options.height_mm) report.height_usual_mm = options.effective_height_mm();
   report.has_idle_alpha = options.alpha && compression.beta == 0;
 }
 

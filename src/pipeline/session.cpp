@@ -58,14 +58,20 @@ struct Session::State {
   bool step() {
     const auto [wanted, progress] = shared.with([&](Shared& s) {
       std::optional<Preparation> next = std::exchange(s.waiting, std::nullopt);
-      if (next) s.progress = watched();
+      if (next) s.progress = watched(next->changed);
       return std::pair(std::move(next), s.progress);
     });
     if (!wanted) return false;
     const Result<Preparation::Model> made = prepare(*wanted, *progress);
+    finish(*wanted, *progress, made);
+    if (wanted->changed) wanted->changed();
+    return true;
+  }
+
+  void finish(const Preparation& wanted, const Progress& progress, const Result<Preparation::Model>& made) {
     shared.with([&](Shared& s) {
       s.progress = nullptr;
-      if (s.waiting || progress->is_cancelled())
+      if (s.waiting || progress.is_cancelled())
         return;  // a newer opening has overtaken this one, or cancel()
       s.status.is_preparing = false;
       if (!made) {
@@ -74,9 +80,8 @@ struct Session::State {
       }
       s.status.fraction = 1;
       s.model = *made;
-      if (wanted->ready) wanted->ready(*made);
+      if (wanted.ready) wanted.ready(*made);
     });
-    return true;
   }
 
   Result<Preparation::Model> prepare(const Preparation& wanted, Progress& progress) {
@@ -126,13 +131,14 @@ struct Session::State {
     return made;
   }
 
-  std::shared_ptr<Progress> watched() {
-    return std::make_shared<Progress>([this](std::string_view stage, double fraction) {
+  std::shared_ptr<Progress> watched(const std::function<void()>& changed) {
+    return std::make_shared<Progress>([this, changed](std::string_view stage, double fraction) {
       shared.with([&](Shared& s) {
         if (s.waiting || s.progress->is_cancelled()) return;
         s.status.stage = stage;
         s.status.fraction = fraction;
       });
+      if (changed) changed();
     });
   }
 };

@@ -34,7 +34,7 @@ RasterInput front_input(const Solid& solid, const HeightField& field) {
   return input;
 }
 
-// Draws the front; height_of(fragment, pixel) is the height above the lowest point where a triangle is seen.
+// Draws the front; height_of(input, fragment, pixel) is the height above the lowest point where a triangle is seen.
 template <typename HeightOf>
 void draw(const Solid& solid, HeightField& field, HeightOf height_of) {
   field.is_beside = filled_image(field.z.width, field.z.height, std::uint8_t{1});
@@ -48,40 +48,51 @@ void draw(const Solid& solid, HeightField& field, HeightOf height_of) {
       const Fragment& fragment = band.fragments.pixels[i];
       if (fragment.triangle == no_index) continue;
       field.is_beside.pixels[first + i] = 0;
-      field.z.pixels[first + i] = std::max(0.F, height_of(fragment, first + i));
+      field.z.pixels[first + i] = std::max(0.F, height_of(input, fragment, first + i));
     }
   };
   parallel_for(rasterizer.bands(), draw_band, 1);
 }
 
-// Returns whether a triangle is neither wall nor ground and its normal near the mean ones at its corners, to which walls
-// and ground do not count.
-std::vector<std::uint8_t> smooth_triangles(const Solid& solid) {
-  constexpr double degree = std::numbers::pi / 180;
-  constexpr double most_turn = 12 * degree;  // about half the angle of a sharp edge
+constexpr double degree = std::numbers::pi / 180;
+
+Vec3 area_normal(const Solid& solid, std::size_t t) {
+  const auto& [a, b, c] = solid.triangles[t];
+  return (solid.points[b] - solid.points[a]).cross(solid.points[c] - solid.points[a]);
+}
+
+// Returns whether a triangle is neither wall nor ground.
+std::vector<std::uint8_t> sheet_triangles(const Solid& solid) {
   constexpr double least_wall = 65 * degree;
-  const auto area_normal = [&](std::size_t t) -> Vec3 {
-    const auto& [a, b, c] = solid.triangles[t];
-    return (solid.points[b] - solid.points[a]).cross(solid.points[c] - solid.points[a]);
-  };
   const auto is_ground = [&](Index i) { return solid.points[i].z() == solid.ground_mm; };
-  std::vector<std::uint8_t> is_smooth(solid.front_triangles);
-  std::vector<Vec3> sums(solid.points.size(), Vec3::Zero());
-  for (std::size_t t = 0; t < is_smooth.size(); ++t) {
-    const Vec3 normal = area_normal(t);
-    is_smooth[t] = normal.z() > std::cos(least_wall) * normal.norm() &&
-                   !std::ranges::all_of(solid.triangles[t], is_ground);
-    for (const Index i : solid.triangles[t])
-      if (is_smooth[t]) sums[i] += normal;
-  }
-  parallel_for(is_smooth.size(), [&](std::size_t t) {
-    const Vec3 normal = area_normal(t);
-    const auto is_near = [&](Index i) {
-      return normal.dot(sums[i]) > std::cos(most_turn) * normal.norm() * sums[i].norm();
-    };
-    is_smooth[t] &= std::ranges::all_of(solid.triangles[t], is_near);
+  std::vector<std::uint8_t> is_sheet(solid.front_triangles);
+  parallel_for(is_sheet.size(), [&](std::size_t t) {
+    const Vec3 normal = area_normal(solid, t);
+    is_sheet[t] = normal.z() > std::cos(least_wall) * normal.norm() &&
+                  !std::ranges::all_of(solid.triangles[t], is_ground);
   });
-  return is_smooth;
+  return is_sheet;
+}
+
+// Returns per point how smooth the surface is there: 1 where the triangles around turn little from their mean, 0 at sharp
+// edges, walls and ground.
+std::vector<float> smoothness(const Solid& solid, std::span<const std::uint8_t> is_sheet) {
+  constexpr double smooth_turn = 8 * degree,
+                   sharp_turn = 16 * degree;  // the latter about half the angle of an edge
+  std::vector<Vec3> sums(solid.points.size(), Vec3::Zero());
+  for (std::size_t t = 0; t < is_sheet.size(); ++t)
+    for (const Index i : solid.triangles[t])
+      if (is_sheet[t]) sums[i] += area_normal(solid, t);
+  std::vector<float> shares(solid.points.size(), 1);
+  for (std::size_t t = 0; t < is_sheet.size(); ++t) {
+    const Vec3 normal = area_normal(solid, t).normalized();
+    for (const Index i : solid.triangles[t]) {
+      const double turn = std::acos(std::clamp(normal.dot(sums[i].normalized()), -1., 1.));
+      const double share = is_sheet[t] ? (sharp_turn - turn) / (sharp_turn - smooth_turn) : 0;
+      shares[i] = std::min(shares[i], static_cast<float>(std::max(share, 0.0)));
+    }
+  }
+  return shares;
 }
 
 }  // namespace
@@ -103,24 +114,28 @@ HeightField flat_height_field(const Box& box, int longer_side_px) {
 HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   HeightField field = flat_height_field(front_box(solid), longer_side_px);
   if (field.z.empty()) return field;
-  draw(solid, field, [](const Fragment& fragment, std::size_t) { return fragment.z; });
+  draw(solid, field, [](const RasterInput&, const Fragment& fragment, std::size_t) { return fragment.z; });
   return field;
 }
 
 HeightField draw_smooth_height_field(const Solid& solid, int longer_side_px) {
   HeightField field = flat_height_field(front_box(solid), longer_side_px);
   if (field.z.empty()) return field;
-  const std::vector<std::uint8_t> is_smooth = smooth_triangles(solid);
+  const std::vector<std::uint8_t> is_sheet = sheet_triangles(solid);
   const SmoothSurface surface(solid.points, std::span(solid.triangles).first(solid.front_triangles),
-                              is_smooth);
+                              is_sheet);
+  const std::vector<float> shares = smoothness(solid, is_sheet);
   const auto width = static_cast<std::size_t>(field.z.width);
   const double span_mm = field.box.size().z();
-  draw(solid, field, [&](const Fragment& fragment, std::size_t pixel) {
-    if (!is_smooth[fragment.triangle]) return fragment.z;
-    const Vec2 place =
-        field.to_mm(static_cast<double>(pixel % width) + .5, static_cast<double>(pixel / width) + .5);
-    const double z = surface.at(fragment.triangle, place).height - field.box.min.z();
-    return static_cast<float>(std::clamp(z, 0.0, span_mm));
+  draw(solid, field, [&](const RasterInput& input, const Fragment& fragment, std::size_t pixel) {
+    const Triangle& corners = solid.triangles[fragment.triangle];
+    if (std::ranges::all_of(corners, [&](Index i) { return shares[i] == 0; })) return fragment.z;
+    const double x = static_cast<double>(pixel % width) + .5, y = static_cast<double>(pixel / width) + .5;
+    const double z = surface.at(fragment.triangle, field.to_mm(x, y)).height - field.box.min.z();
+    const Vec3f weights = corner_weights(input, fragment.triangle, x, y);
+    const float share = weights.dot(Vec3f(shares[corners[0]], shares[corners[1]], shares[corners[2]]));
+    const float smooth = static_cast<float>(std::clamp(z, 0.0, span_mm));
+    return fragment.z + std::clamp(share, 0.F, 1.F) * (smooth - fragment.z);
   });
   return field;
 }

@@ -205,6 +205,19 @@ Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
             cat("expected width and height such as 200x150 or 8in x 6in, found '", text, "'")});
 }
 
+Result<Vec2> parse_shift(std::string_view text, LengthUnit bare) {
+  if (const std::size_t middle = text.find(','); middle != std::string_view::npos) {
+    const Result<double> right = parse_length(text.substr(0, middle), bare),
+                         up = parse_length(text.substr(middle + 1), bare);
+    if (right && up && std::max(std::abs(*right), std::abs(*up)) <= 1e5) return Vec2(*right, *up);
+  }
+  return std::unexpected(
+      Error{ErrorKind::option,
+            {},
+            {},
+            cat("expected lengths to the right and up such as 10,-5, found '", text, "'")});
+}
+
 bool has_free_size(Outline outline) {
   const OutlineShape* const shape = shape_of(outline);
   return shape && shape->has_free_size;

@@ -38,7 +38,7 @@ PlateOutline outline_of_plate(const HeightFieldMesh& front, const Box& box, cons
     Vec2 corner = Vec2::Constant(options.margin_mm + options.rim.width_mm + beyond_rim);
     if (options.size_mm.x() > 0) corner = (options.size_mm - inner) / 2 + Vec2::Constant(beyond_rim);
     const Vec2 size = inner + corner + corner;
-    return {{{0, 0}, {size.x(), 0}, size, {0, size.y()}}, corner};
+    return {{{0, 0}, {size.x(), 0}, size, {0, size.y()}}, corner + options.shift_mm};
   }
   std::vector<Vec2> hull;
   for (const Index i : front.hull) hull.push_back((front.points[i] - box.min).head<2>());
@@ -48,7 +48,7 @@ PlateOutline outline_of_plate(const HeightFieldMesh& front, const Box& box, cons
   Vec2 min = outline.polygon[0];
   for (const Vec2& p : outline.polygon) min = min.cwiseMin(p);
   for (Vec2& p : outline.polygon) p -= min;
-  outline.front_corner = -min;
+  outline.front_corner = options.shift_mm - min;
   return outline;
 }
 

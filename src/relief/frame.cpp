@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "relief/height_search.h"
+#include "relief/jump_lift.h"
 #include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relief/vertex_normals.h"
@@ -110,6 +111,7 @@ struct FrameMaker::Packed {
     ++frame.times.solves;
     change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
       if (height) *height /= style.height_share();
+      model.jump_lift().add_to(heights.z, frame.options.shape);
       add_steps(model.steps(), frame.options.shape.steps, height, heights.z);
       style.raise(heights);
       frame.height = heights.height;

@@ -6,6 +6,7 @@
 
 #include "relief/height_search.h"
 #include "relief/height_span.h"
+#include "relief/jump_lift.h"
 #include "relief/membrane/height_correction.h"
 #include "relief/membrane/membrane_tuning.h"
 #include "relief/step_heights.h"
@@ -27,6 +28,7 @@ struct ReliefModel::State {
   Surface surface;
   std::vector<PointLayers> layers;
   StepHeights steps;
+  JumpLift jump_lift;
   HeightCorrection correction;
   MembraneTuning tuning;
   std::variant<HeightSystem, SubspaceModel> solver;
@@ -54,6 +56,9 @@ const SubspaceModel* ReliefModel::subspace() const {
 }
 const StepHeights& ReliefModel::steps() const {
   return state_->steps;
+}
+const JumpLift& ReliefModel::jump_lift() const {
+  return state_->jump_lift;
 }
 const HeightCorrection& ReliefModel::correction() const {
   return state_->correction;
@@ -85,6 +90,7 @@ struct Parts {
   std::vector<PointLayers> layers;
   HeightSystem system;
   StepHeights steps;
+  JumpLift jump_lift;
   HeightCorrection correction;
 };
 
@@ -99,8 +105,10 @@ Result<Parts> prepare_parts(const Surface& surface, Progress* progress) {
   if (!system) return std::unexpected(system.error());
   RELIEVO_CHECK(check_cancelled(progress));
   StepHeights steps = find_step_heights(surface, weights, *system);
+  JumpLift jump_lift = JumpLift::find({surface, layers, weights, *system});
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
-  return Parts{std::move(layers), std::move(*system), std::move(steps), HeightCorrection(surface, weights)};
+  return Parts{std::move(layers), std::move(*system), std::move(steps), std::move(jump_lift),
+               HeightCorrection(surface, weights)};
 }
 
 }  // namespace
@@ -109,17 +117,18 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   RELIEVO_TRY(Parts parts, prepare_parts(surface, progress));
   RELIEVO_CHECK(check_cancelled(progress));
   const Result<MembraneTuning> tuning =
-      tune_membrane({surface, parts.layers, parts.correction, parts.system}, progress);
+      tune_membrane({surface, parts.layers, parts.correction, parts.system, parts.jump_lift}, progress);
   if (!tuning) return std::unexpected(tuning.error());
   if (resolve_mode(mode, surface) == Mode::exact)
-    return ReliefModel(std::unique_ptr<const State>(
-        new State{std::move(surface), std::move(parts.layers), std::move(parts.steps),
-                  std::move(parts.correction), *tuning, std::move(parts.system)}));
+    return ReliefModel(std::unique_ptr<const State>(new State{
+        std::move(surface), std::move(parts.layers), std::move(parts.steps), std::move(parts.jump_lift),
+        std::move(parts.correction), *tuning, std::move(parts.system)}));
   Result<SubspaceModel> subspace = prepare_subspace(surface, parts.layers, std::move(parts.system), progress);
   if (!subspace) return std::unexpected(subspace.error());
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface),
                                                             {},
                                                             std::move(parts.steps),
+                                                            std::move(parts.jump_lift),
                                                             std::move(parts.correction),
                                                             *tuning,
                                                             std::move(*subspace)}));
@@ -130,13 +139,13 @@ Result<ReliefModel> ReliefModel::prepare_like(const ReliefModel* other, Surface 
   const MembraneTuning tuning = other ? other->state_->tuning : MembraneTuning();
   return ReliefModel(std::unique_ptr<const State>(
       new State{std::move(surface), std::move(parts.layers), std::move(parts.steps),
-                std::move(parts.correction), tuning, std::move(parts.system)}));
+                std::move(parts.jump_lift), std::move(parts.correction), tuning, std::move(parts.system)}));
 }
 
 std::size_t ReliefModel::memory() const {
   const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->solver);
   return solver + surface().memory() + layers().size_bytes() + correction().memory() +
-         steps().z.size() * sizeof(float);
+         steps().z.size() * sizeof(float) + jump_lift().memory();
 }
 
 namespace {
@@ -184,6 +193,7 @@ class ReliefModel::Maker {
     RaisedHeights<double> heights{relief.heights, input_, spans_};
     with_style(relief.shape, [&](const auto& style) {
       if (height) *height /= style.height_share();
+      model_.jump_lift().add_to(heights.z, relief.shape);
       add_steps(model_.steps(), relief.shape.steps, height, heights.z);
       style.raise(heights);
     });

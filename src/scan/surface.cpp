@@ -12,6 +12,7 @@
 #include "scan/noise/noise.h"
 #include "scan/orient_normals.h"
 #include "scan/outlines/outline_points.h"
+#include "scan/outlines/small_patches.h"
 #include "scan/pick.h"
 
 namespace relievo {
@@ -126,6 +127,17 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
+// Stages 5 and 6.
+Result<void> triangulate(Surface& surface, const PointMeasures& measures, const BoundaryOptions& options,
+                         Progress* progress) {
+  const std::vector<Vec2> xy = in_plane(surface.points);
+  surface.triangulation = delaunay(xy);
+  if (surface.triangulation.triangles.empty())
+    return geometry_error("expected visible points that enclose an area, found all of them on one line");
+  surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options, measures.spacing);
+  return check_cancelled(progress);
+}
+
 }  // namespace
 
 std::size_t Surface::memory() const {
@@ -157,14 +169,10 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, co
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, options, surface, progress));
 
   if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
-  const std::vector<Vec2> xy = in_plane(surface.points);
-  surface.triangulation = delaunay(xy);
-  if (surface.triangulation.triangles.empty())
-    return geometry_error("expected visible points that enclose an area, found all of them on one line");
+  RELIEVO_CHECK(triangulate(surface, measures, options.boundary, progress));
   if (auto go = begin_stage(progress, "boundary", .65); !go) return std::unexpected(go.error());
-  surface.boundary =
-      find_boundary(xy, surface.triangulation, surface.rho, options.boundary, measures.spacing);
-  RELIEVO_CHECK(check_cancelled(progress));
+  if (drop_small_patches(surface, measures))
+    RELIEVO_CHECK(triangulate(surface, measures, options.boundary, progress));
   put_points_on_outlines(surface, measures, viewed.cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   surface.curvature = normalise(average_in_plane(measures.k, in_plane(surface.points), surface.normals,

@@ -8,7 +8,8 @@
 namespace relievo {
 namespace {
 
-constexpr double most_cells = 1 << 24;
+// A few points would spend all their time on empty cells.
+constexpr double most_cells = 1 << 24, least_cells = 1 << 16, most_cells_a_point = 1 << 12;
 // The standard deviation of the blur, in cells. Its three steps add up their variances: distributing to cells
 // and interpolating back, both linear, have 1/6 each, averaging neighbours with weights 1, 2, 1 has 1/2.
 const double sigma_in_cells = std::sqrt(5.0 / 6);
@@ -53,8 +54,9 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   const Box box = Box::of(points);
   double side = sigma / sigma_in_cells;
   const auto count = [&](int axis) { return static_cast<std::size_t>(box.size()[axis] / side) + 4; };
-  while (static_cast<double>(count(0)) * static_cast<double>(count(1)) * static_cast<double>(count(2)) >
-         most_cells)
+  const double most =
+      std::clamp(most_cells_a_point * static_cast<double>(points.size()), least_cells, most_cells);
+  while (static_cast<double>(count(0)) * static_cast<double>(count(1)) * static_cast<double>(count(2)) > most)
     side *= 1.1;
   for (int axis = 0; axis < 3; ++axis) size_[static_cast<std::size_t>(axis)] = count(axis);
   parallel_for(points.size(), [&](std::size_t i) {
@@ -83,7 +85,7 @@ void SurfaceBlur::average_cells(std::vector<Vec3f>& cells) const {
 }
 
 void SurfaceBlur::apply(std::span<Vec2f> values) const {
-  std::vector<Vec3f> cells(size_[0] * size_[1] * size_[2], Vec3f::Zero());
+  std::vector<Vec3f> cells(number_of_cells(), Vec3f::Zero());
   for (std::size_t i = 0; i < values.size(); ++i)
     each_corner(places_[i].cell, places_[i].share, size_, [&](std::size_t cell, float weight) {
       cells[cell] += weight * Vec3f(values[i].x(), values[i].y(), 1);

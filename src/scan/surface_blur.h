@@ -14,11 +14,14 @@ namespace relievo {
 // interpolated back. The time does not depend on the width.
 class SurfaceBlur {
  public:
-  // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.
+  // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells, or
+  // more than 2^16 and 2^12 a point.
   SurfaceBlur(std::span<const Vec3> points, double sigma);
 
   // Replaces each value, one per point, by the average around the point.
   void apply(std::span<Vec2f> values) const;
+
+  std::size_t number_of_cells() const { return size_[0] * size_[1] * size_[2]; }
 
  private:
   struct Place {

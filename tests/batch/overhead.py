@@ -6,7 +6,8 @@
 
 Each round does the same scans in turns by a loop of `relievo make` with the same options, by `relievo batch --jobs 1`,
 and, with two at a time, by `xargs -P 2` and by Dask with two workers. It prints the medians of wall-clock and processor
-seconds per scan. The pages at the end of a run are part of it.
+seconds per scan. The pages at the end of a run are part of it. With two at a time it also prints the seconds of a Dask run
+that finds all scans done: it starts its workers, looks at each scan and writes the pages.
 """
 
 import argparse
@@ -21,6 +22,8 @@ import time
 
 sys.path.insert(0, os.path.dirname(__file__))
 import catalogue
+
+DASK = "Dask, 2 workers"
 
 
 def measured(action):
@@ -53,7 +56,7 @@ def main():
         two_at_once = {
             "xargs -P 2": f"seq 0 {given.scans - 1} | xargs -P 2 -I @ sh -c 'set -- @; {make}'",
             "batch --jobs 2": f"{program} batch scans -o out --jobs 2 --quiet {options}",
-            "Dask, 2 workers": f"{sys.executable} -m relievo.batch scans -o out --workers 2 --program {program} {options}",
+            DASK: f"{sys.executable} -m relievo.batch scans -o out --workers 2 --program {program} {options}",
         }
         ways = {**(one_at_once if given.at_once != 2 else {}), **(two_at_once if given.at_once != 1 else {})}
         found = {way: [] for way in ways}
@@ -63,6 +66,10 @@ def main():
                 os.makedirs(f"{folder}/out")
                 found[way].append(measured(lambda: subprocess.run(
                     ["sh", "-c", command], cwd=folder, stderr=subprocess.DEVNULL, check=True)))
+        if given.at_once != 1:
+            wall, busy = measured(lambda: subprocess.run(
+                ["sh", "-c", two_at_once[DASK]], cwd=folder, stderr=subprocess.DEVNULL, check=True))
+            print(f"Dask with nothing to do: {wall:.2f} s in all, {busy:.2f} s of processor time")
         for way, times in found.items():
             wall, busy = (statistics.median(column) / given.scans * 1000 for column in zip(*times))
             print(f"{way:18} {wall:8.1f} ms per scan, {busy:8.1f} ms of processor time")

@@ -204,6 +204,41 @@ TEST_F(BatchProgram, DoesPartsAndSingleJobs) {
   EXPECT_TRUE(fs::exists(folder_ / "out/index.html"));
 }
 
+// A program that hands scans to workers saves starts of programs, and a bad scan must not keep the others from being made.
+TEST_F(BatchProgram, DoesSeveralJobsInTurn) {
+  const Outcome list = run(cat("batch scans -o out --list", quick));
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  std::string command = "batch -o out";
+  std::istringstream listed(list.out);
+  for (std::string line; std::getline(listed, line);) command += cat(" --job '", line, "'");
+  const Outcome jobs = run(command);
+  EXPECT_EQ(jobs.exit_code, 1);
+  std::map<std::string, std::string> status;
+  std::istringstream records(jobs.out);
+  for (std::string line; std::getline(records, line);) {
+    const auto record = nlohmann::json::parse(line);
+    status[record["name"]] = record["status"];
+  }
+  const std::map<std::string, std::string> expected{
+      {"1", "made"}, {"2", "made"}, {"3", "made"}, {"bad", "failed"}};
+  EXPECT_EQ(status, expected) << jobs.out;
+  EXPECT_TRUE(fs::exists(folder_ / "out/1.stl") && fs::exists(folder_ / "out/3.stl"));
+}
+
+TEST_F(BatchProgram, EndsAfterTheJobWhoseRecordNobodyTakes) {
+  const Outcome list = run(cat("batch scans -o out --list --match ?.ply", quick));
+  ASSERT_EQ(list.exit_code, 0) << list.err;
+  std::string command = "batch -o out";
+  std::istringstream listed(list.out);
+  for (std::string line; std::getline(listed, line);) command += cat(" --job '", line, "'");
+  const std::string script =
+      cat("cd '", folder_.string(), "'; '" RELIEVO_CLI "' ", command, " > /dev/full 2> error");
+  EXPECT_NE(std::system(script.c_str()), 0);
+  EXPECT_NE(read_all(folder_ / "error").find("expected a reader of records"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder_ / "out/1.stl"));
+  EXPECT_FALSE(fs::exists(folder_ / "out/2.stl"));
+}
+
 TEST_F(BatchProgram, MakesAJobOnceThatTwoProcessesGet) {
   const Outcome list = run(cat("batch scans -o out --list --match 1.ply", quick));
   ASSERT_EQ(list.exit_code, 0) << list.err;

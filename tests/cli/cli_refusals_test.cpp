@@ -12,60 +12,6 @@ using namespace test;
 
 using CliRefusals = CliFolder;
 
-TEST_F(CliRefusals, RefusesWrongProjects) {
-  const auto refuse = [&](const std::string& project, const std::string& part) {
-    write_all(folder_ / "p.relievo", project);
-    expect_refusal("make p.relievo -o p.stl", part);
-  };
-  refuse("not json", "p.relievo, line 1, column 2: expected a project in JSON");
-  refuse("[]", "p.relievo: expected a project in JSON");
-  refuse(R"({"relievo": 2})", "p.relievo, relievo: expected a project of version 1");
-  refuse(R"({"relievo": 1, "options": {}})", "p.relievo, input: expected an object");
-  refuse(R"({"relievo": 1, "input": {}, "options": {}})", "expected either a path or a sample");
-  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"heigth": 1}})", "found 'heigth'");
-  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": "1"}})", "options.height");
-  refuse(R"({"relievo": 1, "input": {"sample": "shell"}, "options": {"height": -1}})", "--height");
-  refuse(R"({"relievo": 1, "input": {"path": "torus.ply", "hash": "fnv1a64:0"}, "options": {}})",
-         "expected the file as it was");
-  refuse(R"({"relievo": 1, "input": {"path": "gone.ply"}, "options": {}})", "gone.ply");
-}
-
-TEST_F(CliRefusals, RefusesBrokenScenes) {
-  const auto refuse = [&](const std::string& scene, const std::string& part) {
-    write_all(folder_ / "s.json", scene);
-    expect_refusal("make s.json -o t.stl", "relievo: s.json" + part);
-  };
-  const auto refuse_model = [&](const std::string& rest, const std::string& part) {
-    refuse(R"({"models": [{"file": "torus.ply"}, {"file": "torus.ply", )" + rest + "}]}",
-           ", models[1]" + part);
-  };
-  refuse("", ", line 1, column 1: expected a scene in JSON");
-  refuse("{\"models\": [", ", line 1, column 13: expected a scene in JSON");
-  refuse("[]", ": expected a scene in JSON");
-  refuse("{}", ", models: expected a list of at least one model");
-  refuse(R"({"models": []})", ", models: expected a list of at least one model");
-  refuse(R"({"models": {"file": "torus.ply"}})", ", models: expected a list");
-  refuse(R"({"models": [{"file": "torus.ply"}], "model": 1})",
-         ": expected only the key models, found 'model'");
-  refuse(R"({"models": ["torus.ply"]})", ", models[0]: expected an object");
-  refuse(R"({"models": [{"scale": 1}]})", ", models[0].file: expected the name of a file");
-  refuse(R"({"models": [{"file": 1}]})", ", models[0].file: expected the name of a file");
-  refuse(R"({"models": [{"file": "gone.ply"}]})",
-         ", models[0].file: expected a file that is there, found no 'gone.ply'");
-  refuse_model(R"("rotation": [0, 0, 0])",
-               ": expected only the keys file, rotate, translate, scale, mirror, found 'rotation'");
-  refuse_model(R"("rotate": 60)", ".rotate: expected three angles in degrees");
-  refuse_model(R"("rotate": [0, 60])", ".rotate: expected three angles in degrees");
-  refuse_model(R"("rotate": [0, "60", 0])", ".rotate: expected three angles in degrees");
-  refuse_model(R"("translate": [1, 2, null])", ".translate: expected three lengths");
-  refuse_model(R"("scale": "2")", ".scale: expected a number from 1e-06 to 1e+06");
-  refuse_model(R"("scale": 0)", ".scale: expected a number from 1e-06 to 1e+06");
-  refuse_model(R"("mirror": 1)", ".mirror: expected true or false");
-  write_all(folder_ / "cut.ply", "ply\n");
-  write_all(folder_ / "s.json", R"({"models": [{"file": "torus.ply"}, {"file": "cut.ply"}]})");
-  expect_refusal("make s.json -o t.stl", "cut.ply");
-}
-
 TEST_F(CliRefusals, TruncatedFilesOfEveryFormatAreRefused) {
   const std::vector<std::pair<std::string, std::string>> files = {
       {"a.stl", binary_stl()}, {"b.stl", ascii_stl()},      {"a.off", off()},
@@ -81,22 +27,6 @@ TEST_F(CliRefusals, TruncatedFilesOfEveryFormatAreRefused) {
 TEST_F(CliRefusals, IsSilentWhenToldTo) {
   const Outcome outcome = run("make torus.ply -o t.stl --quiet");
   EXPECT_EQ(outcome.out + outcome.err, "");
-}
-
-TEST_F(CliRefusals, RefusesMisuse) {
-  expect_refusal("", "A subcommand is required");
-  expect_refusal("carve", "carve");
-  expect_refusal("make", "required");
-  expect_refusal("make torus.ply -o t.stl --width -5", "--width");
-  expect_refusal("make torus.ply -o t.stl --height 0", "--height");
-  expect_refusal("make torus.ply -o t.stl --height 3 --alpha 2", "--alpha");
-  expect_refusal("make torus.ply -o t.stl --thickness abc", "--thickness");
-  expect_refusal("make torus.ply -o t.stl --view sideways", "sideways");
-  expect_refusal("make torus.ply -o t.stl --surface reachable", "--surface: expected --finish");
-  expect_refusal("make torus.ply -o t.xyz", "t.xyz");
-  expect_refusal("make torus.ply -o t.stl --preview t.jpg", "t.jpg");
-  expect_refusal("sample nothing -o s.ply", "shell");
-  expect_refusal("sample shell -o s.ply --points 3", "points");
 }
 
 TEST_F(CliRefusals, RefusesBadInput) {

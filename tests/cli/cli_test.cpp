@@ -98,6 +98,10 @@ TEST_F(Cli, MakesProjects) {
   EXPECT_EQ(run("make torus.ply -o t.stl" + flags).exit_code, 0);
   EXPECT_EQ(read_all(folder_ / "p.stl"), read_all(folder_ / "t.stl"));
   EXPECT_EQ(run("make p.relievo -o p.stl --height 2").exit_code, 0);
+  write_all(folder_ / "l.relievo", R"({"relievo": 1, "input": {"path": "torus.ply"},
+    "options": {"height": 3, "width": 50, "method": "layered"}})");
+  EXPECT_EQ(run("make l.relievo -o l.stl --alpha 2").exit_code,
+            0);  // by the paper's method, which alone has an alpha
   EXPECT_EQ(
       run("make torus.ply -o t.stl --height 2" + flags.substr(std::string(" --height 3").size())).exit_code,
       0);

@@ -24,7 +24,7 @@ TEST(Project, FormerNamesOfOptionsAreReadAndNoLongerWritten) {
 TEST(Project, AFormerNameTakesNoOtherType) {
   const auto texts = texts_from_json({{"surface", 3}}, "p");
   ASSERT_FALSE(texts);
-  EXPECT_EQ(texts.error().message(), "p, options.finish: expected a value of its type");
+  EXPECT_EQ(texts.error().message(), "p, options.finish: expected a text, found 3");
 }
 
 }  // namespace

@@ -89,5 +89,24 @@ TEST(FairCurve, IsEmptyIfTooShort) {
   EXPECT_TRUE(fair_curve({}, false, {1, 4}).points.empty());
 }
 
+TEST(FairCurve, StaysNearItsNodesWhateverTheyAre) {
+  // Few nodes that turn sharply leave pieces between corners without any.
+  test::Random random(5);
+  const Vec2 start(100, 200);
+  for (int trial = 0; trial < 2000; ++trial) {
+    const bool is_closed = trial % 2 == 0;
+    const int count = 6 + trial % 20;
+    std::vector<CurveNode> nodes{{start}};
+    double direction = 0;
+    for (int k = 1; k < count; ++k) {
+      if (random.uniform() < .3) direction += random.uniform(-2.5, 2.5);
+      nodes.push_back(
+          {nodes.back().place + random.uniform(.1, 1.5) * Vec2(std::cos(direction), std::sin(direction))});
+    }
+    const FairCurve curve = fair_curve(nodes, is_closed, {.75, 3});
+    for (const Vec2& p : curve.points) EXPECT_LT((p - start).norm(), 60);
+  }
+}
+
 }  // namespace
 }  // namespace relievo

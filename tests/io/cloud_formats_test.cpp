@@ -100,7 +100,7 @@ TEST(Pcd, BrokenFieldsAreNamed) {
        {replaced(ascii, "DATA ascii\n", "").substr(0, 300),
         ", line 11: expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found '0'"},
        {replaced(ascii, "1 1.5 -1", "1 one -1"), ", line 13: expected 9 numbers, found 'one'"},
-       {ascii.substr(0, ascii.rfind(" 7 8")), ", line 14: expected 9 numbers, found ''"},
+       {ascii.substr(0, ascii.rfind(" 7 8")), ", line 14: expected 9 numbers, found nothing"},
        {binary.substr(0, binary.size() - 1), at + "expected 3 points of 36 bytes, found room for 2"},
        {packed.substr(0, packed_data + 5),
         at_packed + "expected the sizes of the compressed points, found the end of the file"},
@@ -170,9 +170,9 @@ TEST(Las, BrokenFieldsAreNamed) {
        {patched(good, 105, std::uint16_t{10}), ", byte 105: expected records of at least 26 bytes, found 10"},
        {patched(newer, 247, ~std::uint64_t{0}),
         ", byte 247: expected fewer than 4294967295 points, found 18446744073709551615"},
-       {patched(good, 131, 0.0), ", byte 131: expected a scale that is finite and not 0, found another"},
+       {patched(good, 131, 0.0), ", byte 131: expected a scale that is finite and not 0, found 0"},
        {patched(good, 163, std::numeric_limits<double>::quiet_NaN()),
-        ", byte 163: expected a finite offset, found another"},
+        ", byte 163: expected a finite offset, found nan"},
        {good.substr(0, 227 + 25), ", byte 227: expected 2 points of 26 bytes, found room for 0"},
        {patched(good, 107, std::uint32_t{0}), ": expected points, found none"}});
 }

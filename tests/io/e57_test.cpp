@@ -139,6 +139,58 @@ TEST(E57, BrokenDescriptionsAreNamed) {
   EXPECT_EQ(message_with("recordCount=\"1\"", "recordCount=\"0\""), "a.e57: expected points, found none");
 }
 
+TEST(E57, BrokenXmlIsNamed) {
+  const auto found = [](const char* what, const char* by) {
+    const std::string message = message_with(what, by);
+    return message.substr(message.find("expected"));
+  };
+  EXPECT_EQ(found("<data3D", "<!ELEMENT><data3D"), "expected an element, found a document type");
+  EXPECT_EQ(found("<name><![CDATA[<a>]]></name>", "</e57Root><e57Root>"),
+            "expected one root element, found another");
+  EXPECT_EQ(found("</e57Root>", "</e57Root>x"), "expected an element, found 'x'");
+  EXPECT_EQ(found("<data3D", "<>"), "expected the name of an element, found none");
+  EXPECT_EQ(found("</e57Root>", "<e57Root "), "expected the end of a tag, found the end");
+  EXPECT_EQ(found("</e57Root>", ""), "expected the end of the element 'e57Root', found the end");
+  EXPECT_EQ(found("<prototype>", "<proto>"), "expected the end of 'proto', found that of 'prototype'");
+}
+
+TEST(E57, BrokenPrototypesAreNamed) {
+  const E57Column integers = e57_integers("cartesianX", 1, 9, {5}),
+                  one = e57_integers("cartesianX", 5, 5, {5});
+  const auto found = [](E57Column column, const std::string& attributes) {
+    if (!attributes.empty()) column.attributes = attributes;
+    E57Column y = column, z = column;
+    y.name = "cartesianY";
+    z.name = "cartesianZ";
+    const std::string message = message_of(e57({{{column, y, z}}}), "a.e57");
+    return message.substr(message.find("expected"));
+  };
+  EXPECT_EQ(found(integers, R"(type="Integer" minimum="low" maximum="9")"),
+            "expected an integer as minimum, found 'low'");
+  EXPECT_EQ(found(integers, R"(type="Integer" minimum="9" maximum="1")"),
+            "expected a maximum that is not below the minimum");
+  EXPECT_EQ(found(one, ""), "expected coordinates that differ, found a single point");
+}
+
+TEST(E57, BrokenSectionsAreNamed) {
+  const std::string good = e57_contents({scan_of({1}, {2}, {3})});
+  const auto found = [](const std::string& contents) {
+    const std::string message = message_of(e57_pages(contents), "a.e57");
+    return message.substr(message.find("expected"));
+  };
+  const std::size_t section = 48, data_packet = 100;
+  EXPECT_EQ(found(patched(good, section, '\2')),
+            "expected a section of compressed vectors, number 1, found 2");
+  EXPECT_TRUE(found(patched(good, section + 8, std::uint64_t{1} << 40))
+                  .starts_with("expected a section within the file, with its packets in it, found "));
+  EXPECT_EQ(found(patched(good, data_packet, '\7')),
+            "expected an index, data or empty packet (0 to 2), found 7");
+  EXPECT_TRUE(found(patched(good, data_packet + 2, std::uint16_t{0xFFFF}))
+                  .starts_with("expected a packet within its section, of which "));
+  EXPECT_TRUE(found(patched(good, data_packet + 6, std::uint16_t{60000}))
+                  .starts_with("expected columns within a packet of "));
+}
+
 TEST(E57, EveryDamageUnderRightChecksumsGetsAnAnswer) {
   const std::string contents = e57_contents({scan_of({1, 2}, {3, 4}, {5, 6}, "<pose/>")});
   for (std::size_t at = 0; at < contents.size(); ++at)

@@ -161,6 +161,12 @@ TEST(Laz, BrokenFilesAreNamed) {
             "a.laz, byte 469: expected a record of LASzip, as the points are compressed, found none");
   EXPECT_EQ(message(patched(good, 429, std::uint16_t{4})),
             "a.laz, byte 429: expected a compressor from 1 to 3, found 4");
+  EXPECT_EQ(message(patched(good, 395, std::uint16_t{33})),
+            "a.laz, byte 429: expected a record of 34 bytes or more");
+  EXPECT_EQ(message(patched(good, 461, std::uint16_t{99})),
+            "a.laz, byte 461: expected items within the record, found 99");
+  EXPECT_EQ(message(patched(good, 463, std::uint16_t{99})).substr(17),
+            "expected items of point formats 0 to 10, found type 99 of 20 bytes");
   EXPECT_EQ(message(patched(good, 467, std::uint16_t{1})),
             "a.laz, byte 467: expected items of version 2 to 2, found 1; newer LASzip can convert the file");
   EXPECT_EQ(

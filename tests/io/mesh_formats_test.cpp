@@ -98,7 +98,7 @@ TEST(MeshFormats, FacesOfPlyMayComeBeforeTheVertices) {
               tetrahedron_triangles);
   faces.rows[2][3] = 4;
   EXPECT_EQ(message_of(encode_ply({faces, vertices}, PlyEncoding::ascii), "a.ply"),
-            "a.ply, line 12: expected numbers of vertices below 4, found others in row 2 of element face");
+            "a.ply, line 12: expected numbers of vertices below 4, found 4 in row 2 of element face");
 }
 
 TEST(MeshFormats, PolygonsBecomeFans) {
@@ -151,13 +151,13 @@ TEST(Stl, BrokenFieldsAreNamed) {
        {replaced(ascii, "   vertex 1.000000 0.000000", "   vertex 1.0 zero"),
         ", line 6: expected 3 numbers after vertex, found 'zero'"},
        {replaced(ascii, "   vertex 1.000000 0.000000 0.000000", "   vertex 1.0 0.0"),
-        ", line 6: expected 3 numbers after vertex, found ''"},
+        ", line 6: expected 3 numbers after vertex, found nothing"},
        {replaced(ascii, "   vertex 1.000000 0.000000 0.000000\n", ""),
         ", line 7: expected 3 vertices in the facet, found 2"},
        {replaced(ascii, "endsolid tetrahedron\n", ""),
         ", line 30: expected endsolid, found the end of the file"},
        {ascii.substr(0, ascii.size() / 2), ", line 17: expected endsolid, found the end of the file"},
-       {"solid\nendsolid\n", ", line 2: expected at least one facet with three vertices"}});
+       {"solid\nendsolid\n", ", line 2: expected at least one facet with three vertices, found none"}});
 }
 
 TEST(Off, ReadsColoursAndNormals) {
@@ -185,17 +185,15 @@ TEST(Off, BrokenFieldsAreNamed) {
         ", line 2: expected the numbers of vertices and faces, found 'four'"},
        {replaced(good, "4 4 6", "4 -4 6"),
         ", line 2: expected the numbers of vertices and faces, found '-4'"},
-       {replaced(good, "4 4 6", "4"), ", line 2: expected the numbers of vertices and faces, found ''"},
+       {replaced(good, "4 4 6", "4"), ", line 2: expected the numbers of vertices and faces, found nothing"},
        {replaced(good, "4 4 6", "4 9 6"), ", line 12: expected 9 faces, found the end of the file after 4"},
        {replaced(good, "4 4 6", "4294967290 4 6"),
         ", line 12: expected 4294967290 vertices, found the end of the file after 8"},
        {replaced(good, "1 0 0\n", "1 x 0\n"), ", line 4: expected a number, found 'x'"},
        {replaced(good, "1 0 0\n", "1 0\n"),
         ", line 5: expected the end of a row that began in a line before, found '1'"},
-       {replaced(good, "3 0 2 1", "3 0 2 4"),
-        ", line 7: expected numbers of vertices from 0 to 3, found others"},
-       {replaced(good, "3 0 2 1", "3 0 2 -1"),
-        ", line 7: expected numbers of vertices from 0 to 3, found others"},
+       {replaced(good, "3 0 2 1", "3 0 2 4"), ", line 7: expected numbers of vertices below 4, found 4"},
+       {replaced(good, "3 0 2 1", "3 0 2 -1"), ", line 7: expected numbers of vertices below 4, found -1"},
        {replaced(good, "3 0 2 1", "4 0 2 1"),
         ", line 8: expected the end of a row that began in a line before, found '0'"},
        {replaced(good, "3 1 2 3", "4 1 2 3"),
@@ -203,7 +201,7 @@ TEST(Off, BrokenFieldsAreNamed) {
        {replaced(good, "3 0 2 1", "x 0 2 1"), ", line 7: expected the number of corners, found 'x'"},
        {good.substr(0, good.find("3 0 3 2")),
         ", line 10: expected 4 faces, found the end of the file after 2"},
-       {"OFF\n", ", line 1: expected the numbers of vertices and faces, found ''"}});
+       {"OFF\n", ", line 1: expected the numbers of vertices and faces, found nothing"}});
 }
 
 TEST(Gltf, NodesPlaceTheirMeshes) {
@@ -244,21 +242,17 @@ TEST(Gltf, BrokenFieldsAreNamed) {
        {json("asset", "tessa"), ", asset: expected the member asset of a glTF file, found none"},
        {json(R"("byteLength":72)", R"("byteLength":73)"),
         ", buffer 0: expected as many bytes as its byteLength says, found 72"},
-       {json(R"("byteLength":72)", R"("uri":"a.bin","byteLength":72)"),
-        ", buffer 0: expected the file 'a.bin' beside it, found none that can be read; a .glb needs no other "
-        "file"},
-       {json(R"("byteLength":72)", R"("uri":"data:x;base64,?","byteLength":72)"),
-        ", buffer 0: expected base64 text, found other characters"},
-       {json("5126", "5127"), first + "expected a known component type, found another"},
-       {json("VEC3", "VEC9"), first + "expected a known component type, found another"},
+       {json("5126", "5127"), first + "expected a known componentType and type, found 5127 and '\"VEC3\"'"},
+       {json("VEC3", "VEC9"), first + "expected a known componentType and type, found 5126 and '\"VEC9\"'"},
        {json(R"("count":4)", R"("count":5)"), first + "expected room for 5 elements, found less"},
-       {json(R"("count":4)", R"("count":-4)"), first + "expected whole numbers, found others"},
+       {json(R"("count":4)", R"("count":-4)"),
+        first + "expected whole numbers as componentType and count, found others"},
        {json(R"("count":4)", R"("sparse":{},"count":4)"),
         first + "expected the indices and values of its sparse part"},
        {json(R"("byteOffset":48)", R"("byteOffset":49)"),
         indices + "expected a view inside its buffer, found one beyond it"},
        {json(R"({"buffer":0,"byteLength":48})", R"({"buffer":1,"byteLength":48})"),
-        first + "expected a bufferView of a buffer, found another"},
+        first + "expected a buffer, found none of that number"},
        {json(R"("bufferView":0)", R"("bufferView":7)"), first + "expected a bufferView, found none"},
        {json(R"("POSITION":0)", R"("POSITION":9)"),
         ", mesh 0, accessor 9: expected an accessor, found none of that number"},
@@ -267,13 +261,14 @@ TEST(Gltf, BrokenFieldsAreNamed) {
        {json(R"("mesh":0)", R"("mesh":3)"), ", mesh 3: expected a mesh, found none of that number"},
        {json(R"("mesh":0)", R"("children":[0])"), ", node 0: expected one parent, found two or a ring"},
        {json(R"("nodes":[0])", R"("nodes":[5])"), ", node 5: expected a node, found none of that number"},
-       {json("[10,0,0]", "[10,0]"), ", node 0: expected numbers in its transformation, found others"},
+       {json("[10,0,0]", "[10,0]"),
+        ", node 0: expected 16 numbers as matrix, 4 as rotation, 3 as translation and scale, found others"},
        {json(R"("indices":1)", R"("mode":1)"), ", meshes: expected triangles or points, found lines"},
        {json(R"("scene":0)", R"("extensionsRequired":["KHR_draco_mesh_compression"])"),
         ", extensionsRequired: expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; "
         "Blender opens the file, and exports it without compression"},
        {patched(good, good.size() - 24, std::uint16_t{4}),
-        ", mesh 0: expected numbers of vertices below 4, found others"}});
+        ", mesh 0: expected numbers of vertices below 4, found 4"}});
 }
 
 TEST(PlyFaces, BrokenOnesAreNamed) {
@@ -283,9 +278,9 @@ TEST(PlyFaces, BrokenOnesAreNamed) {
   expect_messages(
       "a.ply",
       {{header + "3 0 1 3\n",
-        ", line 13: expected numbers of vertices below 3, found others in row 0 of element face"},
+        ", line 13: expected numbers of vertices below 3, found 3 in row 0 of element face"},
        {header + "3 0 1 -1\n",
-        ", line 13: expected numbers of vertices below 3, found others in row 0 of element face"},
+        ", line 13: expected numbers of vertices below 3, found -1 in row 0 of element face"},
        {header + "3 0 1 x\n", ", line 13: expected whole numbers in the list vertex_indices, found 'x'"},
        {header + "3 0 1\n", ", line 13: expected 1 rows of element face, found the end of the file after 0"},
        {header, ", line 12: expected 1 rows of element face, found the end of the file after 0"}});

@@ -221,7 +221,7 @@ TEST(Xyz, BadLinesAreNamed) {
       {"\n1 2 3\n\n4 5 6 7\n", "line 4: expected 3 columns as in line 2, found 4"},
       {"1 2 3\n4 five 6\n", "line 2: expected a number in column 2, found 'five'"},
       {"1 2 3\n4 5 6x\n", "line 2: expected a number in column 3, found '6x'"},
-      {"1,2,3\n4,,6\n", "line 2: expected a number in column 2, found ''"},
+      {"1,2,3\n4,,6\n", "line 2: expected a number in column 2, found nothing"},
       {"1,2,3\n4 5 6\n", "line 2: expected a number in column 1, found '4 5 6'"},
       {"1 2\n3 4\n", "line 1: expected at least 3 numbers, found '1 2'"},
       {"1 2 x\n", "line 1: expected a number in column 3, found 'x'"},

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/simd.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
@@ -146,8 +147,72 @@ TEST(MakeRelief, IsNowhereThinnerThanAsked) {
     }
 }
 
+TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
+  ReliefOptions options;
+  options.width_mm = 60;
+  const auto made = make_relief(figure(), options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_EQ(made->report.method, Method::layered);
+  EXPECT_NEAR(made->report.height_mm, 3, 1e-9);
+  EXPECT_FALSE(made->report.height_requested_mm);
+  EXPECT_EQ(made->report.height_usual_mm, 3);
+  options.method = Method::linear;
+  EXPECT_NEAR(make_relief(figure(), options)->report.height_mm, 3, 1e-9);
+  options.method.reset();
+  options.alpha = 4;
+  const auto paper = make_relief(figure(), options);
+  EXPECT_EQ(paper->report.method, Method::paper);
+  EXPECT_FALSE(paper->report.height_usual_mm);
+}
+
+// A shallow dome, which no height of a twentieth can be made of; with a draft angle, too.
+TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
+  Cloud shallow = test::sphere(20000, 1);
+  for (Vec3& p : shallow.points) p.z() *= .02;
+  for (Vec3f& n : shallow.normals) n = n.cwiseQuotient(Vec3f(1, 1, .02F)).normalized();
+  ReliefOptions options;
+  for (const bool has_draft : {false, true}) {
+    if (has_draft) options.draft_deg = 10;
+    const auto made = make_relief(shallow, options);
+    ASSERT_TRUE(made) << made.error().message();
+    EXPECT_GT(made->report.height_mm, .1);
+    EXPECT_LT(made->report.height_mm, 5);
+    EXPECT_EQ(made->report.height_usual_mm, 5);
+    ReliefOptions asked = options;
+    asked.height_mm = 5;
+    EXPECT_FALSE(make_relief(shallow, asked));
+  }
+}
+
+// Its box moves by as much, and no part of it comes nearer to the plate's edge than the margin.
+TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
+  const auto model = prepare(test::torus(8000, 1.5, .4), View{});
+  ReliefOptions options;
+  options.height_mm = 2;
+  options.outline = Outline::round;
+  options.plate_mm = Vec2(120, 90);
+  options.width_mm = 40;
+  const auto place = [&](const ReliefOptions& o) {
+    return make_relief(*model, o)->report.offset.head<2>().eval();
+  };
+  const Vec2 middle = place(options);
+  options.shift_mm = Vec2(12, -7);
+  EXPECT_LT((place(options) - middle - options.shift_mm).norm(), 1e-9);
+  EXPECT_LT((box_of(make_relief(*model, options)->solid).size().head<2>() - *options.plate_mm).norm(), 1e-9);
+  options.form = Form::mirror;  // where the right is the left
+  const Vec2 mirrored = place(options);
+  EXPECT_LT((mirrored - Vec2(120 - middle.x() - 12, middle.y() - 7)).norm(), 1e-6);
+  options.form = Form::relief;
+  options.width_mm.reset();
+  options.shift_mm = Vec2(20, 0);
+  EXPECT_NEAR(with_width(model->surface(), options)->effective_width_mm(), 2 * (60 - 20 - 5), 1e-6);
+  options.width_mm = 71;
+  EXPECT_EQ(make_relief(*model, options).error().input, "width");
+}
+
 TEST(MakeRelief, ReportsThePapersParametersAndU) {
   ReliefOptions options;
+  options.method = Method::paper;
   const auto paper = make_relief(figure(), options);
   ASSERT_TRUE(paper);
   EXPECT_EQ(paper->report.alpha, 4);
@@ -160,6 +225,7 @@ TEST(MakeRelief, ReportsThePapersParametersAndU) {
   ASSERT_TRUE(to_order);
   EXPECT_NEAR(to_order->report.u, std::pow(to_order->report.alpha, -.5), 1e-9);
   options = {};
+  options.method = Method::paper;
   options.saturation = 0;
   EXPECT_TRUE(std::isnan(make_relief(figure(), options)->report.alpha));
 }
@@ -202,6 +268,7 @@ TEST(MakeRelief, RefusesAHeightOutOfReach) {
 TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
   ReliefOptions options;
+  options.method = Method::paper;
   const auto free = make_relief(sheets, options);
   ASSERT_FALSE(free);
   EXPECT_NE(free.error().message().find("0 mm"), std::string::npos);
@@ -236,12 +303,36 @@ TEST(MakeRelief, FromAPreparedModelIsTheSame) {
 
 TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
   ReliefOptions options;
+  options.method = Method::paper;
   const double plain = make_relief(figure(), options)->report.height_mm;
   options.boundary_width = 10;
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
   options.boundary_width = 2;
   options.steepest_deg = 10;
   EXPECT_LT(make_relief(figure(), options)->report.height_mm, plain);
+}
+
+// Other instructions give the very same relief; the bound for other compilers and targets is 1e-5 of the height, which
+// scripts/compare-builds measures.
+TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
+  const auto reliefs_of = [](bool is_allowed) {
+    const bool could = uses_avx2();
+    allow_avx2(is_allowed);
+    std::vector<std::vector<Vec3>> points;
+    for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
+      ReliefOptions options;
+      options.method = method;
+      options.height_mm = 2;
+      options.resolution_mm = 1;
+      const auto made = make_relief(test::torus(6000, 1.5, .4), options);
+      points.push_back(made ? made->solid.points : std::vector<Vec3>{});
+    }
+    allow_avx2(could);
+    return points;
+  };
+  const auto narrow = reliefs_of(false), wide = reliefs_of(true);
+  EXPECT_FALSE(narrow.front().empty());
+  EXPECT_EQ(narrow, wide);
 }
 
 TEST(MakeRelief, AToneCurveReplacesTheSaturation) {

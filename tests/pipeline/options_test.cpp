@@ -15,9 +15,19 @@ std::string complaint(const ReliefOptions& options) {
   return ok ? "" : ok.error().message();
 }
 
-TEST(Options, DefaultsAreValidAndThePapers) {
+TEST(Options, DefaultsAreValid) {
   const ReliefOptions options;
   EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(options.effective_method(), Method::layered);
+  EXPECT_EQ(options.effective_height_mm(), 5);
+}
+
+TEST(Options, OfThePapersMethodAreThePapers) {
+  ReliefOptions options;
+  options.alpha = 4;
+  EXPECT_EQ(complaint(options), "");
+  EXPECT_EQ(options.effective_method(), Method::paper);
+  EXPECT_FALSE(options.effective_height_mm());
   EXPECT_EQ(options.effective_alpha(), 4);
   EXPECT_EQ(options.effective_saturation(), .01);
   EXPECT_EQ(options.effective_detail(), .02);
@@ -80,15 +90,19 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   EXPECT_EQ(complaint(options), "plate: expected outline rectangle, round or ellipse, found circle");
   options.outline = Outline::ellipse;
   options.plate_mm = Vec2(200, 81);
+  options.shift_mm = Vec2(5, 0);
   EXPECT_EQ(complaint(options), "");
+  options.plate_mm.reset();
+  EXPECT_EQ(complaint(options), "shift: expected a size of the plate with it, diameter or plate");
 }
 
 TEST(Options, MethodsHaveWhatTheyNeed) {
   ReliefOptions options;
   options.method = Method::gradient;
-  EXPECT_EQ(complaint(options), "method: expected a height with method gradient");
-  options.height_mm = 3;
   EXPECT_EQ(complaint(options), "");
+  options.alpha = 4;
+  EXPECT_EQ(complaint(options), "alpha: expected method paper with it, found gradient");
+  options.alpha.reset();
   options.detail = .1;
   EXPECT_NE(complaint(options).find("detail"), std::string::npos);
 }

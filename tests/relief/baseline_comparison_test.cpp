@@ -29,9 +29,11 @@ struct Figure {
 
   Surface surface;
   std::vector<PointLayers> layers = normal_layers(surface.points, surface.normals);
-  HeightCorrection correction{surface, jump_weights(surface)};
+  std::vector<float> weights = jump_weights(surface);
+  HeightCorrection correction{surface, weights};
   HeightSystem system = system_of(surface);
-  BaselineComparison comparison{{surface, layers, correction, system}};
+  JumpLift jump_lift = JumpLift::find({surface, layers, weights, system});
+  BaselineComparison comparison{{surface, layers, correction, system, jump_lift}};
 };
 
 Cloud shell() {

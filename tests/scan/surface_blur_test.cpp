@@ -46,6 +46,12 @@ TEST(SurfaceBlur, DoesNotReachASheetBehind) {
   for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(values[i].x(), both.points[i].z(), 1e-6);
 }
 
+TEST(SurfaceBlur, HasFewCellsForFewPoints) {
+  const std::vector<Vec3> four = {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}, {1, 1, .5}};
+  EXPECT_LE(SurfaceBlur(four, 1e-3).number_of_cells(), 1U << 16);
+  EXPECT_GT(SurfaceBlur(test::sphere(4096, 1).points, 1e-3).number_of_cells(), 1U << 23);
+}
+
 TEST(SurfaceBlur, TakesAnyWidthAndExtent) {
   Cloud line = test::sheet(100, 1, 0);
   for (Vec3& p : line.points) p.y() = 1e6 * p.x();

@@ -1,23 +1,25 @@
-// Milliseconds from a slider's event to the new picture on screen, in Chromium at 1280 x 800.
+// Milliseconds from an event of the mouse to the picture on screen that shows it, in Chromium at 1280 x 800.
 //   node apps/studio/bench/latency.mjs SCAN...
-// A movement is 150 events, each sent when the picture of the one before is there.
+// A movement is a drag of 4 seconds with 60 events a second, which waits for no picture: what comes while a picture is
+// made is shown by the next one.
 import path from "node:path";
 import {EngineProcess, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
 
+const SECONDS = 4, EVENTS_PER_SECOND = 60;
+// The sliders by their names, today's and former ones; a drag goes over these shares of a slider or of the picture.
 const MOVEMENTS = {
-  "height, locked": {slider: "Height", from: 300, to: 500},
-  "saturation, height locked": {slider: "Saturation", from: 100, to: 400},
-  "detail, height locked": {slider: "Detail", from: 100, to: 500},
-  "detail, height free": {slider: "Detail", from: 100, to: 500, isFree: true},
-  light: {light: true},
+  height: {slider: /^Height$/, from: 0.45, to: 0.6},
+  detail: {slider: /^(Fine d|D)etail$/, from: 0.1, to: 0.5},
+  width: {slider: /^(Longer side|Width)$/, from: 0.5, to: 0.65},
+  light: {tool: "Light", from: 0.3, to: 0.7},
+  orbit: {tool: "Orbit", from: 0.45, to: 0.6},
 };
 
 const found = await findBrowser();
 if (found.missing) throw new Error(found.missing);
 const browser = await found.launch();
 const row = (cells) => console.log(`| ${cells.join(" | ")} |`);
-const columns = ["scan, visible points", "movement", "p50", "p95", "engine: heights", "normals", "picture", "wire",
-  "page", "pixels"];
+const columns = ["scan, visible points", "movement", "p50", "p95", "pictures/s", "pixels"];
 row(columns);
 row(columns.map(() => "---"));
 for (const scan of process.argv.slice(2)) await measure(scan);
@@ -28,53 +30,57 @@ async function measure(scan) {
   const page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
   await page.goto(engine.address);
   await page.getByText(/points.*height/).waitFor({timeout: 120000});
-  await page.waitForTimeout(2000);
+  await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await page.waitForTimeout(4000);
   const points = (await page.getByRole("contentinfo", {name: "Numbers"}).innerText()).match(/[\d,]+/)[0];
   for (const [name, movement] of Object.entries(MOVEMENTS)) {
-    if (movement.isFree) await page.getByRole("button", {name: "Lock the height"}).click();
-    await page.waitForTimeout(1000);
-    const times = await page.evaluate(run, movement);
-    if (movement.isFree) await page.getByRole("button", {name: "Lock the height"}).click();
-    const at = (key, share) => times.map((t) => t[key]).sort((a, b) => a - b)[Math.floor(times.length * share)];
-    const ms = (x) => x.toFixed(1), mid = (key) => at(key, 0.5);
-    const rest = mid("all") - mid("heights") - mid("normals") - mid("picture") - mid("wire");
-    row([`${path.basename(scan, path.extname(scan))}, ${points}`, name, ms(mid("all")), ms(at("all", 0.95)),
-      ...["heights", "normals", "picture", "wire"].map((key) => ms(mid(key))), ms(rest), mid("pixels")]);
+    const {events, pictures, pixels} = await drag(page, movement);
+    const times = latencies(events, pictures), at = (share) => times[Math.floor(times.length * share)].toFixed(0);
+    row([`${path.basename(scan, path.extname(scan))}, ${points}`, name, at(0.5), at(0.95),
+      (pictures.length / SECONDS).toFixed(0), pixels]);
   }
   await page.close();
   await engine.stop();
   removeFolder(state);
 }
 
-// Runs in the page.
-async function run({slider, from, to, light}) {
-  const stage = document.querySelector("#stage"), EVENTS = 150, times = [];
-  const input = slider && document.querySelector(`input[type=range][aria-label="${slider}"]`);
-  const box = stage.getBoundingClientRect();
-  const pointer = (type, x, y) => stage.dispatchEvent(
-    new PointerEvent(type, {bubbles: true, pointerId: 1, clientX: box.left + x, clientY: box.top + y}));
-  stage.setPointerCapture = () => {};
-  if (light) pointer("pointerdown", box.width / 3, box.height / 3);
-  for (let i = 0; i < EVENTS; ++i) {
-    const share = 1 - Math.abs(1 - 2 * i / EVENTS), start = performance.now();
-    const drawn = new Promise((resolve) =>
-      stage.addEventListener("picture", (event) => resolve(event.detail), {once: true}));
-    if (light) pointer("pointermove", box.width * (0.3 + 0.4 * share), box.height * (0.3 + 0.1 * share));
-    else {
-      input.value = Math.round(from + (to - from) * share);
-      input.dispatchEvent(new Event("input", {bubbles: true}));
-    }
-    const late = new Promise((_, reject) => setTimeout(() => reject(new Error("no picture came")), 5000));
-    const {about} = await Promise.race([drawn, late]);
-    // The frame after the one that shows the picture begins when that one is on its way to the screen.
-    await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
-    const [wire] = performance.getEntriesByType("resource").filter(({name}) => name.endsWith("api/frame")).slice(-1);
-    performance.clearResourceTimings();
-    const heights = about.heights_ms + about.detail_ms, normals = about.normals_ms, picture = about.drawing_ms;
-    times.push({all: performance.now() - start, heights, normals, picture, pixels: about.width * about.height,
-      wire: wire ? wire.duration - heights - normals - picture : NaN});
+async function drag(page, {slider, tool, from, to}) {
+  if (tool) await page.getByRole("radio", {name: tool, exact: true}).click();
+  const target = tool ? page.locator("#stage") : page.getByRole("slider", {name: slider});
+  await target.scrollIntoViewIfNeeded();
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  const box = await target.boundingBox();
+  const grip = tool ? from : await target.evaluate((range) => range.value / range.max); // where the thumb is
+  const place = (share) => [box.x + box.width * share, box.y + box.height / 2];
+  await page.mouse.move(...place(grip));
+  await page.mouse.down();
+  await page.evaluate(listen, tool ? "pointermove" : "input");
+  const begin = performance.now();
+  for (let i = 0; i < SECONDS * EVENTS_PER_SECOND; ++i) {
+    const wait = begin + 1000 * i / EVENTS_PER_SECOND - performance.now();
+    if (wait > 0) await new Promise((resolve) => setTimeout(resolve, wait));
+    const share = from + (to - from) * (0.5 - 0.5 * Math.cos(i / EVENTS_PER_SECOND * Math.PI)); // there and back in 2 s
+    await page.mouse.move(...place(share));
   }
-  if (light) pointer("pointerup", 0, 0);
-  else input.dispatchEvent(new Event("change", {bubbles: true}));
-  return times.slice(10);
+  const heard = await page.evaluate(() => window.heard);
+  await page.mouse.up();
+  return heard;
+}
+
+// Runs in the page: keeps the times of events, and of pictures with that of the newest event that each shows.
+function listen(type) {
+  const heard = window.heard = {events: [], pictures: [], pixels: 0};
+  addEventListener(type, (event) => heard.events.push(event.timeStamp), {capture: true});
+  document.querySelector("#stage").addEventListener("picture", ({detail: {about, ms}}) => {
+    const shows = performance.now() - ms;
+    heard.pixels = about.width * about.height;
+    // The frame after the one that shows the picture begins when that one is on its way to the screen.
+    requestAnimationFrame(() => setTimeout(() => heard.pictures.push({shows, at: performance.now()})));
+  });
+}
+
+// Returns for each event how long it took until a picture showed it, sorted.
+function latencies(events, pictures) {
+  const times = events.map((event) => pictures.find(({shows}) => shows >= event)?.at - event);
+  return times.filter(Number.isFinite).sort((a, b) => a - b);
 }

@@ -8,6 +8,7 @@ const engine = await new EngineProcess(state, "--linger", "600").ready();
 
 async function open(colorScheme) {
   const page = await (await browser.newContext({viewport: {width: 1280, height: 800}, colorScheme})).newPage();
+  await page.addInitScript(() => localStorage.setItem("toured", "yes"));
   await page.goto(engine.address);
   return page;
 }
@@ -21,16 +22,15 @@ const page = await open("light");
 await take(page, "start");
 await page.getByRole("button", {name: /green man/i}).click();
 await page.getByText(/points.*height/).waitFor({timeout: 60000});
-await page.getByRole("spinbutton", {name: "Height in mm"}).fill("5");
-await page.keyboard.press("Enter");
-await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Smooth skin, crisp folds");
+await page.getByRole("radio", {name: "Coin"}).click();
 await page.getByRole("radio", {name: "Bronze"}).click();
+await page.waitForTimeout(8000); // until each kind of work has its picture
 await take(page, "main");
 await page.close();
 
 const dark = await open("dark");
 await dark.getByText(/points.*height/).waitFor({timeout: 60000});
-await dark.getByRole("radio", {name: "Plaster"}).click();
+await dark.getByRole("radio", {name: "Plaque"}).click();
 await dark.getByRole("button", {name: "Light table"}).click();
 await take(dark, "light-table");
 await browser.close();

@@ -1,10 +1,10 @@
 // The engine, and what it said of itself when the page began: options with their ranges and defaults, names of
 // views, materials and stages. The page spells none of these itself.
 
-import {NativeEngine} from "./engine.js";
+import {Engine} from "./engine.js";
 import {toast} from "./messages.js";
 
-export const engine = new NativeEngine();
+export const engine = new Engine();
 
 async function ask() {
   try {

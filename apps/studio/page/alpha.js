@@ -15,7 +15,7 @@ export class AlphaRow {
     this.input.onchange = () => this.take();
     this.help = help[0].toUpperCase() + help.slice(1);
     this.element = make("label", {class: "pair"}, make("span", {}, "Height coefficient"), this.input);
-    $("#shape").before(this.element);
+    $("#tuning").before(this.element);
   }
 
   take() {

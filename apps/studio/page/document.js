@@ -4,12 +4,12 @@
 import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
-const START = {view: "auto", height: 4, method: "layered",
+const START = {view: "auto", height: 5, method: "layered",
   mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",
-  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "base", "wrap", "form",
+  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "shift", "base", "wrap", "form",
   "tool", "finish", "points", "resolution", "tolerance", "triangles", "draft"];
 
 export const FIRST = Object.freeze({
@@ -165,12 +165,20 @@ export function projectOf(step) {
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 
+const BY_METHOD = ["saturation", "detail", "boundary"]; // whose defaults differ
+
+// Returns the height that `relievo make` gives a relief without one.
+const usualHeight = ({form, width}) => (form === "lithophane" ? 2.4 : 0.05 * (width ?? defaultOf("width") ?? 100));
+
 // Returns the step that a project file describes, as the engine has read it.
 export function stepOfProject({input, options: {alpha, ...options} = {}, studio = {}}) {
-  const step = {...FIRST, input, options: {...FIRST.options, ...options}};
-  if (alpha !== undefined) {
+  const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
+  const rules = Object.fromEntries(BY_METHOD.map((name) => [name, defaultOf(name, method)]));
+  const usual = {...FIRST.options, ...rules, method, height: usualHeight(options)};
+  const step = {...FIRST, input, options: {...usual, ...options}};
+  if (options.height === undefined && method === "paper") {
     step.isHeightLocked = false;
-    step.u = uOfAlpha(alpha, step.options.saturation);
+    step.u = uOfAlpha(alpha ?? defaultOf("alpha"), step.options.saturation);
   }
   if (typeof studio.isHeightLocked === "boolean") step.isHeightLocked = studio.isHeightLocked;
   if (Number.isFinite(studio.u) && studio.u >= 0 && studio.u <= MOST_U) step.u = studio.u;

@@ -1,20 +1,23 @@
-// The engine as the page sees it. Everything that knows HTTP is in this file, so that an engine in WebAssembly
-// can take its place.
+// The engine as the page sees it, in the program `relievo studio`. Everything that knows HTTP is in this file. In the page
+// that is one file alone, apps/web/page/engine.js takes its place.
 //
 // An Engine has
 //   about()                     -> version, options, readable, endings, formats, views, materials, stages, curve,
 //                                  samples, recent, first (what the program was started with), notice (about the place
-//                                  where work is kept), most_upload (bytes)
-//   follow(onStatus, onLost)       calls back with each new status of each open document, in all tabs, and once with
-//                                  {run} alone when an engine is found; onLost when it has gone
+//                                  where work is kept), most_upload (bytes), limits (texts: what this engine cannot do)
+//   addressOf(file)             -> the address of one of the page's pictures
+//   takesSeveral                   whether upload() takes several files together, of which one refers to the others
+//   follow(onStatus, onLost, say)  calls back with each new status of each open document, in all tabs, and once with
+//                                  {run} alone when an engine is found; onLost when it has gone; say with a text for
+//                                  people
 //   find(input)                 -> {document, input, is_there, kept}: the document of a scan, and its state
 //                                  if it is kept
 //   open(input, view)              makes that scan's document the one that all of the following concern
-//   upload(file)                -> input for a file of the browser; readProject(file) -> {input, is_there,
+//   upload(files)               -> input for files of the browser; readProject(file) -> {input, is_there,
 //                                  options, studio}
 //   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise, mode, points} as on the command line
 //   facts(), suggestViews()     -> facts about the model; {view, up} of each side, best first
-//   frame(request), scan(request)-> {image: ImageData, about}
+//   frame(request, {signal}), scan(request)-> {image: ImageData, about}; a picture that is aborted is cancelled
 //   profile(request)            -> heights in mm
 //   reach(options)              -> the largest height in mm
 //   check(options)                 throws unless the options can be read
@@ -25,12 +28,9 @@
 //   keep(document, state, isMoving), keepPicture(document, picture), leave()
 // and throws EngineError with a text for people.
 
-export class EngineError extends Error {
-  constructor(kind, text) {
-    super(text);
-    this.kind = kind;
-  }
-}
+import {EngineError, TAB} from "./engine_base.js";
+
+export {EngineError, TAB};
 
 async function complain(response) {
   let error = {kind: "request", text: `The engine answered ${response.status}.`};
@@ -57,8 +57,8 @@ async function send(path, options) {
 const post = (path, body, options = {}) =>
   send(`api/${path}`, {method: "POST", body: JSON.stringify(body), ...options});
 
-async function picture(path, request) {
-  const response = await post(path, request);
+async function picture(path, request, options) {
+  const response = await post(path, request, options);
   const about = JSON.parse(response.headers.get("X-Relievo"));
   const pixels = new Uint8ClampedArray(await response.arrayBuffer());
   return {image: new ImageData(pixels, about.width, about.height), about};
@@ -66,17 +66,20 @@ async function picture(path, request) {
 
 const ASK = "status?"; // of a new tab to the one that has the stream
 
-export const TAB = Math.random().toString(36).slice(2); // the name of this page among those that are open
-
-export class NativeEngine {
+export class Engine {
   document = "";
+  takesSeveral = false;
+
+  addressOf(file) {
+    return file;
+  }
 
   post(path, body = {}, options = {}) {
     return post(path, {document: this.document, ...body}, options);
   }
 
   async about() {
-    return (await send("api/about")).json();
+    return {limits: [], ...(await (await send("api/about")).json())};
   }
 
   // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab that
@@ -120,7 +123,7 @@ export class NativeEngine {
   }
 
   // Sends the bytes of a file of the browser.
-  async upload(file) {
+  async upload([file]) {
     const answer = await send(`api/upload?name=${encodeURIComponent(file.name)}`, {method: "POST", body: file});
     return (await answer.json()).input;
   }
@@ -145,8 +148,8 @@ export class NativeEngine {
     return (await (await this.post("views")).json()).views;
   }
 
-  frame(request) {
-    return picture("frame", {document: this.document, ...request});
+  frame(request, options) {
+    return picture("frame", {document: this.document, ...request}, options);
   }
 
   scan(request) {

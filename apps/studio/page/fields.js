@@ -3,15 +3,16 @@
 import {optionOf} from "./about.js";
 import {spread} from "./controls.js";
 
-// `hand` is what the slider spans. A number may be typed within the whole range of the option.
+// Labels say what the eye sees; `symbol` is that of the paper, for the tip. `hand` is what the slider spans. A
+// number may be typed within the whole range of the option.
 const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
-  saturation: {label: "Saturation", hand: [0, 4], decimals: 3, spread: spread.root, place: "#shape"},
-  detail: {label: "Detail", hand: [0, 0.5], decimals: 3, spread: spread.root, place: "#shape"},
-  boundary: {label: "Soft rim", hand: [0.25, 60], decimals: 1, spread: spread.log, place: "#shape"},
-  steepest: {label: "Steepest wall", hand: [5, 85], decimals: 0, spread: spread.linear, place: "#shape"},
-  steps: {label: "Steps", hand: [0, 0.95], decimals: 2, spread: spread.linear, place: "#shape"},
-  width: {label: "Width", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#plate-sliders"},
+  width: {label: "Longer side", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#shape"},
+  detail: {label: "Fine detail", symbol: "γ", hand: [0, 0.5], decimals: 3, spread: spread.root, place: "#shape"},
+  saturation: {label: "Crispness", symbol: "β", hand: [0, 4], decimals: 3, spread: spread.root, place: "#shape"},
+  boundary: {label: "Soft edge", hand: [0.25, 60], decimals: 1, spread: spread.log, place: "#shape"},
+  steepest: {label: "Steepest wall", hand: [5, 85], decimals: 0, spread: spread.linear, place: "#tuning"},
+  steps: {label: "Kept steps", hand: [0, 0.95], decimals: 2, spread: spread.linear, place: "#tuning"},
   margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
   corner: {label: "Corner radius", hand: [0.1, 100], decimals: 1, spread: spread.root, place: "#plate-sliders"},
   thickness: {label: "Thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
@@ -28,5 +29,6 @@ const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
 export const FIELDS = Object.fromEntries(Object.entries(SLIDERS).map(([name, slider]) => {
   const {unit, help, min, max} = optionOf(name);
-  return [name, {...slider, ...UNITS[unit], min, max, help: sentence(help)}];
+  const tip = slider.symbol ? `${sentence(help)}. In the paper: ${slider.symbol}` : sentence(help);
+  return [name, {...slider, ...UNITS[unit], min, max, help: tip}];
 }));

@@ -1,5 +1,14 @@
 // Handles keys, and files that are dropped on the page.
 
+// Panels stay open or closed as they were left.
+export function keepPanels(panels, storage) {
+  for (const panel of panels) {
+    const key = `panel:${panel.querySelector("summary").textContent.trim()}`, was = storage.getItem(key);
+    if (was) panel.open = was === "open";
+    panel.addEventListener("toggle", () => storage.setItem(key, panel.open ? "open" : "closed"));
+  }
+}
+
 // Arrow keys move within a radio group.
 export function takeArrowKeys(group) {
   group.onkeydown = (event) => {
@@ -12,7 +21,7 @@ export function takeArrowKeys(group) {
   };
 }
 
-// Calls `open` with a file that is dropped; shows the veil while a file is dragged over the page.
+// Calls `open` with the files that are dropped; shows the veil while a file is dragged over the page.
 export function takeDrops(veil, open) {
   const show = (isShown) => (event) => {
     if (!event.dataTransfer?.types.includes("Files")) return;
@@ -23,7 +32,7 @@ export function takeDrops(veil, open) {
   addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
   addEventListener("drop", (event) => {
     show(false)(event);
-    open(event.dataTransfer?.files[0]);
+    open([...(event.dataTransfer?.files ?? [])]);
   });
 }
 

@@ -7,32 +7,45 @@ import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions} from "./document.js";
 import {ExportDialog} from "./export.js";
 import {FIELDS} from "./fields.js";
-import {takeDrops, takeKeys} from "./inputs.js";
+import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 import {Keeper} from "./keeper.js";
 import {lengthText, shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
+import {KindCards} from "./kinds.js";
 import {PieceRows} from "./pieces.js";
+import {Placing} from "./placing.js";
 import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
 import {Projects} from "./projects.js";
 import {Reach} from "./reach.js";
-import {showNumbers, showSection} from "./readouts.js";
+import {showNumbers, showSection, showToolReach} from "./readouts.js";
+import {ScanPanel} from "./scan_panel.js";
+import {ScenePanel} from "./scene_panel.js";
 import {Stage} from "./stage.js";
 import {nameOf, showRecent, showSamples, smallPicture} from "./start.js";
+import {Tour} from "./tour.js";
 import {ViewDialog, viewName} from "./views.js";
 
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
 
 const doc = new Document((before) => changed(before));
+const placing = new Placing({doc, shownWidth, setWidth: (width) => slide("width", width), say: toast});
 const chooseView = () => engine.chooseView(viewOf(doc.now)).catch(failed);
-const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed, viewRests: chooseView});
+const stage = new Stage(engine, doc,
+  {picture: pictured, section: showSection, failed, placing, viewRests: chooseView});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
 const modes = new Modes({stage, doc});
 const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth});
+const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
+const kinds = new KindCards({engine, doc, isAtRest});
+const scanPanel = new ScanPanel({doc});
+const tour = new Tour();
+const scenePanel = new ScenePanel({say: toast, open: (models) =>
+  projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed)});
 
 const keeper = new Keeper({
   send: (...state) => engine.keep(...state), storage: localStorage, prefix: `${location.pathname}document:`,
@@ -134,14 +147,15 @@ function showDocument() {
   const {options, isHeightLocked, material, input} = doc.now;
   for (const [name, slider] of Object.entries(sliders)) slider.show(options[name] ?? shownWidth());
   showWidth();
-  sliders.saturation.disabled = options.tone !== "";
+  const isShaped = options.form !== "lithophane"; // whose thickness the depth alone decides
+  for (const name of ["detail", "boundary", "steepest", "steps"]) sliders[name].disabled = !isShaped;
+  sliders.saturation.disabled = !isShaped || options.tone !== "";
   lock.setAttribute("aria-pressed", isHeightLocked);
   curve.show({tone: options.tone});
   $("#method").value = options.method;
-  $("#crop").value = options.crop;
-  $("#crumbs").checked = options.crumbs === "keep";
-  showDenoise(options.denoise);
   pieces.show();
+  kinds.show();
+  scanPanel.show();
   sliders.corner.disabled = options.outline !== "round";
   sliders.margin.disabled = options.outline === "none";
   $("#undo").disabled = !doc.canUndo;
@@ -150,15 +164,6 @@ function showDocument() {
   modes.showMaterial(material);
   $("#title").textContent = nameOf(input);
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
-}
-
-function showDenoise(denoise) {
-  const isMeasured = denoise === "auto", noise = isMeasured ? facts?.noise ?? 0 : Number(denoise);
-  const slider = $("#denoise");
-  slider.value = noise;
-  slider.style.setProperty("--filled", `${100 * noise}%`);
-  $("#denoise-value").textContent = noise.toFixed(2);
-  $("#denoise-auto").checked = isMeasured;
 }
 
 // Says once that work is not kept, unless the engine is gone, which is said elsewhere.
@@ -202,6 +207,8 @@ function pictured(frame, ms, isFine) {
   if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
   if (isFine) reach.pictured(frame);
+  if (isFine) kinds.pictured(stage.model);
+  if (isFine) showToolReach(frame.tool);
   const {detail} = doc.now.options;
   const words = Object.entries({alpha: frame.alpha, beta: frame.beta, gamma: detail, u: frame.u})
     .map(([name, value]) => `${name} ${number(value)}`);
@@ -227,7 +234,9 @@ function progress(status) {
 function begun() {
   facts = shownView = last = null;
   $("#picture").width = $("#before").width = 1;
-  $("#remarks").textContent = "";
+  scanPanel.tell(null);
+  scenePanel.show([]);
+  kinds.clear();
   reach.clear();
   $("#numbers").textContent = "";
   stage.isReady = false;
@@ -247,7 +256,6 @@ async function arrived(status) {
   } catch (error) {
     return failed(error);
   }
-  showDenoise(doc.now.options.denoise);
   shownView = status.shown;
   if (!isSameView(shownView, viewOf(doc.now))) doc.note({options: shownView}); // another page has chosen it
   showDocument();
@@ -255,7 +263,9 @@ async function arrived(status) {
   stage.model = status.model;
   stage.await(false);
   stage.share = 1;
-  $("#remarks").textContent = facts.remarks.join("  ");
+  scanPanel.tell(facts);
+  scenePanel.show(facts.models);
+  tour.offer();
   $("#save").hidden = $("#export").hidden = false;
   stage.invalidate();
 }
@@ -269,6 +279,7 @@ function refused() {
 let reopening = 0;
 function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
+  if (error.kind === "option" && stage.drag?.tool === "place") return placing.squeeze();
   if (error.kind !== "closed") return toast(error.message);
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.reopen().catch(failed), 200);
@@ -278,7 +289,7 @@ function openInput(input, work) {
   return opened.open(input, work).catch(failed);
 }
 
-const openFile = (file) => file && projects.openFile(file).catch(failed);
+const openFiles = (files) => projects.openFiles(files).catch(failed);
 
 // Shows that bytes are on their way to the engine or back, which takes a moment for large scans.
 async function take(bytes) {
@@ -316,6 +327,7 @@ async function showRecentNow() {
 // ------------------------------------------------------------------------------------------------------- wiring
 
 function wire() {
+  keepPanels(document.querySelectorAll(".inspector details"), localStorage);
   const click = (selector, action) => ($(selector).onclick = action);
   click("#undo", () => doc.undo());
   click("#redo", () => doc.redo());
@@ -323,24 +335,20 @@ function wire() {
   click("#drop", () => $("#file").click());
   click("#save", saveProject);
   click("#export", () => exporting.open());
-  click("#help", () => $("#help-dialog").showModal());
+  click("#help", () => help.showModal());
+  const help = $("#help-dialog");
+  help.onclose = () => help.returnValue === "tour" && facts && tour.start();
   click("#home", () => showStart(true));
   click("#back", () => showStart(false));
   click("#cancel", () => engine.cancel().catch(failed));
   click("#choose-view", () => views.show(doc.now.options));
   $("#file").onchange = (event) => {
-    openFile(event.target.files[0]);
+    openFiles([...event.target.files]);
     event.target.value = "";
   };
   $("#unit").onchange = (event) => chooseUnit(event.target.value);
   $("#method").onchange = (event) => changeMethod(event.target.value);
-  $("#crop").onchange = (event) => doc.change({options: {crop: event.target.value.replaceAll(" ", "")}});
-  $("#crumbs").onchange = (event) => doc.change({options: {crumbs: event.target.checked ? "keep" : "drop"}});
-  $("#denoise").oninput = (event) => showDenoise(event.target.value);
-  $("#denoise").onchange = (event) => doc.change({options: {denoise: event.target.value}});
-  $("#denoise-auto").onchange = (event) =>
-    doc.change({options: {denoise: event.target.checked ? "auto" : $("#denoise").value}});
-  takeDrops($("#veil"), openFile);
+  takeDrops($("#veil"), openFiles);
   takeKeys({
     commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
     isReady: () => facts && !$("#studio").hidden, hold: (isHeld) => stage.hold(isHeld),
@@ -352,8 +360,9 @@ const COMMANDS = {
   s: () => facts && saveProject(), e: () => facts && exporting.open(),
 };
 const KEYS = {
-  l: () => modes.setTool("light"), r: () => modes.setTool("model"), o: () => modes.setTool("turn"), h: () => modes.setTool("pan"),
-  s: () => modes.setTool("section"), m: () => modes.setTool("measure"), f: () => stage.fit(),
+  l: () => modes.setTool("light"), r: () => modes.setTool("model"), o: () => modes.setTool("turn"),
+  h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
+  m: () => modes.setTool("measure"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
   Escape: () => doc.cancelStroke() || modes.setTable(false),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
@@ -377,9 +386,10 @@ async function start() {
   chooseUnit($("#unit").value);
   try {
     $("#readable").textContent = about.readable;
+    $("#limits").replaceChildren(...about.limits.map((text) => make("li", {}, text)));
     $("#file").accept = [...about.endings, ".zip", ".relievo"].join();
     showSamples(openInput);
-    engine.follow((status) => opened.followed(status), engineLost);
+    engine.follow((status) => opened.followed(status), engineLost, toast);
     await resume(about);
   } catch (error) {
     failed(error);

@@ -1,7 +1,7 @@
 // Measures on the picture from the front: dimensions of the piece, the height under the pointer, distances, and the
 // line of the section. Places are in mm from the middle of the piece.
 
-import {make} from "./controls.js";
+import {clamp, make} from "./controls.js";
 import {lengthText, shown} from "./lengths.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
@@ -10,21 +10,22 @@ const GAP = 14; // pixels from the piece to its dimensions
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
-// Returns a line between two pixels with the text in its middle, on a ground that keeps it readable.
-function labelled([x1, y1], [x2, y2], text, kind) {
-  const x = (x1 + x2) / 2, y = (y1 + y2) / 2, width = 7.2 * text.length + 10;
+// Returns a line between two pixels with the text in its middle, on a ground that keeps it readable, within the picture.
+function labelled([x1, y1], [x2, y2], text, kind, picture) {
+  const width = 7.2 * text.length + 10, x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
+  const y = clamp((y1 + y2) / 2, 11, picture.height - 11);
   const label = make("text", {x, y: y + 4, "text-anchor": "middle"}, text);
   return [make("line", {class: kind, x1, y1, x2, y2}),
     make("rect", {class: "ground", x: x - width / 2, y: y - 10, width, height: 20, rx: 5}), label];
 }
 
 // Returns a dimension with its two end strokes.
-function dimension(from, to, text) {
+function dimension(from, to, text, picture) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]], size = Math.hypot(dx, dy) || 1;
   const [ax, ay] = [-dy / size * 5, dx / size * 5];
   const strokes = [from, to].map(([x, y]) =>
     make("line", {class: "dimension", x1: x - ax, y1: y - ay, x2: x + ax, y2: y + ay}));
-  return [...strokes, ...labelled(from, to, text, "dimension")];
+  return [...strokes, ...labelled(from, to, text, "dimension", picture)];
 }
 
 export class Measure {
@@ -63,32 +64,41 @@ export class Measure {
 
   // Returns the marks of plate and relief.
   dimensionMarks() {
-    const {about} = this.stage;
+    const {about, size: picture} = this.stage;
     if (!about) return [];
-    const [width, height] = about.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
+    const [width, height, thickness] = about.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
     const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
-    const marks = [...dimension([left, bottom + GAP], [right, bottom + GAP], withUnit(width)),
-      ...dimension([right + GAP, bottom], [right + GAP, top], withUnit(height))];
+    const marks = [...dimension([left, bottom + GAP], [right, bottom + GAP], withUnit(width), picture),
+      ...dimension([right + GAP, bottom], [right + GAP, top], withUnit(height), picture),
+      ...labelled([left + 60, top - GAP], [left + 60, top - GAP], `${withUnit(thickness)} thick`, "none", picture)];
     if (!about.relief_mm) return marks;
     const [low, high] = about.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);
     if (x1 - left < 2 && right - x2 < 2) return marks; // there is no ground around the relief
     return [make("rect", {class: "bounds", x: x1, y: y2, width: x2 - x1, height: y1 - y2}),
-      ...dimension([x1, y2 - 8], [x2, y2 - 8], withUnit(high[0] - low[0])),
-      ...dimension([x1 - 8, y1], [x1 - 8, y2], withUnit(high[1] - low[1])), ...marks];
+      ...dimension([x1, y2 - 8], [x2, y2 - 8], withUnit(high[0] - low[0]), picture),
+      ...dimension([x1 - 8, y1], [x1 - 8, y2], withUnit(high[1] - low[1]), picture), ...marks];
   }
 
   marks() {
-    const marks = this.dimensionMarks(), {line, pointer} = this;
+    const marks = this.dimensionMarks(), {angle} = this.stage.drag ?? {};
+    if (angle) {
+      const middle = this.stage.toPixels(this.stage.figureMiddle());
+      const text = `${Math.round(Math.abs(angle))}° to the ${angle > 0 ? "left" : "right"}`;
+      marks.push(...labelled(middle, middle, text, "none", this.stage.size));
+    }
+    if (this.stage.tool === "place") return marks;
+    const {line, pointer, stage: {size}} = this;
     if (line) {
       const [from, to] = [line.from, line.to].map((place) => this.stage.toPixels(place));
       const rise = line.heights ? `, ${line.heights[1] >= line.heights[0] ? "+" : "−"}` +
         withUnit(Math.abs(line.heights[1] - line.heights[0])) : "";
-      marks.push(...this.lineMarks(line), ...labelled(from, to, withUnit(length(line.from, line.to)) + rise, "cut"));
+      marks.push(...this.lineMarks(line), ...labelled(from, to, withUnit(length(line.from, line.to)) + rise,
+        "cut", size));
     }
     if (pointer?.height !== undefined) {
       const [x, y] = this.stage.toPixels(pointer.place), text = `Height ${withUnit(pointer.height)}`;
       marks.push(make("circle", {class: "point", cx: x, cy: y, r: 3}),
-        ...labelled([x, y - 20], [x, y - 20], text, "none"));
+        ...labelled([x, y - 20], [x, y - 20], text, "none", size));
     }
     return marks;
   }

@@ -14,9 +14,10 @@ export function toast(text, isLasting = false) {
   if (!isLasting) timer = setTimeout(hideToast, 8000);
 }
 
-// A line with a button that does something about it.
-export function offer(text, label, action) {
+// A line with a button that does something about it, for so long.
+export function offer(text, label, action, ms = Infinity) {
   toast(text, true);
+  if (ms < Infinity) timer = setTimeout(hideToast, ms);
   $("#toast").append(" ", make("button", {onclick: action}, label));
 }
 

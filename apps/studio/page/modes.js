@@ -3,7 +3,7 @@
 import {about} from "./about.js";
 import {$, check, make} from "./controls.js";
 import {takeArrowKeys} from "./inputs.js";
-import {TABLE_LIGHTS} from "./stage.js";
+import {TABLE_LIGHTS} from "./lights.js";
 
 const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "true";
 

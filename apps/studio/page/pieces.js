@@ -1,34 +1,15 @@
-// The piece around the relief: kinds of work, and all options of the engine that are no sliders.
+// The rows of all options of the engine that are no sliders.
 
 import {optionOf} from "./about.js";
 import {$, make} from "./controls.js";
 import {FIRST, engineOptions} from "./document.js";
+import {KINDS, PLAIN, kindOf} from "./kinds.js";
 import {lengthText, millimetresPerUnit, parseLength, typedNumber} from "./lengths.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
-const PLAIN = {outline: "rectangle", diameter: null, plate: "", rim: null, "rim-height": null, "rim-bevel": null,
-  base: "plane", wrap: "none", form: "relief", draft: null};
-
-// The kinds of work: each sets these options when it is chosen, and shows these rows besides those of all kinds.
-export const KINDS = {
-  relief: {label: "Plaque", part: PLAIN, rows: ["plate", "base", "form"]},
-  coin: {label: "Coin or medal", part: {...PLAIN, outline: "circle", rim: 2}, rows: ["diameter", "rim", "rim-height",
-    "rim-bevel", "base"]},
-  die: {label: "Die", part: {...PLAIN, outline: "circle", rim: 2, form: "die", draft: 15},
-    rows: ["diameter", "rim", "rim-height", "rim-bevel", "draft"]},
-  shell: {label: "Shell around a body", part: {...PLAIN, wrap: "cylinder:turn=180"}, rows: ["plate", "wrap", "form"]},
-  lithophane: {label: "Lithophane", part: {...PLAIN, form: "lithophane", thickness: 0.8, height: 2.4}, rows: ["plate"]},
-};
-
-// Returns the kind of work that a document's options make.
-export function kindOf({form, wrap, rim, outline}) {
-  if (form === "lithophane" || form === "die") return form;
-  if (wrap !== "none") return "shell";
-  return rim || outline === "circle" ? "coin" : "relief";
-}
-
-const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size", rim: "Rim width",
+const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
+  shift: "Figure moved by", rim: "Rim width",
   "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
@@ -43,7 +24,7 @@ const SUGGESTED = {
     "sphere:diameter=80"],
   tool: ["ball:3", "ball:1", "flat:3", "v:60", "v:30:0.5"],
 };
-const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed"};
+const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed", shift: "0,0"};
 const UNITS = {MM: "mm", DEG: "°"};
 export const ROWS = Object.keys(LABELS);
 
@@ -66,26 +47,15 @@ function besides(name, value, {outline, diameter, plate}, shownWidth) {
   }
   const isFree = {diameter: value === "circle", plate: ["rectangle", "round", "ellipse"].includes(value)};
   if (name === "outline" && ((diameter && !isFree.diameter) || (plate && !isFree.plate)))
-    return {diameter: null, plate: "", width: shownWidth};
-  return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth} : {};
+    return {diameter: null, plate: "", shift: "", width: shownWidth};
+  return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, say, shownWidth}) {
     Object.assign(this, {engine, doc, say, shownWidth, rows: {}});
-    const kinds = Object.entries(KINDS).map(([value, {label}]) => make("option", {value}, label));
-    this.kind = make("select", {id: "kind", "aria-label": "Kind of work"}, ...kinds);
-    this.kind.onchange = () => this.choose(this.kind.value);
-    $("#kind-row").append(this.kind);
     for (const name of ROWS) $(PLACES[name]).append((this.rows[name] = this.row(name)).element);
-  }
-
-  // Begins another kind of work. A coin and its die have the same diameter.
-  choose(kind) {
-    const {part} = KINDS[kind], {diameter, width} = this.doc.now.options;
-    const size = diameter && part.outline === "circle" ? {diameter, width} : {width: width ?? this.shownWidth()};
-    this.doc.change({options: {...part, ...size}, ...(kind === "lithophane" ? {material: "porcelain"} : {})});
   }
 
   // Returns {element, input, isNumber, unit, min, max} of an option.
@@ -132,8 +102,7 @@ export class PieceRows {
 
   // Shows the document's values, but not in a field in which something is typed, unless it is that of option `entered`.
   show(entered = "") {
-    const {options} = this.doc.now, kind = kindOf(options);
-    this.kind.value = kind;
+    const {options} = this.doc.now, kind = kindOf(this.doc.now);
     for (const [name, {element, input, unit}] of Object.entries(this.rows)) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = name === "plate" ? plateAsShown(value) : value;

@@ -4,6 +4,10 @@ import {about} from "./about.js";
 import {$, download, fileSize} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer} from "./messages.js";
+import {sceneFile} from "./scene_panel.js";
+
+// Returns whether one of several files is a scan or scene that names the others.
+const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
 
 export class Projects {
   // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way.
@@ -16,14 +20,30 @@ export class Projects {
     };
   }
 
-  // Opens a scan or a project that was dropped or chosen.
-  async openFile(file) {
-    const most = about.most_upload;
-    if (file.size > most)
-      throw new Error(`${file.name} has ${fileSize(file.size)}: expected at most ${fileSize(most)}.`);
-    if (!file.name.endsWith(".relievo")) return this.open(await this.take(this.engine.upload(file)));
-    const project = await this.take(this.engine.readProject(file));
-    return this.openProject(project);
+  // Opens what was dropped or chosen: a project, a scan, perhaps of several files, or several scans as a scene.
+  async openFiles(files) {
+    if (!files.length) return null;
+    const most = about.most_upload, tooLarge = files.find(({size}) => size > most);
+    if (tooLarge)
+      throw new Error(`${tooLarge.name} has ${fileSize(tooLarge.size)}: expected at most ${fileSize(most)}.`);
+    if (files.length === 1 && files[0].name.endsWith(".relievo"))
+      return this.openProject(await this.take(this.engine.readProject(files[0])));
+    if (files.length === 1 || refersToOthers(files)) return this.openScan(files);
+    if (files.some(({name}) => /\.(relievo|zip)$/i.test(name)))
+      throw new Error("Several files at once: expected scans alone, to be put side by side.");
+    const models = [];
+    for (const file of files) models.push({file: (await this.take(this.engine.upload([file]))).path});
+    return this.openScene(models);
+  }
+
+  async openScan(files, work = null) {
+    if (files.length > 1 && !this.engine.takesSeveral)
+      throw new Error("Expected one file: put a .gltf and the files that it names into one ZIP archive.");
+    return this.open(await this.take(this.engine.upload(files)), work);
+  }
+
+  openScene(models, work = null) {
+    return this.openScan([sceneFile(models)], work);
   }
 
   async openProject(project) {
@@ -39,7 +59,7 @@ export class Projects {
   }
 
   async located(file) {
-    const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload(file));
+    const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload([file]));
     if (!hash || input.hash === hash) return this.open(input, work);
     offer(`${file.name} is not ${name} as it was when this work was kept.`, "Use it all the same",
       () => this.open(input, work).catch(this.failed));

@@ -25,6 +25,7 @@ export class Reach {
 
   // Called when things rest. The reach does not depend on the height: it is asked for when something else changes.
   async pictured(frame) {
+    if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
     const {height, ...rest} = engineOptions(this.doc.now), key = JSON.stringify(rest);
     if (key !== this.key) {
       this.key = key;

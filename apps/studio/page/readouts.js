@@ -21,6 +21,13 @@ export function showNumbers({about, ms, isFine, height, facts}) {
   $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
 
+// Says what the tool leaves standing, which is coloured on the piece.
+export function showToolReach(tool) {
+  $("#tool-reach").textContent = !tool ? "" :
+    `The tool reaches ${(100 * tool.share).toFixed(1)} % of the front, and leaves up to ` +
+    `${lengthText(tool.left_mm)} ${shown.unit}: orange to red on the piece.`;
+}
+
 // Returns round values between two, about so many.
 function ticks(low, high, count) {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough));

@@ -3,30 +3,15 @@
 
 import {$, clamp, make} from "./controls.js";
 import {engineOptions} from "./document.js";
+import {TABLE_LIGHTS, angles, degrees, direction} from "./lights.js";
 import {Measure} from "./measure.js";
-import {directionsOf, Turning} from "./turning.js";
+import {takePinches} from "./pinch.js";
+import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
+const FINISH_MS = 500; // and after which the finished piece is made
 const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
-export const TABLE_LIGHTS = [
-  {name: "Upper left", light: [-1, 1, 1]},
-  {name: "Upper right", light: [1, 1, 1]},
-  {name: "Raking, left", light: [-1, 0.12, 0.3]},
-  {name: "Raking, above", light: [0.1, 1, 0.3]},
-];
-
-const degrees = (radians) => radians * 180 / Math.PI;
-const radians = (angle) => angle * Math.PI / 180;
-
-// Converts azimuth and elevation in degrees to a direction, and back.
-const direction = (azimuth, elevation) => {
-  const flat = Math.cos(radians(elevation));
-  return [flat * Math.cos(radians(azimuth)), flat * Math.sin(radians(azimuth)), Math.sin(radians(elevation))];
-};
-const angles = ([x, y, z]) =>
-  ({azimuth: degrees(Math.atan2(y, x)), elevation: degrees(Math.atan2(z, Math.hypot(x, y)))});
-
 export function paint(canvas, image) {
   if (canvas.width !== image.width) canvas.width = image.width;
   if (canvas.height !== image.height) canvas.height = image.height;
@@ -45,12 +30,11 @@ export class Stage {
     this.camera = {...FRONT};
     this.tool = "light";
     this.share = 1; // of the pixels of a side, while things move
-    this.wanted = this.shown = this.fine = 0;
+    this.wanted = this.shown = this.fine = this.finished = 0;
     this.isReady = false;
     this.pixelsPerMm = 1;
     this.measure = new Measure(this);
     this.turning = new Turning(this);
-    this.turned = null; // directions of the view that is shown until it is prepared
     this.listen();
   }
 
@@ -64,7 +48,7 @@ export class Stage {
     const step = this.doc.now;
     const {material, light} = step;
     const request = {options: engineOptions(step), material, light, camera: this.camera, ...extra};
-    if (this.turned) request.turned = this.turned;
+    if (this.turning.shown) request.turned = this.turning.shown;
     if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
     return request;
   }
@@ -72,6 +56,7 @@ export class Stage {
   invalidate() {
     ++this.wanted;
     this.changedAt = performance.now();
+    this.unwanted?.abort(); // a picture at rest
     this.showBusy();
     this.pump();
   }
@@ -79,26 +64,20 @@ export class Stage {
   // Shows that another model is being prepared, and until then a coarse relief of its view.
   await(isAwaiting) {
     this.isAwaiting = isAwaiting;
-    if (this.drag?.tool !== "model") this.turned = isAwaiting ? directionsOf(this.doc.now.options) : null;
+    this.turning.await(isAwaiting);
     this.showBusy();
   }
 
-  // Shows the model from a direction; null shows what is prepared.
-  showTurned(turned) {
-    this.turned = turned;
-    this.invalidate();
-  }
-
   showBusy() {
-    this.element.setAttribute("aria-busy", Boolean(this.isAwaiting || this.fine !== this.wanted));
+    this.element.setAttribute("aria-busy", Boolean(this.isAwaiting || this.finished !== this.wanted));
   }
 
   // The one queue of the studio: asks for one picture at a time, always of the newest state.
   async pump() {
     if (this.isBusy || !this.isReady) return;
     if (this.shown !== this.wanted) return this.draw(false);
-    if (this.fine === this.wanted) return;
-    const rest = this.changedAt + REST_MS - performance.now();
+    if (this.finished === this.wanted) return;
+    const pause = this.fine === this.wanted ? FINISH_MS : REST_MS, rest = this.changedAt + pause - performance.now();
     clearTimeout(this.timer);
     if (rest > 0) this.timer = setTimeout(() => this.pump(), rest);
     else this.draw(true);
@@ -106,17 +85,23 @@ export class Stage {
 
   async draw(isFine) {
     this.isBusy = true;
-    const number = this.wanted, start = performance.now(), changedAt = this.changedAt;
+    const number = this.wanted, start = performance.now(), changedAt = this.changedAt, isLast = this.fine === number;
+    this.unwanted = isFine ? new AbortController() : null;
     try {
-      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, changedAt));
+      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, changedAt, isLast));
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
+      if (isFine && (this.isTable || this.isAwaiting || this.about?.is_finished)) this.finished = number;
+      else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
     } catch (error) {
-      this.shown = this.fine = number;
-      this.on.failed(error);
+      if (error.kind !== "cancelled" && error.name !== "AbortError") {
+        this.shown = this.fine = this.finished = number;
+        this.on.failed(error);
+      }
     }
     this.isBusy = false;
+    this.unwanted = null;
     this.showBusy();
     this.pump();
   }
@@ -126,9 +111,11 @@ export class Stage {
     return {width: Math.round(this.size.width * scale), height: Math.round(this.size.height * scale)};
   }
 
-  async drawRelief(isFine, changedAt) {
-    const {model} = this;
-    const {image, about} = await this.engine.frame(this.request({...this.pixels(isFine), fine: isFine}));
+  // The last picture of a state shows the piece as it will be exported.
+  async drawRelief(isFine, changedAt, isLast) {
+    const {model} = this, signal = this.unwanted?.signal;
+    const {image, about} = await this.engine.frame(
+      this.request({...this.pixels(isFine), fine: isFine, finished: isLast}), {signal});
     if (!this.isReady || model !== this.model) return; // another document or view is shown by now
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
@@ -176,11 +163,11 @@ export class Stage {
     this.tool = tool;
     this.element.dataset.tool = tool;
     const does = {
-      light: "move the light", model: "turn the model", turn: "turn the relief", pan: "move the picture", section: "move the section",
-      measure: "measure",
+      light: "move the light", model: "turn the model", turn: "turn the relief", pan: "move the picture",
+      section: "move the section", measure: "measure", place: "move the figure on its plate",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
-    if (tool === "section" || tool === "measure") this.camera = {...this.camera, yaw: 0, pitch: 0};
+    if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};
     if (tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.invalidate();
@@ -250,7 +237,7 @@ export class Stage {
       marks.push(make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height}));
     }
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
-    if (this.tool === "measure") marks.push(...this.measure.marks());
+    if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
     if (this.sun) {
       const [x, y] = this.sun;
       marks.push(make("line", {class: "ray", x1: x, y1: y, x2: width / 2, y2: height / 2}),
@@ -270,14 +257,16 @@ export class Stage {
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
     stage.onkeydown = (event) => this.key(event);
+    takePinches(stage, {begin: () => this.giveUp(), move: (...pinch) => this.pinch(...pinch)});
     new ResizeObserver(() => this.invalidate()).observe(stage);
   }
 
   press(event) {
-    if (event.target.id === "split" || event.button > 1) return;
+    if (event.target.id === "split" || event.button > 1 || !event.isPrimary) return;
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
+    if (tool === "place" && !this.on.placing.begin(this.about.size_mm)) return this.release();
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
@@ -290,6 +279,7 @@ export class Stage {
     if (tool === "model") this.turning.drag(dx, dy, event.shiftKey);
     if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
     if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
+    if (tool === "place") this.place(event, dx, dy);
     const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
     if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
     if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
@@ -305,6 +295,7 @@ export class Stage {
 
   release() {
     const isTurned = this.drag?.tool === "model";
+    if (this.drag?.angle) this.on.placing.turn(this.drag.angle);
     this.drag = null;
     if (isTurned) this.turning.end();
     this.sun = null;
@@ -327,6 +318,20 @@ export class Stage {
     this.doc.change({light}, "light");
   }
 
+  // With shift the figure is turned, about its middle, when the drag ends: the model is then prepared anew.
+  place(event, dx, dy) {
+    const {drag} = this, [x, y] = this.toPixels(this.figureMiddle());
+    const angleAt = (px, py) => degrees(Math.atan2(y - py, px - x));
+    if (event.shiftKey) drag.angle = angleAt(event.offsetX, event.offsetY) - angleAt(drag.x, drag.y);
+    else if (!drag.angle) this.on.placing.move(dx / this.pixelsPerMm, -dy / this.pixelsPerMm);
+    this.drawOverlay();
+  }
+
+  figureMiddle() {
+    const [low, high] = this.about?.relief_mm ?? [[0, 0], [0, 0]];
+    return [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
+  }
+
   turn(yaw, pitch) {
     const {camera} = this;
     this.camera = {...camera, yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)};
@@ -344,10 +349,27 @@ export class Stage {
     this.invalidate();
   }
 
+  // The first of two fingers moved nothing.
+  giveUp() {
+    this.doc.cancelStroke();
+    this.release();
+  }
+
+  pinch([fromX, fromY], [x, y], ratio) {
+    this.zoomBy(ratio, x, y);
+    this.shift((fromX - x) / this.pixelsPerMm, (y - fromY) / this.pixelsPerMm);
+  }
+
   zoom(event) {
     event.preventDefault();
-    const zoom = clamp(this.camera.zoom * Math.exp(-event.deltaY * 0.0015), 0.3, 40);
-    const [x, y] = this.toPlace(event.offsetX, event.offsetY), rest = 1 - this.camera.zoom / zoom;
+    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005));
+    this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
+  }
+
+  // Zooms around a pixel.
+  zoomBy(factor, atX, atY) {
+    const zoom = clamp(this.camera.zoom * factor, 0.3, 40);
+    const [x, y] = this.toPlace(atX, atY), rest = 1 - this.camera.zoom / zoom;
     const {camera} = this;
     this.camera = {...camera, zoom, x: camera.x + rest * (x - camera.x), y: camera.y + rest * (y - camera.y)};
     if (zoom <= 1) this.camera = {...this.camera, x: 0, y: 0};
@@ -367,13 +389,10 @@ export class Stage {
       const {azimuth, elevation} = angles(this.doc.now.light);
       this.setLight(azimuth - x * 10 * size, elevation + y * 5 * size);
     }
-    if (this.tool === "model") {
-      this.turning.begin();
-      this.turning.turn(radians(x * 10 * size), radians(-y * 10 * size));
-      this.turning.end();
-    }
+    if (this.tool === "model") this.turning.step(x * size, y * size);
     if (this.tool === "turn") this.turn(x * 5 * size, -y * 5 * size);
     if (this.tool === "pan") this.shift(x * 20 * size / this.pixelsPerMm, y * 20 * size / this.pixelsPerMm);
+    if (this.tool === "place" && this.on.placing.begin(this.about.size_mm)) this.on.placing.move(x * size, y * size);
     if (this.tool === "section") {
       const moved = ([px, py]) => [px + x * size, py + y * size];
       this.setLine({from: moved(this.line.from), to: moved(this.line.to)});

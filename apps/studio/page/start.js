@@ -1,6 +1,6 @@
 // The start page: samples, and the documents that were changed last, with their pictures.
 
-import {about} from "./about.js";
+import {about, engine} from "./about.js";
 import {$, make} from "./controls.js";
 
 export const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
@@ -10,7 +10,7 @@ export const nameOf = (input) => (input?.sample ? sampleName(input.sample) : inp
 // Fills the shelf of samples; `open` takes an input.
 export function showSamples(open) {
   const card = ({name, description}) => make("button", {onclick: () => open({sample: name, name})},
-    make("img", {src: `sample-${name}.jpg`, alt: "", width: 320, height: 200}),
+    make("img", {src: engine.addressOf(`sample-${name}.jpg`), alt: "", width: 320, height: 200}),
     make("span", {}, make("b", {}, sampleName(name)), make("small", {}, description)));
   $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
 }
@@ -19,7 +19,7 @@ export function showSamples(open) {
 export function showRecent(recent, open) {
   const card = ({input, picture, is_there: isThere}) => make("button", {
     title: input.path ?? `Sample ${input.name}`, onclick: () => open(input),
-  }, make("img", {src: picture || "icon.svg", alt: "", width: 320, height: 200, class: picture ? "" : "none"}),
+  }, make("img", {src: picture || engine.addressOf("icon.svg"), alt: "", width: 320, height: 200, class: picture ? "" : "none"}),
   make("span", {}, nameOf(input), make("small", {}, isThere ? "" : "Scan not found")));
   $("#recent-shelf").hidden = recent.length === 0;
   $("#recent").replaceChildren(...recent.map((entry) => make("li", {}, card(entry))));

@@ -40,6 +40,18 @@ export function snapped({towards, up}) {
 export class Turning {
   constructor(stage) {
     this.stage = stage;
+    this.shown = null; // directions of the view that is shown until it is prepared
+  }
+
+  show(directions) {
+    this.shown = directions;
+    this.stage.invalidate();
+  }
+
+  // A view is being prepared, or none any more: until it is there, a coarse relief stands for it.
+  await(isAwaiting) {
+    if (this.stage.drag?.tool === "model") return;
+    this.shown = isAwaiting ? directionsOf(this.stage.doc.now.options) : null;
   }
 
   begin() {
@@ -54,7 +66,7 @@ export class Turning {
       up = upright(turned(up, axis, angle), towards);
     }
     this.view = {towards, up};
-    this.stage.showTurned(snapped(this.view));
+    this.show(snapped(this.view));
   }
 
   drag(dx, dy, isRoll) {
@@ -62,13 +74,20 @@ export class Turning {
     isRoll ? this.turn(0, 0, dx * scale) : this.turn(dx * scale, dy * scale);
   }
 
+  // Turns by keys: 10 degrees at a time.
+  step(x, y) {
+    this.begin();
+    this.turn(x * Math.PI / 18, -y * Math.PI / 18);
+    this.end();
+  }
+
   // The view rests: the document takes it. One that it has already may have to be prepared again.
   end() {
     const {stage} = this, {doc} = stage;
-    if (!stage.turned) return;
-    const options = optionsOf(stage.turned), {view, up} = doc.now.options;
+    if (!this.shown) return;
+    const options = optionsOf(this.shown), {view, up} = doc.now.options;
     if (view !== options.view || up !== options.up) doc.change({options});
     else if (stage.isAwaiting) stage.on.viewRests();
-    else stage.showTurned(null);
+    else this.show(null);
   }
 }

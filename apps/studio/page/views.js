@@ -12,6 +12,13 @@ const TOWARDS = Object.fromEntries(about.views.map(({name, towards, up}) => [nam
 export const viewName = (view) => (view === "auto" ? "Best side"
   : SIDES.includes(view) ? view[0].toUpperCase() + view.slice(1) : "Turned by hand");
 
+// Returns the view of options with the model turned by degrees, to the left for positive ones.
+export function viewTurned({view, up}, degrees) {
+  const towards = unit(TOWARDS[view]?.[0] ?? triple(view)), upright = up ? triple(up) : TOWARDS[view]?.[1] ?? [0, 1, 0];
+  const right = cross(upright, towards), level = cross(towards, unit(right));
+  return {view: text(towards), up: text(turned(level, towards, -degrees * Math.PI / 180))};
+}
+
 export class ViewDialog {
   constructor(engine, onApply, onFailed) {
     Object.assign(this, {engine, onApply, onFailed});

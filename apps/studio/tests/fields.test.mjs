@@ -22,6 +22,7 @@ before(async () => {
   engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
   await page.goto(engine.address);
   await page.getByText(/points.*height/).waitFor();
+  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
 });
 
 after(async () => {
@@ -67,26 +68,26 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", {s
   await field("Height in mm").press("Control+Shift+Z");
   assert.equal(await text("Height in mm"), "5.00");
 
-  const box = await slider("Detail").boundingBox(), y = box.y + box.height / 2;
+  const box = await slider("Fine detail").boundingBox(), y = box.y + box.height / 2;
   await page.mouse.move(box.x + box.width / 2, y);
-  const before = await text("Detail value");
+  const before = await text("Fine detail value");
   await page.mouse.down();
   await page.mouse.move(box.x + box.width / 3, y, {steps: 4});
-  assert.notEqual(await text("Detail value"), before);
+  assert.notEqual(await text("Fine detail value"), before);
   await page.keyboard.press("Escape");
-  assert.equal(await text("Detail value"), before);
+  assert.equal(await text("Fine detail value"), before);
   await page.mouse.move(box.x + box.width / 4, y, {steps: 4});
   await page.mouse.up();
-  assert.equal(await text("Detail value"), before);
+  assert.equal(await text("Fine detail value"), before);
   await page.getByRole("button", {name: "Undo"}).click();
   assert.equal(await text("Height in mm"), "4.00");
 });
 
 test("shows and takes inches, and keeps millimetres", {skip}, async () => {
-  await set("Width in mm", 101.6);
+  await set("Longer side in mm", 101.6);
   await page.getByRole("combobox", {name: "Unit of lengths"}).selectOption("inch");
-  assert.equal(await text("Width in inches"), "4.000");
-  await set("Width in inches", "2 1/2".replace(" ", "+"));
+  assert.equal(await text("Longer side in inches"), "4.000");
+  await set("Longer side in inches", "2 1/2".replace(" ", "+"));
   await set("Height in inches", "1/8");
   assert.equal(await text("Height in inches"), "0.125");
   await page.getByText(/points.*height 0\.125 in/).waitFor();
@@ -97,7 +98,7 @@ test("shows and takes inches, and keeps millimetres", {skip}, async () => {
   await page.reload();
   await page.getByText(/points.*height/).waitFor();
   await page.getByRole("combobox", {name: "Unit of lengths"}).selectOption("mm");
-  assert.equal(await text("Width in mm"), "63.5");
+  assert.equal(await text("Longer side in mm"), "63.5");
   assert.equal(await text("Height in mm"), "4.00");
 });
 
@@ -113,7 +114,7 @@ test("exports when Enter is pressed", {skip}, async () => {
 
 test("marks the height that can be reached, and loosens what limits it", {skip}, async () => {
   const mark = page.getByTitle(/^Reachable: [\d.]+ mm$/), reach = page.locator("#reach");
-  await set("Width in mm", 60);
+  await set("Longer side in mm", 60);
   await mark.waitFor();
   const reachable = async () => Number((await mark.getAttribute("title")).match(/[\d.]+/)[0]), most = await reachable();
   await set("Steepest wall in degrees", 30);

@@ -45,7 +45,8 @@ const CASES = {
   steps: {value: 0.2}, tone: {value: "0,0.8;0.5,0.6;1,0.45"}, view: {value: "left"}, up: {value: "1,0,0"},
   crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, denoise: {value: "0.5"}, points: {value: 20000},
   outline: {value: "ellipse"}, corner: {value: 9, first: {outline: "round"}}, diameter: {value: 77, kind: "coin"},
-  plate: {value: "140x120"}, margin: {value: 6}, thickness: {value: 4}, rim: {value: 3, kind: "coin"},
+  plate: {value: "140x120"}, shift: {value: "5,-3", first: {plate: "180x160"}},
+  margin: {value: 6}, thickness: {value: 4}, rim: {value: 3, kind: "coin"},
   "rim-height": {value: 1.5, kind: "coin"}, "rim-bevel": {value: 0.5, kind: "coin"}, base: {value: "dome:height=5"},
   wrap: {value: "cylinder:turn=90", kind: "shell"}, form: {value: "mirror"}, tool: {value: "ball:3"},
   finish: {value: "reachable", first: {tool: "ball:3"}}, resolution: {value: 0.5}, tolerance: {value: 0.02},
@@ -79,7 +80,7 @@ test("has a control for each option of the table", {skip}, async () => {
 
 for (const [name, {value, first = {}, kind}] of Object.entries(CASES))
   test(`passes ${name} on to the engine`, {skip}, async () => {
-    if (kind) await page.getByRole("combobox", {name: "Kind of work"}).selectOption(kind);
+    if (kind) await page.locator(`[data-kind="${kind}"]`).click();
     for (const [other, set_to] of Object.entries(first)) {
       await set(other, set_to);
       await reaches(() => frame.options[other] === set_to);
@@ -95,6 +96,17 @@ for (const [name, {value, first = {}, kind}] of Object.entries(CASES))
       await page.locator('[role="application"][aria-busy="false"]').first().waitFor({timeout: 2000});
     });
   });
+
+test("opens a project without a height as make makes it", {skip}, async () => {
+  const steps = await page.evaluate(async () => {
+    const {stepOfProject} = await import(new URL("document.js", location));
+    return [{width: 60}, {method: "paper"}, {alpha: 2}].map((options) => stepOfProject({options}));
+  });
+  assert.deepEqual(steps.map(({options: {height, method, detail}}) => [height, method, detail]),
+    [[3, "layered", 0.04], [5, "paper", 0.02], [5, "paper", 0.02]]);
+  assert.deepEqual(steps.map(({isHeightLocked}) => isHeightLocked), [true, false, false]);
+  assert.ok(Math.abs(steps[1].u / 4 ** -0.01 - 1) < 1e-12 && Math.abs(steps[2].u / 2 ** -0.01 - 1) < 1e-12);
+});
 
 test("opens a project with the paper's height coefficient", {skip}, async () => {
   const step = await page.evaluate(async () =>

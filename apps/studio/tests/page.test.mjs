@@ -36,10 +36,16 @@ after(async () => {
 async function start(...args) {
   engine = await new EngineProcess(state, ...args).ready();
   await page.goto(engine.address);
+  await openPanels();
 }
+
+// Panels stay open when the page is loaded anew.
+const openPanels = () => page.locator(".inspector details").evaluateAll((all) =>
+  all.forEach((panel) => (panel.open = true)));
 
 const button = (name) => page.getByRole("button", {name, exact: true});
 const slider = (name) => page.getByRole("slider", {name, exact: true});
+const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
 const field = (name) => page.getByRole("spinbutton", {name, exact: true});
 const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
 const value = async (name) => Number(await field(name).inputValue());
@@ -154,25 +160,24 @@ test("moves sliders by wheel and double click, too", {skip}, async () => {
 });
 
 test("takes numbers as people type them, and refuses others in one line", {skip}, async () => {
-  const width = await value("Width in mm"), typed = [["1/8in", "3.175"], ["4in", "101.6"], ["2,5", "2.5"],
+  const width = await value("Longer side in mm"), typed = [["1/8in", "3.175"], ["4in", "101.6"], ["2,5", "2.5"],
     ["3+0.5", "3.5"], ["12 mm", "12.0"], ["1cm", "10.0"]];
   for (const [text, shown] of typed) {
-    await set("Width in mm", text);
-    assert.equal(await field("Width in mm").inputValue(), shown, text);
+    await set("Longer side in mm", text);
+    assert.equal(await field("Longer side in mm").inputValue(), shown, text);
   }
   const alert = page.getByRole("alert");
   for (const text of ["4ft", "1,234", "12mmm", "0", "1e9"]) {
-    await set("Width in mm", text);
-    await alert.getByText(`Width: expected a number from 0.1 to 100000 mm, such as`).waitFor();
+    await set("Longer side in mm", text);
+    await alert.getByText(`Longer side: expected a number from 0.1 to 100000 mm, such as`).waitFor();
     assert.ok((await alert.innerText()).endsWith(`found '${text}'.`), text);
-    assert.equal(await field("Width in mm").inputValue(), "10.0");
+    assert.equal(await field("Longer side in mm").inputValue(), "10.0");
   }
-  await set("Saturation value", "1mm");
-  await alert.getByText("Saturation: expected a number from 0 to 100, such as").waitFor();
-  await field("Width in mm").press("ArrowUp");
-  assert.ok((await value("Width in mm")) > 10);
-  await set("Width in mm", width);
-  await page.locator("details", {hasText: "Making"}).locator("summary").click();
+  await set("Crispness value", "1mm");
+  await alert.getByText("Crispness: expected a number from 0 to 100, such as").waitFor();
+  await field("Longer side in mm").press("ArrowUp");
+  assert.ok((await value("Longer side in mm")) > 10);
+  await set("Longer side in mm", width);
   await page.getByLabel("Draft angle").fill("15 degrees");
   await page.getByLabel("Draft angle").press("Enter");
   await alert.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
@@ -184,15 +189,15 @@ test("keeps a locked height while saturation moves", {skip}, async () => {
   await untilHeight(3, 0.01);
   const first = await picture();
   assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
-  await press(slider("Saturation"), "ArrowRight", 30);
-  assert.ok((await value("Saturation value")) > 0.1);
+  await press(slider("Crispness"), "ArrowRight", 30);
+  assert.ok((await value("Crispness value")) > 0.1);
   await becomesOther(first);
   await untilHeight(3, 0.01);
 });
 
 test("lets the height follow when it is not locked", {skip}, async () => {
   await button("Lock the height").click();
-  await set("Detail value", 0.3);
+  await set("Fine detail value", 0.3);
   await picture();
   assert.ok(Math.abs((await heightShown()) - 3) > 0.05);
   assert.ok(Math.abs((await value("Height in mm")) - (await heightShown())) < 0.01);
@@ -208,8 +213,8 @@ test("undoes and redoes, step by step", {skip}, async () => {
   const before = await picture();
   assert.ok(difference(before, last) > 0.2);
   let steps = 0; // more than one if the machine is so slow that the keys were pressed with pauses
-  do await button("Undo").click(); while (++steps < 30 && (await value("Saturation value")) > 0);
-  assert.equal(await value("Saturation value"), 0);
+  do await button("Undo").click(); while (++steps < 30 && (await value("Crispness value")) > 0);
+  assert.equal(await value("Crispness value"), 0);
   while (steps-- > 0) await button("Redo").click();
   await becomesSame(before);
 });
@@ -218,7 +223,7 @@ test("shapes the tone curve with presets and keys", {skip}, async () => {
   const first = await picture();
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   await becomesOther(first);
-  assert.ok(await slider("Saturation").isDisabled());
+  assert.ok(await slider("Crispness").isDisabled());
   const point = page.getByRole("slider", {name: /Curve point 2 of/});
   await press(point, "ArrowUp", 5);
   await page.getByRole("combobox", {name: "Tone curve preset"}).waitFor();
@@ -310,7 +315,7 @@ test("changes the method", {skip}, async () => {
 });
 
 test("changes the method's own rim with it, and no other", {skip}, async () => {
-  const rim = page.getByRole("slider", {name: "Soft rim"});
+  const rim = page.getByRole("slider", {name: "Soft edge"});
   const method = page.getByRole("combobox", {name: "Method"});
   const first = await picture();
   assert.equal(await rim.getAttribute("aria-valuetext"), "0.5 sampling distances");
@@ -433,6 +438,69 @@ test("tells the size of the file beforehand", {skip}, async () => {
   await dialog.getByRole("button", {name: "Cancel"}).click();
 });
 
+test("exports several files at once, named for their form, and can be cancelled", {skip}, async () => {
+  await page.locator("#form").selectOption("mirror");
+  await untilReady();
+  await button("Export").click();
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByText(/triangles/).waitFor();
+  await dialog.getByRole("checkbox", {name: /^3MF/}).check();
+  await dialog.getByRole("checkbox", {name: /^Height map/}).check();
+  await dialog.getByLabel("Longer side in pixels").fill("300");
+  const names = [];
+  const listen = (download) => names.push(download.suggestedFilename());
+  page.on("download", listen);
+  await dialog.getByRole("button", {name: "Export"}).click();
+  await eventually(() => assert.deepEqual([...names].sort(),
+    ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]));
+  page.off("download", listen);
+  await dialog.waitFor({state: "hidden"});
+  await set("Height in mm", 2.4); // another piece, which is not made yet
+  await button("Export").click();
+  await dialog.getByRole("button", {name: "Cancel"}).click();
+  await dialog.waitFor({state: "hidden"});
+  for (const name of ["3mf", "heightmap"])
+    await page.locator(`#formats [value="${name}"]`).evaluate((box) => (box.checked = false));
+  for (let step = 0; step < 2; ++step) await button("Undo").click();
+  await untilReady();
+});
+
+test("can be used by the keyboard alone", {skip}, async () => {
+  await page.locator("#home").focus();
+  const seen = new Set(), all = await page.evaluate(() => [...document.querySelectorAll(
+    "header button, #studio button, #studio input, #studio select, #studio summary, #stage")]
+    .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0).length);
+  for (let i = 0; i < all + 30; ++i) {
+    seen.add(await page.evaluate(() => {
+      document.activeElement.dataset.reached = "yes";
+      return document.activeElement.id || document.activeElement.textContent;
+    }));
+    await page.keyboard.press("Tab");
+  }
+  const missed = await page.evaluate(() => [...document.querySelectorAll(
+    "header button, #studio button, #studio input, #studio select, #studio summary, #stage")]
+    .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0 &&
+      element.dataset.reached !== "yes").map((element) => element.outerHTML.slice(0, 90)));
+  assert.deepEqual(missed, [], `${seen.size} were reached`);
+  const material = () => page.locator("#materials [aria-checked=true]").getAttribute("data-material");
+  const before = await material();
+  await page.locator("#materials [aria-checked=true]").focus(); // in a group by arrows
+  await page.keyboard.press("ArrowRight");
+  assert.notEqual(await material(), before);
+  await button("Undo").focus();
+  await page.keyboard.press("Enter");
+  assert.equal(await material(), before);
+});
+
+test("moves nothing by itself where motion is to be reduced", {skip}, async () => {
+  const longest = () => page.evaluate(() => Math.max(...[...document.querySelectorAll("*")].map((element) =>
+    parseFloat(getComputedStyle(element).transitionDuration))));
+  assert.ok((await longest()) > 0);
+  await page.emulateMedia({reducedMotion: "reduce"});
+  assert.equal(await longest(), 0);
+  await page.emulateMedia({reducedMotion: "no-preference"});
+});
+
 test("cuts a round plate", {skip}, async () => {
   await page.getByRole("combobox", {name: "Outline"}).selectOption("Circle");
   await picture();
@@ -453,26 +521,26 @@ test("fits the relief into a plate of the size that is asked for", {skip}, async
     await page.getByLabel(label, {exact: true}).fill(text);
     await page.getByLabel(label, {exact: true}).press("Enter");
   };
-  const width = await value("Width in mm");
+  const width = await value("Longer side in mm");
   await enter("Plate size", "20cm x 150");
   await page.getByText(/piece 200\.00 × 150\.00/).waitFor();
-  assert.notEqual(await value("Width in mm"), width);
-  await page.getByLabel("Kind of work").selectOption("Coin or medal");
+  assert.notEqual(await value("Longer side in mm"), width);
+  await kind("Coin").click();
   await enter("Diameter", "80");
   await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
-  const most = await value("Width in mm");
-  await set("Width in mm", 30);
+  const most = await value("Longer side in mm");
+  await set("Longer side in mm", 30);
   await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
-  assert.equal(await value("Width in mm"), 30);
-  await set("Width in mm", 500); // the plate leaves less
-  assert.equal(await value("Width in mm"), most);
-  await page.getByLabel("Kind of work").selectOption("Die");
+  assert.equal(await value("Longer side in mm"), 30);
+  await set("Longer side in mm", 500); // the plate leaves less
+  assert.equal(await value("Longer side in mm"), most);
+  await kind("Seal").click();
   assert.equal(await page.getByLabel("Diameter", {exact: true}).inputValue(), "80");
   await picture();
   assert.ok((await size())[0] > 80, "the die is larger than its coin");
-  while (await page.getByLabel("Kind of work").inputValue() !== "relief") await button("Undo").click();
+  while (!await kind("Plaque").isChecked()) await button("Undo").click();
   await button("Undo").click();
-  assert.equal(await value("Width in mm"), width);
+  assert.equal(await value("Longer side in mm"), width);
 });
 
 test("goes on after a reload and after a new start of the engine", {skip}, async () => {
@@ -573,6 +641,33 @@ test("has everything within reach on a phone", {skip}, async () => {
   }
   await button("Back to the relief").click();
   await page.setViewportSize({width: 1280, height: 800});
+});
+
+test("takes two fingers for a closer look, which move nothing else", {skip}, async (context) => {
+  if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
+  const touched = await browser.newContext({viewport: {width: 820, height: 1180}, hasTouch: true});
+  const tablet = await touched.newPage(), cdp = await touched.newCDPSession(tablet);
+  await tablet.goto(engine.address);
+  await tablet.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await tablet.getByText(/points.*height/).waitFor();
+  const {x, y, width, height} = await tablet.locator("#stage").boundingBox();
+  const fingers = (apart) => [-1, 1].map((side, id) => ({x: x + width / 2 + side * apart, y: y + height / 2, id}));
+  const send = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
+  await tablet.getByRole("radio", {name: "Measure"}).click();
+  const plate = () => tablet.locator("#overlay line.dimension").evaluateAll((lines) =>
+    Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
+  await eventually(async () => assert.ok((await plate()) > 100));
+  const before = await plate(), light = await tablet.locator("#undo").isEnabled();
+  await send("touchStart", fingers(50).slice(0, 1));
+  await send("touchStart", fingers(50));
+  for (let apart = 60; apart <= 100; apart += 10) await send("touchMove", fingers(apart));
+  await send("touchEnd", []);
+  await eventually(async () => {
+    const now = await plate();
+    assert.ok(Math.abs(now / before - 2) < 0.05, `${now} of ${before}`);
+  });
+  assert.equal(await tablet.locator("#undo").isEnabled(), light);
+  await touched.close();
 });
 
 test("complains about nothing", {skip}, () => assert.deepEqual(complaints, []));

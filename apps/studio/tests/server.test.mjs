@@ -1,6 +1,6 @@
 // Sends the server requests: those of its page, and those that do not come from it, are broken, or are too many.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
+import {spawn, spawnSync} from "node:child_process";
 import {existsSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import net from "node:net";
 import path from "node:path";
@@ -46,7 +46,12 @@ const stillWorks = async () => assert.equal(await status(engine.post("frame", FR
 test("serves the page and nothing else", async () => {
   const page = await engine.get("");
   assert.equal(page.status, 200);
-  assert.match(page.headers["content-security-policy"], /default-src 'none'/);
+  const wanted = {"content-security-policy": /^default-src 'none'; .*frame-ancestors 'none'$/, "x-frame-options": /^DENY$/,
+    "x-content-type-options": /^nosniff$/, "referrer-policy": /^no-referrer$/, "permissions-policy": /camera=\(\)/,
+    "cross-origin-opener-policy": /^same-origin$/, "cross-origin-embedder-policy": /^require-corp$/,
+    "cross-origin-resource-policy": /^same-origin$/, "cache-control": /^no-store$/};
+  for (const answer of [page, await engine.get("gone.js"), await engine.request("/")])
+    for (const [name, value] of Object.entries(wanted)) assert.match(answer.headers[name] ?? "", value, name);
   assert.equal(await status(engine.get("main.js")), 200);
   const wrong = ["gone.js", "../main.js", "../../etc/passwd", "%2e%2e/%2e%2e/etc/passwd", "..%2f..%2fetc%2fpasswd",
     "/etc/passwd", "main.js%00.css", "api/", "api/gone"];
@@ -66,7 +71,9 @@ test("wants its token", async () => {
 
 test("refuses other hosts and origins", async () => {
   const {pathname, port} = engine.url;
-  for (const Host of ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1:${+port + 1}`])
+  const hosts = ["evil.example", `evil.example:${port}`, "127.0.0.1", `127.0.0.1.evil.example:${port}`,
+    "127.0.0.1:", "localhost:80x"];
+  for (const Host of hosts)
     assert.ok([400, 403].includes(await status(engine.request(pathname, {headers: {Host}}))), Host);
   const origins = ["http://evil.example", "null", `https://127.0.0.1:${port}`, `http://127.0.0.1:${+port + 1}`,
     `http://127.0.0.1:${port}.evil.example`];
@@ -74,8 +81,25 @@ test("refuses other hosts and origins", async () => {
     assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin}})), 403, Origin);
   assert.equal(await status(engine.post("frame", FRAME, {headers: {Origin: `http://127.0.0.1:${port}`}})), 200);
   assert.equal(await status(engine.request(pathname, {headers: {Host: `localhost:${port}`}})), 200);
+  const tunnel = {Host: "localhost:9000", Origin: "http://localhost:9000"}; // whose port is another one
+  assert.equal(await status(engine.post("frame", FRAME, {headers: tunnel})), 200);
+  assert.equal(await status(engine.post("frame", FRAME, {headers: {...tunnel, Origin: "http://localhost:9001"}})), 403);
   const foreign = await engine.request(pathname, {headers: {Host: "evil.example"}});
   assert.ok(!foreign.body.toString().includes(pathname), "the token must not leak");
+});
+
+test("says how to reach it through ssh", async () => {
+  const place = temporaryFolder(), args = ["studio", "--no-browser", "--state", place];
+  const env = {...process.env, SSH_CONNECTION: "10.0.0.7 50000 10.0.0.9 2222", USER: "ada"};
+  const child = spawn(PROGRAM, args, {env}), out = await new Promise((resolve) => {
+    let text = "";
+    child.stdout.on("data", (data) => (text += data).includes("ssh -N") && resolve(text));
+  });
+  const [, port] = out.match(/127\.0\.0\.1:(\d+)/);
+  assert.ok(out.includes(`\n  ssh -N -L ${port}:127.0.0.1:${port} -p 2222 ada@10.0.0.9\n`), out);
+  child.kill("SIGINT");
+  await new Promise((resolve) => child.on("exit", resolve));
+  removeFolder(place);
 });
 
 test("is not reached from other machines", async () => {
@@ -117,6 +141,32 @@ test("refuses malformed requests and says what was expected", async () => {
   assert.equal(await status(engine.post("view", {view: "sideways"})), 422);
   assert.equal(await status(engine.request(engine.url.pathname, {method: "DELETE"})), 405);
   await stillWorks();
+});
+
+test("says what it expected in each field", async () => {
+  const camera = {zoom: 0}, far = [1e9, 0], wrong = [
+    ["frame", {camera}, "camera: expected yaw, pitch, zoom, x and y in range"],
+    ["frame", {width: 8192, height: 8192}, "width: expected a picture of at most eight million pixels"],
+    ["frame", {light: [0, 0, 0]}, "light: expected three numbers, not all of them 0"],
+    ["frame", {material: "cheese"}, "material: expected a known material, found 'cheese'"],
+    ["frame", {u: -1}, "u: expected a number that is not negative"],
+    ["profile", {from: 3}, "from: expected two numbers"],
+    ["profile", {from: far, to: far}, "from: expected a place on the plate"],
+    ["scan", {towards: 3}, "towards: expected directions as three numbers"],
+    ["export", {format: "heightmap", pixels: 3}, "pixels: expected a number from 16 to 16384"],
+    ["state", {state: 3}, "expected a state"], ["state", {document: "x", state: {}}, "document: expected the name of a document"],
+    ["picture", {picture: "x"}, "expected a small picture"], ["frame", "[]", "body: expected an object in JSON"],
+    ["frame", {document: "0".repeat(16)}, "expected a document that is open"],
+    ["open", {input: {path: scan}, tab: 3}, "expected fields of their types"],
+    ["save", {project: {input: {sample: "shell"}, options: {}}}, "expected a scan of one file"]];
+  for (const [action, part, text] of wrong) {
+    const answer = await engine.post(action, typeof part === "string" ? part : {...FRAME, ...part});
+    assert.ok(JSON.parse(answer.body).error.text.includes(text), `${action}: ${text}, not ${answer.body}`);
+  }
+  const multipart = {"Content-Type": "multipart/form-data; boundary=x"};
+  assert.match(String((await engine.post("upload", "--x--", {headers: multipart})).body), /expected plain bytes or JSON/);
+  const deleted = await engine.request(engine.url.pathname, {method: "DELETE"});
+  assert.match(String(deleted.body), /expected GET or POST/);
 });
 
 // Returns all stages that the sources name in begin_stage(progress, "..."), progress.stage("..."), each("...").

@@ -1,4 +1,4 @@
-// Helpers of the studio's tests: the engine as a process, its page in Chromium, and temporary files.
+// Helpers of the studio's tests: the engine as a process, its page in Chromium or Firefox, and temporary files.
 import {spawn} from "node:child_process";
 import {existsSync, mkdtempSync, rmSync} from "node:fs";
 import http from "node:http";
@@ -7,6 +7,7 @@ import path from "node:path";
 
 export const PROGRAM = process.env.RELIEVO ?? path.resolve("build/release/apps/cli/relievo");
 const CHROMIUM = [process.env.CHROMIUM, "/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"];
+const FIREFOX = [process.env.FIREFOX, "/usr/bin/firefox-esr", "/usr/bin/firefox"];
 const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
   "--disable-background-networking", "--disable-component-update"];
 
@@ -105,13 +106,17 @@ export async function eventually(check) {
   }
 }
 
-// Returns Chromium's driver and path, or a text that says what is missing.
-export async function findBrowser() {
-  const executablePath = CHROMIUM.find((candidate) => candidate && existsSync(candidate));
-  if (!executablePath) return {missing: "Chromium is not installed (apt-get install chromium)"};
+// Returns {launch} of the browser that the environment names, Chromium otherwise, or {missing}: a text that says what
+// is missing. Firefox is driven by WebDriver BiDi, which the channel stands for.
+export async function findBrowser(name = process.env.BROWSER || "chromium") {
+  const isFirefox = name === "firefox";
+  const executablePath = (isFirefox ? FIREFOX : CHROMIUM).find((candidate) => candidate && existsSync(candidate));
+  if (!executablePath)
+    return {missing: `${name} is not installed (apt-get install ${isFirefox ? "firefox-esr" : "chromium"})`};
   try {
-    const {chromium} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
-    return {launch: () => chromium.launch({executablePath, args: CHROMIUM_FLAGS})};
+    const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
+    return {name, launch: () => (isFirefox ? firefox.launch({executablePath, channel: "moz-firefox"})
+      : chromium.launch({executablePath, args: CHROMIUM_FLAGS}))};
   } catch {
     return {missing: "playwright-core is not installed (npm ci --prefix apps/studio/tests)"};
   }

@@ -5,6 +5,7 @@
 
 #include "relievo/picture/render.h"
 #include "relievo/plate/solid.h"
+#include "relievo/plate/tool.h"
 
 namespace relievo {
 
@@ -13,6 +14,9 @@ class SolidRenderer {
  public:
   // Shares the solid, which has at least one triangle.
   explicit SolidRenderer(std::shared_ptr<const Solid> solid);
+
+  // Colours what the tool leaves standing on the solid, from orange to red. Shares its reach.
+  SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr<const ToolReach> reach);
   SolidRenderer(SolidRenderer&&) noexcept;
   ~SolidRenderer();
 

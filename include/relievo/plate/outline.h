@@ -45,6 +45,10 @@ Result<Outline> parse_outline(std::string_view name);
 // Errors: kind option for any other text; the error's input is empty, for the caller to fill in.
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
+// Returns the lengths of a text such as "10,-5" or "1in,0", right and up. Errors: kind option for any other text; the
+// error's input is empty, for the caller to fill in.
+Result<Vec2> parse_shift(std::string_view text, LengthUnit bare = LengthUnit::mm);
+
 // Returns whether the outline may have any width and height: those with straight sides or axes.
 bool has_free_size(Outline outline);
 

@@ -58,6 +58,7 @@ struct PlateOptions {
   // Width and height of the outline, which then leaves whatever margin it leaves, see OutlineOptions; 0: none. In a die
   // that has a groove for the rim they are those of the piece that it makes.
   Vec2 size_mm = Vec2::Zero();
+  Vec2 shift_mm = Vec2::Zero();  // of the front from the outline's middle, for an outline with a size
 };
 
 // The parts of a front. Renderers draw a crease where two of them meet, however small the angle is.

@@ -15,6 +15,7 @@ namespace relievo {
 
 class HeightCorrection;
 class HeightSystem;
+class JumpLift;
 class SubspaceModel;
 struct PointLayers;
 struct StepHeights;
@@ -61,6 +62,9 @@ class ReliefModel {
 
   // Returns the heights of depth jumps, which Shape::steps adds.
   const StepHeights& steps() const;
+
+  // Returns what keeps the front sides of depth jumps in front in layered reliefs.
+  const JumpLift& jump_lift() const;
 
   // Returns what compresses layered heights.
   const HeightCorrection& correction() const;

@@ -7,6 +7,7 @@
 #include "io/faces.h"
 #include "io/formats.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -139,10 +140,14 @@ class GltfReader {
       if (is_seen[visit.node]) return source_.error(place, "expected one parent, found two or a ring");
       is_seen[visit.node] = true;
       const auto own = transform_of(*node);
-      if (!own) return source_.error(place, "expected numbers in its transformation, found others");
+      if (!own)
+        return source_.error(
+            place, "expected 16 numbers as matrix, 4 as rotation, 3 as translation and scale, found others");
       const Transform transform = visit.parent * *own;
       const auto mesh = number_in(*node, "mesh", no_index);
-      if (!mesh) return source_.error(place, "expected the number of a mesh, found another value");
+      if (!mesh)
+        return source_.error(place,
+                             cat("expected the number of a mesh, found ", in_quotes((*node)["mesh"].dump())));
       if (*mesh != no_index) RELIEVO_CHECK(add_mesh(*mesh, transform));
       if (node->contains("children") && (*node)["children"].is_array())
         for (const Json& child : (*node)["children"])
@@ -193,8 +198,7 @@ class GltfReader {
     RELIEVO_TRY(const AccessorValues indices, file_.accessor(number.value_or(no_index), place));
     for (const double i : indices.numbers) {
       if (!(i >= 0 && i < static_cast<double>(vertices)))
-        return source_.error(
-            place, "expected numbers of vertices below " + std::to_string(vertices) + ", found others");
+        return source_.error(place, cat("expected numbers of vertices below ", vertices, ", found ", i));
       order.push_back(static_cast<std::int64_t>(i) + first);
     }
     return order;

@@ -53,7 +53,7 @@ class GltfFile {
   explicit GltfFile(const Source& source) : source_(&source) {}
   Result<void> split_glb(std::string_view& text);
   Result<void> check_version() const;
-  Result<std::string_view> buffer(std::size_t i);
+  Result<std::string_view> buffer(std::size_t i, const Json& json);
   Result<std::string_view> part_of_buffer(const Json& part, const std::string& place);
   Result<std::string_view> view(std::size_t i, const std::string& place);
   Result<std::string_view> load(const std::string& uri, const std::string& place);

@@ -4,6 +4,7 @@
 
 #include "io/gltf/gltf.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -47,11 +48,13 @@ std::vector<double> decode_vectors(const BufferRows& rows, NumberType type, std:
 
 Result<GltfFile::Layout> GltfFile::layout_of(const Json& json, const std::string& place) const {
   const auto code = number_in(json, "componentType", 0), count = number_in(json, "count", 0);
-  if (!code || !count) return source_->error(place, "expected whole numbers, found others");
+  if (!code || !count)
+    return source_->error(place, "expected whole numbers as componentType and count, found others");
   const auto type = std::ranges::find(component_types, *code, &ComponentType::code);
   const std::size_t components = components_of(json);
   if (type == component_types.end() || components == 0)
-    return source_->error(place, "expected a known component type, found another");
+    return source_->error(place, cat("expected a known componentType and type, found ", *code, " and ",
+                                     in_quotes(json.value("type", Json("none")).dump())));
   if (*count >= no_index) return source_->error(place, "expected fewer than 4294967295 vectors, found more");
   const bool is_normalised = json.value("normalized", Json(false)) == Json(true);
   return Layout{*count, components, type->type, is_normalised ? type->scale : 1};
@@ -62,10 +65,11 @@ Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, con
   const auto fail = [&](std::string expected) { return source_->error(place, std::move(expected)); };
   const auto offset = number_in(in_view, "byteOffset", 0),
              view_number = number_in(in_view, "bufferView", no_index);
-  if (!offset || !view_number) return fail("expected whole numbers, found others");
+  if (!offset || !view_number)
+    return fail("expected whole numbers as byteOffset and bufferView, found others");
   RELIEVO_TRY(const std::string_view bytes, view(*view_number, place));
   const auto stride = number_in(*element("bufferViews", *view_number), "byteStride", 0);
-  if (!stride) return fail("expected whole numbers, found others");
+  if (!stride) return fail("expected a whole number as byteStride, found another value");
   if (*offset > bytes.size() || *stride > 252)
     return fail("expected a view inside its buffer, found one beyond it");
   const std::size_t row = layout.components * size_in_bytes(layout.type), room = bytes.size() - *offset;

@@ -109,17 +109,16 @@ Result<std::string_view> GltfFile::load(const std::string& uri, const std::strin
   return std::string_view(reinterpret_cast<const char*>(kept.data()), kept.size());
 }
 
-Result<std::string_view> GltfFile::buffer(std::size_t i) {
+Result<std::string_view> GltfFile::buffer(std::size_t i, const Json& json) {
   const std::string place = "buffer " + std::to_string(i);
-  const Json* json = element("buffers", i);
-  if (!json) return source_->error(place, "expected an object, found something else");
-  const auto uri = json->find("uri");
+  const auto uri = json.find("uri");
   std::string_view bytes = binary_;
-  if (uri != json->end()) {
-    if (!uri->is_string()) return source_->error(place, "expected a text as uri");
+  if (uri != json.end()) {
+    if (!uri->is_string())
+      return source_->error(place, "expected a text as uri, found " + in_quotes(uri->dump()));
     RELIEVO_TRY(bytes, load(uri->get_ref<const std::string&>(), place));
   }
-  const auto promised = number_in(*json, "byteLength", 0);
+  const auto promised = number_in(json, "byteLength", 0);
   if (!promised || *promised > bytes.size())
     return source_->error(
         place, "expected as many bytes as its byteLength says, found " + std::to_string(bytes.size()));
@@ -129,9 +128,11 @@ Result<std::string_view> GltfFile::buffer(std::size_t i) {
 Result<std::string_view> GltfFile::part_of_buffer(const Json& part, const std::string& place) {
   const auto number = number_in(part, "buffer", no_index), start = number_in(part, "byteOffset", 0),
              length = number_in(part, "byteLength", 0);
-  if (!number || !start || !length || !element("buffers", *number))
-    return source_->error(place, "expected a bufferView of a buffer, found another");
-  RELIEVO_TRY(const std::string_view bytes, buffer(*number));
+  if (!number || !start || !length)
+    return source_->error(place, "expected whole numbers as buffer, byteOffset and byteLength, found others");
+  const Json* json = element("buffers", *number);
+  if (!json) return source_->error(place, "expected a buffer, found none of that number");
+  RELIEVO_TRY(const std::string_view bytes, buffer(*number, *json));
   if (*start > bytes.size() || *length > bytes.size() - *start)
     return source_->error(place, "expected a view inside its buffer, found one beyond it");
   return bytes.substr(*start, *length);

@@ -80,7 +80,7 @@ Result<GltfFile> GltfFile::open(const Source& source) {
   if (file.json_.is_discarded())
     return source.error(is_binary ? "JSON" : json_error_place(text),
                         "expected the JSON of a glTF file, found text that is none");
-  if (!file.json_.is_object()) return source.error({}, "expected a JSON object, found another value");
+  if (!file.json_.is_object()) return source.error({}, "expected a JSON object, found " + in_quotes(text));
   RELIEVO_CHECK(file.check_version());
   return file;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/numbers.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -87,9 +88,10 @@ class LasHeaderReader {
       RecordColumn& column = records_.position[i];
       column = {NumberType::int32, 4 * i, at<double>(131 + 8 * i), at<double>(155 + 8 * i)};
       if (!std::isfinite(column.scale) || column.scale == 0)
-        return source_.error_at_byte(131 + 8 * i, "expected a scale that is finite and not 0, found another");
+        return source_.error_at_byte(131 + 8 * i,
+                                     cat("expected a scale that is finite and not 0, found ", column.scale));
       if (!std::isfinite(column.shift))
-        return source_.error_at_byte(155 + 8 * i, "expected a finite offset, found another");
+        return source_.error_at_byte(155 + 8 * i, cat("expected a finite offset, found ", column.shift));
     }
     return {};
   }

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/raster.h"
+#include "geometry/point_set.h"
 #include "geometry/segment_grid.h"
 #include "geometry/smooth_surface.h"
+#include "plate/front/diagonals.h"
+#include "plate/front/sample_grid.h"
 #include "plate/front/silhouette.h"
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"
@@ -17,50 +19,8 @@ namespace {
 constexpr int band_rings = 3;      // of triangles beside creases that keep their points
 constexpr int coarsest_level = 3;  // squares have sides of 1, 2, 4 or 8 steps
 constexpr int most_divisions = 16;
-constexpr double apart = .6;  // least distance of a sample from the band's points, in steps
-
-// The places of a grid over the front, and which triangle each lies in.
-struct Grid {
-  double step = 0;
-  Vec2 corner;  // upper left
-  RasterInput input;
-  Image<Index> triangle;  // no_index beside the front
-
-  Vec2 place(int x, int y) const { return {corner.x() + (x + .5) * step, corner.y() - (y + .5) * step}; }
-  Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
-};
-
-Grid make_grid(const HeightFieldMesh& front, double step) {
-  const Box box = Box::of(front.points);
-  Grid grid;
-  grid.step = std::max(step, box.longer_side() / (RasterInput::most_pixels - 16));
-  // Sides are often whole numbers of steps: what is added leaves no decision to rounding.
-  const auto cells = [&](double mm) {
-    const int block = 1 << coarsest_level;
-    return (static_cast<int>(mm / grid.step + .37) / block + 1) * block;
-  };
-  grid.corner = {box.min.x(), box.max.y()};
-  grid.input.width = cells(box.size().x());
-  grid.input.height = cells(box.size().y());
-  grid.input.triangles = front.triangles;
-  for (const Vec3& p : front.points) {
-    const Vec2 place = grid.pixel(p.head<2>());
-    grid.input.points.emplace_back(place.x(), place.y(), 0);
-  }
-  // In pictures y points down, which turns triangles over.
-  grid.triangle = filled_image(grid.input.width, grid.input.height, no_index);
-  const Rasterizer rasterizer(grid.input, 32);
-  parallel_for(
-      rasterizer.bands(),
-      [&](std::size_t b) {
-        const RowBand band = rasterizer.draw(b);
-        const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));
-        std::ranges::transform(band.fragments.pixels, grid.triangle.pixels.begin() + first,
-                               [](const Fragment& f) { return f.triangle; });
-      },
-      1);
-  return grid;
-}
+// Least distances of samples from the band's points, and between these but on creases, in steps.
+constexpr double apart = .6, apart_in_band = .3;
 
 // Marks the triangles that are not smooth, and those up to some rings of smooth triangles beside them and the hull.
 std::vector<std::uint8_t> band_triangles(const HeightFieldMesh& front,
@@ -104,19 +64,22 @@ class Sampler {
         options_(options),
         surface_(front.points, front.triangles, is_smooth),
         is_band_(band_triangles(front, is_smooth)),
-        grid_(make_grid(front, options.resolution_mm)) {}
+        grid_(sample_grid(front, options.resolution_mm, 1 << coarsest_level)) {}
 
   HeightFieldMesh make() {
     add_old_points();
     divide_band();
+    thin_out_band();
     add_squares();
     keep_within_range();
     return triangulated();
   }
 
  private:
-  void add(Index triangle, const Vec2& place, double z) {
-    out_.points.emplace_back(place.x(), place.y(), z);
+  void add(Index triangle, const Vec2& place, const SmoothSurface::Sample& sample, bool is_fixed = false) {
+    out_.points.emplace_back(place.x(), place.y(), sample.height);
+    slopes_.push_back(sample.slope.cast<float>());
+    is_fixed_.push_back(is_fixed);
     if (!front_.colours.empty()) out_.colours.push_back(colour_at(triangle, place));
   }
 
@@ -135,11 +98,10 @@ class Sampler {
 
   // The points of the band, of the hull, and the highest and lowest of all keep their places.
   void add_old_points() {
-    std::vector<std::uint8_t> is_kept(front_.points.size(), 0);
+    std::vector<std::uint8_t> is_kept(front_.points.size(), 0), is_fixed = is_kept;
     for (std::size_t t = 0; t < is_band_.size(); ++t)
-      if (is_band_[t])
-        for (const Index i : front_.triangles[t]) is_kept[i] = 1;
-    for (const Index i : front_.hull) is_kept[i] = 1;
+      for (const Index i : front_.triangles[t]) is_kept[i] |= is_band_[t], is_fixed[i] |= !is_smooth_[t];
+    for (const Index i : front_.hull) is_kept[i] = is_fixed[i] = 1;
     const auto height = [&](Index i) { return front_.points[i].z(); };
     Index lowest = front_.triangles[0][0], highest = lowest;
     for (const Triangle& t : front_.triangles)
@@ -148,10 +110,12 @@ class Sampler {
         if (height(i) > height(highest)) highest = i;
       }
     low_ = height(lowest), high_ = height(highest);
-    is_kept[lowest] = is_kept[highest] = 1;
+    is_kept[lowest] = is_kept[highest] = is_fixed[lowest] = is_fixed[highest] = 1;
     for (Index i = 0; i < is_kept.size(); ++i) {
       if (!is_kept[i]) continue;
       out_.points.push_back(front_.points[i]);
+      slopes_.push_back(Vec2f::Constant(std::numeric_limits<float>::quiet_NaN()));
+      is_fixed_.push_back(is_fixed[i]);
       if (!front_.colours.empty()) out_.colours.push_back(front_.colours[i]);
     }
   }
@@ -197,7 +161,7 @@ class Sampler {
     for (int i = 1; i < divisions_; ++i)
       for (int j = 1; i + j < divisions_; ++j) {
         const Vec2 place = (i * at(0) + j * at(1) + (divisions_ - i - j) * at(2)) / divisions_;
-        add(t, place, surface_.at(t, place).height);
+        add(t, place, surface_.at(t, place));
       }
   }
 
@@ -212,8 +176,29 @@ class Sampler {
       const double share = static_cast<double>(k) / divisions_;
       const Vec3 plane = a + share * (b - a);
       const Index t = same[0][2];
-      add(t, plane.head<2>(), is_crease ? plane.z() : surface_.at(t, plane.head<2>()).height);
+      SmoothSurface::Sample sample = surface_.at(t, plane.head<2>());
+      if (is_crease) sample.height = plane.z();
+      add(t, plane.head<2>(), sample, is_crease);
     }
+  }
+
+  // Points of a scan may nearly coincide as seen. Those of creases stay all, of others one in each place.
+  void thin_out_band() {
+    const double least = apart_in_band * options_.resolution_mm;
+    PointSet taken(least);
+    const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
+    for (std::size_t i = 0; i < out_.points.size(); ++i)
+      if (is_fixed_[i]) taken.add(plane(i), 0);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < out_.points.size(); ++i) {
+      if (!is_fixed_[i] && !taken.add(plane(i), least)) continue;
+      out_.points[kept] = out_.points[i];
+      slopes_[kept] = slopes_[i];
+      if (!out_.colours.empty()) out_.colours[kept] = out_.colours[i];
+      ++kept;
+    }
+    out_.points.resize(kept), slopes_.resize(kept);
+    if (!out_.colours.empty()) out_.colours.resize(kept);
   }
 
   bool is_open(int x, int y) const {
@@ -308,7 +293,7 @@ class Sampler {
     const int middle_x = left + side / 2, middle_y = top + side / 2;
     const Vec2 place = grid_.place(middle_x, middle_y);
     const Index t = grid_.triangle.at(middle_x, middle_y);
-    add(t, place, surface_.at(t, place).height);
+    add(t, place, surface_.at(t, place));
   }
 
   void keep_within_range() {
@@ -319,6 +304,7 @@ class Sampler {
     std::vector<Vec2> plane;
     for (const Vec3& p : out_.points) plane.emplace_back(p.head<2>());
     Triangulation mesh = delaunay(plane);
+    turn_diagonals(plane, slopes_, mesh);
     out_.triangles = std::move(mesh.triangles);
     out_.hull = std::move(mesh.hull);
     out_.ground_mm = front_.ground_mm;
@@ -356,8 +342,10 @@ class Sampler {
   const FrontSampling& options_;
   SmoothSurface surface_;
   std::vector<std::uint8_t> is_band_;
-  Grid grid_;
+  SampleGrid grid_;
   HeightFieldMesh out_;
+  std::vector<Vec2f> slopes_;           // of the points of out_; not numbers for those of the given front
+  std::vector<std::uint8_t> is_fixed_;  // per point of the band: it stays
   double low_ = 0, high_ = 0;
   int divisions_ = 1;
 };

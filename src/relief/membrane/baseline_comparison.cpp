@@ -40,7 +40,9 @@ std::vector<double> BaselineComparison::heights(double u, const MembraneParams& 
   shape.membrane = params;
   std::vector<Vec2> slopes(input_.surface.points.size());
   find_slopes(slope_input(input_.surface, input_.layers, boundary_weight_), shape, slopes);
-  return solved(slopes);
+  std::vector<double> heights = solved(slopes);
+  input_.jump_lift.add_to(std::span(heights), shape);
+  return heights;
 }
 
 Scores BaselineComparison::deficit(std::vector<double> relief, const MembraneParams& params) const {

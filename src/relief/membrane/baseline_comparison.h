@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "quality/fast_metrics.h"
+#include "relief/jump_lift.h"
 #include "relief/membrane/height_correction.h"
 #include "relievo/relief/heights.h"
 #include "relievo/relief/layers.h"
@@ -18,6 +19,7 @@ struct TuningInput {
   std::span<const PointLayers> layers;
   const HeightCorrection& correction;
   const HeightSystem& system;
+  const JumpLift& jump_lift;
 };
 
 // Views its input, which must outlive it. Const calls may run concurrently.

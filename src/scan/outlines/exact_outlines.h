@@ -17,6 +17,9 @@ class ExactOutlines {
 
   bool empty() const { return silhouettes_.segments().empty() && jumps_.segments().empty(); }
 
+  // Returns whether a line in the view plane crosses a depth jump.
+  bool is_across_jump(const Vec2& a, const Vec2& b) const { return jumps_.is_crossed(a, b); }
+
   // Marks triangles as outside that span a gap between samples whose middle lies beyond the silhouette.
   void open_gaps(Surface& surface) const;
 

@@ -1,8 +1,10 @@
 #include "scan/outlines/outline_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "geometry/hilbert.h"
 #include "geometry/plane.h"
@@ -16,23 +18,50 @@ namespace {
 constexpr double rows_end = 3.2;         // points nearer than this to an outline may be replaced
 constexpr double replaced_within = .65;  // by a point of a row that is as near
 constexpr double widest_gap = 1.6;       // radius of an empty circle inside the surface
-constexpr double cell_size = .7;         // of the set of new points; none in a gap is nearer to another
+constexpr double sliver_width = .02;
+constexpr double widest_sample = 1.9;  // radius of such a circle that one point in its middle fills
+constexpr double cell_size = .7;       // of the set of new points; none in a gap is nearer to another
 
-// Returns the centres of circles without points inside the surface that are wider than sampling explains.
-std::vector<Vec2> gap_centres(const Surface& surface, double least_radius) {
-  std::vector<Vec2> centres;
+// Returns nothing for a triangle without area.
+std::optional<Vec2> circumcentre(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 u = b - a, v = c - a;
+  const double twice_area = cross(u, v);
+  if (!(twice_area > 0)) return std::nullopt;
+  return a + Vec2(v.y() * u.squaredNorm() - u.y() * v.squaredNorm(),
+                  u.x() * v.squaredNorm() - v.x() * u.squaredNorm()) /
+                 (2 * twice_area);
+}
+
+// Adds the points of a hexagonal lattice over the plane that lie in a counter-clockwise triangle.
+void add_lattice_points(const std::array<Vec2, 3>& triangle, double spacing, std::vector<Vec2>& places) {
+  const double row_height = spacing * std::sqrt(.75);
+  const auto& [a, b, c] = triangle;
+  const Vec2 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  for (double row = std::ceil(low.y() / row_height); row * row_height <= high.y(); ++row) {
+    const double shift = std::fmod(row, 2) == 0 ? 0 : .5;
+    for (double k = std::ceil(low.x() / spacing - shift); (k + shift) * spacing <= high.x(); ++k) {
+      const Vec2 p((k + shift) * spacing, row * row_height);
+      if (cross(b - a, p - a) >= 0 && cross(c - b, p - b) >= 0 && cross(a - c, p - c) >= 0)
+        places.push_back(p);
+    }
+  }
+}
+
+// Returns places all over the triangles inside the surface that are wider than sampling explains: their centres, then the
+// points of a hexagonal lattice of one rho.
+std::vector<Vec2> places_in_gaps(const Surface& surface) {
+  std::vector<Vec2> centres, lattice;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
     if (!surface.boundary.is_inside[t]) continue;
     const Triangle& corners = surface.triangulation.triangles[t];
     const auto at = [&](int i) -> Vec2 { return surface.points[corners[i]].head<2>(); };
-    const Vec2 u = at(1) - at(0), v = at(2) - at(0);
-    const double twice_area = cross(u, v);
-    if (!(twice_area > 0)) continue;
-    const Vec2 centre = Vec2(v.y() * u.squaredNorm() - u.y() * v.squaredNorm(),
-                             u.x() * v.squaredNorm() - v.x() * u.squaredNorm()) /
-                        (2 * twice_area);
-    if (centre.norm() > least_radius) centres.push_back(at(0) + centre);
+    const std::optional<Vec2> centre = circumcentre(at(0), at(1), at(2));
+    if (!centre || (*centre - at(0)).norm() <= widest_gap * surface.rho) continue;
+    centres.push_back(*centre);
+    if ((*centre - at(0)).norm() > widest_sample * surface.rho)
+      add_lattice_points({at(0), at(1), at(2)}, surface.rho, lattice);
   }
+  centres.insert(centres.end(), lattice.begin(), lattice.end());
   return centres;
 }
 
@@ -111,14 +140,14 @@ class NewSurface {
     for (Index i = 0; i < is_kept.size(); ++i)
       if (is_kept[i]) plane.push_back(surface_.points[i].head<2>());
     const KdTree<Vec2> tree(plane);
-    for (const Vec2& centre : gap_centres(surface_, widest_gap * rho)) {
-      const NearestSegment near = silhouettes_.nearest(centre, rows_end * rho);
+    for (const Vec2& place : places_in_gaps(surface_)) {
+      const NearestSegment near = silhouettes_.nearest(place, rows_end * rho);
       if (near.segment != no_index && (!near.is_left || near.distance < .6 * rho)) continue;
-      if (grid_.nearest(centre, .6 * rho).segment != no_index) continue;
+      if (grid_.nearest(place, .6 * rho).segment != no_index) continue;
       Index nearest;
       double distance_sq;
-      if (tree.nearest(centre, 1, &nearest, &distance_sq) && distance_sq < .64 * rho * rho) continue;
-      if (taken.add(centre, cell_size * rho)) rows.push_back({centre, centre, Place::row});
+      if (tree.nearest(place, 1, &nearest, &distance_sq) && distance_sq < .64 * rho * rho) continue;
+      if (taken.add(place, cell_size * rho)) rows.push_back({place, place, Place::row});
     }
   }
 
@@ -162,7 +191,10 @@ class NewSurface {
       if (!is_on(a) && !is_on(b) && !is_on(c) && longest < 3 * surface.rho) return;
       const Vec2 centre = (plane[a] + plane[b] + plane[c]) / 3;
       const NearestSegment near = silhouettes_.nearest(centre, std::max(3 * surface.rho, longest));
-      boundary.is_inside[t] = near.segment == no_index || near.is_left;
+      // A triangle between points of one silhouette alone, where that is nearly straight, is ground: empty circles as
+      // large as its own are not inside.
+      const bool is_sliver = is_on(a) && is_on(b) && is_on(c) && near.distance < sliver_width * surface.rho;
+      boundary.is_inside[t] = near.segment == no_index || (near.is_left && !is_sliver);
     });
     drop_crumbs(surface);
     boundary.is_boundary = boundary_points(plane.size(), surface.triangulation, boundary.is_inside);

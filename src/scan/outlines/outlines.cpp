@@ -17,7 +17,7 @@ namespace {
 constexpr double least_piece = 20, hole_area = 4;
 constexpr double crumb_share = .005;  // of the surface
 constexpr double point_spacing = .75, fair_window = 3;
-constexpr double shortest_jump = 6, least_occlusion = 3;
+constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
 // Nodes whose place normals do not tell count less than others.
 constexpr double uncertain = .03;
@@ -29,16 +29,6 @@ constexpr double least_lean = .75;
 double area_of(const Surface& surface, const Triangle& t) {
   const auto at = [&](int i) -> Vec2 { return surface.points[t[i]].head<2>(); };
   return cross(at(1) - at(0), at(2) - at(0)) / 2;
-}
-
-// Returns whether no surface with the normals of two neighbouring points connects them. The chord of a circle is
-// perpendicular to the mean of the normals at its ends. is_jump() would not do: at the edge of a surface that turns
-// away from the viewer, the normal there explains any depth.
-bool is_occlusion(const Surface& surface, Index a, Index b) {
-  const Vec3 step = surface.points[b] - surface.points[a];
-  const Vec3 sum = (surface.normals[a] + surface.normals[b]).cast<double>();
-  const double rise = std::abs(sum.head<2>().dot(step.head<2>())) / std::max(sum.z(), .2);
-  return std::abs(step.z()) > 2 * rise + least_occlusion * surface.rho;
 }
 
 // Connected triangles that are all inside or all outside.
@@ -179,7 +169,8 @@ void add_silhouettes(const Surface& surface, const EdgeFinder& finder, const Exa
 // on the left.
 class JumpLines {
  public:
-  explicit JumpLines(const Surface& surface) : surface_(surface), sides_{surface} {
+  JumpLines(const Surface& surface, const ExactOutlines& exact)
+      : surface_(surface), exact_(exact), sides_{surface} {
     const auto triangles = static_cast<Index>(surface.triangulation.triangles.size());
     next_.assign(3 * std::size_t{triangles}, no_index);
     previous_ = next_;
@@ -187,8 +178,7 @@ class JumpLines {
       if (surface.boundary.is_inside[t]) cross_triangle(t);
   }
 
-  void add_outlines(const EdgeFinder& finder, const ExactOutlines& exact,
-                    std::vector<OutlineCurve>& outlines) {
+  void add_outlines(const EdgeFinder& finder, std::vector<OutlineCurve>& outlines) {
     std::vector<std::uint8_t> is_done(next_.size(), 0);
     const auto follow = [&](Index first, bool is_closed) {
       std::vector<Index> chain;
@@ -199,7 +189,7 @@ class JumpLines {
         places.push_back((finder.plane()[sides_.from(side)] + finder.plane()[sides_.to(side)]) / 2);
       }
       const auto guess = [&](std::size_t i) { return node_at(chain[i], finder); };
-      OutlineCurve outline = curve_near(places, guess, {{}, is_closed, true}, exact, surface_.rho);
+      OutlineCurve outline = curve_near(places, guess, {{}, is_closed, true}, exact_, surface_.rho);
       if (static_cast<double>(outline.curve.points.size()) * point_spacing >= shortest_jump)
         outlines.push_back(std::move(outline));
     };
@@ -225,12 +215,19 @@ class JumpLines {
 
   double depth(Index point) const { return surface_.points[point].z(); }
 
+  // Exact outlines tell of lower jumps than points do: the edge of a fold, whose normals explain its depth.
+  bool is_across(Index a, Index b) const {
+    const Vec3 &p = surface_.points[a], &q = surface_.points[b];
+    if (is_occlusion(surface_, a, b)) return true;
+    return !exact_.empty() && std::abs(p.z() - q.z()) > least_exact_jump * surface_.rho &&
+           exact_.is_across_jump(p.head<2>(), q.head<2>());
+  }
+
   // Links the two sides between the corner that lies in front of, or behind, the other two.
   void cross_triangle(Index t) {
     const Triangle& corners = surface_.triangulation.triangles[t];
     std::array<bool, 3> jumps;
-    for (Index i = 0; i < 3; ++i)
-      jumps[i] = is_occlusion(surface_, corners[(i + 1) % 3], corners[(i + 2) % 3]);
+    for (Index i = 0; i < 3; ++i) jumps[i] = is_across(corners[(i + 1) % 3], corners[(i + 2) % 3]);
     const int count = jumps[0] + jumps[1] + jumps[2];
     if (count < 2) return;
     Index alone = 0;  // the corner whose two sides are crossed
@@ -254,11 +251,19 @@ class JumpLines {
   }
 
   const Surface& surface_;
+  const ExactOutlines& exact_;
   Sides sides_;
   std::vector<Index> next_, previous_;  // per edge; no_index for none
 };
 
 }  // namespace
+
+bool is_occlusion(const Surface& surface, Index a, Index b) {
+  const Vec3 step = surface.points[b] - surface.points[a];
+  const Vec3 sum = (surface.normals[a] + surface.normals[b]).cast<double>();
+  const double rise = std::abs(sum.head<2>().dot(step.head<2>())) / std::max(sum.z(), .2);
+  return std::abs(step.z()) > 2 * rise + least_occlusion * surface.rho;
+}
 
 bool drop_crumbs(Surface& surface) {
   Pieces pieces(surface);
@@ -289,7 +294,7 @@ std::vector<OutlineCurve> find_outlines(const Surface& surface, const ExactOutli
   const EdgeFinder finder(surface);
   std::vector<OutlineCurve> outlines;
   add_silhouettes(surface, finder, exact, outlines);
-  JumpLines(surface).add_outlines(finder, exact, outlines);
+  JumpLines(surface, exact).add_outlines(finder, outlines);
   return outlines;
 }
 

@@ -19,6 +19,11 @@ struct OutlineCurve {
   bool is_jump = false;
 };
 
+// Returns whether no surface with the normals of two neighbouring points of a surface connects them. The chord of a circle is
+// perpendicular to the mean of the normals at its ends. is_jump() would not do: at the edge of a surface that turns
+// away from the viewer, the normal there explains any depth.
+bool is_occlusion(const Surface& surface, Index a, Index b);
+
 // Leaves out pieces of less than 0.5 % of the surface, as crumbs of the scan, and closes holes of less than 4 rho^2:
 // changes boundary.is_inside and adds to `crumbs`. If the view has crumbs, only pieces of less than 20 rho^2, which have
 // no outline, are left out. Returns whether the surface has any triangle left.

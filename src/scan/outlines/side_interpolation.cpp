@@ -34,6 +34,9 @@ SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
     leave_same_side(p, matches);
     if (matches.size() >= 6) break;
   }
+  // A sliver between two outlines may show no point but those on them. Without its silhouette, long triangles would
+  // bridge it.
+  if (matches.empty() && p.place == Place::silhouette) tree_.within(p.at, fit_radius * surface_.rho, matches);
   if (matches.empty()) return {};
   std::ranges::sort(matches, [](const auto& a, const auto& b) {
     return std::pair(a.second, a.first) < std::pair(b.second, b.first);

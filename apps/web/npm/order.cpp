@@ -1,4 +1,4 @@
-#include "web/order.h"
+#include "web/npm/order.h"
 
 #include <nlohmann/json.hpp>
 

@@ -21,7 +21,7 @@
 #include "relievo/samples/sample.h"
 #include "relievo/scan/surface.h"
 #include "web/host.h"
-#include "web/order.h"
+#include "web/npm/order.h"
 
 namespace relievo::app::web {
 namespace {

@@ -1,0 +1,107 @@
+// The kinds of work, as pictures of this scan: each sets the piece, its size and its material.
+
+import {$, check, make} from "./controls.js";
+import {FIRST, engineOptions} from "./document.js";
+import {takeArrowKeys} from "./inputs.js";
+import {paint} from "./stage.js";
+
+// A rectangular plate with nothing besides.
+export const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,
+  "rim-height": null, "rim-bevel": null, base: "plane", wrap: "none", form: "relief", draft: null});
+
+const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
+const round = {...PLAIN, outline: "circle", width: null, margin: 1};
+const RIM = ["diameter", "shift", "rim", "rim-height", "rim-bevel"];
+
+// `part` are the options that a kind sets when it is chosen, `rows` those that it shows besides those of all kinds.
+export const KINDS = {
+  relief: {label: "Plaque", title: "Plaque: 100 mm long, 5 mm high", part: plaque, material: "plaster",
+    rows: ["plate", "shift", "base", "form"]},
+  coin: {label: "Coin", title: "Coin or medal: 40 mm across, 1.6 mm high, with a rim", material: "silver",
+    part: {...round, diameter: 40, rim: 1.5, height: 1.6, thickness: 2}, rows: [...RIM, "base"]},
+  wood: {label: "Carving", title: "Carving in wood: 180 mm long, 10 mm high", material: "walnut",
+    part: {...plaque, outline: "round", corner: 12, width: 180, height: 10, margin: 12, thickness: 12},
+    rows: ["plate", "shift", "base", "form"]},
+  die: {label: "Seal", title: "Seal or die: the negative, 30 mm across, 1.2 mm deep, with walls that come off",
+    material: "bronze", part: {...round, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
+    rows: [...RIM, "draft"]},
+  lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
+    material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4},
+    rows: ["plate", "shift"]},
+  shell: {label: "Bent", title: "Bent around a body, such as a vase or a ring", material: "plaster",
+    part: {...plaque, wrap: "cylinder:turn=180"}, rows: ["plate", "wrap", "form"],
+    camera: {yaw: -28, pitch: 18}},
+};
+
+// Returns the kind of work that a document's step is.
+export function kindOf({material, options: {form, wrap, rim, outline}}) {
+  if (form === "lithophane" || form === "die") return form;
+  if (wrap !== "none") return "shell";
+  if (rim || outline === "circle") return "coin";
+  return material === "walnut" ? "wood" : "relief";
+}
+
+// Returns the document's changes that begin a kind of work. A coin and its die have the same diameter.
+function partOf(kind, {diameter}) {
+  const {part, material} = KINDS[kind];
+  const same = part.diameter && diameter ? {diameter} : {};
+  return {material, isHeightLocked: true, u: null, options: {...FIRST.options, ...part, ...same}};
+}
+
+// The options that a kind leaves as they are: how the scan is seen and shaped.
+const KEPT = ["view", "up", "crop", "crumbs", "denoise", "mode", "points", "method", "saturation", "detail", "steepest",
+  "boundary", "steps", "tone", "tool", "finish", "resolution", "tolerance", "triangles"];
+
+const kept = (options) => Object.fromEntries(KEPT.map((name) => [name, options[name]]));
+
+const WIDTH = 176, HEIGHT = 132; // pixels of a picture
+const PAUSE_MS = 60;
+
+const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
+
+export class KindCards {
+  // `isAtRest` returns whether the engine has time for pictures.
+  constructor({engine, doc, isAtRest}) {
+    Object.assign(this, {engine, doc, isAtRest, model: 0});
+    const card = ([kind, {label, title}]) => make("button", {role: "radio", "data-kind": kind, title,
+      onclick: () => this.choose(kind)}, make("canvas", {width: WIDTH, height: HEIGHT, "aria-hidden": "true"}), label);
+    $("#kinds").append(...Object.entries(KINDS).map(card));
+    takeArrowKeys($("#kinds"));
+  }
+
+  choose(kind) {
+    if (kind !== kindOf(this.doc.now)) this.doc.change(this.stepOf(kind));
+  }
+
+  stepOf(kind) {
+    const {options} = this.doc.now, part = partOf(kind, options);
+    return {...this.doc.now, ...part, options: {...part.options, ...kept(options)}};
+  }
+
+  show() {
+    const kind = kindOf(this.doc.now);
+    for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
+  }
+
+  // Draws the pictures when a model is there, one after the other, while nothing else is drawn.
+  async pictured(model) {
+    if (model === this.model) return;
+    this.model = model;
+    for (const [kind, {camera}] of Object.entries(KINDS)) {
+      do await pause(); while (!this.isAtRest() && model === this.model);
+      if (model !== this.model) return;
+      const {options, ...step} = this.stepOf(kind), {material, light} = step;
+      const request = {options: engineOptions({options}), material, light, width: WIDTH, height: HEIGHT,
+        camera: {yaw: 0, pitch: 0, zoom: 1.06, ...camera}};
+      const made = await this.engine.frame(request).catch(() => null); // a view that does not suit the kind
+      if (made && model === this.model) paint($(`#kinds [data-kind="${kind}"] canvas`), made.image);
+    }
+  }
+
+  // Another scan is shown: its pictures are still to come.
+  clear() {
+    this.model = 0;
+    for (const canvas of document.querySelectorAll("#kinds canvas"))
+      canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
+  }
+}

@@ -1,0 +1,56 @@
+// Moves, turns and scales the figure on its plate by hand.
+
+import {clamp} from "./controls.js";
+import {viewTurned} from "./views.js";
+
+const LEAST = 1, MOST = 1e5; // mm of a figure's longer side
+const TURN_STEP = 1; // degrees
+
+const rounded = (x) => Number(x.toFixed(2));
+
+export class Placing {
+  // `shownWidth` returns the figure's longer side in mm, `setWidth` takes it, `say` takes a line for people.
+  constructor({doc, shownWidth, setWidth, say}) {
+    Object.assign(this, {doc, shownWidth, setWidth, say});
+  }
+
+  get isMirrored() {
+    return ["mirror", "die"].includes(this.doc.now.options.form);
+  }
+
+  // Begins a movement on a piece of that size. A plate that is as large as the figure needs becomes one of its present
+  // size, on which there is a place to choose. Returns whether it has one.
+  begin([width, height]) {
+    const {outline, diameter, plate, form, shift} = this.doc.now.options;
+    this.from = (shift || "0,0").split(",").map(Number);
+    this.part = {};
+    if (diameter || plate) return true;
+    if (outline === "circle" && form !== "die") this.part = {diameter: rounded(width), width: null};
+    else if (["rectangle", "round", "ellipse"].includes(outline))
+      this.part = {plate: `${rounded(width)}x${rounded(height)}`, width: null};
+    else return this.say("Give the plate a size first: then the figure can be moved on it."), false;
+    return true;
+  }
+
+  // Moves the figure from where it was by millimetres to the right and up, as seen.
+  move(right, up) {
+    const x = this.from[0] + (this.isMirrored ? -right : right), y = this.from[1] + up;
+    const isMiddle = Math.hypot(x, y) < 0.2;
+    this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
+  }
+
+  scale(factor) {
+    this.setWidth(clamp(this.shownWidth() * factor, LEAST, MOST));
+  }
+
+  // Turns the figure by degrees, to the left for positive ones, as seen.
+  turn(degrees) {
+    const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
+    if (angle !== 0) this.doc.change({options: viewTurned(this.doc.now.options, this.isMirrored ? -angle : angle)});
+  }
+
+  // No place is left for a figure of this size: it becomes as large as fits.
+  squeeze() {
+    if (this.doc.now.options.width !== null) this.doc.change({options: {width: null}}, "place");
+  }
+}

@@ -1,0 +1,105 @@
+// How the scan is prepared: what was found out about it, each with what can be done, where it is cut, and its noise.
+
+import {$, make} from "./controls.js";
+
+const FULL = [0, 0, 1, 1, 0, 1];
+// The sides that can be cut away: the place of each in a crop's numbers, which are shares from below on the left, then
+// from the viewer on. A cut of 0 takes nothing away.
+const SIDES = [["Left", 0], ["Right", 2], ["Top", 3], ["Bottom", 1], ["Front", 4], ["Back", 5]];
+const MOST_CUT = 95; // percent
+const FILLED = 0.85; // of its box: what a scan with a table or a background shows
+
+const numbersOf = (crop) => FULL.map((otherwise, i) => {
+  const number = crop.split(",")[i]?.trim();
+  return number ? Number(number) : otherwise;
+});
+
+// Returns a crop as text, or as it is a whole scan none.
+function cropText(numbers) {
+  const short = numbers.map((x) => Number(x.toFixed(3))), isDeep = short[4] !== 0 || short[5] !== 1;
+  return short.every((x, i) => x === FULL[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
+}
+
+export class ScanPanel {
+  constructor({doc}) {
+    this.doc = doc;
+    this.cuts = SIDES.map(([label, at]) => {
+      const input = make("input", {type: "range", min: 0, max: MOST_CUT, step: 1, "aria-label": `Cut away: ${label}`});
+      const output = make("output");
+      input.oninput = () => this.showCut({input, output}, input.value);
+      input.onchange = () => this.cut(at, Number(input.value) / 100);
+      $("#cuts").append(make("label", {class: "pair cut"}, make("span", {}, label), input, output));
+      return {input, output, at};
+    });
+    $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));
+    $("#remarks").onclick = () => this.open();
+    const set = (options) => doc.change({options});
+    $("#crop").onchange = (event) => set({crop: event.target.value.replaceAll(" ", "")});
+    $("#crumbs").onchange = (event) => set({crumbs: event.target.checked ? "keep" : "drop"});
+    $("#denoise").oninput = (event) => this.showNoise(Number(event.target.value));
+    $("#denoise").onchange = (event) => set({denoise: event.target.value});
+    $("#denoise-auto").onchange = (event) => set({denoise: event.target.checked ? "auto" : $("#denoise").value});
+  }
+
+  showCut({input, output}, percent) {
+    input.value = percent;
+    input.style.setProperty("--filled", `${percent / MOST_CUT * 100}%`);
+    input.setAttribute("aria-valuetext", `${Math.round(percent)} percent`);
+    output.textContent = `${Math.round(percent)} %`;
+  }
+
+  cut(at, share) {
+    const numbers = numbersOf(this.doc.now.options.crop), other = at < 4 ? (at + 2) % 4 : 9 - at;
+    const isFar = FULL[at] === 1;
+    numbers[at] = isFar ? Math.max(1 - share, numbers[other] + 0.05) : Math.min(share, numbers[other] - 0.05);
+    this.doc.change({options: {crop: cropText(numbers)}});
+  }
+
+  open() {
+    $("#scan").open = true;
+    $("#scan").scrollIntoView({block: "start"});
+    $("#scan summary").focus();
+  }
+
+  showNoise(noise) {
+    $("#denoise").value = noise;
+    $("#denoise").style.setProperty("--filled", `${100 * noise}%`);
+    $("#denoise-value").textContent = noise.toFixed(2);
+  }
+
+  // Shows what the document says.
+  show() {
+    const {crop, crumbs, denoise} = this.doc.now.options, numbers = numbersOf(crop);
+    $("#crop").value = crop;
+    $("#crumbs").checked = crumbs === "keep";
+    $("#denoise-auto").checked = denoise === "auto";
+    this.showNoise(denoise === "auto" ? this.facts?.noise ?? 0 : Number(denoise));
+    for (const cut of this.cuts)
+      this.showCut(cut, 100 * (FULL[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
+  }
+
+  // Shows what was found; nothing for null.
+  tell(facts) {
+    this.facts = facts;
+    const notes = facts ? this.notesOn(facts) : [];
+    $("#notes").replaceChildren(...notes.map(([text, label, options]) => make("li", {}, text,
+      ...(label ? [make("button", {class: "quiet", onclick: () => this.doc.change({options})}, label)] : []))));
+    $("#remarks").hidden = notes.length === 0;
+    $("#remarks").textContent = notes.length === 1 ? "1 note on the scan" : `${notes.length} notes on the scan`;
+    this.show();
+  }
+
+  notesOn({remarks, crumbs, noise, area, size: [width, height]}) {
+    const {options} = this.doc.now, notes = [];
+    for (const text of remarks) {
+      const about = text.split(";")[0] + (text.includes(";") ? "." : "");
+      if (crumbs > 0 && /small piece/.test(text)) notes.push([about, "Keep them", {crumbs: "keep"}]);
+      else if (noise > 0 && /^Removed noise/.test(text)) notes.push([about, "Keep it", {denoise: "0"}]);
+      else notes.push([text]);
+    }
+    if (options.crumbs === "keep") notes.push(["Small pieces are kept.", "Leave them out", {crumbs: "drop"}]);
+    if (area > FILLED * width * height && options.crop === "")
+      notes.push(["The scan fills its whole frame. Is there a table or a background? It can be cut away below."]);
+    return notes;
+  }
+}

@@ -1,0 +1,61 @@
+// The models of a scene: how each is turned and how large it is. A change makes another scene file, which is opened.
+
+import {$, make} from "./controls.js";
+import {typedNumber} from "./lengths.js";
+
+const nameOf = (path) => path.split(/[/\\]/).at(-1);
+const TURN = {label: "Turn", unit: "°", min: -360, max: 360}, SIZE = {label: "Size", unit: "", min: 1, max: 10000};
+const MOST_NAMES = 3; // in the name of a scene
+
+// Returns the scene of models as a file: side by side, unless they have places.
+export function sceneFile(models) {
+  const names = models.slice(0, MOST_NAMES).map(({file}) => nameOf(file).replace(/\.[a-z0-9]+$/i, ""));
+  const name = names.join(" + ") + (models.length > MOST_NAMES ? " + …" : "");
+  return new File([JSON.stringify({models})], `${name}.json`, {type: "application/json"});
+}
+
+export class ScenePanel {
+  // `open(models)` shows the scene of other models; `say` takes a line for people.
+  constructor({open, say}) {
+    Object.assign(this, {open, say, models: []});
+  }
+
+  show(models) {
+    this.models = models;
+    $("#scene").hidden = models.length === 0;
+    $("#scene-models").replaceChildren(...models.map((model, i) => this.row(model, i)));
+  }
+
+  row(model, at) {
+    const name = nameOf(model.file), [across, upright, roll] = model.rotate;
+    const field = (label, range, value, part) => {
+      const input = make("input", {
+        value, inputmode: "decimal", autocomplete: "off", "aria-label": `${label} of ${name}`,
+      });
+      input.onchange = () => {
+        const number = typedNumber(input.value, range, this.say);
+        if (number === null) input.value = value;
+        else this.change(at, part(number));
+      };
+      return make("label", {class: "pair"}, make("span", {}, label), input);
+    };
+    const mirror = make("input", {type: "checkbox", checked: model.mirror, "aria-label": `Mirror ${name}`});
+    mirror.onchange = () => this.change(at, {mirror: mirror.checked});
+    const remove = make("button", {class: "quiet", "aria-label": `Remove ${name}`}, "Remove");
+    remove.onclick = () => this.remove(at);
+    remove.disabled = this.models.length === 1;
+    return make("li", {}, make("div", {class: "pair"}, make("b", {}, name), remove),
+      field("Turn left or right (°)", TURN, upright, (turn) => ({rotate: [across, turn, roll]})),
+      field("Tilt (°)", TURN, roll, (turn) => ({rotate: [across, upright, turn]})),
+      field("Size (%)", SIZE, Number((100 * model.scale).toPrecision(4)), (size) => ({scale: size / 100})),
+      make("label", {class: "pair"}, make("span", {}, "Mirrored"), mirror));
+  }
+
+  change(at, part) {
+    this.open(this.models.map((model, i) => (i === at ? {...model, ...part} : model)));
+  }
+
+  remove(at) {
+    this.open(this.models.filter((_, i) => i !== at));
+  }
+}

@@ -1,0 +1,76 @@
+// The tour: five steps that show what is where. It covers nothing but what lies beside the part that it tells of.
+
+import {$, make} from "./controls.js";
+import {offer} from "./messages.js";
+
+const STEPS = [
+  {at: "#kinds", text: "Begin with what it is to become. Each picture is of your scan, and sets size and material."},
+  {at: "#shape", text: "Shape the relief. The height is met exactly; the lock keeps it while you change the rest."},
+  {at: "#stage", text: "Drag on the relief to move the light. A raking light shows what the hand will feel."},
+  {at: ".tools", text: "Turn, cut and measure the piece, and compare it with the scan. What you see is what is made."},
+  {at: "#export", text: "Export files for printing, milling or striking. All is kept; Undo goes all the way back."},
+];
+const OFFER_MS = 30000;
+const GAP = 24, EDGE = 10;
+
+export class Tour {
+  constructor() {
+    this.text = make("p", {"aria-live": "polite"});
+    this.next = make("button", {class: "primary", onclick: () => this.show(this.step + 1)}, "Next");
+    this.element = make("div", {class: "tour", role: "dialog", "aria-label": "Tour", hidden: true}, this.text,
+      make("div", {class: "buttons"}, this.next,
+        make("button", {class: "quiet", onclick: () => this.end()}, "Close")));
+    this.element.onkeydown = (event) => {
+      event.stopPropagation();
+      if (event.key === "Escape") this.end();
+    };
+    document.body.append(this.element);
+    addEventListener("resize", () => !this.element.hidden && this.place());
+  }
+
+  // Offers itself once in a browser, when the first scan is there.
+  offer() {
+    if (localStorage.getItem("toured")) return;
+    localStorage.setItem("toured", "yes");
+    offer("New here? Five steps show what is where.", "Show me", () => this.start(), OFFER_MS);
+  }
+
+  start() {
+    this.before = document.activeElement;
+    this.show(0);
+  }
+
+  show(step) {
+    if (step === STEPS.length) return this.end();
+    this.step = step;
+    this.text.replaceChildren(make("b", {}, `${step + 1} of ${STEPS.length}`), make("br"), STEPS[step].text);
+    this.next.textContent = step + 1 < STEPS.length ? "Next" : "Done";
+    document.querySelector(".toured")?.classList.remove("toured");
+    const part = $(STEPS[step].at);
+    part.closest("details")?.setAttribute("open", "");
+    part.classList.add("toured");
+    part.scrollIntoView({block: "nearest"});
+    this.element.hidden = false;
+    this.place();
+    this.next.focus();
+  }
+
+  // Beside the part where there is room, else over its middle.
+  place() {
+    const part = $(STEPS[this.step].at).getBoundingClientRect(), own = this.element.getBoundingClientRect();
+    const within = (x, most) => Math.max(EDGE, Math.min(x, most - EDGE));
+    const isLeft = part.left > own.width + 2 * GAP, isAbove = part.top > own.height + 2 * GAP;
+    let left = part.left + (part.width - own.width) / 2, top = part.top + (part.height - own.height) / 2;
+    if (isLeft && part.height > own.height) left = part.left - own.width - GAP;
+    else if (isAbove) top = part.top - own.height - GAP;
+    else if (part.bottom + own.height + GAP < innerHeight) top = part.bottom + GAP;
+    this.element.style.left = `${within(left, innerWidth - own.width)}px`;
+    this.element.style.top = `${within(top, innerHeight - own.height)}px`;
+  }
+
+  end() {
+    this.element.hidden = true;
+    document.querySelector(".toured")?.classList.remove("toured");
+    this.before?.focus();
+  }
+}

@@ -1,0 +1,185 @@
+// The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as
+// one scene.
+import assert from "node:assert/strict";
+import {spawnSync} from "node:child_process";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+
+const found = await findBrowser();
+const skip = found.missing ? `${found.missing}: the page is not tested` : false;
+if (skip) console.log(`SKIPPED: ${skip}`);
+
+const folder = temporaryFolder(), scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
+let browser, engine, page;
+
+before(async () => {
+  if (skip) return;
+  for (const [i, scan] of scans.entries()) {
+    const made = spawnSync(PROGRAM, ["sample", ["still_life", "shell"][i], "-o", scan, "--points", "6000"]);
+    assert.equal(made.status, 0, String(made.stderr));
+  }
+  browser = await found.launch();
+  page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
+  page.setDefaultTimeout(30000);
+  engine = await new EngineProcess(path.join(folder, "state"), scans[0]).ready();
+  await page.goto(engine.address);
+  await untilReady();
+});
+
+after(async () => {
+  await browser?.close();
+  await engine?.stop();
+  removeFolder(folder);
+});
+
+async function untilReady() {
+  await page.getByText(/points.*height/).waitFor();
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+}
+
+const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
+const button = (name) => page.getByRole("button", {name, exact: true});
+const text = (name) => page.getByRole("spinbutton", {name, exact: true}).inputValue();
+const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
+const openPanel = (name) => page.locator("summary", {hasText: name}).evaluate((summary) =>
+  (summary.parentElement.open = true));
+
+// Returns the pictures of the kinds, as numbers of pixels that show something and the sum of their colours.
+const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.map((canvas) => {
+  const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+  let shown = 0, sum = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    shown += data[i + 3] > 128;
+    sum += data[i] + 3 * data[i + 1] + 7 * data[i + 2];
+  }
+  return {shown, sum};
+}));
+
+test("shows this scan as each kind of work", {skip}, async () => {
+  const first = await eventually(async () => {
+    const all = await pictures();
+    assert.equal(all.length, 6);
+    for (const {shown} of all) assert.ok(shown > 2000, JSON.stringify(all));
+    return all;
+  });
+  assert.equal(new Set(first.map(({sum}) => sum)).size, 6, "each picture is another");
+});
+
+test("sets size and material with a kind, and takes all of it back at once", {skip}, async () => {
+  await kind("Coin").click();
+  await numbers().getByText(/height 1\.60 mm.*piece 40\.00 × 40\.00/).waitFor();
+  assert.ok(await page.getByRole("radio", {name: "Struck silver"}).isChecked());
+  await kind("Seal").click(); // of the same diameter
+  await numbers().getByText(/height 1\.20 mm/).waitFor();
+  assert.ok(await page.getByRole("radio", {name: "Bronze"}).isChecked());
+  await kind("Lithophane").click();
+  await numbers().getByText(/height 2\.40 mm/).waitFor();
+  assert.ok(await page.getByRole("slider", {name: "Fine detail"}).isDisabled(), "depths alone make a lithophane");
+  for (let step = 0; step < 3; ++step) await button("Undo").click();
+  await numbers().getByText(/height 5\.00 mm/).waitFor();
+  assert.ok(await kind("Plaque").isChecked());
+  assert.ok(await page.getByRole("slider", {name: "Fine detail"}).isEnabled());
+});
+
+test("says what the eye sees, and the paper's symbol in the tip", {skip}, async () => {
+  for (const [name, symbol] of [["Fine detail", "γ"], ["Crispness", "β"]])
+    assert.match(await page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));
+  assert.match(await page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
+});
+
+test("leads through five steps, once by itself and then from the help", {skip}, async () => {
+  await page.getByRole("alert").getByRole("button", {name: "Show me"}).click();
+  const tour = page.getByRole("dialog", {name: "Tour"});
+  for (let step = 1; step <= 5; ++step) {
+    await tour.getByText(`${step} of 5`).waitFor();
+    const box = await tour.boundingBox();
+    assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= 1280 && box.y + box.height <= 800, JSON.stringify(box));
+    await tour.getByRole("button", {name: step < 5 ? "Next" : "Done"}).click();
+  }
+  await tour.waitFor({state: "hidden"});
+  await button("Help").click();
+  await button("Take the tour").click();
+  await tour.getByText("1 of 5").waitFor();
+  await page.keyboard.press("Escape");
+  await tour.waitFor({state: "hidden"});
+  await page.reload();
+  await untilReady();
+  assert.ok(!await button("Show me").isVisible());
+});
+
+test("offers what can be done about the scan, and cuts it", {skip}, async () => {
+  const points = async () => Number((await numbers().innerText()).match(/^([\d,]+) of/)[1].replaceAll(",", ""));
+  const before = await points();
+  await page.getByRole("button", {name: /notes? on the scan/}).click();
+  await page.getByText(/^Removed noise of [\d.]+ sampling distances\./).waitFor();
+  const noise = page.locator("#denoise");
+  assert.ok(Number(await noise.inputValue()) > 0);
+  await button("Keep it").click();
+  await eventually(async () => assert.equal(await noise.inputValue(), "0"));
+  await untilReady();
+  await button("Undo").click();
+  await page.getByText(/^Removed noise of/).waitFor();
+  const bottom = page.getByRole("slider", {name: "Cut away: Bottom"});
+  await bottom.fill("40");
+  await eventually(async () => assert.ok((await points()) < 0.85 * before, `${await points()} of ${before}`));
+  assert.equal(await page.locator("#crop").inputValue(), "0,0.4,1,1");
+  await button("Undo").click();
+  await eventually(async () => assert.equal(await points(), before));
+  assert.equal(await bottom.inputValue(), "0");
+});
+
+test("colours on the piece what a tool leaves standing", {skip}, async () => {
+  const orange = () => page.locator("#picture").evaluate((canvas) => {
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    let count = 0;
+    for (let i = 0; i < data.length; i += 4) count += data[i] > 150 && data[i + 2] < 0.6 * data[i];
+    return count;
+  });
+  await openPanel("Making");
+  const before = await orange(), tool = page.locator("#tool");
+  await tool.fill("ball:8");
+  await tool.press("Enter");
+  await page.getByText(/^The tool reaches [\d.]+ % of the front, and leaves up to [\d.]+ mm/).waitFor();
+  const marked = await orange();
+  assert.ok(marked > before + 5000, `${marked} after ${before}`);
+  await page.getByRole("radio", {name: "Orbit"}).click(); // which it stays in every view
+  await page.locator("#stage").focus();
+  for (let step = 0; step < 4; ++step) await page.keyboard.press("ArrowRight");
+  await untilReady();
+  assert.ok((await orange()) > marked / 2);
+  await page.locator("#finish").selectOption("reachable");
+  await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor();
+  for (let step = 0; step < 2; ++step) await button("Undo").click();
+  await untilReady();
+  assert.ok((await orange()) < before + 500);
+  await button("Fit").click();
+});
+
+test("puts several files side by side, and turns, scales and removes them", {skip}, async () => {
+  const chooser = page.waitForEvent("filechooser");
+  await button("Open").click();
+  await (await chooser).setFiles(scans);
+  await page.getByText("urn + ammonite.json", {exact: true}).waitFor();
+  await untilReady();
+  await page.locator("#scene li").nth(1).getByText("ammonite.ply").waitFor();
+  const width = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
+  const [across, up] = await width();
+  await page.getByLabel("Size (%) of ammonite.ply").fill("50");
+  await page.getByLabel("Size (%) of ammonite.ply").press("Enter");
+  await eventually(async () => {
+    const [x, y] = await width();
+    assert.ok(x / y < 0.95 * across / up, `${x} × ${y} after ${across} × ${up}`);
+  });
+  assert.equal(await page.getByLabel("Size (%) of ammonite.ply").inputValue(), "50");
+  assert.equal(await text("Height in mm"), "5.00");
+  await button("Remove urn.ply").click();
+  await page.getByText("ammonite.json", {exact: true}).waitFor();
+  await untilReady();
+  assert.equal(await page.locator("#scene li").count(), 1);
+  await engine.stop(); // the scans of a scene stay as long as it does
+  engine = await new EngineProcess(path.join(folder, "state")).ready();
+  await page.goto(engine.address);
+  await page.getByText("ammonite.json", {exact: true}).first().waitFor();
+  await untilReady();
+});

@@ -1,0 +1,32 @@
+// Inputs of documents: their names, and the places of their files.
+
+const MASK = (1n << 64n) - 1n;
+
+// Returns the name of the document of an input, as document_of() in apps/studio/store.cpp does.
+export function documentOf({sample, path}) {
+  let hash = 0xCBF29CE484222325n;
+  for (const byte of new TextEncoder().encode(sample ? `sample:${sample}` : `path:${path}`))
+    hash = ((hash ^ BigInt(byte)) * 0x100000001B3n) & MASK;
+  return hash.toString(16).padStart(16, "0");
+}
+
+// Returns the digits of a scan's hash; "" for samples, and for scans that were never read.
+export const scanOf = ({path = "", hash = ""}) =>
+  path.match(/^scans\/([0-9a-f]{16})\//)?.[1] ?? hash.match(/:([0-9a-f]{16})$/)?.[1] ?? "";
+
+// Returns the input that a state of a document is about; null if it is none.
+export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
+
+const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
+const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // where another file is the model
+
+// Returns of several files the one that is opened: the only one, the scene, or the model that the others belong to. Models
+// side by side get a scene of their own.
+export function mainOf(files) {
+  const scene = files.find((file) => endingOf(file) === "json");
+  if (files.length === 1 || scene) return scene ?? files[0];
+  const models = files.filter((file) => !BESIDE.has(endingOf(file)));
+  if (models.length === 1) return models[0];
+  const entries = (models.length > 0 ? models : files).map(({name}) => ({file: name}));
+  return new File([JSON.stringify({models: entries}, null, 1) + "\n"], "scene.json", {type: "application/json"});
+}

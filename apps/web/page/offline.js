@@ -1,0 +1,22 @@
+// The service worker of a page that is served: it keeps the page, so that it opens without a network.
+const NAME = "relievo";
+
+addEventListener("install", (event) => event.waitUntil(skipWaiting()));
+addEventListener("activate", (event) => event.waitUntil(clients.claim()));
+
+// The newest page where the network answers, else the one that was kept.
+addEventListener("fetch", (event) => {
+  const isPage = event.request.mode === "navigate" || event.request.url.endsWith(".webmanifest");
+  if (event.request.method === "GET" && isPage) event.respondWith(newest(event.request));
+});
+
+async function newest(request) {
+  const kept = await caches.open(NAME);
+  try {
+    const answer = await fetch(request);
+    if (answer.ok) await kept.put(request, answer.clone());
+    return answer;
+  } catch {
+    return (await kept.match(request, {ignoreSearch: true})) ?? Response.error();
+  }
+}

@@ -1,0 +1,120 @@
+// Keeps documents and scans in the browser (IndexedDB): documents with their pictures, and the files of scans.
+import {EngineError} from "../../studio/page/engine_base.js";
+import {inputOf, scanOf} from "./inputs.js";
+
+const MOST_RECENT = 24; // documents that are kept, with their scans
+
+const done = (request) => new Promise((resolve, reject) => {
+  request.onsuccess = () => resolve(request.result);
+  request.onerror = () => reject(request.error);
+});
+
+const ended = (transaction) => new Promise((resolve, reject) => {
+  transaction.oncomplete = () => resolve();
+  transaction.onabort = () => reject(transaction.error);
+});
+
+// What went wrong, for people.
+function reason(error) {
+  if (error?.name === "QuotaExceededError") return "the browser has no room left for this page";
+  return `the browser does not allow it (${error?.name ?? error})`;
+}
+
+export class BrowserStore {
+  notice = "";
+  #base = null;
+  #memory = {documents: new Map(), scans: new Map()}; // what could not be kept, for as long as the page lives
+
+  async open() {
+    try {
+      const request = indexedDB.open("relievo", 1);
+      request.onupgradeneeded = () => {
+        request.result.createObjectStore("documents", {keyPath: "id"});
+        request.result.createObjectStore("scans", {keyPath: "digits"});
+      };
+      this.#base = await done(request);
+      this.#base.onversionchange = () => this.#base.close();
+      await this.#removeOld();
+    } catch (error) {
+      this.#base = null;
+      this.notice = `Your work is not kept in this browser: ${reason(error)}. Save projects to keep it.`;
+    }
+  }
+
+  async #get(name, key) {
+    const inMemory = this.#memory[name].get(key);
+    return inMemory ?? (this.#base && done(this.#base.transaction(name).objectStore(name).get(key)));
+  }
+
+  // Changes an entry: `next` takes the one that is there and returns the one to keep; what it throws is thrown.
+  async #change(name, key, next) {
+    if (!this.#base) return void this.#memory[name].set(key, next(this.#memory[name].get(key)));
+    const transaction = this.#base.transaction(name, "readwrite"), store = transaction.objectStore(name);
+    const whole = ended(transaction);
+    whole.catch(() => {}); // it is awaited below, unless `next` throws
+    const now = await done(store.get(key));
+    let changed;
+    try {
+      changed = next(now);
+    } catch (error) {
+      transaction.abort();
+      throw error;
+    }
+    store.put(changed);
+    try {
+      await whole;
+      this.#memory[name].delete(key);
+    } catch (error) {
+      this.#memory[name].set(key, changed);
+      throw new EngineError("output", `${reason(error)}.`);
+    }
+  }
+
+  // Returns {id, state, picture, touched} of a document; nothing if it is not kept.
+  document(id) {
+    return this.#get("documents", id);
+  }
+
+  // Throws an error of kind "older" if a newer state is kept, "output" if this one cannot be.
+  keepDocument(id, state) {
+    return this.#change("documents", id, (kept) => {
+      if (kept?.state?.changed > state.changed) throw new EngineError("older", "a newer state is kept");
+      return {...kept, id, state, touched: Date.now()};
+    });
+  }
+
+  keepPicture(id, picture) {
+    return this.#change("documents", id, (kept) => ({...kept, id, picture}));
+  }
+
+  touch(id) {
+    return this.#change("documents", id, (kept) => ({...kept, id, touched: Date.now()}));
+  }
+
+  // Keeps the files of a scan: {digits, main, files: [[path, blob], ...]}.
+  keepScan(scan) {
+    return this.#change("scans", scan.digits, () => scan);
+  }
+
+  scan(digits) {
+    return digits ? this.#get("scans", digits) : undefined;
+  }
+
+  // Returns the documents that were used last, the newest first.
+  async recent() {
+    const kept = this.#base ? await done(this.#base.transaction("documents").objectStore("documents").getAll()) : [];
+    const all = new Map([...kept.map((each) => [each.id, each]), ...this.#memory.documents]);
+    return [...all.values()].filter(({state}) => inputOf(state)).sort((a, b) => b.touched - a.touched).slice(0, MOST_RECENT);
+  }
+
+  async #removeOld() {
+    const recent = await this.recent();
+    const documents = new Set(recent.map(({id}) => id)), scans = new Set(recent.map(({state}) => scanOf(inputOf(state))));
+    const transaction = this.#base.transaction(["documents", "scans"], "readwrite");
+    for (const [name, wanted] of [["documents", documents], ["scans", scans]]) {
+      const store = transaction.objectStore(name);
+      for (const key of await done(store.getAllKeys())) if (!wanted.has(key)) store.delete(key);
+    }
+    await ended(transaction);
+  }
+}

@@ -1,0 +1,47 @@
+// The worker of the page: the engine in WebAssembly. It takes {id, call, request, files} and answers {id, status, about,
+// body}, {id, error} or, when it can go on no longer, {id, error, isOver}; and {statuses} whenever one has changed.
+import { Engine } from "../../../npm/src/engine.js";
+import { fileOf } from "./blob_file.js";
+
+const BEGINS_WORK = new Set(["open", "view"]);
+
+let engine, timer;
+
+// Prepares what was asked for. Messages that wait come first, so that the newest view is the one that is prepared.
+function work() {
+  try {
+    engine.call("work");
+  } catch (error) {
+    fail(undefined, error);
+  }
+}
+
+function fail(id, { kind = "failure", message }) {
+  postMessage({ id, error: { kind, text: message }, isOver: kind === "memory" || kind === "failure" });
+}
+
+function bodyOf({ type }, bytes) {
+  if (type !== "application/json") return bytes;
+  return JSON.parse(new TextDecoder().decode(bytes));
+}
+
+function answer({ id, call, request, files = [] }) {
+  try {
+    for (const [path, blob] of files) engine.addFile(path, fileOf(blob));
+    const { json: { about, status = 200, ...json }, bytes } = engine.call(call, request);
+    const body = json.type ? bodyOf(json, bytes) : bytes.length > 0 ? bytes : json;
+    postMessage({ id, status, type: json.type, about, body }, body.buffer ? [body.buffer] : []);
+  } catch (error) {
+    fail(id, error);
+  }
+  clearTimeout(timer);
+  if (BEGINS_WORK.has(call)) timer = setTimeout(work);
+}
+
+const started = new Promise((resolve) => {
+  addEventListener("message", ({ data }) => resolve(data.module), { once: true });
+}).then(async (module) => {
+  engine = await Engine.create(module, (text) => postMessage({ statuses: JSON.parse(text) }));
+}).catch((error) => fail(undefined, error));
+
+addEventListener("message", ({ data }) => data.call && started.then(() => answer(data)));

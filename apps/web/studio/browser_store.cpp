@@ -1,0 +1,38 @@
+#include "web/studio/browser_store.h"
+
+#include <span>
+
+#include "relievo/core/text.h"
+
+namespace relievo::app::web {
+namespace {
+
+struct ScanInMemory final : studio::DroppedScan {
+  explicit ScanInMemory(const std::string& scan) : name(studio::plain_name(scan)) {}
+
+  Result<void> append(std::string_view more) override {
+    hash.append(more);
+    const auto added = std::as_bytes(std::span(more));
+    bytes.insert(bytes.end(), added.begin(), added.end());
+    return {};
+  }
+
+  std::string name;
+  FileHash hash;
+  std::vector<std::byte> bytes;
+};
+
+}  // namespace
+
+std::unique_ptr<studio::DroppedScan> BrowserStore::begin_scan(const std::string& name) const {
+  return std::make_unique<ScanInMemory>(name);
+}
+
+Result<ScanSource> BrowserStore::keep(studio::DroppedScan& scan) {
+  auto& kept = static_cast<ScanInMemory&>(scan);  // which begin_scan() made
+  const std::string hash = kept.hash.text();
+  bytes_ = std::move(kept.bytes);
+  return ScanSource{{}, cat("scans/", hash.substr(hash.find(':') + 1), "/", kept.name), kept.name, hash};
+}
+
+}  // namespace relievo::app::web

@@ -1,0 +1,84 @@
+// The calls of the studio's page: the actions that it sends to the native studio by HTTP, and what takes the place of that
+// program's files and threads.
+#include "web/calls.h"
+
+#include "common/files.h"
+#include "relievo/core/text.h"
+#include "studio/actions.h"
+#include "studio/answers.h"
+#include "web/studio/browser_store.h"
+
+// Imported from the module "relievo": takes the statuses of the open documents, as JSON, when one has changed.
+__attribute__((import_module("relievo"), import_name("statuses"))) extern "C" void relievo_host_statuses(
+    const char* json, std::size_t size);
+
+namespace relievo::app::web {
+namespace {
+
+using Json = nlohmann::json;
+
+void tell_statuses();
+
+struct Studio {
+  BrowserStore store;
+  studio::OpenDocuments documents{tell_statuses};
+  studio::Actions actions{documents, store};
+};
+
+Studio& the_studio() {
+  static Studio studio;
+  return studio;
+}
+
+void tell_statuses() {
+  const Json all = the_studio().actions.statuses();
+  const std::string text = all.dump(-1, ' ', false, Json::error_handler_t::replace);
+  relievo_host_statuses(text.data(), text.size());
+}
+
+CallAnswer call_answer(const studio::Answer& from, Json about) {
+  for (const auto& [name, value] : from.headers) about["about"] = Json::parse(value, nullptr, false);
+  about["status"] = from.status;
+  about["type"] = from.type;
+  const auto bytes = std::as_bytes(std::span(from.body));
+  return {std::move(about), {bytes.begin(), bytes.end()}};
+}
+
+// Takes a project file that the page shows under a path. The bytes of a scan in it follow by the call "unpacked".
+Result<CallAnswer> take_project(const Json& json) {
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
+  studio::Answer answer;
+  const studio::BodyReader whole = [&](const auto& take) {
+    return take({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).has_value();
+  };
+  the_studio().actions.take_project(json.value("name", ""), whole, answer);
+  return call_answer(answer, Json::object());
+}
+
+}  // namespace
+
+Result<CallAnswer> call(std::string_view name, const Json& json) {
+  Studio& studio = the_studio();
+  studio::Answer to;
+  if (name == "about") {
+    answer(to, studio.actions.about());
+    return call_answer(to, Json::object());
+  }
+  if (name == "hash") {
+    RELIEVO_TRY(const std::string hash, hash_of_file(json.value("path", "")));
+    return CallAnswer{{{"hash", hash}}};
+  }
+  if (name == "project") return take_project(json);
+  if (name == "unpacked") return CallAnswer{Json::object(), studio.store.take_bytes()};
+  if (name == "work") {
+    studio.documents.work();
+    return CallAnswer{};
+  }
+  if (!studio.actions.has(name))
+    return option_error("call", cat("expected the name of a function, found '", name, "'"));
+  studio.actions.run(name, json, to);
+  if (name != "frame") tell_statuses();
+  return call_answer(to, Json::object());
+}
+
+}  // namespace relievo::app::web

@@ -1,0 +1,220 @@
+// The page in one file, from a scan to an exported solid: in Debian's browsers, opened from disk and from a static server.
+import assert from "node:assert/strict";
+import {execFileSync} from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import {pathToFileURL} from "node:url";
+import {after, before, test} from "node:test";
+import os from "node:os";
+import {admesh, browserNames, eventually, fileAddress, launch, missing, serve, temporaryFolder} from "./support.mjs";
+
+const relievo = await import(pathToFileURL(path.join(process.env.PACKAGE ?? "build/web/npm", "src/index.js")));
+const native = process.env.RELIEVO;
+let scans; // a folder of them
+
+before(async () => {
+  scans = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-scans-"));
+  const shell = await relievo.sample("shell", {points: 20000});
+  fs.writeFileSync(path.join(scans, "shell.ply"), shell);
+  fs.writeFileSync(path.join(scans, "urn.ply"), await relievo.sample("still_life", {points: 20000}));
+  fs.writeFileSync(path.join(scans, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 2\n");
+  const models = [{file: "shell.ply"}, {file: "urn.ply", translate: [2.5, 0, 0]}];
+  fs.writeFileSync(path.join(scans, "both.json"), JSON.stringify({models}));
+});
+after(() => fs.rmSync(scans, {recursive: true, force: true}));
+const scan = (name) => path.join(scans, name);
+
+// The page in a browser, as somebody uses it.
+class Studio {
+  constructor(page, downloads) {
+    Object.assign(this, {page, downloads, errors: []});
+    page.setDefaultTimeout(120_000);
+    page.on("pageerror", (error) => this.errors.push(error.message));
+  }
+
+  button(name) {
+    return this.page.getByRole("button", {name, exact: true});
+  }
+
+  get toast() {
+    return this.page.getByRole("alert");
+  }
+
+  open(...files) {
+    return this.page.locator("#file").setInputFiles(files);
+  }
+
+  async untilReady(points) {
+    await this.page.getByText(new RegExp(`${points} points.*height`)).waitFor();
+    await this.page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  }
+
+  get height() {
+    return this.page.getByRole("spinbutton", {name: "Height in mm"});
+  }
+
+  async setHeight(mm) {
+    await this.height.click();
+    await this.height.press("ControlOrMeta+a");
+    await this.height.pressSequentially(String(mm));
+    await this.height.press("Enter");
+    await this.page.getByText(new RegExp(`height ${mm.toFixed(2)} mm`)).waitFor();
+  }
+
+  // Waits for a file that the browser downloads, and returns its place.
+  async download(trigger, name) {
+    const place = path.join(this.downloads, name);
+    if (this.page.context().browser().browserType().name() === "chromium") {
+      const event = this.page.waitForEvent("download");
+      await trigger();
+      await (await event).saveAs(place);
+      return place;
+    }
+    await trigger();
+    let size = 0; // the file grows until it is whole
+    return eventually(() => {
+      const before = size;
+      size = fs.existsSync(place) && !fs.existsSync(`${place}.part`) ? fs.statSync(place).size : 0;
+      return size > 0 && size === before && place;
+    });
+  }
+
+  async exported(name) {
+    await this.button("Export").click();
+    await this.page.getByText(/triangles$/).waitFor();
+    return this.download(() => this.page.locator("#export-go").click(), name);
+  }
+
+  savedProject(name) {
+    return this.download(async () => {
+      await this.page.getByRole("button", {name: /^Save/}).first().click();
+      await this.page.locator('#save-dialog button[value="save"]').click();
+    }, name);
+  }
+}
+
+async function newStudio(t, name, address) {
+  const downloads = temporaryFolder(t), browser = await launch(name, downloads);
+  t.after(() => browser.close());
+  const context = await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true});
+  const openPage = async () => {
+    const studio = new Studio(await context.newPage(), downloads);
+    await studio.page.goto(address);
+    await studio.page.getByRole("list", {name: "Try a sample"}).waitFor({state: "attached"});
+    return studio;
+  };
+  return {studio: await openPage(), openPage, context};
+}
+
+for (const name of browserNames)
+  for (const place of ["from disk", "from a server"])
+    test(`${name}, ${place}: from a scan to a solid`, {skip: missing(name)}, async (t) => {
+      const address = place === "from disk" ? fileAddress : await serve(t);
+      const {studio} = await newStudio(t, name, address);
+      await studio.open(scan("shell.ply"));
+      await studio.untilReady("20,000");
+      await studio.setHeight(2.5);
+      const solid = admesh(await studio.exported("shell.stl"));
+      assert.ok(Math.abs(solid.height - 5.5) < 1e-5, `${solid.height} mm`);
+      assert.deepEqual([solid.parts, solid.repairs], [1, 0]);
+      const project = await studio.savedProject("shell.relievo");
+      if (native && fs.existsSync(native)) {
+        const again = path.join(studio.downloads, "native.stl");
+        execFileSync(native, ["make", project, "-o", again, "--quiet"], {stdio: "pipe"});
+        assert.deepEqual(admesh(again), solid);
+      }
+      await studio.page.reload();
+      await studio.untilReady("20,000");
+      assert.equal(Number(await studio.height.inputValue()), 2.5);
+      assert.deepEqual(studio.errors, []);
+    });
+
+const options = {skip: missing("chromium")};
+
+test("a project opens with its scan, and several files as a scene", options, async (t) => {
+  const {studio, context} = await newStudio(t, "chromium", fileAddress);
+  await studio.open(scan("urn.ply"));
+  await studio.untilReady("20,000");
+  await studio.setHeight(3.25);
+  const project = await studio.savedProject("urn.relievo");
+  await context.clearCookies();
+  const other = await newStudio(t, "chromium", fileAddress);
+  await other.studio.open(project);
+  await other.studio.untilReady("20,000");
+  assert.equal(Number(await other.studio.height.inputValue()), 3.25);
+  await other.studio.open(scan("shell.ply"), scan("urn.ply"), scan("both.json"));
+  await other.studio.page.getByText("both.json", {exact: true}).waitFor();
+  await other.studio.untilReady("[\\d,]+");
+  await other.studio.open(scan("shell.ply"), scan("urn.ply"));
+  await other.studio.page.getByText("scene.json", {exact: true}).waitFor();
+  await other.studio.untilReady("[\\d,]+");
+  assert.deepEqual(other.studio.errors, []);
+});
+
+test("broken and huge files are refused, and the relief stays", options, async (t) => {
+  const {studio} = await newStudio(t, "chromium", fileAddress);
+  await studio.open(scan("shell.ply"));
+  await studio.untilReady("20,000");
+  await studio.open(scan("broken.ply"));
+  await studio.toast.getByText(/broken\.ply.*expected/).waitFor();
+  await studio.untilReady("20,000");
+  const huge = path.join(studio.downloads, "huge.obj");
+  fs.closeSync(fs.openSync(huge, "w"));
+  fs.truncateSync(huge, 3e9);
+  await studio.open(huge);
+  await studio.toast.getByText(/huge\.obj has .*: expected at most/).waitFor();
+  await studio.untilReady("20,000");
+  assert.deepEqual(studio.errors, []);
+});
+
+test("a preparation is cancelled, and a tab closed in the middle of one loses nothing", options, async (t) => {
+  const {studio, openPage} = await newStudio(t, "chromium", fileAddress);
+  await studio.page.getByRole("button", {name: /green man/i}).click();
+  await studio.button("Cancel").first().click();
+  await studio.page.getByRole("list", {name: "Try a sample"}).waitFor();
+  await studio.open(scan("shell.ply"));
+  await studio.untilReady("20,000");
+  await studio.setHeight(1.75);
+  await studio.button("Choose view").click();
+  await studio.page.getByRole("group", {name: "Sides"}).getByRole("button", {name: "Back", exact: true}).click();
+  await studio.button("Use this view").click();
+  await studio.page.getByRole("progressbar", {name: "Preparing"}).waitFor();
+  await studio.page.close({runBeforeUnload: true});
+  const again = await openPage();
+  await again.untilReady("20,000");
+  assert.equal(Number(await again.height.inputValue()), 1.75);
+  assert.equal(await again.page.locator("#view-name").textContent(), "Back");
+});
+
+test("a second tab shows what the first one changes", options, async (t) => {
+  const {studio, openPage} = await newStudio(t, "chromium", fileAddress);
+  await studio.open(scan("shell.ply"));
+  await studio.untilReady("20,000");
+  const second = await openPage();
+  await second.untilReady("20,000");
+  await studio.setHeight(2.2);
+  await second.page.getByText(/height 2\.20 mm/).waitFor();
+  await second.setHeight(3.1);
+  await studio.page.getByText(/height 3\.10 mm/).waitFor();
+});
+
+test("where the browser has no room the page says so, and goes on", options, async (t) => {
+  const address = await serve(t), {studio, context} = await newStudio(t, "chromium", address);
+  const devtools = await context.newCDPSession(studio.page);
+  await devtools.send("Storage.overrideQuotaForOrigin", {origin: new URL(address).origin, quotaSize: 1});
+  await studio.open(scan("shell.ply"));
+  await studio.toast.getByText(/not kept.*no room left/).waitFor();
+  await studio.untilReady("20,000");
+  await studio.setHeight(2);
+  assert.equal(admesh(await studio.exported("shell.stl")).parts, 1);
+});
+
+test("a page that was served opens without a network", options, async (t) => {
+  const {studio, context} = await newStudio(t, "chromium", await serve(t));
+  await studio.page.evaluate(() => navigator.serviceWorker.ready.then(() => {}));
+  await studio.page.reload();
+  await eventually(() => studio.page.evaluate(async () => (await (await caches.open("relievo")).keys()).length > 0));
+  await context.setOffline(true);
+  await studio.page.reload();
+  await studio.page.getByRole("list", {name: "Try a sample"}).waitFor();
+});

@@ -1,0 +1,81 @@
+// What the tests of the page share: browsers, a static server, and files.
+import {execFileSync} from "node:child_process";
+import fs from "node:fs";
+import http from "node:http";
+import {createRequire} from "node:module";
+import os from "node:os";
+import path from "node:path";
+import {pathToFileURL} from "node:url";
+
+const tests = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../../studio/tests/");
+export const pageFolder = process.env.PAGE ?? path.resolve("build/web/page");
+const driver = path.join(tests, "node_modules/playwright-core");
+
+// Debian's browsers. Stock Firefox speaks WebDriver BiDi, which tells nothing of downloads from memory.
+const BROWSERS = {
+  chromium: {path: "/usr/bin/chromium", options: () => ({args: ["--no-sandbox", "--disable-gpu", "--no-first-run"]})},
+  firefox: {path: "/usr/bin/firefox-esr", options: (downloadsPath) => ({channel: "moz-firefox", downloadsPath})},
+};
+export const browserNames = Object.keys(BROWSERS);
+
+// Returns why a browser's tests cannot run; false if they can.
+export function missing(name) {
+  const lacks = [BROWSERS[name].path, driver].find((file) => !fs.existsSync(file));
+  return lacks ? `SKIPPED: ${lacks} is not there: run scripts/prepare --web --browser` : false;
+}
+
+export function launch(name, folder) {
+  const {path: executablePath, options} = BROWSERS[name];
+  return createRequire(tests)(driver)[name].launch({executablePath, ...options(folder)});
+}
+
+export function temporaryFolder(t) {
+  const folder = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-page-"));
+  t.after(() => fs.rmSync(folder, {recursive: true, force: true, maxRetries: 5}));
+  return folder;
+}
+
+const file = path.join(pageFolder, "relievo.html");
+export const fileAddress = pathToFileURL(file).href;
+const TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".webmanifest": "application/manifest+json"};
+
+// The policy that docs/web.md names for servers, with the hashes of this page.
+export function serverPolicy() {
+  const own = fs.readFileSync(file, "utf8").match(/http-equiv="Content-Security-Policy" content="([^"]*)"/)[1];
+  const [script] = own.match(/script-src ('sha256-\S+')/).slice(1), [style] = own.match(/style-src ('sha256-[^']+')/).slice(1);
+  return `default-src 'none'; script-src 'self' 'wasm-unsafe-eval' ${script}; style-src ${style}; ` +
+    "img-src data: blob:; worker-src 'self' blob:; manifest-src 'self'; connect-src 'self'";
+}
+
+// A static server of the page's folder, with that policy.
+export async function serve(t) {
+  const server = http.createServer((request, response) => {
+    const wanted = path.join(pageFolder, path.basename(new URL(request.url, "http://localhost").pathname));
+    if (!fs.existsSync(wanted)) return response.writeHead(404).end();
+    response.writeHead(200, {"Content-Type": TYPES[path.extname(wanted)], "Content-Security-Policy": serverPolicy()});
+    fs.createReadStream(wanted).pipe(response);
+  });
+  await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
+  t.after(() => server.close() && server.closeAllConnections());
+  return `http://127.0.0.1:${server.address().port}/relievo.html`;
+}
+
+// Calls a function until it returns something, for at most so long.
+export async function eventually(look, seconds = 60) {
+  for (const end = Date.now() + seconds * 1000; ;) {
+    const found = await look();
+    if (found) return found;
+    if (Date.now() > end) throw new Error(`nothing after ${seconds} s: ${look}`);
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+}
+
+// Returns what admesh says of a solid: {facets, size, repairs}, repairs being how many of its checks found something.
+export function admesh(solid) {
+  const text = execFileSync("admesh", [solid], {encoding: "utf8"});
+  const number = (pattern) => Number(text.match(pattern)?.[1] ?? NaN);
+  const repairs = ["Degenerate facets", "Edges fixed", "Facets removed", "Facets added", "Facets reversed", "Backwards edges"]
+    .map((name) => number(new RegExp(`${name}\\s*:\\s*(\\d+)`))).reduce((a, b) => a + b);
+  return {facets: number(/Number of facets\s*:\s*(\d+)/), height: number(/Min Z[^\n]*Max Z =\s*([\d.]+)/),
+    parts: number(/Number of parts\s*:\s*(\d+)/), repairs};
+}

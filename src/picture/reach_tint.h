@@ -1,0 +1,24 @@
+// Colours what a milling tool leaves standing on pictures of a solid. Tested by tests/picture/reach_tint_test.cpp.
+#pragma once
+
+#include <memory>
+
+#include "relievo/core/types.h"
+#include "relievo/plate/tool.h"
+
+namespace relievo {
+
+class ReachTint {
+ public:
+  // Colours nothing without a reach. `front` is the box of the front that was measured, in the body's coordinates.
+  ReachTint(std::shared_ptr<const ToolReach> reach, const Box& front);
+
+  // Returns the linear colour of a place on the front, in orange to red where more than the tolerance is left.
+  Vec3f operator()(const Vec3f& colour, const Vec3f& place) const;
+
+ private:
+  std::shared_ptr<const ToolReach> reach_;
+  Vec2f corner_ = Vec2f::Zero();  // upper left corner of the samples, mm
+};
+
+}  // namespace relievo

@@ -1,0 +1,72 @@
+#include "scan/outlines/small_patches.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "core/disjoint_sets.h"
+#include "scan/outlines/outlines.h"
+
+namespace relievo {
+namespace {
+
+// Patches of fewer points are small: rows of points, which reach 3 rho from each side, leave nothing of them.
+constexpr std::size_t least_patch = 60;
+constexpr double least_behind = .7;  // share of the jumps around it beyond which something nearer is
+
+// The jumps between points of a patch and others.
+struct Rim {
+  std::uint32_t jumps = 0, behind = 0;
+};
+
+template <typename T>
+void keep(std::vector<T>& values, const std::vector<std::uint8_t>& is_kept) {
+  if (values.empty()) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < is_kept.size(); ++i)
+    if (is_kept[i]) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+// Returns per point whether it stays.
+std::vector<std::uint8_t> points_to_keep(const Surface& surface) {
+  const std::vector<Triangle>& triangles = surface.triangulation.triangles;
+  DisjointSets patches(surface.points.size());
+  std::vector<std::array<Index, 2>> jumps;
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3 && surface.boundary.is_inside[t]; ++k) {
+      const Index a = triangles[t][k], b = triangles[t][(k + 1) % 3];
+      if (is_occlusion(surface, a, b))
+        jumps.push_back({a, b});
+      else
+        patches.join(a, b);
+    }
+  std::vector<Rim> rims(surface.points.size());
+  for (const auto& [a, b] : jumps) {
+    const bool is_a_behind = surface.points[a].z() < surface.points[b].z();
+    ++rims[patches.find(a)].jumps, ++rims[patches.find(b)].jumps;
+    ++rims[patches.find(is_a_behind ? a : b)].behind;
+  }
+  std::vector<std::uint8_t> is_kept(surface.points.size());
+  for (Index i = 0; i < is_kept.size(); ++i) {
+    const Rim& rim = rims[patches.find(i)];
+    is_kept[i] = patches.size_of(i) >= least_patch || rim.jumps == 0 || rim.behind < least_behind * rim.jumps;
+  }
+  return is_kept;
+}
+
+}  // namespace
+
+bool drop_small_patches(Surface& surface, PointMeasures& measures) {
+  const std::vector<std::uint8_t> is_kept = points_to_keep(surface);
+  const auto kept = std::ranges::count(is_kept, std::uint8_t{1});
+  if (kept == std::ssize(is_kept) || kept < 4) return false;
+  keep(surface.points, is_kept);
+  keep(surface.normals, is_kept);
+  keep(surface.colours, is_kept);
+  keep(measures.k, is_kept);
+  keep(measures.spacing, is_kept);
+  return true;
+}
+
+}  // namespace relievo

@@ -1,0 +1,14 @@
+// Leaves out what is seen through slits. Tested by tests/scan/small_patches_test.cpp.
+#pragma once
+
+#include "relievo/scan/surface.h"
+#include "scan/outlines/side_interpolation.h"
+
+namespace relievo {
+
+// Removes the points of small patches: sets of points that depth jumps separate from all others, and that lie behind
+// what surrounds them. Such a patch is too small for rows of points beside its outlines, and what it belongs to does not
+// show: it is a rag. Returns whether points were removed; the triangulation and the boundary then have to be found anew.
+bool drop_small_patches(Surface& surface, PointMeasures& measures);
+
+}  // namespace relievo

@@ -1,0 +1,132 @@
+// What the studio shows is what its files contain: its picture of a piece against a picture of the exported STL, of which
+// nothing is known but its triangles.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "common/export_file.h"
+#include "common/project.h"
+#include "relievo/make_relief.h"
+#include "relievo/samples/sample.h"
+#include "studio/drawing.h"
+#include "support/read_solid.h"
+
+namespace relievo {
+namespace {
+
+using app::studio::Drawing;
+
+std::shared_ptr<const ReliefModel> model() {
+  static const auto made =
+      std::make_shared<const ReliefModel>(*prepare(*make_sample("still_life", {.points = 20000}), View{}));
+  return made;
+}
+
+// Returns a solid of the triangles in a file. Those that face up are the front.
+Solid solid_of(const test::ReadSolid& file, double ground_mm) {
+  Solid solid;
+  solid.ground_mm = ground_mm;
+  std::map<std::array<float, 3>, Index> numbers;
+  const auto number = [&](const Vec3f& p) {
+    const auto [at, is_new] =
+        numbers.try_emplace({p.x(), p.y(), p.z()}, static_cast<Index>(solid.points.size()));
+    if (is_new) solid.points.push_back(p.cast<double>());
+    return at->second;
+  };
+  std::vector<Triangle> others;
+  for (const auto& [a, b, c] : file.triangles) {
+    const Triangle t{number(a), number(b), number(c)};
+    const bool is_up = (b - a).cross(c - a).normalized().z() > 1e-3F;
+    (is_up ? solid.triangles : others).push_back(t);
+  }
+  solid.front_triangles = solid.triangles.size();
+  solid.triangles.insert(solid.triangles.end(), others.begin(), others.end());
+  return solid;
+}
+
+// The green of a picture on a grey ground.
+Image<float> green_of(const Image8& image) {
+  Image<float> green = filled_image(image.width, image.height, 0.F);
+  for (std::size_t i = 0; i < green.pixels.size(); ++i) {
+    const float opacity = image.pixels[4 * i + 3] / 255.F;
+    green.pixels[i] = opacity * image.pixels[4 * i + 1] + (1 - opacity) * 200;
+  }
+  return green;
+}
+
+// Returns the mean structural similarity (Wang et al. 2004) of two pictures, in windows of 8 x 8 pixels.
+double similarity(const Image8& picture, const Image8& other) {
+  constexpr int side = 8;
+  constexpr double c1 = .01 * 255 * .01 * 255, c2 = .03 * 255 * .03 * 255;
+  const Image<float> a = green_of(picture), b = green_of(other);
+  if (a.width != b.width || a.height != b.height) return 0;
+  double sum = 0;
+  int windows = 0;
+  for (int top = 0; top + side <= a.height; top += side / 2)
+    for (int left = 0; left + side <= a.width; left += side / 2, ++windows) {
+      double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
+      for (int y = top; y < top + side; ++y)
+        for (int x = left; x < left + side; ++x) {
+          const double p = static_cast<double>(a.at(x, y)), q = static_cast<double>(b.at(x, y));
+          ma += p, mb += q, aa += p * p, bb += q * q, ab += p * q;
+        }
+      constexpr double n = side * side;
+      ma /= n, mb /= n;
+      const double va = aa / n - ma * ma, vb = bb / n - mb * mb, both = ab / n - ma * mb;
+      sum += (2 * ma * mb + c1) * (2 * both + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
+    }
+  return sum / windows;
+}
+
+class PictureOfPiece : public testing::TestWithParam<const char*> {};
+
+TEST_P(PictureOfPiece, IsThatOfTheFile) {
+  nlohmann::json json = nlohmann::json::parse(GetParam());
+  json["height"] = json.value("height", 4.0);
+  const ReliefOptions options = *app::options_from_json(json, "options");
+  app::studio::PictureRequest request{options, json.dump(), {}, false, false, {}};
+  request.render.width = 480;
+  request.render.height = 400;
+  request.render.is_fine = request.is_finished = true;
+  Drawing drawing(model(), 0);
+  const auto order = drawing.missing_piece(request);
+  ASSERT_TRUE(order && *order);
+  drawing.take(std::make_shared<const MadeRelief>(*make_relief(*model(), (*order)->options)), **order);
+  const auto shown = drawing.picture(request);
+  ASSERT_TRUE(shown) << shown.error().message();
+  EXPECT_TRUE(shown->is_finished);
+
+  const auto made = make_relief(*model(), options);
+  ASSERT_TRUE(made) << made.error().message();
+  const std::string bytes = app::export_file(*made, *app::find_format("stl"), 100).bytes;
+  const auto solid =
+      std::make_shared<const Solid>(solid_of(test::solid_in_stl(bytes), made->solid.ground_mm));
+  Picture file;
+  SolidRenderer(solid).render(request.render, file);
+  EXPECT_GT(similarity(shown->picture.image, file.image), .98);
+
+  // A picture of anything else is told apart: one that is 2 % smaller.
+  request.render.camera.zoom = .98;
+  SolidRenderer(solid).render(request.render, file);
+  EXPECT_LT(similarity(shown->picture.image, file.image), .98);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Pieces, PictureOfPiece,
+    testing::Values(
+        R"({})", R"({"method": "paper", "margin": 12, "thickness": 8})",
+        R"({"outline": "round", "corner": 15})", R"({"outline": "ellipse"})",
+        R"({"outline": "circle", "rim": 4})", R"({"outline": "none"})",
+        R"({"rim": 3, "rim-height": 2, "rim-bevel": 1})", R"({"plate": "150x140", "rim": 5})",
+        R"({"diameter": 80, "outline": "circle", "rim": 2, "height": 3})", R"({"form": "mirror"})",
+        R"({"form": "die", "outline": "circle", "rim": 3})", R"({"form": "lithophane", "height": 2.4})",
+        R"({"base": "dome:height=8", "outline": "circle"})", R"({"base": "wave:height=4,length=40"})",
+        R"({"base": "fold:angle=15"})", R"({"base": "cylinder:diameter=200", "form": "mirror"})",
+        R"({"wrap": "cylinder:turn=120"})", R"({"wrap": "cone:turn=90,angle=8"})",
+        R"({"draft": 20, "outline": "ellipse", "rim": 3})", R"({"tolerance": 0.02, "outline": "round"})",
+        R"({"triangles": 20000, "outline": "circle"})", R"({"tool": "ball:2", "finish": "reachable"})"));
+
+}  // namespace
+}  // namespace relievo

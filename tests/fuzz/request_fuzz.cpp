@@ -1,0 +1,77 @@
+// Fuzz target of the studio's requests, below HTTP: the first byte chooses an action, the rest is the body. One document
+// is open, and pictures and exports are small. Every answer is one that the page can show.
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "fuzz/fuzz_program.h"
+#include "studio/actions.h"
+#include "studio/disk_store.h"
+#include "studio/requests.h"
+
+namespace {
+
+using namespace relievo;
+using namespace relievo::app::studio;
+using Json = nlohmann::json;
+
+constexpr const char* action_names[] = {"frame", "scan",    "profile", "export", "view",     "reach",
+                                        "state", "picture", "recent",  "leave",  "document", "status",
+                                        "facts", "views",   "check",   "piece",  "save",     "cancel_piece"};
+
+// A studio that has opened a sample.
+struct Studio {
+  std::string folder = std::filesystem::temp_directory_path() / "relievo-fuzz-XXXXXX";
+  DiskStore store{::mkdtemp(folder.data())};
+  OpenDocuments documents;
+  Actions actions{documents, store};
+  std::string document;
+
+  Studio() {
+    Answer opened;
+    actions.run("open", {{"input", {{"sample", "shell"}}}, {"tab", "fuzz"}}, opened);
+    document = Json::parse(opened.body)["document"];
+    while (documents.find(document)->status().is_busy)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ~Studio() { std::filesystem::remove_all(folder); }
+};
+
+// The request of a page that shows the open document, with pictures and samples that take little time.
+Json small(Json json, const std::string& document) {
+  if (json.value("document", Json("")) != Json("x")) json["document"] = document;
+  json["width"] = 48;
+  json["height"] = 32;
+  if (!json.contains("options")) json["options"] = Json::object();
+  if (json["options"].is_object()) json["options"]["resolution"] = 2;
+  if (json.contains("pixels")) json["pixels"] = 16;
+  return json;
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static Studio studio;
+  if (size == 0) return 0;
+  const std::string_view body(reinterpret_cast<const char*>(data + 1), size - 1);
+  const Result<Json> json = parse_body(body);
+  Answer made;
+  try {
+    json ? studio.actions.run(action_names[data[0] % std::size(action_names)], small(*json, studio.document),
+                              made)
+         : answer(made, json.error());
+  } catch (const Json::exception&) {
+    return 0;  // a field of another type, which the server answers with 400
+  }
+  const bool is_known = made.status == 200 || made.status == 400 || made.status == 409 ||
+                        made.status == 422 || made.status == 500;
+  if (!is_known) std::abort();
+  if (made.status != 200 && Json::parse(made.body)["error"]["text"].get<std::string>().empty()) std::abort();
+  return 0;
+}
+
+RELIEVO_RUN_FILES

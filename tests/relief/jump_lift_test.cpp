@@ -1,0 +1,138 @@
+#include "relief/jump_lift.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "relief/style.h"
+#include "relievo/relief/heights.h"
+#include "relievo/scan/surface.h"
+#include "scan/jumps.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double half_width = .5;  // of the flap
+
+// A tilted square before a level one. Slopes say nothing of the depth between them, so (9) puts the middle of the square at
+// the height of what is behind it, and its lower half below.
+Cloud flap() {
+  const double tilt = 25 * std::numbers::pi / 180;
+  Cloud square = test::sheet(8000, half_width / std::cos(tilt), 0);
+  const Eigen::AngleAxisd turn(tilt, Vec3::UnitY());
+  for (Vec3& p : square.points) p = turn * p + Vec3(0, 0, 1);
+  for (Vec3f& n : square.normals) n = (turn * n.cast<double>()).cast<float>();
+  return test::joined(test::sheet(30000, 1.5, 0), square);
+}
+
+struct Prepared {
+  explicit Prepared(const Cloud& cloud) : surface(find_surface(cloud, {}).value()) {}
+
+  // Returns the heights that (9) gives the default layered shape.
+  std::vector<double> heights(const Shape& shape) const {
+    const std::vector<float> boundary_weight =
+        boundary_weights(surface.boundary.distance, boundary_rho(surface, shape.boundary_width));
+    std::vector<Vec2> slopes(surface.points.size());
+    find_slopes(slope_input(surface, layers, boundary_weight), shape, slopes);
+    std::vector<double> z(slopes.size());
+    system.solve(slopes, z);
+    return z;
+  }
+
+  Surface surface;
+  std::vector<PointLayers> layers = normal_layers(surface.points, surface.normals);
+  std::vector<float> weights = jump_weights(surface);
+  HeightSystem system =
+      HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights).value();
+  JumpLift lift = JumpLift::find({surface, layers, weights, system});
+};
+
+Shape shape_at(double u, double gamma = layered_shape().gamma) {
+  Shape shape = layered_shape();
+  shape.compression.u = u;
+  shape.gamma = gamma;
+  shape.membrane = MembraneParams{.4};
+  return shape;
+}
+
+// Returns the mean of how far the front side of the wall is below its back side.
+double mean_inversion(const Surface& surface, std::span<const double> z) {
+  double sum = 0, edges = 0;
+  for (const Triangle& t : surface.triangulation.triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = t[i], b = t[(i + 1) % 3];
+      if (!surface.boundary.is_across_wall(a, b)) continue;
+      const double step = surface.boundary.wall_side[a] == WallSide::front ? z[b] - z[a] : z[a] - z[b];
+      sum += std::max(step, 0.0), ++edges;
+    }
+  return sum / edges;
+}
+
+// Returns the share of the inversion that is left of heights for that shape.
+double inversion_left(const Prepared& prepared, const Shape& shape) {
+  std::vector<double> z = prepared.heights(shape);
+  const double before = mean_inversion(prepared.surface, z);
+  EXPECT_GT(before, .04 * (*std::ranges::max_element(z) - *std::ranges::min_element(z)));
+  prepared.lift.add_to(std::span(z), shape);
+  return mean_inversion(prepared.surface, z) / before;
+}
+
+TEST(JumpLift, LevelsInvertedJumpsAtEveryHeight) {
+  const Prepared flap_before_sheet(flap());
+  for (const double u : {.1, .25, .5, 2.0, 9.0, 16.0})
+    EXPECT_LT(inversion_left(flap_before_sheet, shape_at(u)), .12) << u;
+}
+
+// The fields are found for the default detail.
+TEST(JumpLift, LessensInversionsAtOtherDetails) {
+  const Prepared flap_before_sheet(flap());
+  for (const double gamma : {0.0, .02, .06})
+    EXPECT_LT(inversion_left(flap_before_sheet, shape_at(1, gamma)), .7) << gamma;
+}
+
+double distance_to_wall(const Surface& surface, std::size_t i) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t j = 0; j < surface.points.size(); ++j)
+    if (surface.boundary.wall_side[j] != WallSide::none)
+      least = std::min(least, (surface.points[i] - surface.points[j]).head<2>().norm());
+  return least;
+}
+
+TEST(JumpLift, MovesNothingFarFromJumpsNorOnTheSilhouette) {
+  const Prepared flap_before_sheet(flap());
+  const Surface& surface = flap_before_sheet.surface;
+  std::vector<double> z(surface.points.size(), 0);
+  flap_before_sheet.lift.add_to(std::span(z), shape_at(1));
+  const double farthest = .05 * 3;  // of the longer side
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < z.size(); ++i) {
+    if (z[i] == 0) continue;
+    ++moved;
+    EXPECT_FALSE(surface.boundary.is_boundary[i]);
+    EXPECT_LT(distance_to_wall(surface, i), farthest);
+  }
+  EXPECT_GT(moved, 1000U);
+}
+
+TEST(JumpLift, ChangesNothingWithoutJumpsAndWhereHeightsAreNotCorrected) {
+  const Prepared ball(test::sphere(20000, 1));
+  const Prepared flap_before_sheet(flap());
+  const auto is_unchanged = [](const Prepared& prepared, const Shape& shape) {
+    std::vector<double> z(prepared.surface.points.size(), 0);
+    prepared.lift.add_to(std::span(z), shape);
+    return std::ranges::all_of(z, [](double height) { return height == 0; });
+  };
+  EXPECT_TRUE(is_unchanged(ball, shape_at(1)));
+  EXPECT_TRUE(is_unchanged(flap_before_sheet, shape_at(0)));
+  EXPECT_TRUE(is_unchanged(flap_before_sheet, Shape{{1, 0}}));
+  Shape uncorrected = shape_at(1);
+  uncorrected.membrane->pull_length = std::numeric_limits<double>::infinity();
+  EXPECT_TRUE(is_unchanged(flap_before_sheet, uncorrected));
+}
+
+}  // namespace
+}  // namespace relievo

@@ -1,0 +1,47 @@
+#include "scan/outlines/small_patches.h"
+
+#include <gtest/gtest.h>
+
+#include "relievo/scan/surface.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+// A wall of points 0.01 apart with a square window, and a wall at depth z that shows through it.
+Cloud window(double half_width, double z) {
+  test::Random random(3);
+  Cloud cloud;
+  const double step = .01;
+  for (int i = 0; i < 100 * 100; ++i) {
+    const Vec2 at((i % 100 - 49.5 + random.uniform(-.2, .2)) * step,
+                  (i / 100 - 49.5 + random.uniform(-.2, .2)) * step);
+    const bool is_window = at.cwiseAbs().maxCoeff() < half_width;
+    test::add(cloud, {at.x(), at.y(), is_window ? z : 0}, Vec3::UnitZ());
+  }
+  return cloud;
+}
+
+std::size_t points_at(const Surface& surface, double z) {
+  const auto is_there = [&](const Vec3& p) { return std::abs(p.z() + surface.centre.z() - z) < .01; };
+  return static_cast<std::size_t>(std::ranges::count_if(surface.points, is_there));
+}
+
+TEST(SmallPatches, BehindOthersAreLeftOut) {
+  const Surface surface = *find_surface(window(.035, -.5), View{});  // about 49 points
+  EXPECT_EQ(points_at(surface, -.5), 0U);
+}
+
+TEST(SmallPatches, LargerOnesStay) {
+  const Surface surface = *find_surface(window(.1, -.5), View{});
+  EXPECT_GT(points_at(surface, -.5), 200U);
+}
+
+TEST(SmallPatches, InFrontStay) {
+  // A stud before a wall shows as much of its form as it has.
+  const Surface surface = *find_surface(window(.035, .5), View{});
+  EXPECT_GT(points_at(surface, .5), 20U);
+}
+
+}  // namespace
+}  // namespace relievo
