@@ -27,22 +27,10 @@ struct Shared {
   std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
 
-  View prepared_view;  // asked for last
-
   void cancel_turning() {
     if (turning) turning->cancel();
   }
-  void cancel_preparation() {
-    if (progress) progress->cancel();
-    waiting = std::nullopt;
-    status.is_preparing = false;
-  }
 };
-
-// Views that come as other texts differ by rounding.
-bool is_same_direction(const View& a, const View& b) {
-  return (a.R_view_model - b.R_view_model).cwiseAbs().maxCoeff() < 1e-4;
-}
 
 std::unexpected<Error> cancelled() {
   return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
@@ -153,7 +141,6 @@ void Session::open(Preparation preparation) {
   state_->shared.with([&](Shared& s) {
     s.cancel_turning();
     if (s.progress) s.progress->cancel();
-    s.prepared_view = preparation.view;
     s.waiting = std::move(preparation);
     s.status = {true, "waiting", 0, std::nullopt};
   });
@@ -164,7 +151,9 @@ void Session::cancel() {
   state_->shared.with([](Shared& s) {
     s.cancel_turning();
     if (s.status.is_preparing) s.status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
-    s.cancel_preparation();
+    if (s.progress) s.progress->cancel();
+    s.waiting = std::nullopt;
+    s.status.is_preparing = false;
   });
 }
 
@@ -172,7 +161,6 @@ Result<TurnedRelief> Session::turn(const View& view) {
   const auto progress = std::make_shared<Progress>();
   const auto like = state_->shared.with([&](Shared& s) {
     s.cancel_turning();
-    if (s.measured.cloud && !is_same_direction(s.prepared_view, view)) s.cancel_preparation();
     s.turning = progress;
     return s.model;
   });
