@@ -1,4 +1,4 @@
-// What stands in a JSON file in place of what was expected, for messages.
+// Names the value that a JSON file has in place of the expected one, for messages.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -184,9 +184,9 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
                            const CachedFrame& cached, PictureAnswer& answer) {
   const auto start = std::chrono::steady_clock::now();
   const PieceOrder order = order_of(request, cached);
-  const bool is_frame = is_plain(request.options) && !request.is_finished;
-  answer.is_finished = !is_frame && piece_.is_finished(order.key);
-  if (is_plain(request.options) && !answer.is_finished) {
+  answer.is_plain = is_plain(request.options);
+  answer.is_finished = (!answer.is_plain || request.is_finished) && piece_.is_finished(order.key);
+  if (answer.is_plain && !answer.is_finished) {
     renderer_.render(shown(cached), render, answer.picture);
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
     answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};

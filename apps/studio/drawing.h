@@ -44,6 +44,7 @@ struct PictureRequest {
 struct PictureAnswer {
   Picture picture;
   bool is_finished = false;  // shows the piece as export makes it, or the model itself
+  bool is_plain = false;     // the piece is one that frames show, too
   std::uint64_t scene = 0;   // number of what the picture shows besides the relief: plate, camera, light ...
   double drawing_s = 0;
   double width_mm = 0;                  // of the relief's longer side

@@ -68,7 +68,7 @@ class Engine {
   // Returns whether nothing runs, not even work that was cancelled.
   bool is_idle();
 
-  // Where there are no threads: does what open(), show() and choose_view() asked for.
+  // Does, where there are no threads, what open(), show() and choose_view() asked for.
   void work();
 
   EngineStatus status() const;

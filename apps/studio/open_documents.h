@@ -38,7 +38,7 @@ class OpenDocuments {
   // The tab is closed.
   void leave(const std::string& tab);
 
-  // Where there are no threads: does what the engines were asked for, see Engine::work().
+  // Does, where there are no threads, what the engines were asked for, see Engine::work().
   void work();
 
   // Returns all, the one that was used last first.

@@ -13,7 +13,7 @@ namespace relievo::app::studio {
 // Returns whether the options ask for nothing but the relief on a rectangular plate, which FrameRenderer can draw.
 bool is_plain(const ReliefOptions& options);
 
-// What a piece is made of; equal keys mean equal options.
+// The options that a piece is made of; equal keys mean equal options.
 struct PieceOrder {
   ReliefOptions options;
   std::string key;

@@ -221,6 +221,7 @@ Json to_json(const PictureAnswer& answer) {
           {"height", answer.picture.image.height},
           {"pixels_per_mm", answer.picture.pixels_per_mm},
           {"is_finished", answer.is_finished},
+          {"is_plain", answer.is_plain},
           {"scene", answer.scene},
           {"curve", {{"share", rounded(answer.curve.share)}, {"kept", rounded(answer.curve.kept)}}},
           {"height_mm", answer.height_mm},

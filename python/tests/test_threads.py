@@ -86,7 +86,7 @@ class Calls(unittest.TestCase):
     def test_give_the_same_in_several_threads(self):
         heights = [2, 3, 4, 5]
         alone = [relievo.make(scan(), height_mm=h, resolution_mm=0.5).to_bytes("stl") for h in heights]
-        session = relievo.Session(scan())
+        session = relievo.Session(scan(), method="paper")  # a height to meet is searched from where the last frame's was
         frames = [session.frame(saturation=h).heights.copy() for h in heights]
         with ThreadPoolExecutor(4) as pool:
             together = list(pool.map(lambda h: relievo.make(scan(), height_mm=h, resolution_mm=0.5).to_bytes("stl"), heights))

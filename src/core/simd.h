@@ -11,10 +11,11 @@ namespace relievo {
 
 // Vectors of eight or four floats, or four doubles. Code written with them compiles to AVX2 inside a function
 // marked RELIEVO_AVX2 and to pairs of SSE2 instructions elsewhere; both give the same bits, because products
-// and sums are never contracted. The vectors need no alignment and may alias other types.
-using Float8 = float __attribute__((vector_size(32), aligned(4), may_alias));
-using Float4 = float __attribute__((vector_size(16), aligned(4), may_alias));
-using Double4 = double __attribute__((vector_size(32), aligned(8), may_alias));
+// and sums are never contracted. The vectors need no alignment and may alias other types:
+// as typedefs, for clang ignores the alignment of a using-declaration.
+typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
+typedef float Float4 __attribute__((vector_size(16), aligned(4), may_alias));
+typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
 
 #if defined(__x86_64__)
 #define RELIEVO_AVX2 __attribute__((target("avx2")))

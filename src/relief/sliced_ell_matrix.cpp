@@ -35,7 +35,8 @@ RELIEVO_INLINE Pairs eight_pairs(const Vec2f* from, const Index* at) {
 }
 
 RELIEVO_INLINE Pairs pairs(const SlicedEllMatrix::Coefficients& values) {
-  const auto* const v = reinterpret_cast<const Float8*>(values.data());
+  // Not `auto`, with which GCC forgets that these vectors need no alignment.
+  const Float8* const v = reinterpret_cast<const Float8*>(values.data());
   return {v[0], v[1]};
 }
 

@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "fuzz/fuzz_program.h"
+#include "relievo/io/write.h"
+#include "relievo/samples/sample.h"
 #include "studio/actions.h"
 #include "studio/disk_store.h"
 #include "studio/requests.h"
@@ -32,8 +34,11 @@ struct Studio {
   std::string document;
 
   Studio() {
+    const std::string scan = folder + "/scan.ply";
+    const std::vector<std::byte> ply = write_ply(*make_sample("shell", {.points = 2000}));
+    std::ofstream(scan, std::ios::binary).write(reinterpret_cast<const char*>(ply.data()), std::ssize(ply));
     Answer opened;
-    actions.run("open", {{"input", {{"sample", "shell"}}}, {"tab", "fuzz"}}, opened);
+    actions.run("open", {{"input", {{"path", scan}}}, {"tab", "fuzz"}}, opened);
     document = Json::parse(opened.body)["document"];
     while (documents.find(document)->status().is_busy)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));

@@ -3,7 +3,7 @@
 // A movement is a drag of 4 seconds with 60 events a second, which waits for no picture: what comes while a picture is
 // made is shown by the next one.
 import path from "node:path";
-import {EngineProcess, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
+import {EngineProcess, areKindsDrawn, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
 // The sliders by their names, today's and former ones; a drag goes over these shares of a slider or of the picture.
@@ -31,7 +31,8 @@ async function measure(scan) {
   await page.goto(engine.address);
   await page.getByText(/points.*height/).waitFor({timeout: 120000});
   await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
-  await page.waitForTimeout(4000);
+  await page.waitForFunction(areKindsDrawn, null, {timeout: 120000});
+  await page.waitForTimeout(2000);
   const points = (await page.getByRole("contentinfo", {name: "Numbers"}).innerText()).match(/[\d,]+/)[0];
   for (const [name, movement] of Object.entries(MOVEMENTS)) {
     const {events, pictures, pixels} = await drag(page, movement);

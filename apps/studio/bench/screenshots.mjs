@@ -1,5 +1,5 @@
 // Takes the README's pictures of the studio: node apps/studio/bench/screenshots.mjs
-import {EngineProcess, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
+import {EngineProcess, areKindsDrawn, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
 
 const found = await findBrowser();
 if (found.missing) throw new Error(found.missing);
@@ -18,19 +18,22 @@ const take = async (page, name) => {
   await page.screenshot({path: `docs/pictures/studio-${name}.jpg`, type: "jpeg", quality: 90});
 };
 
+const untilKindsAreDrawn = (page) => page.waitForFunction(areKindsDrawn, null, {timeout: 120000});
+
 const page = await open("light");
 await take(page, "start");
 await page.getByRole("button", {name: /green man/i}).click();
 await page.getByText(/points.*height/).waitFor({timeout: 60000});
 await page.getByRole("radio", {name: "Coin"}).click();
 await page.getByRole("radio", {name: "Bronze"}).click();
-await page.waitForTimeout(8000); // until each kind of work has its picture
+await untilKindsAreDrawn(page);
 await take(page, "main");
 await page.close();
 
 const dark = await open("dark");
 await dark.getByText(/points.*height/).waitFor({timeout: 60000});
 await dark.getByRole("radio", {name: "Plaque"}).click();
+await untilKindsAreDrawn(dark);
 await dark.getByRole("button", {name: "Light table"}).click();
 await take(dark, "light-table");
 await browser.close();

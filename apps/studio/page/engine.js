@@ -1,5 +1,5 @@
-// The engine as the page sees it, in the program `relievo studio`. Everything that knows HTTP is in this file. In the page
-// that is one file alone, apps/web/page/engine.js takes its place.
+// The engine as the page sees it, in the program `relievo studio`. Everything that knows HTTP is in this file. In the
+// page that is one file alone, apps/web/page/engine.js takes its place.
 //
 // An Engine has
 //   about()                     -> version, options, readable, endings, formats, views, materials, stages, curve,
@@ -7,6 +7,7 @@
 //                                  where work is kept), most_upload (bytes), limits (texts: what this engine cannot do)
 //   addressOf(file)             -> the address of one of the page's pictures
 //   takesSeveral                   whether upload() takes several files together, of which one refers to the others
+//   drawsMeanwhile                 whether pictures are drawn while a piece is made
 //   follow(onStatus, onLost, say)  calls back with each new status of each open document, in all tabs, and once with
 //                                  {run} alone when an engine is found; onLost when it has gone; say with a text for
 //                                  people
@@ -69,6 +70,7 @@ const ASK = "status?"; // of a new tab to the one that has the stream
 export class Engine {
   document = "";
   takesSeveral = false;
+  drawsMeanwhile = true;
 
   addressOf(file) {
     return file;

@@ -1,4 +1,4 @@
-// What the engines of all pages share.
+// The base class has all that the engines of all pages share.
 
 export class EngineError extends Error {
   constructor(kind, text) {

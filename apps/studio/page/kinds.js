@@ -80,6 +80,8 @@ export class KindCards {
 
   show() {
     const kind = kindOf(this.doc.now);
+    if (kind === this.shown) return; // this runs for each event of a drag
+    this.shown = kind;
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
   }
 

@@ -264,7 +264,7 @@ async function arrived(status) {
   stage.await(false);
   stage.share = 1;
   scanPanel.tell(facts);
-  scenePanel.show(facts.models);
+  scenePanel.show(engine.takesSeveral ? [] : facts.models); // whose files no other scene finds
   tour.offer();
   $("#save").hidden = $("#export").hidden = false;
   stage.invalidate();

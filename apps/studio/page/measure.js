@@ -10,7 +10,7 @@ const GAP = 14; // pixels from the piece to its dimensions
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
-// Returns a line between two pixels with the text in its middle, on a ground that keeps it readable, within the picture.
+// Returns a line between two pixels with a text in its middle, on a ground that keeps it readable, within the picture.
 function labelled([x1, y1], [x2, y2], text, kind, picture) {
   const width = 7.2 * text.length + 10, x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
   const y = clamp((y1 + y2) / 2, 11, picture.height - 11);

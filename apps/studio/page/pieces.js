@@ -4,20 +4,23 @@ import {optionOf} from "./about.js";
 import {$, make} from "./controls.js";
 import {FIRST, engineOptions} from "./document.js";
 import {KINDS, PLAIN, kindOf} from "./kinds.js";
-import {lengthText, millimetresPerUnit, parseLength, typedNumber} from "./lengths.js";
+import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
 const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
-  shift: "Figure moved by", rim: "Rim width",
+  shift: "Moved by", rim: "Rim width",
   "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
   up: "Upright", points: "Points from meshes", mode: "Solver"};
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
 const PREPARING = ["up", "points", "mode"];
-const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
+const SIZE = ["diameter", "plate"]; // stand at the top
+const placeOf = (name) => [[MAKING, "#making"], [PREPARING, "#preparing"], [SIZE, "#size"]]
+  .find(([names]) => names.includes(name))?.[1] ?? "#piece";
 const PLACES = Object.fromEntries(Object.keys(LABELS).map((name) => [name, placeOf(name)]));
+const isOfPiece = (name) => ["#piece", "#size"].includes(PLACES[name]);
 const SUGGESTED = {
   base: ["plane", "dome:height=5", "wave:height=4,length=40", "fold:angle=15", "cylinder:diameter=200"],
   wrap: ["cylinder:turn=180", "cylinder:turn=360", "cylinder:diameter=60", "cone:turn=90,angle=8",
@@ -28,14 +31,18 @@ const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed"
 const UNITS = {MM: "mm", DEG: "°"};
 export const ROWS = Object.keys(LABELS);
 
-// Returns the size of a plate such as "200x150" with each length as typed(length) has it; the text itself if it is no
-// such size, which the engine then refuses.
-function plateText(text, typed) {
-  const lengths = text.toLowerCase().split(/[x×]/).map(typed);
-  return lengths.length === 2 && lengths.every(Number.isFinite) ? lengths.join("x") : text;
+// The options of two lengths, by what stands between them.
+const PAIRS = {plate: {between: "x", split: /[x×]/}, shift: {between: ",", split: ","}};
+
+// Returns a text such as "200x150" or "5,-3" with each length as typed(length) has it; the text itself if it is no such
+// pair, which the engine then refuses.
+function pairText(name, text, typed) {
+  const {between, split} = PAIRS[name], lengths = text.toLowerCase().split(split).map(typed);
+  return lengths.length === 2 && lengths.every(Number.isFinite) ? lengths.join(between) : text;
 }
-const plateInMm = (text) => plateText(text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
-const plateAsShown = (text) => plateText(text, (side) => Number(shortLength(Number(side))));
+const inMm = (name, text) =>
+  pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
+const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
 // Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, until a width
 // is asked for; an outline that cannot have that size is as large as the relief needs.
@@ -88,7 +95,7 @@ export class PieceRows {
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
     if (isNumber && text !== "" && value === null) return this.show(name);
-    if (name === "plate") value = plateInMm(value ?? "");
+    if (PAIRS[name]) value = inMm(name, value ?? "");
     const {options} = this.doc.now;
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
     try {
@@ -105,12 +112,15 @@ export class PieceRows {
     const {options} = this.doc.now, kind = kindOf(this.doc.now);
     for (const [name, {element, input, unit}] of Object.entries(this.rows)) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
-      const text = name === "plate" ? plateAsShown(value) : value;
+      const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;
       if (document.activeElement !== input || input.matches("select") || name === entered) input.value = shown;
-      if (PLACES[name] === "#piece" && name !== "outline")
+      if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
+        element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
+      if (isOfPiece(name) && name !== "outline")
         element.hidden = !KINDS[kind].rows.includes(name) && value === (PLAIN[name] ?? "");
     }
+    this.shownUnit = lengthUnit.unit;
     this.rows.finish.element.hidden = !options.tool || options.tool === "none";
   }
 }

@@ -39,7 +39,10 @@ export class Placing {
     this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
   }
 
-  scale(factor) {
+  // Scales the figure on a piece of that size, which stays as large as it is.
+  scale(factor, size) {
+    if (!this.begin(size)) return;
+    if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "place");
     this.setWidth(clamp(this.shownWidth() * factor, LEAST, MOST));
   }
 

@@ -28,7 +28,7 @@ export class Projects {
       throw new Error(`${tooLarge.name} has ${fileSize(tooLarge.size)}: expected at most ${fileSize(most)}.`);
     if (files.length === 1 && files[0].name.endsWith(".relievo"))
       return this.openProject(await this.take(this.engine.readProject(files[0])));
-    if (files.length === 1 || refersToOthers(files)) return this.openScan(files);
+    if (files.length === 1 || refersToOthers(files) || this.engine.takesSeveral) return this.openScan(files);
     if (files.some(({name}) => /\.(relievo|zip)$/i.test(name)))
       throw new Error("Several files at once: expected scans alone, to be put side by side.");
     const models = [];

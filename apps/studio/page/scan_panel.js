@@ -1,4 +1,4 @@
-// How the scan is prepared: what was found out about it, each with what can be done, where it is cut, and its noise.
+// The panel shows the findings about a scan, each with its remedy, and sets where the scan is cut and its noise.
 
 import {$, make} from "./controls.js";
 
@@ -53,6 +53,8 @@ export class ScanPanel {
     const isFar = FULL[at] === 1;
     numbers[at] = isFar ? Math.max(1 - share, numbers[other] + 0.05) : Math.min(share, numbers[other] - 0.05);
     this.doc.change({options: {crop: cropText(numbers)}});
+    this.shown = null; // a cut that takes everything is refused
+    this.show();
   }
 
   open() {
@@ -69,7 +71,10 @@ export class ScanPanel {
 
   // Shows what the document says.
   show() {
-    const {crop, crumbs, denoise} = this.doc.now.options, numbers = numbersOf(crop);
+    const {crop, crumbs, denoise} = this.doc.now.options, key = [crop, crumbs, denoise, this.facts?.noise].join();
+    if (key === this.shown) return; // this runs for each event of a drag
+    this.shown = key;
+    const numbers = numbersOf(crop);
     $("#crop").value = crop;
     $("#crumbs").checked = crumbs === "keep";
     $("#denoise-auto").checked = denoise === "auto";

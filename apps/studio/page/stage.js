@@ -92,7 +92,7 @@ export class Stage {
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
-      if (isFine && (this.isTable || this.isAwaiting || this.about?.is_finished)) this.finished = number;
+      if (isFine && (this.isTable || this.isAwaiting || this.isLikeFile)) this.finished = number;
       else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
     } catch (error) {
       if (error.kind !== "cancelled" && error.name !== "AbortError") {
@@ -104,6 +104,11 @@ export class Stage {
     this.unwanted = null;
     this.showBusy();
     this.pump();
+  }
+
+  // Whether the picture shows the piece as it will be exported, or nearly so where others would have to wait for it.
+  get isLikeFile() {
+    return this.about?.is_finished || (this.about?.is_plain && !this.engine.drawsMeanwhile);
   }
 
   pixels(isFine) {
@@ -362,7 +367,7 @@ export class Stage {
 
   zoom(event) {
     event.preventDefault();
-    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005));
+    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
     this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
   }
 

@@ -19,7 +19,9 @@ export function showSamples(open) {
 export function showRecent(recent, open) {
   const card = ({input, picture, is_there: isThere}) => make("button", {
     title: input.path ?? `Sample ${input.name}`, onclick: () => open(input),
-  }, make("img", {src: picture || engine.addressOf("icon.svg"), alt: "", width: 320, height: 200, class: picture ? "" : "none"}),
+  }, make("img", {
+    src: picture || engine.addressOf("icon.svg"), alt: "", width: 320, height: 200, class: picture ? "" : "none",
+  }),
   make("span", {}, nameOf(input), make("small", {}, isThere ? "" : "Scan not found")));
   $("#recent-shelf").hidden = recent.length === 0;
   $("#recent").replaceChildren(...recent.map((entry) => make("li", {}, card(entry))));

@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, findBrowser, removeFolder, savedFiles, temporaryFolder,
+  type} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -36,8 +37,7 @@ const slider = (name) => page.getByRole("slider", {name, exact: true});
 const text = (name) => field(name).inputValue();
 
 async function set(name, number) {
-  await field(name).fill(String(number));
-  await field(name).press("Enter");
+  await enter(field(name), String(number));
 }
 
 test("steps by round numbers with arrow keys", {skip}, async () => {
@@ -60,7 +60,7 @@ test("steps by round numbers with arrow keys", {skip}, async () => {
 test("takes back with Escape what is typed or dragged, and undoes in fields", {skip}, async () => {
   await set("Height in mm", 4);
   await set("Height in mm", 5);
-  await field("Height in mm").fill("17");
+  await type(field("Height in mm"), "17");
   await field("Height in mm").press("Escape");
   assert.equal(await text("Height in mm"), "5.00");
   await field("Height in mm").press("Control+z");
@@ -104,11 +104,10 @@ test("shows and takes inches, and keeps millimetres", {skip}, async () => {
 
 test("exports when Enter is pressed", {skip}, async () => {
   await page.keyboard.press("Control+e");
-  const dialog = page.getByRole("dialog", {name: "Export"}), download = page.waitForEvent("download");
+  const dialog = page.getByRole("dialog", {name: "Export"});
   await dialog.getByText(/triangles/).waitFor();
-  await dialog.getByLabel("File name").fill("medal");
-  await dialog.getByLabel("File name").press("Enter");
-  assert.equal((await download).suggestedFilename(), "medal.stl");
+  const [file] = await savedFiles(found, page, 1, () => enter(dialog.getByLabel("File name"), "medal"));
+  assert.equal(file.name, "medal.stl");
   await dialog.waitFor({state: "hidden"});
 });
 
@@ -135,7 +134,7 @@ test("ends no drag when the pause after another slider's step is over", {skip}, 
     const {Document, FIRST} = await import(new URL("document.js", location));
     const doc = new Document(() => {}), counts = [];
     doc.begin(FIRST);
-    for (const [height, ended] of [[5, "width"], [6, "height"], [7, null]]) {
+    for (const [height, ended] of [[6, "width"], [7, "height"], [8, null]]) {
       doc.change({options: {height}}, "height");
       counts.push(doc.steps.length);
       doc.endStroke(ended);

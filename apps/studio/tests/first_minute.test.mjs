@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -138,8 +138,7 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
   });
   await openPanel("Making");
   const before = await orange(), tool = page.locator("#tool");
-  await tool.fill("ball:8");
-  await tool.press("Enter");
+  await enter(tool, "ball:8");
   await page.getByText(/^The tool reaches [\d.]+ % of the front, and leaves up to [\d.]+ mm/).waitFor();
   const marked = await orange();
   assert.ok(marked > before + 5000, `${marked} after ${before}`);
@@ -156,6 +155,37 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
   await button("Fit").click();
 });
 
+test("moves, scales and turns the figure on its plate by hand", {skip}, async () => {
+  const size = async () => (await numbers().innerText()).match(/piece ([\d.]+ × [\d.]+)/)[1], before = await size();
+  const longer = async () => Number(await text("Longer side in mm")), whole = await longer();
+  await page.getByRole("radio", {name: "Place"}).click();
+  await untilReady();
+  const {x, y, width, height} = await page.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
+  await page.mouse.move(...middle);
+  for (let notch = 0; notch < 5; ++notch) await page.mouse.wheel(0, 200);
+  await eventually(async () => assert.ok((await longer()) < 0.8 * whole));
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 30, middle[1] - 20, {steps: 5});
+  await page.mouse.up();
+  await untilReady();
+  const [right, up] = (await page.locator("#shift").inputValue()).split(",").map(Number);
+  assert.ok(right > 2 && up > 1, `${right},${up}`);
+  assert.equal(await size(), before, "the plate stays as large as it was");
+  await page.keyboard.down("Shift");
+  await page.mouse.move(middle[0] + 120, middle[1]);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 110, middle[1] - 60, {steps: 5});
+  await page.locator("#overlay").getByText(/^\d+° to the left$/).waitFor();
+  await page.mouse.up();
+  await page.keyboard.up("Shift");
+  await page.getByText("Turned by hand").waitFor();
+  await untilReady();
+  const undo = button("Undo");
+  while ((await undo.isEnabled()) && (await longer()) !== whole) await undo.click();
+  await untilReady();
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+});
+
 test("puts several files side by side, and turns, scales and removes them", {skip}, async () => {
   const chooser = page.waitForEvent("filechooser");
   await button("Open").click();
@@ -165,8 +195,7 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   await page.locator("#scene li").nth(1).getByText("ammonite.ply").waitFor();
   const width = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
   const [across, up] = await width();
-  await page.getByLabel("Size (%) of ammonite.ply").fill("50");
-  await page.getByLabel("Size (%) of ammonite.ply").press("Enter");
+  await enter(page.getByLabel("Size (%) of ammonite.ply"), "50");
   await eventually(async () => {
     const [x, y] = await width();
     assert.ok(x / y < 0.95 * across / up, `${x} × ${y} after ${across} × ${up}`);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -66,8 +66,7 @@ async function set(name, value) {
   if (name === "crumbs") return it.setChecked(value === "keep");
   const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
   if (kind === "select") return name === "tone" ? it.selectOption({index: 1}) : it.selectOption(value);
-  await it.fill(String(value));
-  if (kind !== "range") await it.press("Enter");
+  await (kind === "range" ? it.fill(String(value)) : enter(it, String(value)));
 }
 
 const reaches = (check) => eventually(() => assert.ok(check(), JSON.stringify(frame)));
@@ -92,7 +91,7 @@ for (const [name, {value, first = {}, kind}] of Object.entries(CASES))
     else await reaches(() => frame.options[name] === value);
     await eventually(async () => { // back to the beginning
       const undo = page.getByRole("button", {name: "Undo"});
-      while (await undo.isEnabled()) await undo.click();
+      while (await undo.isEnabled()) await undo.click({timeout: 2000});
       await page.locator('[role="application"][aria-busy="false"]').first().waitFor({timeout: 2000});
     });
   });

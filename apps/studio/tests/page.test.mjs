@@ -4,7 +4,8 @@ import {spawnSync} from "node:child_process";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, eventually, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
+  temporaryFolder, type} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -39,9 +40,11 @@ async function start(...args) {
   await openPanels();
 }
 
-// Panels stay open when the page is loaded anew.
-const openPanels = () => page.locator(".inspector details").evaluateAll((all) =>
-  all.forEach((panel) => (panel.open = true)));
+// Panels stay open when the page is loaded anew, once its program listens to them.
+async function openPanels() {
+  await page.waitForFunction(() => document.querySelector("#undo").onclick !== null);
+  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+}
 
 const button = (name) => page.getByRole("button", {name, exact: true});
 const slider = (name) => page.getByRole("slider", {name, exact: true});
@@ -51,8 +54,7 @@ const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
 const value = async (name) => Number(await field(name).inputValue());
 
 async function set(name, number) {
-  await field(name).fill(String(number));
-  await field(name).press("Enter");
+  await enter(field(name), String(number));
 }
 
 async function press(locator, key, times) {
@@ -101,6 +103,8 @@ async function untilHeight(wanted, tolerance) {
 }
 
 async function openFile(file) {
+  // Firefox's driver tells of the first dialog only.
+  if (found.name === "firefox") return page.locator("#file").setInputFiles(file);
   const chooser = page.waitForEvent("filechooser");
   await button("Open").click();
   await (await chooser).setFiles(file);
@@ -112,10 +116,9 @@ async function untilReady() {
 }
 
 async function saveAs(trigger, file) {
-  const download = page.waitForEvent("download");
-  await trigger();
-  await (await download).saveAs(file);
-  return readFileSync(file);
+  const [{bytes}] = await savedFiles(found, page, 1, trigger);
+  writeFileSync(file, bytes);
+  return bytes;
 }
 
 async function choose(side) {
@@ -153,8 +156,10 @@ test("moves sliders by wheel and double click, too", {skip}, async () => {
   await slider("Steepest wall").hover();
   await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await value("Steepest wall in degrees")) < 76));
-  await slider("Steepest wall").dblclick();
-  assert.equal(await value("Steepest wall in degrees"), 76);
+  await eventually(async () => { // again if the machine is so slow that these were two clicks
+    await slider("Steepest wall").dblclick();
+    assert.equal(await value("Steepest wall in degrees"), 76);
+  });
   await set("Height in mm", "nonsense");
   assert.equal(await value("Height in mm"), height);
 });
@@ -178,8 +183,7 @@ test("takes numbers as people type them, and refuses others in one line", {skip}
   await field("Longer side in mm").press("ArrowUp");
   assert.ok((await value("Longer side in mm")) > 10);
   await set("Longer side in mm", width);
-  await page.getByLabel("Draft angle").fill("15 degrees");
-  await page.getByLabel("Draft angle").press("Enter");
+  await enter(page.getByLabel("Draft angle"), "15 degrees");
   await alert.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
   assert.equal(await page.getByLabel("Draft angle").inputValue(), "");
 });
@@ -446,14 +450,9 @@ test("exports several files at once, named for their form, and can be cancelled"
   await dialog.getByText(/triangles/).waitFor();
   await dialog.getByRole("checkbox", {name: /^3MF/}).check();
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
-  await dialog.getByLabel("Longer side in pixels").fill("300");
-  const names = [];
-  const listen = (download) => names.push(download.suggestedFilename());
-  page.on("download", listen);
-  await dialog.getByRole("button", {name: "Export"}).click();
-  await eventually(() => assert.deepEqual([...names].sort(),
-    ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]));
-  page.off("download", listen);
+  await type(dialog.getByLabel("Longer side in pixels"), "300");
+  const files = await savedFiles(found, page, 3, () => dialog.getByRole("button", {name: "Export"}).click());
+  assert.deepEqual(files.map(({name}) => name), ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]);
   await dialog.waitFor({state: "hidden"});
   await set("Height in mm", 2.4); // another piece, which is not made yet
   await button("Export").click();
@@ -492,11 +491,13 @@ test("can be used by the keyboard alone", {skip}, async () => {
   assert.equal(await material(), before);
 });
 
-test("moves nothing by itself where motion is to be reduced", {skip}, async () => {
+test("moves nothing by itself where motion is to be reduced", {skip}, async (context) => {
   const longest = () => page.evaluate(() => Math.max(...[...document.querySelectorAll("*")].map((element) =>
     parseFloat(getComputedStyle(element).transitionDuration))));
   assert.ok((await longest()) > 0);
   await page.emulateMedia({reducedMotion: "reduce"});
+  if (!await page.evaluate(() => matchMedia("(prefers-reduced-motion: reduce)").matches))
+    return context.skip("the browser's driver does not reduce motion");
   assert.equal(await longest(), 0);
   await page.emulateMedia({reducedMotion: "no-preference"});
 });
@@ -517,16 +518,13 @@ test("cuts a round plate", {skip}, async () => {
 
 test("fits the relief into a plate of the size that is asked for", {skip}, async () => {
   const size = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
-  const enter = async (label, text) => {
-    await page.getByLabel(label, {exact: true}).fill(text);
-    await page.getByLabel(label, {exact: true}).press("Enter");
-  };
+  const labelled = (label) => page.getByLabel(label, {exact: true});
   const width = await value("Longer side in mm");
-  await enter("Plate size", "20cm x 150");
+  await enter(labelled("Plate size"), "20cm x 150");
   await page.getByText(/piece 200\.00 × 150\.00/).waitFor();
   assert.notEqual(await value("Longer side in mm"), width);
   await kind("Coin").click();
-  await enter("Diameter", "80");
+  await enter(labelled("Diameter"), "80");
   await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
   const most = await value("Longer side in mm");
   await set("Longer side in mm", 30);
@@ -633,7 +631,8 @@ test("has everything within reach on a phone", {skip}, async () => {
   assert.deepEqual(await beyond(), []);
   const stage = await page.locator("#stage").boundingBox();
   assert.ok(stage.width === 390 && stage.height > 300, JSON.stringify(stage));
-  for (const summary of await page.locator(".inspector summary").all()) await summary.scrollIntoViewIfNeeded();
+  for (const summary of await page.locator(".inspector details:not([hidden]) > summary").all())
+    await summary.scrollIntoViewIfNeeded();
   for (const name of ["Export", "Choose view", "Relievo, start page"]) {
     await button(name).click();
     assert.deepEqual(await beyond(), [], name);

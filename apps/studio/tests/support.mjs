@@ -1,6 +1,6 @@
 // Helpers of the studio's tests: the engine as a process, its page in Chromium or Firefox, and temporary files.
 import {spawn} from "node:child_process";
-import {existsSync, mkdtempSync, rmSync} from "node:fs";
+import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync} from "node:fs";
 import http from "node:http";
 import {tmpdir} from "node:os";
 import path from "node:path";
@@ -94,9 +94,29 @@ export class EngineProcess {
   }
 }
 
-// Repeats a check until it no longer throws, for 10 seconds: what a page shows follows its events a little later.
+// Runs in the page: whether each kind of work has its picture.
+export const areKindsDrawn = () => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
+  canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0);
+
+// Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets. Waits until
+// the field takes keys: those that a disabled field gets would go to the field before.
+export async function type(field, text) {
+  await eventually(async () => {
+    if (!(await field.isEnabled())) throw new Error(`disabled: ${field}`);
+  });
+  await field.focus();
+  await field.press("ControlOrMeta+a");
+  await (text === "" ? field.press("Delete") : field.pressSequentially(text));
+}
+
+export async function enter(field, text) {
+  await type(field, text);
+  await field.press("Enter");
+}
+
+// Repeats a check until it no longer throws, for 30 seconds: what a page shows follows its events a little later.
 export async function eventually(check) {
-  for (const end = Date.now() + 10000; ;) {
+  for (const end = Date.now() + 30000; ;) {
     try {
       return await check();
     } catch (error) {
@@ -115,11 +135,43 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
     return {missing: `${name} is not installed (apt-get install ${isFirefox ? "firefox-esr" : "chromium"})`};
   try {
     const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
-    return {name, launch: () => (isFirefox ? firefox.launch({executablePath, channel: "moz-firefox"})
-      : chromium.launch({executablePath, args: CHROMIUM_FLAGS}))};
+    const folder = isFirefox ? temporaryFolder() : null; // of downloads
+    process.on("exit", () => folder && removeFolder(folder));
+    const launch = () => (isFirefox ? firefox.launch({executablePath, channel: "moz-firefox", downloadsPath: folder})
+      : chromium.launch({executablePath, args: CHROMIUM_FLAGS}));
+    return {name, folder, launch};
   } catch {
     return {missing: "playwright-core is not installed (npm ci --prefix apps/studio/tests)"};
   }
+}
+
+// Returns {name, bytes} of the files that a page saves after `trigger`, sorted by name. Firefox's driver tells nothing
+// of downloads, which are looked for in their folder.
+export async function savedFiles({folder}, page, count, trigger) {
+  if (folder) {
+    await trigger();
+    const names = await eventually(() => {
+      const all = readdirSync(folder).sort(), sizes = all.map((name) => readFileSync(path.join(folder, name)).length);
+      if (all.length < count || all.some((name, i) => name.endsWith(".part") || sizes[i] === 0))
+        throw new Error(`files: ${all}`);
+      return all;
+    });
+    return names.map((name) => {
+      const file = path.join(folder, name), bytes = readFileSync(file);
+      rmSync(file);
+      return {name, bytes};
+    });
+  }
+  const downloads = [], listen = (download) => downloads.push(download);
+  page.on("download", listen);
+  await trigger();
+  await eventually(() => {
+    if (downloads.length < count) throw new Error(`${downloads.length} files of ${count}`);
+  });
+  page.off("download", listen);
+  const files = downloads.map(async (download) =>
+    ({name: download.suggestedFilename(), bytes: readFileSync(await download.path())}));
+  return (await Promise.all(files)).sort((a, b) => (a.name < b.name ? -1 : 1));
 }
 
 // Returns of a binary STL the number of triangles, the size of their box, and whether every edge has two.

@@ -1,10 +1,11 @@
 // Several tabs of one browser on one studio.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {readFileSync, renameSync} from "node:fs";
+import {renameSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, findBrowser, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, enter, findBrowser, readStl, removeFolder, savedFiles,
+  temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -59,10 +60,7 @@ test("works in nine tabs at once, whichever has the stream of events", {skip}, a
 
 const title = (of) => of.locator("#title");
 const height = (of) => of.getByRole("spinbutton", {name: "Height in mm"});
-const setHeight = async (of, text) => {
-  await height(of).fill(text);
-  await height(of).press("Enter");
-};
+const setHeight = (of, text) => enter(height(of), text);
 const untilHeight = async (of, text) => {
   for (let i = 0; i < 400 && (await height(of).inputValue()) !== text; ++i) await of.waitForTimeout(50);
   assert.equal(await height(of).inputValue(), text);
@@ -77,11 +75,9 @@ const openScan = async (of, sample) => {
 
 async function exported(tab) {
   await tab.getByRole("button", {name: "Export", exact: true}).click();
-  const download = tab.waitForEvent("download");
-  await tab.getByRole("dialog", {name: "Export"}).getByRole("button", {name: "Export"}).click();
-  const file = path.join(folder, "exported.stl");
-  await (await download).saveAs(file);
-  return {name: (await download).suggestedFilename(), height: readStl(readFileSync(file)).size[2]};
+  const [{name, bytes}] = await savedFiles(found, tab, 1, () =>
+    tab.getByRole("dialog", {name: "Export"}).getByRole("button", {name: "Export"}).click());
+  return {name, height: readStl(bytes).size[2]};
 }
 
 test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
@@ -150,8 +146,7 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   await tab.mouse.up();
   await tab.getByRole("alert").getByText(/engine has stopped/).waitFor();
   const dragged = await height(tab).inputValue();
-  await tab.getByRole("spinbutton", {name: "Margin in mm"}).fill("8");
-  await tab.getByRole("spinbutton", {name: "Margin in mm"}).press("Enter");
+  await enter(tab.getByRole("spinbutton", {name: "Longer side in mm"}), "80");
   const address = engine.address;
   engine = await new EngineProcess(state).ready();
   assert.equal(engine.address, address);
@@ -161,7 +156,7 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   await tab.waitForTimeout(200);
   const {kept} = await engine.json("document", {input: {path: scan}}), {options} = kept.steps[kept.at];
   assert.equal(options.height.toFixed(2), dragged);
-  assert.equal(options.margin, 8);
+  assert.equal(options.width, 80);
   await tab.close();
 });
 

@@ -148,7 +148,7 @@ export class Engine {
     return {document, input: found, is_there: Boolean(input.sample || scan), kept};
   }
 
-  // What the engine prepares for another document is of no use any more.
+  // The preparation of another document is of no use any more.
   async open(input, view) {
     const document = documentOf(input);
     if (this.#isBusy && !this.#isOpen.has(document)) this.#end(cancelled(), closed());
