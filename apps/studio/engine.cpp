@@ -263,7 +263,8 @@ Result<ModelFacts> Engine::facts() {
 // Makes the piece that a picture is to show, while other pictures are drawn. If one of them cancels it, the picture shows what
 // there is.
 Result<void> Engine::finish(const PictureRequest& request) {
-  if (state_->session.status().is_preparing) return {};  // another model, whose piece will be asked for
+  // Another model is prepared, or about to be, whose piece will be asked for.
+  if (request.turned || state_->session.status().is_preparing) return {};
   std::optional<PieceOrder> order;
   std::uint64_t model = 0;
   {

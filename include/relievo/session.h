@@ -63,9 +63,9 @@ class Session {
 
   // Returns a coarse relief of the points that were prepared last in another view, for as long as the view moves; open()
   // prepares the view in which it rests. The work is done in the calling thread, in a few hundredths of a second, and
-  // like that of the model before. A newer call, open() and cancel() cancel it. A preparation that runs goes on, as the
-  // call may come late, when the view in which it rests is already being prepared. Errors: kind geometry if no points have
-  // been measured yet, or if the view shows no area; kind cancelled.
+  // like that of the model before. A newer call and cancel() cancel it. It cancels no preparation and open() does not
+  // cancel it, as the call may come late, when the view in which it rests is already being prepared. Errors: kind geometry
+  // if no points have been measured yet, or if the view shows no area; kind cancelled.
   Result<TurnedRelief> turn(const View& view);
 
   SessionStatus status() const;

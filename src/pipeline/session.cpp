@@ -139,7 +139,6 @@ Session::~Session() {
 
 void Session::open(Preparation preparation) {
   state_->shared.with([&](Shared& s) {
-    s.cancel_turning();
     if (s.progress) s.progress->cancel();
     s.waiting = std::move(preparation);
     s.status = {true, "waiting", 0, std::nullopt};

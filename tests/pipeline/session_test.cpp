@@ -248,7 +248,7 @@ TEST(Session, TurningLeavesThePreparationAlone) {
 // Points of all sides that come only when the turn that waits for them has been cancelled.
 struct StuckTurn {
   std::binary_semaphore has_begun{0};
-  std::atomic<bool> is_first = true;
+  std::atomic<bool> is_first = true, has_ended = false;
   Session session;
 
   StuckTurn() {
@@ -270,6 +270,7 @@ struct StuckTurn {
     std::optional<ErrorKind> error;
     std::thread thread([&] {
       const auto turned = session.turn(view_to("1,1,1"));
+      has_ended = true;
       if (!turned) error = turned.error().kind;
     });
     has_begun.acquire();
@@ -293,9 +294,16 @@ TEST(Session, TurningCanBeCancelled) {
   EXPECT_TRUE(stuck.session.turn(view_to("1,1,1")));
 }
 
-TEST(Session, ANewScanEndsTurning) {
+// The view in which a drag rests is opened while the last picture of the drag is still drawn.
+TEST(Session, AnOpeningLeavesTurningAlone) {
   StuckTurn stuck;
-  EXPECT_EQ(stuck.error_after([&] { stuck.session.open(preparation_of(4000)); }), ErrorKind::cancelled);
+  EXPECT_EQ(stuck.error_after([&] {
+    stuck.session.open(preparation_of(4000));
+    EXPECT_TRUE(stuck.session.wait_until_idle(60s));
+    EXPECT_FALSE(stuck.has_ended);
+    stuck.session.cancel();
+  }),
+            ErrorKind::cancelled);
 }
 
 TEST(Session, ManyThreadsMayTurn) {

@@ -19,8 +19,8 @@ export function paint(canvas, image) {
 }
 
 export class Stage {
-  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() where the view
-  // of the document is to be prepared again.
+  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() where the
+  // view of the document is to be prepared again.
   constructor(engine, doc, on) {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
@@ -92,7 +92,7 @@ export class Stage {
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
-      if (isFine && (this.isTable || this.isAwaiting || this.isLikeFile)) this.finished = number;
+      if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
       else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
     } catch (error) {
       if (error.kind !== "cancelled" && error.name !== "AbortError") {
@@ -288,7 +288,7 @@ export class Stage {
     const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
     if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
     if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
-    if (tool === "turn" || tool === "pan" || tool === "model") Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+    if (["turn", "pan", "model"].includes(tool)) Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
   }
 
   // The cursor tells what a drag would take.

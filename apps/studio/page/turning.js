@@ -1,5 +1,5 @@
-// Turns the model on the picture: a drag shows its relief from other sides while the view moves, and the view in which it
-// rests becomes that of the document.
+// Turns the model on the picture: a drag shows its relief from other sides while the view moves, and the view in which
+// it rests becomes that of the document.
 
 import {about} from "./about.js";
 import {cross, dot, text, triple, turned, unit, upright} from "./vectors.js";
