@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/quantile.h"
@@ -101,18 +102,24 @@ std::vector<double> average_in_plane(std::span<const double> values, std::span<c
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
   constexpr int passes = 3;  // over direct neighbours; each widens the average by about rho, to 2 rho or more
-  std::vector<double> average(values.begin(), values.end());
+  const std::vector<Triangle>& triangles = triangulation.triangles;
+  const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
+  std::vector<std::array<double, 3>> areas(triangles.size());  // that corners give to those before them
+  parallel_for(triangles.size(), [&](std::size_t t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Index to = triangles[t][c], from = triangles[t][(c + 1) % 3];
+      areas[t][c] = std::exp(-(points[to] - points[from]).squaredNorm() / (rho * rho)) * own_area(from);
+    }
+  });
+  std::vector<double> average(values.begin(), values.end()), weight(values.size()), sum(values.size());
+  for (Index i = 0; i < values.size(); ++i) weight[i] = own_area(i);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) weight[triangles[t][c]] += areas[t][c];
   for (int pass = 0; pass < passes; ++pass) {
-    std::vector<double> weight(values.size()), sum(values.size());
-    const auto add = [&](Index to, Index from) {
-      const double theta = std::exp(-(points[to] - points[from]).squaredNorm() / (rho * rho));
-      const double area = theta * static_cast<double>(normals[from].z());
-      weight[to] += area;
-      sum[to] += area * average[from];
-    };
-    for (Index i = 0; i < values.size(); ++i) add(i, i);
-    for (const Triangle& t : triangulation.triangles)
-      for (int corner = 0; corner < 3; ++corner) add(t[corner], t[(corner + 1) % 3]);
+    for (Index i = 0; i < values.size(); ++i) sum[i] = own_area(i) * average[i];
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[triangles[t][c]] += areas[t][c] * average[triangles[t][(c + 1) % 3]];
     for (std::size_t i = 0; i < values.size(); ++i)
       if (weight[i] > 0) average[i] = sum[i] / weight[i];
   }

@@ -127,15 +127,22 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Stages 5 and 6.
+// Stages 5 and 6, but for what put_points_on_outlines() would only replace: the boundary has `is_inside` alone.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, const BoundaryOptions& options,
                          Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
   if (surface.triangulation.triangles.empty())
     return geometry_error("expected visible points that enclose an area, found all of them on one line");
-  surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options, measures.spacing);
+  surface.boundary = {
+      inside_triangles(xy, surface.triangulation, surface.rho, options, measures.spacing), {}, {}, {}};
   return check_cancelled(progress);
+}
+
+void complete(Boundary& boundary, std::span<const Vec2> points, const Triangulation& mesh) {
+  if (!boundary.is_boundary.empty()) return;
+  boundary.is_boundary = boundary_points(points.size(), mesh, boundary.is_inside);
+  boundary.distance = distances_to(points, boundary.is_boundary);
 }
 
 }  // namespace
@@ -175,8 +182,10 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, co
     RELIEVO_CHECK(triangulate(surface, measures, options.boundary, progress));
   put_points_on_outlines(surface, measures, viewed.cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
-  surface.curvature = normalise(average_in_plane(measures.k, in_plane(surface.points), surface.normals,
-                                                 surface.triangulation, surface.rho));
+  const std::vector<Vec2> xy = in_plane(surface.points);
+  complete(surface.boundary, xy, surface.triangulation);
+  surface.curvature =
+      normalise(average_in_plane(measures.k, xy, surface.normals, surface.triangulation, surface.rho));
   // Only the boundary needs the neighbours; they take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;
