@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/groups.h"
 #include "geometry/extent.h"
 #include "geometry/neighbours.h"
+#include "relief/edge_weight.h"
 #include "relief/style.h"
 #include "relievo/relief/heights.h"
 #include "relievo/scan/surface.h"
@@ -16,36 +18,55 @@ namespace {
 // The distance over which the field falls by e, as a share of the longer side, and how many of these distances it extends.
 // docs/decisions/jump-lift.md has the reasons of all constants.
 constexpr double fading_distance = .015, extent = 3;
-// Near a high jump an edge that is steeper than this, by more than rho, is part of its wall.
-constexpr double steepest_slope = 3;
 // Of the longer side: smaller inversions are not seen.
 constexpr double least_inversion = 1e-5;
 constexpr int rounds = 3, sweeps_per_round = 20;
-constexpr float over_relaxation = 1.5F;
+constexpr float over_relaxation = 1.75F;
 // The height share of the shapes that the fields are found for.
 constexpr double reference_share = .5;
 
 using Field = std::vector<float>;
 using Values = Eigen::Array4f;  // one for each knot
 
-template <typename F>
-void for_each_edge_inside(const Surface& surface, F&& f) {
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface.triangulation.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i)
-      if (const Index a = corners[i], b = corners[(i + 1) % 3]; a < b) f(a, b);
+// An edge of a triangle, and what the triangle adds to its weight.
+struct HalfEdge {
+  Index a, b;
+  float weight;
+};
+
+// Returns the edges of a triangle. Weights are those of (9), with which a field is as smooth as its triangles are uneven.
+// Triangles of walls are too thin for them: edges across a wall have the weight that equilateral triangles give.
+std::array<HalfEdge, 3> half_edges(const Surface& surface, const Triangle& corners) {
+  std::array<HalfEdge, 3> edges;
+  const auto plane = [&](std::size_t i) { return Vec2(surface.points[corners[i % 3]].head<2>()); };
+  double stiffest = 0;
+  bool is_wall = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double half = half_edge_weight(plane(i), plane(i + 1), plane(i + 2));
+    edges[i] = {corners[(i + 1) % 3], corners[(i + 2) % 3], static_cast<float>(half)};
+    stiffest = std::max(stiffest, half);
+    is_wall = is_wall || surface.boundary.is_across_wall(edges[i].a, edges[i].b);
   }
+  for (HalfEdge& e : edges)
+    if (is_wall)
+      e.weight = surface.boundary.is_across_wall(e.a, e.b) ? std::numbers::inv_sqrt3_v<float> / 2 : 0;
+    else
+      e.weight *= static_cast<float>(needle_share(stiffest));
+  return edges;
+}
+
+// Calls f(edge) for each half edge of triangles inside the relief.
+template <typename F>
+void for_each_half_edge(const Surface& surface, F&& f) {
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
+    if (surface.boundary.is_inside[t])
+      for (const HalfEdge& edge : half_edges(surface, surface.triangulation.triangles[t])) f(edge);
 }
 
 // Returns 1 if a is in front of b across a jump, -1 if it is behind, and 0 if there is no jump between them.
-int side_of_jump(const Surface& surface, std::span<const float> weights, Index a, Index b) {
-  if (surface.boundary.is_across_wall(a, b)) return surface.boundary.wall_side[a] == WallSide::front ? 1 : -1;
-  const Vec3 step = surface.points[a] - surface.points[b];
-  const bool is_near_high_jump = weights[a] + weights[b] < 1;
-  if (!is_near_high_jump || std::abs(step.z()) <= steepest_slope * step.head<2>().norm() + surface.rho)
-    return 0;
-  return step.z() > 0 ? 1 : -1;
+int side_of_jump(const Boundary& boundary, Index a, Index b) {
+  if (!boundary.is_across_wall(a, b)) return 0;
+  return boundary.wall_side[a] == WallSide::front ? 1 : -1;
 }
 
 // Returns the heights that (9) gives the default layered shape at each knot.
@@ -75,21 +96,21 @@ struct Band {
   struct Edge {
     Index to;  // number in the band; points.size() stands for all points outside, which do not move
     int side;  // see side_of_jump()
+    float weight;
   };
   std::vector<Index> points;
   Groups<Edge> edges;
 };
 
 // Returns whether each point is near a jump that is inverted at one of the knots, and not on the silhouette.
-std::vector<std::uint8_t> movable_points(const JumpLiftInput& input, std::span<const Field> heights,
+std::vector<std::uint8_t> movable_points(const Surface& surface, std::span<const Field> heights,
                                          double distance) {
-  const Surface& surface = input.surface;
   const auto least = static_cast<float>(least_inversion * longer_side_of(surface.points));
   std::vector<Vec2> inverted;
-  for_each_edge_inside(surface, [&](Index a, Index b) {
-    const auto side = static_cast<float>(side_of_jump(surface, input.weights, a, b));
-    if (std::ranges::any_of(heights, [&](const Field& z) { return side * (z[b] - z[a]) > least; }))
-      inverted.push_back(surface.points[a].head<2>());
+  for_each_half_edge(surface, [&](const HalfEdge& e) {
+    const auto side = static_cast<float>(side_of_jump(surface.boundary, e.a, e.b));
+    if (std::ranges::any_of(heights, [&](const Field& z) { return side * (z[e.b] - z[e.a]) > least; }))
+      inverted.push_back(surface.points[e.a].head<2>());
   });
   const KdTree<Vec2> tree(inverted);
   std::vector<std::uint8_t> is_movable(surface.points.size(), 0);
@@ -103,25 +124,25 @@ std::vector<std::uint8_t> movable_points(const JumpLiftInput& input, std::span<c
   return is_movable;
 }
 
-Band band_of(const JumpLiftInput& input, std::span<const std::uint8_t> is_movable) {
+Band band_of(const Surface& surface, std::span<const std::uint8_t> is_movable) {
   Band band;
   std::vector<Index> number(is_movable.size());
   for (Index i = 0; i < is_movable.size(); ++i)
     if (is_movable[i]) number[i] = static_cast<Index>(band.points.size()), band.points.push_back(i);
   const auto outside = static_cast<Index>(band.points.size());
   band.edges = grouped<Band::Edge>(band.points.size(), [&](auto&& add) {
-    for_each_edge_inside(input.surface, [&](Index a, Index b) {
-      if (!is_movable[a] && !is_movable[b]) return;
-      const int side = side_of_jump(input.surface, input.weights, a, b);
-      if (is_movable[a]) add(number[a], {is_movable[b] ? number[b] : outside, side});
-      if (is_movable[b]) add(number[b], {is_movable[a] ? number[a] : outside, -side});
+    for_each_half_edge(surface, [&](const HalfEdge& e) {
+      if (!is_movable[e.a] && !is_movable[e.b]) return;
+      const int side = side_of_jump(surface.boundary, e.a, e.b);
+      if (is_movable[e.a]) add(number[e.a], {is_movable[e.b] ? number[e.b] : outside, side, e.weight});
+      if (is_movable[e.b]) add(number[e.b], {is_movable[e.a] ? number[e.a] : outside, -side, e.weight});
     });
   });
   return band;
 }
 
-// Minimises the sum over the band's edges of (y_p - y_q - aim)^2, and of screen y_p^2 over its points, for all knots at
-// once.
+// Minimises the sum over the band's edges of weight (y_p - y_q - aim)^2, and of screen y_p^2 over its points, for all
+// knots at once.
 class BandFields {
  public:
   BandFields(const Band& band, std::span<const Field> heights, float screen)
@@ -138,7 +159,7 @@ class BandFields {
   std::vector<Values> find() {
     for (int round = 0; round < rounds; ++round) {
       raise_aims();
-      for (int sweep = 0; sweep < sweeps_per_round; ++sweep) relax(sweep % 2 != 0);
+      for (int sweep = 0; sweep < sweeps_per_round; ++sweep) relax();
     }
     y_.pop_back();
     return std::move(y_);
@@ -149,7 +170,7 @@ class BandFields {
   void raise_aims() {
     for (Index i = 0; i < band_.points.size(); ++i)
       for (Index e = band_.edges.begin[i]; e < band_.edges.begin[i + 1]; ++e) {
-        const auto [to, side] = band_.edges.items[e];
+        const auto [to, side, weight] = band_.edges.items[e];
         if (side == 0 || to == band_.points.size()) continue;
         const auto sign = static_cast<float>(side);
         const Values inversion = sign * (heights_[to] + y_[to] - heights_[i] - y_[i]);
@@ -157,15 +178,16 @@ class BandFields {
       }
   }
 
-  void relax(bool is_backwards) {
-    const auto n = static_cast<Index>(band_.points.size());
-    for (Index k = 0; k < n; ++k) {
-      const Index i = is_backwards ? n - 1 - k : k;
+  void relax() {
+    for (Index i = 0; i < band_.points.size(); ++i) {
       Values sum = Values::Zero();
-      for (Index e = band_.edges.begin[i]; e < band_.edges.begin[i + 1]; ++e)
-        sum += y_[band_.edges.items[e].to] + aims_[e];
-      const float scale = 1 / (static_cast<float>(band_.edges[i].size()) + screen_);
-      y_[i] += over_relaxation * (scale * sum - y_[i]);
+      float weights = screen_;
+      for (Index e = band_.edges.begin[i]; e < band_.edges.begin[i + 1]; ++e) {
+        const auto [to, side, weight] = band_.edges.items[e];
+        sum += weight * (y_[to] + aims_[e]);
+        weights += weight;
+      }
+      y_[i] += over_relaxation * (sum / weights - y_[i]);
     }
   }
 
@@ -180,9 +202,9 @@ JumpLift JumpLift::find(const JumpLiftInput& input) {
   const std::vector<Field> heights = reference_heights(input);
   const Surface& surface = input.surface;
   const double distance = fading_distance * longer_side_of(surface.points);
-  const Band band = band_of(input, movable_points(input, heights, extent * distance));
-  // The sum over six edges of length rho is 1.5 rho^2 times the Laplacian.
-  const auto screen = static_cast<float>(1.5 * surface.rho * surface.rho / (distance * distance));
+  const Band band = band_of(surface, movable_points(surface, heights, extent * distance));
+  const double area = std::numbers::sqrt3 / 2 * surface.rho * surface.rho;  // of a point
+  const auto screen = static_cast<float>(area / (distance * distance));
   JumpLift lift;
   lift.fields_ = BandFields(band, heights, screen).find();
   lift.points_ = band.points;

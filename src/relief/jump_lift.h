@@ -17,11 +17,10 @@ namespace relievo {
 class HeightSystem;
 struct Surface;
 
-// `system` is that of all points, with these jump_weights().
+// `system` is that of all points.
 struct JumpLiftInput {
   const Surface& surface;
   std::span<const PointLayers> layers;
-  std::span<const float> weights;
   const HeightSystem& system;
 };
 

@@ -105,7 +105,7 @@ Result<Parts> prepare_parts(const Surface& surface, Progress* progress) {
   if (!system) return std::unexpected(system.error());
   RELIEVO_CHECK(check_cancelled(progress));
   StepHeights steps = find_step_heights(surface, weights, *system);
-  JumpLift jump_lift = JumpLift::find({surface, layers, weights, *system});
+  JumpLift jump_lift = JumpLift::find({surface, layers, *system});
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
   return Parts{std::move(layers), std::move(*system), std::move(steps), std::move(jump_lift),
                HeightCorrection(surface, weights)};

@@ -32,7 +32,7 @@ struct Figure {
   std::vector<float> weights = jump_weights(surface);
   HeightCorrection correction{surface, weights};
   HeightSystem system = system_of(surface);
-  JumpLift jump_lift = JumpLift::find({surface, layers, weights, system});
+  JumpLift jump_lift = JumpLift::find({surface, layers, system});
   BaselineComparison comparison{{surface, layers, correction, system, jump_lift}};
 };
 

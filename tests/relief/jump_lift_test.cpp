@@ -20,13 +20,13 @@ constexpr double half_width = .5;  // of the flap
 
 // A tilted square before a level one. Slopes say nothing of the depth between them, so (9) puts the middle of the square at
 // the height of what is behind it, and its lower half below.
-Cloud flap() {
+Cloud flap(std::size_t points = 8000) {
   const double tilt = 25 * std::numbers::pi / 180;
-  Cloud square = test::sheet(8000, half_width / std::cos(tilt), 0);
+  Cloud square = test::sheet(points, half_width / std::cos(tilt), 0);
   const Eigen::AngleAxisd turn(tilt, Vec3::UnitY());
   for (Vec3& p : square.points) p = turn * p + Vec3(0, 0, 1);
   for (Vec3f& n : square.normals) n = (turn * n.cast<double>()).cast<float>();
-  return test::joined(test::sheet(30000, 1.5, 0), square);
+  return test::joined(test::sheet(4 * points, 1.5, 0), square);
 }
 
 struct Prepared {
@@ -48,7 +48,7 @@ struct Prepared {
   std::vector<float> weights = jump_weights(surface);
   HeightSystem system =
       HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights).value();
-  JumpLift lift = JumpLift::find({surface, layers, weights, system});
+  JumpLift lift = JumpLift::find({surface, layers, system});
 };
 
 Shape shape_at(double u, double gamma = layered_shape().gamma) {
@@ -116,6 +116,40 @@ TEST(JumpLift, MovesNothingFarFromJumpsNorOnTheSilhouette) {
     EXPECT_LT(distance_to_wall(surface, i), farthest);
   }
   EXPECT_GT(moved, 1000U);
+}
+
+// Returns by how much a field at a point differs from a quadratic fit of those around it.
+double roughness(const Surface& surface, std::span<const double> y, std::size_t i) {
+  std::vector<std::size_t> around;
+  for (std::size_t j = 0; j < y.size(); ++j)
+    if ((surface.points[j] - surface.points[i]).norm() < 3 * surface.rho) around.push_back(j);
+  Eigen::MatrixXd terms(around.size(), 6);
+  Eigen::VectorXd values(around.size());
+  for (Eigen::Index k = 0; k < terms.rows(); ++k) {
+    const std::size_t j = around[static_cast<std::size_t>(k)];
+    const Vec2 p = (surface.points[j] - surface.points[i]).head<2>() / surface.rho;
+    terms.row(k) << 1, p.x(), p.y(), p.x() * p.x(), p.x() * p.y(), p.y() * p.y();
+    values[k] = y[j];
+  }
+  return y[i] - terms.colPivHouseholderQr().solve(values)[0];
+}
+
+TEST(JumpLift, IsSmoothOnUnevenTriangles) {
+  const Prepared flap_before_sheet(flap(32000));
+  const Surface& surface = flap_before_sheet.surface;
+  std::vector<double> y(surface.points.size(), 0);
+  flap_before_sheet.lift.add_to(std::span(y), shape_at(1));
+  double sum_sq = 0, largest = 0, count = 0;
+  for (std::size_t i = 0; i < y.size(); i += 7) {
+    if (y[i] == 0) continue;
+    const double from_wall = distance_to_wall(surface, i) / surface.rho;
+    if (from_wall < 4 || from_wall > 6) continue;
+    sum_sq += std::pow(roughness(surface, y, i), 2);
+    largest = std::max(largest, std::abs(y[i]));
+    ++count;
+  }
+  EXPECT_GT(count, 200);
+  EXPECT_LT(std::sqrt(sum_sq / count), .006 * largest);
 }
 
 TEST(JumpLift, ChangesNothingWithoutJumpsAndWhereHeightsAreNotCorrected) {
