@@ -52,7 +52,8 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
     if (distance < on_outline_) return true;
     const Vec2& place = plane_[m.first];
     constexpr double rounding = 1e-6;
-    const bool is_clear = (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
+    const bool is_clear = std::isfinite(distance) &&  // it is not measured far from outlines, and outside
+                          (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
     if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;
     if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;
     return false;
