@@ -1,15 +1,15 @@
-# For the web, rooms that do not compute for long are compiled for size: files are read and written in a fraction of the
-# time that a relief takes. They are a target of their own, whose objects are part of the library.
+# For the web, only the rooms that compute for most of the time are compiled for speed; the others, which are files, plates
+# and measures, are compiled for size. They are a target of their own, whose objects are part of the library.
 set(RELIEVO_PRECOMPILED relievo)
 if(NOT RELIEVO_WEB)
   return()
 endif()
 
 get_target_property(small_sources relievo SOURCES)
-list(FILTER small_sources INCLUDE REGEX "/src/(io|pipeline)/")
-get_target_property(other_sources relievo SOURCES)
-list(REMOVE_ITEM other_sources ${small_sources})
-set_target_properties(relievo PROPERTIES SOURCES "${other_sources}")
+list(FILTER small_sources EXCLUDE REGEX "/src/(core|geometry|scan|solver|relief|relief/membrane|picture)/[^/]*$")
+get_target_property(fast_sources relievo SOURCES)
+list(REMOVE_ITEM fast_sources ${small_sources})
+set_target_properties(relievo PROPERTIES SOURCES "${fast_sources}")
 
 add_library(relievo_small OBJECT ${small_sources})
 target_include_directories(relievo_small PRIVATE include src)

@@ -181,7 +181,11 @@ Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
   Catalogue resolved = catalogue;
   for (auto& [option, value] : resolved.common)
     if (is_path(option, value)) value = absolute_path(value);
+  if (!fs::exists(catalogue.path, ignored))
+    return fail(catalogue.path, {}, "expected a folder or a table, found none");
   const bool is_folder = fs::is_directory(catalogue.path, ignored);
+  if (is_folder && fs::equivalent(catalogue.path, catalogue.outputs, ignored))
+    return fail(catalogue.path, {}, "expected another folder than that of the outputs");
   RELIEVO_TRY(std::vector<Job> jobs,
               is_folder ? jobs_of_folder(resolved) : jobs_of_table(resolved, is_option));
   if (jobs.empty()) return fail(catalogue.path, {}, "expected scans, found none");

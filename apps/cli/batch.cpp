@@ -90,16 +90,18 @@ std::optional<batch::MakeError> call_make(const std::vector<std::string>& argume
   return batch::MakeError{end.message, end.may_succeed};
 }
 
+Result<void> create_folder(const std::string& path) {
+  std::error_code failed;
+  fs::create_directories(path, failed);
+  if (failed)
+    return std::unexpected(Error{
+        ErrorKind::output, path, {}, cat("expected a folder that can be written to: ", failed.message())});
+  return {};
+}
+
 Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
   if (arguments.outputs.empty()) return option_error("output", "expected a folder, found none");
   RELIEVO_TRY(std::vector<batch::OutputKind> kinds, batch::parse_output_kinds(arguments.kinds));
-  std::error_code failed;
-  fs::create_directories(arguments.outputs, failed);
-  if (failed)
-    return std::unexpected(Error{ErrorKind::output,
-                                 arguments.outputs,
-                                 {},
-                                 cat("expected a folder that can be written to: ", failed.message())});
   return batch::Workshop{fs::absolute(arguments.outputs).lexically_normal().string(), std::move(kinds),
                          call_make};
 }
@@ -115,6 +117,7 @@ Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& com
   RELIEVO_TRY(order.jobs, batch::list_jobs({arguments.input, arguments.match, order.workshop.outputs,
                                             given_options(command)},
                                            is_option));
+  RELIEVO_CHECK(create_folder(arguments.outputs));
   return order;
 }
 
@@ -201,6 +204,7 @@ Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& w
 // Does the jobs in turn. A job that fails does not keep the others from being done.
 Result<void> do_jobs(const BatchArguments& arguments) {
   RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
+  RELIEVO_CHECK(create_folder(arguments.outputs));
   RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
   std::string failed;
   for (const std::string& listed : arguments.jobs) {

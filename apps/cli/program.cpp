@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <iostream>
 #include <new>
+#include <numeric>
 #include <sstream>
+#include <utility>
 
 #include "cli/commands.h"
 #include "cli/terminal.h"
@@ -21,8 +23,48 @@ std::string line_of(Error error, const CLI::App& program) {
   return error.message();
 }
 
+// Returns how many letters must be inserted, left out or changed to make one text of the other.
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), 0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t j = 0; j < b.size(); ++j) {
+      const std::size_t changed = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+// Returns the option or command that a user may have meant, or an empty text.
+std::string nearest_name(const CLI::App& app, const std::string& typed) {
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
+  const auto consider = [&](const std::string& name) {
+    if (const std::size_t distance = edit_distance(typed, name); distance < least)
+      least = distance, nearest = name;
+  };
+  for (const CLI::Option* option : app.get_options())
+    if (!option->get_group().empty()) consider(option->get_name());
+  for (const CLI::App* command : app.get_subcommands(nullptr)) consider(command->get_name());
+  return nearest;
+}
+
+// CLI11 lists what it does not know from the end, with the values of unknown options.
+std::string words_of_unknown(const CLI::App& app, const std::string& list) {
+  std::istringstream words(list);
+  std::string word, first;
+  while (words >> word)
+    if (word.starts_with('-') || !first.starts_with('-')) first = word;
+  const std::string nearest = nearest_name(app, first);
+  return cat("expected only known options, found '", first, "'",
+             nearest.empty() ? "" : cat(", the nearest is ", nearest));
+}
+
 // Returns what CLI11 found wrong, in the words of all other messages.
-std::string words_of(const CLI::Error& error) {
+std::string words_of(const CLI::Error& error, const CLI::App& app) {
   const std::string text = error.what();
   const auto between = [&](std::string_view before, std::string_view after) {
     const std::size_t begin = text.find(before) + before.size();
@@ -34,8 +76,7 @@ std::string words_of(const CLI::Error& error) {
                between(": Value ", " "));
   if (text.starts_with("Could not convert: "))
     return cat(between("convert: ", " ="), ": expected a number, found '", between(" = ", "\n"), "'");
-  if (text.contains(" not expected: "))
-    return cat("expected only known options, found '", between(" not expected: ", "\n"), "'");
+  if (text.contains(" not expected: ")) return words_of_unknown(app, between(" not expected: ", "\n"));
   if (text == "A subcommand is required") return "expected a command such as make, found none";
   if (text.ends_with(" is required")) return cat("expected ", between("", " is required"), ", found none");
   return text;
@@ -47,7 +88,8 @@ void add_commands(CLI::App& program, Result<void>& result) {
   program.failure_message([](const CLI::App* app, const CLI::Error& error) {
     const auto commands = app->get_subcommands();  // those that the user named
     const std::string command = commands.empty() ? "" : commands.front()->get_name() + " ";
-    return words_of(error) + "; see relievo " + command + "--help";
+    return words_of(error, commands.empty() ? *app : *commands.front()) + "; see relievo " + command +
+           "--help";
   });
   add_make(program, result);
   add_info(program, result);

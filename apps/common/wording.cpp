@@ -55,20 +55,19 @@ std::vector<std::string> remarks_on(const ScanFacts& facts) {
                         " % of the points that face the viewer, as small groups far from others"));
   if (facts.crumbs > 0)
     lines.push_back(cat("left out ", facts.crumbs, facts.crumbs == 1 ? " small piece" : " small pieces",
-                        " of the surface; crumbs 'keep' leaves out specks alone"));
+                        " of the surface; with crumbs 'keep' only single specks are left out"));
   if (facts.removed_noise > 0 && facts.removed_noise == facts.measured_noise)
     lines.push_back(cat("removed noise of ", std::round(100 * facts.removed_noise) / 100,
-                        " sampling distances; denoise '0' keeps it"));
+                        " sampling distances; with denoise '0' it stays"));
   return lines;
 }
 
 std::vector<std::string> remarks_on(const ReliefReport& report) {
   std::vector<std::string> lines;
   if (report.height_usual_mm)
-    lines.push_back(cat("no height was asked for: it is ", std::round(1e3 * report.height_mm) / 1e3, " mm, ",
+    lines.push_back(cat("no height was asked for; it is ", std::round(1e3 * report.height_mm) / 1e3, " mm, ",
                         report.height_mm < .999 * *report.height_usual_mm ? "which is what the view reaches"
-                                                                          : "5 % of the width",
-                        "; method 'paper' has a height of its own"));
+                                                                          : "5 % of the width"));
   if (report.has_idle_alpha)
     lines.push_back("alpha has no effect at saturation 0; a height sets how flat the relief is");
   if (report.has_needed_steps)

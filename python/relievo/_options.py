@@ -42,7 +42,8 @@ def check(function: str, given: Iterable[str], known: Sequence[str]) -> None:
         if name in known:
             continue
         if name in OF_MAKE:
-            raise TypeError(f"{function}() cannot change '{name}': a session prepares it once, so open another")
+            where = "make() takes it" if name in OF_SESSION else "a session prepares it once, so open another"
+            raise TypeError(f"{function}() cannot change '{name}': {where}")
         nearest = difflib.get_close_matches(name, known, n=1, cutoff=0.0)
         raise TypeError(f"{function}() got an unexpected keyword argument '{name}'; the nearest is '{nearest[0]}'")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from typing import Any, Callable, Optional, TypeVar
 
@@ -101,4 +102,6 @@ class Cloud:
 @_documented("make_sample")
 def sample(name: str, *, points: int = 300_000, noise: float = 0.15) -> Cloud:
     """The options are keywords."""
+    if operator.index(points) < 0:
+        raise ValueError(f"points: expected a number of 0 or more, found {points}")
     return Cloud(*_native.sample(name, points, noise))

@@ -76,6 +76,8 @@ class Frames(unittest.TestCase):
     def test_refuse_what_is_prepared_or_is_no_shape(self):
         with self.assertRaisesRegex(TypeError, "'view': a session prepares it once"):
             self.session.make(view="left")
+        with self.assertRaisesRegex(TypeError, "'draft_deg': make\\(\\) takes it"):
+            self.session.frame(draft_deg=15)
         with self.assertRaisesRegex(TypeError, "the nearest is 'height_mm'"):
             self.session.frame(height=4)
         with self.assertRaises(relievo.Error):

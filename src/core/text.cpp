@@ -1,10 +1,22 @@
 #include "relievo/core/text.h"
 
 #include <cmath>
+#include <cstdio>
 
 #include "core/number.h"
 
 namespace relievo {
+
+// WebAssembly has no locales, on which std::snprintf() depends elsewhere; the tables of std::to_chars() for a given number
+// of digits are a tenth of the module there.
+void append(std::string& out, double number) {
+  char digits[32];
+#if defined(__wasm__)
+  out.append(digits, static_cast<std::size_t>(std::snprintf(digits, sizeof digits, "%.6g", number)));
+#else
+  out.append(digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6).ptr);
+#endif
+}
 
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> numbers;

@@ -1,9 +1,9 @@
 #include "relievo/samples/sample.h"
 
 #include <array>
-#include <charconv>
 #include <string>
 
+#include "relievo/core/text.h"
 #include "samples/sample_shapes.h"
 
 namespace relievo {
@@ -28,12 +28,6 @@ constexpr std::array<SampleInfo, entries.size()> infos = [] {
   return all;
 }();
 
-std::string text(auto number) {
-  std::array<char, 64> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-  return {digits.data(), end};
-}
-
 Error unknown(std::string_view name) {
   std::string names;
   for (const SampleInfo& info : infos) names += (names.empty() ? "" : ", ") + std::string(info.name);
@@ -45,7 +39,7 @@ template <typename T>
 Result<void> check_range(const char* option, T value, T least, T most) {
   if (value >= least && value <= most) return {};
   return std::unexpected(Error{ErrorKind::option, option, "",
-                               "expected " + text(least) + " to " + text(most) + ", found " + text(value)});
+                               cat("expected ", least, " to ", most, ", found ", value)});
 }
 
 }  // namespace

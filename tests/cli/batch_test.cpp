@@ -267,7 +267,8 @@ TEST_F(BatchProgram, RefusesMisuse) {
   expect_refusal("batch scans -o out --height none", "--height");
   EXPECT_EQ(run("batch scans -o out --shard 3/2").exit_code, 2);
   EXPECT_EQ(run("batch scans -o out --files jpg").exit_code, 2);
-  EXPECT_EQ(run("batch gone -o out").exit_code, 1);
+  expect_refusal("batch scans -o scans", "another folder than that of the outputs");
+  expect_refusal("batch gone -o out", "a folder or a table");
 }
 
 }  // namespace

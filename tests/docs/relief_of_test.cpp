@@ -8,7 +8,8 @@
 #include "relievo/io/write.h"
 #include "relievo/samples/sample.h"
 
-relievo::Result<std::vector<std::byte>> relief_of(std::span<const std::byte> scan);  // examples/relief_of.cpp
+// Of examples/consumer/relief_of.cpp.
+relievo::Result<std::vector<std::byte>> relief_of(std::span<const std::byte> scan);
 
 namespace {
 

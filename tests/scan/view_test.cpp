@@ -45,8 +45,8 @@ TEST(View, RotationsAreProper) {
 }
 
 TEST(View, TakesDirectionsOfAnyLength) {
-  for (const char* up : {"0,1e9,0", "0,1e-9,0", "1e9,1e9,0"}) {
-    const Mat3 R = parse_view("0,1,0", up)->R_view_model;
+  for (const Vec3& up : {Vec3(0, 1e9, 0), Vec3(0, 1e-9, 0), Vec3(1e9, 1e9, 0)}) {
+    const Mat3 R = view_towards(Vec3::UnitY(), up)->R_view_model;
     EXPECT_TRUE((R * R.transpose()).isIdentity(1e-12)) << up;
   }
 }
@@ -56,6 +56,8 @@ TEST(View, RefusesWhatIsNoDirection) {
     EXPECT_FALSE(parse_view(text)) << text;
   EXPECT_FALSE(parse_view("front", "sideways"));
   EXPECT_FALSE(parse_view("front", "0,0,0"));
+  EXPECT_FALSE(parse_view("front", "0,0,2"));
+  EXPECT_FALSE(parse_view("1,2,3", "-1,-2,-3"));
   EXPECT_EQ(parse_view("up").error().kind, ErrorKind::option);
 }
 

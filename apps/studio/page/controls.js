@@ -182,7 +182,7 @@ export class Slider {
     this.range.style.setProperty("--filled", `${this.position() / STEPS * 100}%`);
     this.range.setAttribute("aria-valuetext", `${text} ${shownUnit(this.unitName ?? this.unit) ?? ""}`.trim());
     this.number.setAttribute("aria-valuenow", text);
-    if (!this.isTyping) this.number.value = text;
+    if (!this.isTyping && this.number.value !== text) this.number.value = text; // a selection of the same text stays
   }
 
   // Marks a value on the slider, such as the largest that can be reached; none for null.

@@ -101,11 +101,13 @@ export const areKindsDrawn = () => [...document.querySelectorAll("#kinds canvas"
 // Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets. Waits until
 // the field takes keys: those that a disabled field gets would go to the field before.
 export async function type(field, text) {
+  await field.page().bringToFront(); // Firefox sends keys to no other page
   await eventually(async () => {
-    if (!(await field.isEnabled())) throw new Error(`disabled: ${field}`);
+    await field.selectText({timeout: 2000});
+    const isSelected = await field.evaluate((input) => document.activeElement === input &&
+      !input.disabled && input.selectionEnd - input.selectionStart === input.value.length);
+    if (!isSelected) throw new Error(`not selected: ${field}`);
   });
-  await field.focus();
-  await field.press("ControlOrMeta+a");
   await (text === "" ? field.press("Delete") : field.pressSequentially(text));
 }
 

@@ -100,7 +100,7 @@ async function newStudio(t, name, address) {
   const openPage = async () => {
     const studio = new Studio(await context.newPage(), downloads);
     await studio.page.goto(address);
-    await studio.page.getByRole("list", {name: "Try a sample"}).waitFor({state: "attached"});
+    await studio.page.locator("#samples button").first().waitFor({state: "attached"}); // the page listens by then
     return studio;
   };
   return {studio: await openPage(), openPage, context};

@@ -18,16 +18,12 @@ inline void append(std::string& out, std::string_view text) {
 inline void append(std::string& out, char c) {
   out += c;
 }
+void append(std::string& out, double number);
 template <typename T>
-requires std::is_arithmetic_v<T>
+requires std::is_integral_v<T>
 void append(std::string& out, T number) {
   char digits[32];
-  std::to_chars_result end{};
-  if constexpr (std::is_floating_point_v<T>)
-    end = std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6);
-  else
-    end = std::to_chars(digits, digits + sizeof digits, number);
-  out.append(digits, end.ptr);
+  out.append(digits, std::to_chars(digits, digits + sizeof digits, number).ptr);
 }
 
 // Returns the parts joined: texts, characters and numbers, floating-point numbers with six significant
