@@ -3,10 +3,12 @@
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/commands.h"
 #include "cli/frame_figures.h"
 #include "cli/input_flags.h"
+#include "cli/view_figures.h"
 #include "common/files.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -20,7 +22,7 @@ namespace {
 struct BenchArguments {
   SceneArguments scene;
   std::string mode = "all";
-  int frames = 60;
+  int frames = 60, views = 5;
   bool is_json = false;
 };
 
@@ -39,6 +41,7 @@ struct BenchResult {
     double bytes_per_point = 0;
   };
   std::vector<Memory> memory;
+  std::optional<ViewFigures> views;
 };
 
 // Prepares a model of that mode and measures its frames, first with one thread, then with all.
@@ -72,9 +75,11 @@ Result<BenchResult> measure(const BenchArguments& arguments) {
   RELIEVO_TRY(const Surface surface, find_surface(*seen.sample.cloud, seen.view, {}, &progress));
   progress.finish();
 
-  BenchResult result{surface.input_points, surface.points.size(), progress.times(), {}, {}};
+  BenchResult result{surface.input_points, surface.points.size(), progress.times(), {}, {}, {}};
   RELIEVO_TRY(const std::vector<Mode> modes, modes_of(arguments, surface));
   for (const Mode mode : modes) RELIEVO_CHECK(measure_mode(surface, mode, arguments.frames, result));
+  if (arguments.views == 0) return result;
+  RELIEVO_TRY(result.views, measure_views({seen.sample.cloud, seen.view, modes.front(), arguments.views}));
   return result;
 }
 
@@ -86,6 +91,7 @@ void print_table(const BenchResult& r) {
   print_frame_head();
   for (const FrameFigures& f : r.frames) print_frames(f, r.visible_points);
   print_paper_rows();
+  if (r.views) print_views(*r.views);
   std::printf("\nmemory after preparation, bytes per visible point\n");
   for (const auto& [mode, bytes] : r.memory) std::printf("  %-28s %7.0f\n", mode.c_str(), bytes);
   std::printf("peak of the whole run: %.0f MiB\n", peak_memory_mib());
@@ -105,13 +111,20 @@ void print_json(const BenchResult& r) {
                       {"p50_ms", f.whole.percentile(.5)},
                       {"p95_ms", f.whole.percentile(.95)},
                       {"solves", f.solves}});
-  const nlohmann::json json{{"version", version},
-                            {"input_points", r.input_points},
-                            {"visible_points", r.visible_points},
-                            {"preparation_s", preparation},
-                            {"frames", frames},
-                            {"bytes_per_point", memory},
-                            {"peak_mib", peak_memory_mib()}};
+  nlohmann::json json{{"version", version},
+                      {"input_points", r.input_points},
+                      {"visible_points", r.visible_points},
+                      {"preparation_s", preparation},
+                      {"frames", frames},
+                      {"bytes_per_point", memory},
+                      {"peak_mib", peak_memory_mib()}};
+  if (r.views)
+    json["views_ms"] = {{"first", r.views->first_ms},
+                        {"first_turned", r.views->first_turned_ms},
+                        {"turned_p50", r.views->turned.percentile(.5)},
+                        {"turned_p95", r.views->turned.percentile(.95)},
+                        {"prepared_p50", r.views->prepared.percentile(.5)},
+                        {"prepared_p95", r.views->prepared.percentile(.95)}};
   std::printf("%s\n", json.dump(2).c_str());
 }
 
@@ -133,6 +146,10 @@ void add_bench(CLI::App& program, Result<void>& result) {
       ->capture_default_str();
   command.add_option("--frames", arguments->frames, "frames timed for each line [5 to 10000]")
       ->check(CLI::Range(5, 10000).description(""))
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--views", arguments->views, "other views timed; 0 times no views [0 to 1000]")
+      ->check(CLI::Range(0, 1000).description(""))
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--json", arguments->is_json, "print JSON instead of a table");

@@ -61,11 +61,6 @@ ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
           .histogram = histogram_of(surface.curvature.k)};
 }
 
-Shown shown(const CachedFrame& cached) {
-  const Frame& frame = *cached.frame;
-  return {frame.heights, frame.normals, static_cast<float>(cached.stretch), {{frame.lowest, frame.highest}}};
-}
-
 }  // namespace
 
 Shape SharedToneCurve::shape_of(const ReliefOptions& options) {
@@ -103,12 +98,20 @@ Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const Relie
   return sized;
 }
 
-Drawing::Drawing(std::shared_ptr<const ReliefModel> model, std::size_t left_out)
-    : model_(std::move(model)),
+Drawing::Drawing(TurnedRelief shown, std::size_t left_out)
+    : model_(std::move(shown.model)),
+      detail_(std::move(shown.detail)),
+      spacing_ratio_(shown.spacing_ratio),
       facts_(facts_of(model_->surface(), left_out)),
       renderer_(model_),
-      frames_(*model_),
+      frames_(*model_, detail_ != nullptr),
       piece_(model_) {}
+
+Shown Drawing::shown(const CachedFrame& cached) const {
+  const Frame& frame = *cached.frame;
+  return {frame.heights, frame.normals, static_cast<float>(cached.stretch), {{frame.lowest, frame.highest}},
+          detail_.get(), cached.gains};
+}
 
 // The same as relievo::mm_per_unit(), without its walk over all points.
 double Drawing::mm_per_unit(const ReliefOptions& options) const {
@@ -126,6 +129,7 @@ RenderOptions Drawing::render_options(const PictureRequest& request) const {
 FrameOptions Drawing::frame_options(const PictureRequest& request) {
   FrameOptions options;
   options.shape = tone_curve_.shape_of(request.options);
+  options.shape.boundary_width *= spacing_ratio_;
   if (request.u)
     options.shape.compression.u = *request.u;
   else if (request.options.height_mm)
@@ -225,7 +229,8 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
 
 Result<double> Drawing::reachable_height(const ReliefOptions& asked) {
   RELIEVO_TRY(const ReliefOptions options, plate_width_.with_width(model_->surface(), asked));
-  return frames_.highest(frame_options({options, {}, std::nullopt, false, false, {}})) * mm_per_unit(options);
+  return frames_.highest(frame_options({options, {}, std::nullopt, std::nullopt, false, false, {}})) *
+         mm_per_unit(options);
 }
 
 Result<std::vector<float>> Drawing::profile(PictureRequest request, const SectionLine& line) {

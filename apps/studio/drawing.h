@@ -9,6 +9,7 @@
 
 #include "relievo/options.h"
 #include "relievo/picture/render.h"
+#include "relievo/turning.h"
 #include "studio/curve_samples.h"
 #include "studio/frame_cache.h"
 #include "studio/piece.h"
@@ -30,8 +31,10 @@ struct ModelFacts {
 };
 
 struct PictureRequest {
-  ReliefOptions options;     // its view is ignored
-  std::string key;           // the options as text: equal for equal options
+  ReliefOptions options;  // its view is ignored
+  std::string key;        // the options as text: equal for equal options
+  std::optional<View>
+      turned;                // the view that is shown while the model is turned, in place of the one prepared
   std::optional<double> u;   // of the compression, in place of a height, which then follows the shape
   bool is_original = false;  // shows the model itself in place of its relief
   bool is_finished = false;  // shows the piece as export makes it
@@ -91,8 +94,9 @@ class SharedToneCurve {
 // Everything that needs a walk over all points is computed once, here. Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. `left_out` is the number of the scan's outliers.
-  Drawing(std::shared_ptr<const ReliefModel> model, std::size_t left_out);
+  // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `left_out` is the
+  // number of the scan's outliers.
+  Drawing(TurnedRelief shown, std::size_t left_out);
 
   const ModelFacts& facts() const { return facts_; }
 
@@ -120,6 +124,7 @@ class Drawing {
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:
+  Shown shown(const CachedFrame& cached) const;
   RenderOptions render_options(const PictureRequest& request) const;
   double mm_per_unit(const ReliefOptions& options) const;
   FrameOptions frame_options(const PictureRequest& request);
@@ -131,6 +136,8 @@ class Drawing {
                     PictureAnswer& answer);
 
   std::shared_ptr<const ReliefModel> model_;
+  std::shared_ptr<const SurfaceDetail> detail_;  // null where the model has all points
+  double spacing_ratio_;                         // see TurnedRelief
   ModelFacts facts_;
   FrameRenderer renderer_;
   FrameCache frames_;

@@ -89,6 +89,8 @@ struct Engine::State {
   Mutex drawing_mutex;  // guards what follows up to the session
   std::optional<Drawing> drawing;
   std::uint64_t drawn_model = 0;
+  std::optional<View> turned_view;  // of the drawing below
+  std::optional<Drawing> turned;    // of the model while it is turned
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
@@ -102,6 +104,9 @@ struct Engine::State {
       return points(*chosen, number, progress);
     };
     preparation.chosen_view = [chosen] { return *chosen; };
+    preparation.all_sides = [this](Progress&) -> Preparation::Points {
+      return shared.with([](const Shared& s) { return s.scan; }).all_sides();
+    };
     preparation.mode = parse_mode(texts.mode).value_or(Mode::automatic);
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
@@ -154,13 +159,28 @@ struct Engine::State {
     });
   }
 
+  // With `drawing_mutex` locked: returns what draws the model as a view shows it that is not prepared. The coarse relief is
+  // made once for a view, so that it lasts until that view is prepared, whatever changes meanwhile.
+  Result<Drawing*> turned_drawing(const View& view) {
+    if (turned && turned_view == view) return &*turned;
+    turned_view.reset();
+    RELIEVO_TRY(TurnedRelief relief, session.turn(view));
+    turned.emplace(std::move(relief), shared.with([](const Shared& s) { return s.scan.left_out(); }));
+    turned_view = view;
+    return &*turned;
+  }
+
   // With `drawing_mutex` locked: returns what draws the model that is shown; null before the first. While
   // another view is prepared it is frozen: the preparation needs the processor.
   Drawing* current_drawing() {
     const bool is_preparing = session.status().is_preparing;
     const ShownModel shown = shared.with([](const Shared& s) { return s.shown; });
     if (!shown.model) return nullptr;
-    if (drawn_model != shown.number) drawing.emplace(shown.model, shown.scan.left_out());
+    if (drawn_model != shown.number) {
+      drawing.emplace(TurnedRelief{shown.model, nullptr, 1}, shown.scan.left_out());
+      turned_view.reset();
+      turned.reset();
+    }
     drawn_model = shown.number;
     drawing->freeze(is_preparing);
     return &*drawing;
@@ -243,7 +263,8 @@ Result<ModelFacts> Engine::facts() {
 // Makes the piece that a picture is to show, while other pictures are drawn. If one of them cancels it, the picture shows what
 // there is.
 Result<void> Engine::finish(const PictureRequest& request) {
-  if (state_->session.status().is_preparing) return {};  // another model, whose piece will be asked for
+  // Another model is prepared, or about to be, whose piece will be asked for.
+  if (request.turned || state_->session.status().is_preparing) return {};
   std::optional<PieceOrder> order;
   std::uint64_t model = 0;
   {
@@ -272,6 +293,10 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
     });
   }
   const Lock lock(state_->drawing_mutex);
+  if (request.turned) {
+    RELIEVO_TRY(Drawing* const turned, state_->turned_drawing(*request.turned));
+    return turned->picture(request);
+  }
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
   return drawing->picture(request);

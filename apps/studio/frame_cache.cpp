@@ -33,11 +33,12 @@ CachedFrame FrameCache::exact(const FrameOptions& wanted) {
   if (!is_known) {
     Frame& next = frames_[1 - newest_];
     maker_.make(wanted, next);
+    if (wants_gains_) maker_.write_gains(gains_);
     if (made_) elasticity_ = elasticity_between(newest(), next, elasticity_);
     newest_ = 1 - newest_;
     made_ = wanted;
   }
-  return last_ = {&newest(), 1, !is_known};
+  return last_ = {&newest(), gains_, 1, !is_known};
 }
 
 CachedFrame FrameCache::quick(const FrameOptions& wanted) {
@@ -46,7 +47,7 @@ CachedFrame FrameCache::quick(const FrameOptions& wanted) {
   const CachedFrame made = exact(*guessed);
   const double stretch = made.frame->height > 0 ? *wanted.height / made.frame->height : 0;
   if (!(std::abs(stretch - 1) < largest_stretch)) return exact(wanted);
-  return last_ = {made.frame, stretch, made.is_new};
+  return last_ = {made.frame, gains_, stretch, made.is_new};
 }
 
 double FrameCache::highest(FrameOptions wanted) {

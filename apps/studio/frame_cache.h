@@ -11,14 +11,15 @@ namespace relievo::app::studio {
 // A frame to draw. It is valid until the cache makes the next one but one.
 struct CachedFrame {
   const Frame* frame = nullptr;
-  double stretch = 1;   // factor of the heights in the picture
-  bool is_new = false;  // was made for this call
+  std::span<const float> gains = {};  // of the frame, if they are wanted, see Shown
+  double stretch = 1;                 // factor of the heights in the picture
+  bool is_new = false;                // was made for this call
 };
 
 // Makes frames of one model, which must outlive the cache. Not for concurrent use.
 class FrameCache {
  public:
-  explicit FrameCache(const ReliefModel& model) : maker_(model) {}
+  FrameCache(const ReliefModel& model, bool wants_gains) : maker_(model), wants_gains_(wants_gains) {}
 
   // Returns the frame asked for.
   CachedFrame exact(const FrameOptions& wanted);
@@ -39,6 +40,8 @@ class FrameCache {
   const Frame& newest() const { return frames_[newest_]; }
 
   FrameMaker maker_;
+  bool wants_gains_;
+  std::vector<float> gains_;     // of the newest frame
   std::array<Frame, 2> frames_;  // the newest, and the one before, which the next overwrites
   std::size_t newest_ = 0;
   Frame spare_;                       // of highest()

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "relievo/scan/mesh.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/spacing.h"
 
@@ -63,6 +64,15 @@ void LoadedScan::add(const CloudFile& file, const PlacedModel& place, double sha
   if (has_normals)
     for (const Vec3f& n : near.normals) all.normals.push_back(place.turn.cast<float>() * n);
   if (has_colours) all.colours.insert(all.colours.end(), near.colours.begin(), near.colours.end());
+}
+
+Result<std::shared_ptr<const Cloud>> LoadedScan::all_sides() const {
+  constexpr std::size_t scattered = 400'000;  // of which about half face the viewer
+  if (scene_.models.empty())
+    return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
+  const Mesh& mesh = scene_.models[0].file->mesh;
+  if (!is_one_file() || mesh.empty()) return cloud_;
+  return std::make_shared<const Cloud>(scatter(mesh, scattered));
 }
 
 Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, double points,

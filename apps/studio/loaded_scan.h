@@ -23,6 +23,9 @@ class LoadedScan {
 
   const Scene& scene() const { return scene_; }
 
+  // Returns points of all sides, for turning: those of cloud(), of a mesh evenly scattered ones.
+  Result<std::shared_ptr<const Cloud>> all_sides() const;
+
   // Returns the number of outliers: points of clouds that lie far outside.
   std::size_t left_out() const { return left_out_; }
 

@@ -122,9 +122,20 @@ Result<PictureRequest> picture_request(const Json& json) {
   if (!options) return std::unexpected(options.error());
   Result<RenderOptions> render = render_from(json);
   if (!render) return std::unexpected(render.error());
-  PictureRequest request{std::move(*options),    json.value("options", Json::object()).dump(),
-                         std::nullopt,           flag(json, "original"),
-                         flag(json, "finished"), *render};
+  PictureRequest request{std::move(*options),
+                         json.value("options", Json::object()).dump(),
+                         std::nullopt,
+                         std::nullopt,
+                         flag(json, "original"),
+                         flag(json, "finished"),
+                         *render};
+  if (const auto turned = json.find("turned"); turned != json.end()) {
+    RELIEVO_TRY(View view, view_from(*turned));
+    view.crop = request.options.view.crop;
+    view.has_crumbs = request.options.view.has_crumbs;
+    view.denoise = request.options.view.denoise;
+    request.turned = view;
+  }
   if (json.contains("u")) {
     request.u = number(json, "u", {0, 1e12, 1});
     if (!request.u) return wrong("u", "expected a number that is not negative");
@@ -144,6 +155,7 @@ Result<Vec2> place_from(const Json& json, const char* key) {
 }
 
 Result<View> view_from(const Json& json) {
+  if (!json.is_object()) return wrong("turned", "expected an object");
   const auto towards = direction(json, "towards"), up = direction(json, "up");
   if (!towards || !up) return wrong("towards", "expected directions as three numbers");
   return view_towards(*towards, *up);

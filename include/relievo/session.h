@@ -10,10 +10,9 @@
 #include "relievo/core/progress.h"
 #include "relievo/relief/method.h"
 #include "relievo/scan/view.h"
+#include "relievo/turning.h"
 
 namespace relievo {
-
-class ReliefModel;
 
 struct SessionStatus {
   bool is_preparing = false;
@@ -35,6 +34,10 @@ struct Preparation {
   // Called after points() where it is set: returns the view, if that depends on what was read.
   std::function<View()> chosen_view = {};
 
+  // Called by turn() where it is set: returns the points of all sides. Without it, those of points() are turned, which is
+  // right for clouds; points of a mesh are samples of one view.
+  std::function<Points(Progress&)> all_sides = {};
+
   // Called with the model just before status() says that it is ready. It must not call the session.
   std::function<void(const Model&)> ready = {};
 
@@ -43,7 +46,7 @@ struct Preparation {
   std::function<void()> changed = {};
 };
 
-// Every method may be called from any thread, and none waits for work but wait_until_idle() and the
+// Every method may be called from any thread, and none waits for work but turn(), wait_until_idle() and the
 // destructor. Frames of the model are made by a FrameMaker, by whoever shows them.
 class Session {
  public:
@@ -57,6 +60,13 @@ class Session {
   // Cancels the preparation that runs or waits, if any. status() says so at once; the work itself ends when it next asks
   // its Progress, which may take seconds for millions of points, and the next preparation begins after that.
   void cancel();
+
+  // Returns a coarse relief of the points that were prepared last in another view, for as long as the view moves; open()
+  // prepares the view in which it rests. The work is done in the calling thread, in a few hundredths of a second, and
+  // like that of the model before. A newer call and cancel() cancel it. It cancels no preparation and open() does not
+  // cancel it, as the call may come late, when the view in which it rests is already being prepared. Errors: kind geometry
+  // if no points have been measured yet, or if the view shows no area; kind cancelled.
+  Result<TurnedRelief> turn(const View& view);
 
   SessionStatus status() const;
   std::shared_ptr<const ReliefModel> model() const;  // the newest; null before the first

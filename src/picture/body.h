@@ -10,6 +10,8 @@
 
 namespace relievo {
 
+struct SurfaceDetail;
+
 // The part of the body that a triangle belongs to, which decides how it is shaded.
 enum class Part : std::uint8_t {
   nothing,
@@ -40,8 +42,11 @@ struct DrawnBody {
   double mm_per_place = 1;
   std::span<const float> heights;  // times mm_per_height
   float mm_per_height = 1;
-  std::span<const Vec3f> normals;  // of the points of the relief, unit length
-  float stretch = 1;               // by which these normals are to be steeper
+  std::span<const Vec3f> normals;         // of the points of the relief, unit length
+  float stretch = 1;                      // by which these normals are to be steeper
+  const SurfaceDetail* detail = nullptr;  // shown between the points, with `gains`, see Shown
+  std::span<const float> gains = {};
+  Vec2f middle = Vec2f::Zero();  // of the surface's points, where `detail` is
   std::vector<Vec3> box_corners = {};
   Box front = {};  // of the front's points, in mm
   // No point of the front hides another from above, so that seen from there heights need not be known.

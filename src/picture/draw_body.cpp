@@ -1,12 +1,14 @@
 #include "picture/draw_body.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "picture/drop_shadow.h"
 #include "picture/light_map.h"
 #include "picture/reach_tint.h"
 #include "picture/shading.h"
 #include "relievo/core/parallel.h"
+#include "relievo/picture/render.h"
 
 namespace relievo {
 namespace {
@@ -30,6 +32,18 @@ int light_map_px(const ScreenTransform& transform, bool is_fine) {
 constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
 constexpr float wall_height = .55F;  // porcelain walls let light through as a plate of about mean thickness
+
+// Returns how the detail at a place differs from the surface's own normal there; bilinear between the cells' centres.
+Vec2f fine_part(const SurfaceDetail& detail, const Vec2f& place, const Vec2f& own) {
+  const Vec2f at = (place - detail.corner) / detail.cell - Vec2f::Constant(.5F);
+  const int x = static_cast<int>(std::floor(at.x())), y = static_cast<int>(std::floor(at.y()));
+  if (!detail.xy.contains(x, y) || !detail.xy.contains(x + 1, y + 1)) return Vec2f::Zero();
+  const float s = at.x() - static_cast<float>(x), t = at.y() - static_cast<float>(y);
+  const Vec2f below = detail.xy.at(x, y) + s * (detail.xy.at(x + 1, y) - detail.xy.at(x, y)),
+              above = detail.xy.at(x, y + 1) + s * (detail.xy.at(x + 1, y + 1) - detail.xy.at(x, y + 1));
+  const Vec2f mean = below + t * (above - below);
+  return mean.allFinite() ? Vec2f(mean - own) : Vec2f(Vec2f::Zero());
+}
 
 // The colour of places on a body.
 class Painter {
@@ -57,7 +71,7 @@ class Painter {
       lit.height = wall_height;
       return shader_.colour(lit);
     }
-    if (seen.part == Part::relief) lit.normal = relief_normal(seen);
+    if (seen.part == Part::relief) lit.normal = relief_normal(seen, lit.place.head<2>());
     if (seen.part == Part::curved) lit.normal = corner_normal(seen);
     lit.place.z() = height_mm(body_, seen);
     lit.height = body_.span_mm() > 0 ? (lit.place.z() - body_.lowest_mm()) / body_.span_mm() : 0;
@@ -66,10 +80,17 @@ class Painter {
   }
 
  private:
-  Vec3f relief_normal(const VisiblePoint& seen) const {
+  Vec3f relief_normal(const VisiblePoint& seen, const Vec2f& place_mm) const {
     const auto& [a, b, c] = seen.corners;
     if (body_.heights[a] == body_.heights[b] && body_.heights[a] == body_.heights[c]) return Vec3f::UnitZ();
     Vec3f normal = seen.mean(body_.normals[a], body_.normals[b], body_.normals[c]);
+    if (body_.detail) {
+      const SurfaceDetail& detail = *body_.detail;
+      const Vec2f at = place_mm / static_cast<float>(body_.mm_per_place) + body_.middle;
+      const float gain = seen.mean(body_.gains[a], body_.gains[b], body_.gains[c]);
+      const Vec2f own = seen.mean(detail.own[a], detail.own[b], detail.own[c]);
+      normal.head<2>() -= normal.z() * gain * fine_part(detail, at, own);
+    }
     normal.head<2>() *= body_.stretch;
     return normal.normalized();
   }

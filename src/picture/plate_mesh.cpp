@@ -31,6 +31,7 @@ PlateMesh plate_mesh(const Surface& surface) {
   PlateMesh mesh;
   const Box box = Box::of(surface.points);
   mesh.half = box.size().head<2>() / 2;
+  mesh.middle = box.centre().head<2>().cast<float>();
   HeightFieldMesh front{std::vector<Vec3>(surface.points.size()), surface.triangulation.triangles,
                         surface.triangulation.hull};
   const double to_mm = width_mm / box.size().head<2>().maxCoeff();
@@ -41,8 +42,11 @@ PlateMesh plate_mesh(const Surface& surface) {
   Result<Solid> solid = make_plate(front, {});
   if (!solid) return mesh;
   mesh.parts = plate_parts(*solid);
+  // A thin triangle on the hull may have been flipped with one of the ground: then it has a corner of the plate.
+  const auto is_of_points = [&](const Triangle& t) { return std::ranges::max(t) < surface.points.size(); };
   for (std::size_t t = 0; t < surface.boundary.is_inside.size(); ++t)
-    if (surface.boundary.is_inside[t]) mesh.parts.parts[t] = Part::relief;
+    if (surface.boundary.is_inside[t] && is_of_points(solid->triangles[t]))
+      mesh.parts.parts[t] = Part::relief;
   mesh.triangles = std::move(solid->triangles);
   return mesh;
 }
@@ -52,6 +56,9 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   DrawnBody body{mesh.triangles, mesh.parts, mesh.places,   options.mm_per_unit,
                  shown.heights,  scale,      shown.normals, shown.stretch};
   body.is_height_field = true;
+  body.detail = shown.detail;
+  body.gains = shown.gains;
+  body.middle = mesh.middle;
   const auto search = [&]() -> std::array<float, 2> {
     const auto [low, high] = std::ranges::minmax(shown.heights);
     return {low, high};

@@ -13,8 +13,9 @@ namespace relievo {
 struct PlateMesh {
   std::vector<Triangle> triangles;
   PlateParts parts;
-  std::vector<Vec2> places;  // of the surface's points from the middle, in its units
-  Vec2 half = Vec2::Zero();  // half the size of their box
+  std::vector<Vec2> places;      // of the surface's points from the middle, in its units
+  Vec2 half = Vec2::Zero();      // half the size of their box
+  Vec2f middle = Vec2f::Zero();  // of their box
 };
 
 PlateMesh plate_mesh(const Surface& surface);

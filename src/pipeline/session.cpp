@@ -1,11 +1,19 @@
 #include "relievo/session.h"
 
+#include <tuple>
+
 #include "relievo/core/parallel.h"
-#include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"
+#include "scan/measured_cloud.h"
 
 namespace relievo {
 namespace {
+
+// Points that were measured, and what turns them.
+struct Measured {
+  std::shared_ptr<const Cloud> of;
+  std::shared_ptr<const MeasuredCloud> cloud;
+};
 
 // The state that the callers and the session's thread share.
 struct Shared {
@@ -13,13 +21,19 @@ struct Shared {
   std::shared_ptr<Progress> progress;  // of the preparation that runs
   std::shared_ptr<const ReliefModel> model;
   SessionStatus status;
+  Measured measured;  // last
+  std::function<Preparation::Points(Progress&)> all_sides;
+  std::optional<double> denoise;               // of the view that was prepared last
+  std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
+  std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
+
+  void cancel_turning() {
+    if (turning) turning->cancel();
+  }
 };
 
-Result<std::shared_ptr<const ReliefModel>> prepare(const Preparation& wanted, Progress& progress) {
-  RELIEVO_TRY(const std::shared_ptr<const Cloud> cloud, wanted.points(progress));
-  const View view = wanted.chosen_view ? wanted.chosen_view() : wanted.view;
-  RELIEVO_TRY(ReliefModel model, relievo::prepare(*cloud, view, wanted.mode, &progress));
-  return std::make_shared<const ReliefModel>(std::move(model));
+std::unexpected<Error> cancelled() {
+  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
 }  // namespace
@@ -36,14 +50,13 @@ struct Session::State {
       return std::pair(std::move(next), s.progress);
     });
     if (!wanted) return false;
-    const Result<std::shared_ptr<const ReliefModel>> made = prepare(*wanted, *progress);
+    const Result<Preparation::Model> made = prepare(*wanted, *progress);
     finish(*wanted, *progress, made);
     if (wanted->changed) wanted->changed();
     return true;
   }
 
-  void finish(const Preparation& wanted, const Progress& progress,
-              const Result<std::shared_ptr<const ReliefModel>>& made) {
+  void finish(const Preparation& wanted, const Progress& progress, const Result<Preparation::Model>& made) {
     shared.with([&](Shared& s) {
       s.progress = nullptr;
       if (s.waiting || progress.is_cancelled())
@@ -57,6 +70,53 @@ struct Session::State {
       s.model = *made;
       if (wanted.ready) wanted.ready(*made);
     });
+  }
+
+  Result<Preparation::Model> prepare(const Preparation& wanted, Progress& progress) {
+    RELIEVO_TRY(const std::shared_ptr<const Cloud> cloud, wanted.points(progress));
+    const View view = wanted.chosen_view ? wanted.chosen_view() : wanted.view;
+    RELIEVO_TRY(const auto measured, measure(cloud, view, progress));
+    shared.with([&](Shared& s) {
+      if (s.measured.cloud == measured || progress.is_cancelled()) return;
+      s.measured = {cloud, measured};
+      s.all_sides = wanted.all_sides;
+      s.denoise = view.denoise;
+      s.turntable = nullptr;
+    });
+    RELIEVO_TRY(Surface surface, find_surface(*measured, view, {}, &progress));
+    RELIEVO_TRY(ReliefModel model, ReliefModel::prepare(std::move(surface), &progress, wanted.mode));
+    return std::make_shared<const ReliefModel>(std::move(model));
+  }
+
+  // Measures the points, unless they were measured last for a view that asks for the same.
+  Result<std::shared_ptr<const MeasuredCloud>> measure(const std::shared_ptr<const Cloud>& points,
+                                                       const View& view, Progress& progress) {
+    const Measured last = shared.with([](const Shared& s) { return s.measured; });
+    if (last.of == points && last.cloud->serves(view)) return last.cloud;
+    return MeasuredCloud::measure(*points, view, &progress);
+  }
+
+  // Returns what turns the points that were measured last. They are measured again where they are those of one view.
+  Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
+    const auto [known, last, all_sides, denoise] = shared.with(
+        [](const Shared& s) { return std::tuple(s.turntable, s.measured, s.all_sides, s.denoise); });
+    if (!last.cloud)
+      return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected points that were prepared"});
+    if (known) return known;
+    View whole = view;
+    whole.crop = {};
+    whole.denoise = denoise;
+    RELIEVO_TRY(const auto points, all_sides ? all_sides(progress) : Preparation::Points(last.of));
+    RELIEVO_CHECK(check_cancelled(&progress));
+    std::shared_ptr<const MeasuredCloud> measured = last.cloud;
+    if (points != last.of || !measured->serves(whole)) {
+      RELIEVO_TRY(measured, MeasuredCloud::measure(*points, whole, &progress));
+    }
+    auto made = std::make_shared<const Turntable>(*measured);
+    shared.with([&](Shared& s) {
+      if (s.measured.cloud == last.cloud) s.turntable = made;
+    });
+    return made;
   }
 
   std::shared_ptr<Progress> watched(const std::function<void()>& changed) {
@@ -88,11 +148,31 @@ void Session::open(Preparation preparation) {
 
 void Session::cancel() {
   state_->shared.with([](Shared& s) {
-    if (s.progress) s.progress->cancel();
+    s.cancel_turning();
     if (s.status.is_preparing) s.status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
+    if (s.progress) s.progress->cancel();
     s.waiting = std::nullopt;
     s.status.is_preparing = false;
   });
+}
+
+Result<TurnedRelief> Session::turn(const View& view) {
+  const auto progress = std::make_shared<Progress>();
+  const auto like = state_->shared.with([&](Shared& s) {
+    s.cancel_turning();
+    s.turning = progress;
+    return s.model;
+  });
+  Result<TurnedRelief> turned = cancelled();
+  if (const auto turntable = state_->turntable(view, *progress); !turntable)
+    turned = std::unexpected(turntable.error());
+  else
+    turned = (*turntable)->turn(view, like.get(), progress.get());
+  state_->shared.with([&](Shared& s) {
+    if (s.turning == progress) s.turning = nullptr;
+  });
+  if (progress->is_cancelled()) return cancelled();
+  return turned;
 }
 
 SessionStatus Session::status() const {

@@ -52,6 +52,7 @@ struct FrameMaker::Packed {
   double boundary_width = 0;  // that boundary_weight is for
   WeightTable weight;
   std::vector<HeightSpan<float>> spans;
+  Shape made = {};                              // of the last frame
   HeightSearch::Track last_height, last_steps;  // where the last locked height was found, by u or by steps
   bool needs_steps = false;                     // whether slopes alone did not reach it
 
@@ -102,7 +103,7 @@ struct FrameMaker::Packed {
 
   // Makes the relief of that shape but for what its style does last; frame.height is already the final one.
   void raise(const Shape& shape, std::optional<double> height, Frame& frame) {
-    frame.options.shape = model.with_membrane(shape);
+    frame.options.shape = made = model.with_membrane(shape);
     if (const HeightSystem* system = model.system())
       solve_system(*system, frame);
     else
@@ -178,6 +179,16 @@ void FrameMaker::make(const FrameOptions& options, Frame& frame) {
   const Stopwatch watch;
   packed_->normal_matrix.normals(frame.heights, frame.normals);
   frame.times.normals_s = watch.seconds();
+}
+
+void FrameMaker::write_gains(std::vector<float>& gains) const {
+  const SlopeInput& input = packed_->input;
+  gains.resize(packed_->size());
+  with_style(packed_->made, [&](const auto& style) {
+    parallel_for(gains.size(), [&](std::size_t i) {
+      gains[i] = style.gain(input, i, packed_->weight(input.k[i]), input.boundary_weight[i]);
+    });
+  });
 }
 
 std::size_t FrameMaker::memory() const {

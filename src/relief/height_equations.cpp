@@ -1,116 +1,142 @@
 #include "relief/height_equations.h"
 
 #include <algorithm>
+#include <iterator>
+#include <numeric>
 
-#include "core/groups.h"
 #include "relief/edge_weight.h"
+#include "relief/matrix_rows.h"
 
 namespace relievo {
 namespace {
 
 struct WeightedEdge {
-  Index from, to;
+  Index to;
   float weight;
 };
-
-// Equation (9): the terms, one per triangle and edge, in both directions. An edge of two triangles has two.
-std::vector<WeightedEdge> edge_terms(std::span<const Vec2> points, const Triangulation& mesh,
-                                     const Boundary& boundary) {
-  std::vector<WeightedEdge> edges;
-  edges.reserve(mesh.triangles.size() * 6);
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (!boundary.is_inside[t]) continue;
-    for (int corner = 0; corner < 3; ++corner) {
-      const Index apex = mesh.triangles[t][corner];
-      const Index a = mesh.triangles[t][(corner + 1) % 3], b = mesh.triangles[t][(corner + 2) % 3];
-      const auto half = static_cast<float>(half_edge_weight(points[apex], points[a], points[b]));
-      edges.push_back({a, b, half});
-      edges.push_back({b, a, half});
-    }
-  }
-  return edges;
-}
 
 // The edges of point i are edges[begin[i]] up to edges[begin[i + 1]], in ascending order of the other points.
 struct Adjacency {
   std::vector<Index> begin;
   std::vector<WeightedEdge> edges;
+
+  std::span<const WeightedEdge> operator[](Index i) const {
+    return std::span(edges).subspan(begin[i], begin[i + 1] - begin[i]);
+  }
 };
 
-// Equation (9): adds up the two terms of each edge and bounds its weight. Edges at depth jumps then count
-// for their jump_share().
-Adjacency gather(const std::vector<WeightedEdge>& all, const Boundary& boundary,
-                 std::span<const float> weights) {
-  const std::size_t points = boundary.is_boundary.size();
-  auto [begin, sorted] = grouped<WeightedEdge, std::size_t>(points, [&](auto&& add) {
-    for (const WeightedEdge& e : all) add(e.from, e);
-  });
+// Equation (9): the edges of points, one point after the other. A corner is 3 t + i for corner i of triangle t.
+class EdgeRows {
+ public:
+  EdgeRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
+      : points_(points), triangles_(triangles) {}
 
-  Adjacency result;
-  result.begin.reserve(points + 1);
-  result.edges.reserve(all.size() / 2 + points);
-  for (std::size_t i = 0; i < points; ++i) {
-    result.begin.push_back(static_cast<Index>(result.edges.size()));
-    const auto first = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i]);
-    const auto last = sorted.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]);
-    std::stable_sort(first, last, [](const WeightedEdge& a, const WeightedEdge& b) { return a.to < b.to; });
-    for (auto e = first; e != last; ++e) {
-      if (e != first && e->to == result.edges.back().to)
-        result.edges.back().weight += e->weight;
-      else
-        result.edges.push_back(*e);
+  // Adds the edges of a point to `edges`: the sums of one term for each triangle.
+  void add(std::span<const Index> corners, std::vector<WeightedEdge>& edges) {
+    terms_.clear();
+    for (const Index corner : corners) {
+      const Triangle& t = triangles_[corner / 3];
+      const Index own = t[corner % 3], next = t[(corner + 1) % 3], last = t[(corner + 2) % 3];
+      insert({next, half_weight(last, own, next)});
+      insert({last, half_weight(next, last, own)});
     }
+    for (std::size_t i = 0; i < terms_.size(); ++i)
+      if (i > 0 && terms_[i].to == terms_[i - 1].to)
+        edges.back().weight += terms_[i].weight;
+      else
+        edges.push_back(terms_[i]);
   }
-  result.begin.push_back(static_cast<Index>(result.edges.size()));
-  for (WeightedEdge& e : result.edges) {
-    e.weight = edge_weight(e.weight);
-    if (!weights.empty()) e.weight *= jump_share(boundary, weights, e.from, e.to);
+
+ private:
+  float half_weight(Index apex, Index a, Index b) const {
+    return static_cast<float>(half_edge_weight(points_[apex], points_[a], points_[b]));
   }
+
+  // Keeps the terms sorted; those of one edge stay in the order in which they came.
+  void insert(const WeightedEdge& term) {
+    auto after = terms_.end();
+    while (after != terms_.begin() && std::prev(after)->to > term.to) --after;
+    terms_.insert(after, term);
+  }
+
+  std::span<const Vec2> points_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<WeightedEdge> terms_;
+};
+
+// Returns the edges of triangles inside. Edges at depth jumps count for their jump_share().
+Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>& triangles,
+                       const Boundary& boundary, std::span<const float> weights) {
+  const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
+  Adjacency result{std::vector<Index>(points.size() + 1, 0), {}};
+  result.edges =
+      rows_in_order<WeightedEdge>(result.begin, [&](std::size_t first, std::size_t end, auto&& row) {
+        EdgeRows rows(points, triangles);
+        for (std::size_t i = first; i < end; ++i)
+          row(i, [&](std::vector<WeightedEdge>& edges) {
+            const std::size_t before = edges.size();
+            rows.add(corners[i], edges);
+            for (std::size_t e = before; e < edges.size(); ++e) {
+              edges[e].weight = edge_weight(edges[e].weight);
+              if (!weights.empty())
+                edges[e].weight *= jump_share(boundary, weights, static_cast<Index>(i), edges[e].to);
+            }
+          });
+      });
   return result;
 }
 
 // Equation (9): the matrix of its normal equations, a weighted Laplacian; boundary points, at 0, drop out.
 Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<const Index> unknown,
                                       std::span<const Index> free_points) {
-  const std::size_t n = free_points.size();
-  std::vector<Eigen::Triplet<double, int>> entries;
-  entries.reserve(n + adjacency.edges.size() / 2);
-  for (std::size_t f = 0; f < n; ++f) {
-    const Index i = free_points[f];
-    double diagonal = 0;
-    for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
-      const WeightedEdge& edge = adjacency.edges[e];
-      const auto weight = static_cast<double>(edge.weight);
-      diagonal += weight;
-      const Index other = unknown[edge.to];
-      if (other != no_index && other < f)
-        entries.emplace_back(static_cast<int>(f), static_cast<int>(other), -weight);
+  const auto n = static_cast<int>(free_points.size());
+  Eigen::SparseMatrix<double> A(n, n);
+  const auto is_below = [&](const WeightedEdge& edge, std::size_t column) {
+    return unknown[edge.to] != no_index && unknown[edge.to] > column;
+  };
+  int* const begin = A.outerIndexPtr();
+  parallel_for(free_points.size(), [&](std::size_t f) {
+    const auto edges = adjacency[free_points[f]];
+    begin[f + 1] =
+        1 + static_cast<int>(std::ranges::count_if(edges, [&](const auto& e) { return is_below(e, f); }));
+  });
+  std::partial_sum(begin, begin + n + 1, begin);
+  A.resizeNonZeros(begin[n]);
+  parallel_for(free_points.size(), [&](std::size_t f) {
+    int at = begin[f];
+    double& diagonal = A.valuePtr()[at];
+    A.innerIndexPtr()[at++] = static_cast<int>(f);
+    diagonal = 0;
+    for (const WeightedEdge& edge : adjacency[free_points[f]]) {
+      diagonal += static_cast<double>(edge.weight);
+      if (!is_below(edge, f)) continue;
+      A.innerIndexPtr()[at] = static_cast<int>(unknown[edge.to]);
+      A.valuePtr()[at++] = -static_cast<double>(edge.weight);
     }
-    entries.emplace_back(static_cast<int>(f), static_cast<int>(f), diagonal);
-  }
-  Eigen::SparseMatrix<double> A(static_cast<int>(n), static_cast<int>(n));
-  A.setFromTriplets(entries.begin(), entries.end());
+  });
   return A;
 }
 
 // Equation (9): the right-hand side of a point is the sum over its edges of weight / 2 (s_p + s_q) . (p - q).
 void add_coefficients(std::span<const Vec2> points, const Adjacency& adjacency,
                       std::span<const Index> unknown, HeightEquations& equations) {
-  equations.begin.reserve(points.size() + 1);
-  equations.edges.reserve(adjacency.edges.size());
-  for (Index i = 0; i < points.size(); ++i) {
+  equations.begin.assign(points.size() + 1, 0);
+  const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {
     const bool is_free = unknown[i] != no_index;
     bool has_itself = is_free;
-    for (Index e = adjacency.begin[i]; e < adjacency.begin[i + 1]; ++e) {
-      const Index other = adjacency.edges[e].to;
-      if (!has_itself && other > i) equations.edges.push_back({i}), has_itself = true;
-      const double half = is_free ? .5 * static_cast<double>(adjacency.edges[e].weight) : 0;
+    for (const auto& [other, weight] : adjacency[i]) {
+      if (!has_itself && other > i) entries.push_back({i}), has_itself = true;
+      const double half = is_free ? .5 * static_cast<double>(weight) : 0;
       const Vec2 coefficient = half * (points[i] - points[other]);
-      equations.edges.push_back({other, coefficient.cast<float>()});
+      entries.push_back({other, coefficient.cast<float>()});
     }
-    if (!has_itself) equations.edges.push_back({i});
-    equations.begin.push_back(static_cast<Index>(equations.edges.size()));
-  }
+    if (!has_itself) entries.push_back({i});
+  };
+  equations.edges =
+      rows_in_order<MatrixEntry>(equations.begin, [&](std::size_t first, std::size_t end, auto&& row) {
+        for (std::size_t i = first; i < end; ++i)
+          row(i, [&](std::vector<MatrixEntry>& entries) { add(static_cast<Index>(i), entries); });
+      });
 }
 
 }  // namespace
@@ -124,7 +150,7 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
     unknown[i] = static_cast<Index>(equations.free_points.size());
     equations.free_points.push_back(i);
   }
-  const Adjacency adjacency = gather(edge_terms(points, triangulation, boundary), boundary, weights);
+  const Adjacency adjacency = adjacency_of(points, triangulation.triangles, boundary, weights);
   equations.A = laplacian(adjacency, unknown, equations.free_points);
   add_coefficients(points, adjacency, unknown, equations);
   return equations;

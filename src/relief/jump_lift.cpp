@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/groups.h"
@@ -55,12 +56,18 @@ std::array<HalfEdge, 3> half_edges(const Surface& surface, const Triangle& corne
   return edges;
 }
 
-// Calls f(edge) for each half edge of triangles inside the relief.
-template <typename F>
-void for_each_half_edge(const Surface& surface, F&& f) {
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-    if (surface.boundary.is_inside[t])
-      for (const HalfEdge& edge : half_edges(surface, surface.triangulation.triangles[t])) f(edge);
+// Returns the edges of triangles inside the relief that have a movable end.
+std::vector<HalfEdge> movable_edges(const Surface& surface, std::span<const std::uint8_t> is_movable) {
+  std::vector<HalfEdge> edges;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    const Triangle& corners = surface.triangulation.triangles[t];
+    if (!surface.boundary.is_inside[t] ||
+        std::ranges::none_of(corners, [&](Index i) { return is_movable[i]; }))
+      continue;
+    for (const HalfEdge& edge : half_edges(surface, corners))
+      if (is_movable[edge.a] || is_movable[edge.b]) edges.push_back(edge);
+  }
+  return edges;
 }
 
 // Returns 1 if a is in front of b across a jump, -1 if it is behind, and 0 if there is no jump between them.
@@ -102,24 +109,60 @@ struct Band {
   Groups<Edge> edges;
 };
 
+// Returns ends of the edges that are inverted at one of the knots.
+std::vector<Vec2> inverted_places(const Surface& surface, std::span<const Field> heights) {
+  const auto least = static_cast<float>(least_inversion * longer_side_of(surface.points));
+  std::vector<Vec2> inverted;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    const Triangle& corners = surface.triangulation.triangles[t];
+    for (std::size_t i = 0; i < 3 && surface.boundary.is_inside[t]; ++i) {
+      const Index a = corners[(i + 1) % 3], b = corners[(i + 2) % 3];
+      const int side = side_of_jump(surface.boundary, a, b);
+      const auto sign = static_cast<float>(side);
+      if (side != 0 &&
+          std::ranges::any_of(heights, [&](const Field& z) { return sign * (z[b] - z[a]) > least; }))
+        inverted.push_back(surface.points[a].head<2>());
+    }
+  }
+  return inverted;
+}
+
+// Tells which points are near one of some places. Neighbours are asked for one after the other, so that the distance of
+// one mostly decides for the next.
+class NearPlaces {
+ public:
+  NearPlaces(const KdTree<Vec2>& tree, double distance) : tree_(tree), distance_(distance) {}
+
+  bool is_near(const Vec2& p) {
+    constexpr double rounding = 1e-9;
+    const double step = (p - asked_).norm();
+    if (known_ - step > distance_ * (1 + rounding)) return false;
+    if (known_ + step < distance_ * (1 - rounding)) return true;
+    Index nearest;
+    double distance_sq = std::numeric_limits<double>::infinity();
+    tree_.nearest(p, 1, &nearest, &distance_sq);
+    asked_ = p;
+    known_ = std::sqrt(distance_sq);
+    return distance_sq < distance_ * distance_;
+  }
+
+ private:
+  const KdTree<Vec2>& tree_;
+  double distance_;
+  Vec2 asked_ = Vec2::Zero();
+  double known_ = std::numeric_limits<double>::quiet_NaN();  // distance of that point
+};
+
 // Returns whether each point is near a jump that is inverted at one of the knots, and not on the silhouette.
 std::vector<std::uint8_t> movable_points(const Surface& surface, std::span<const Field> heights,
                                          double distance) {
-  const auto least = static_cast<float>(least_inversion * longer_side_of(surface.points));
-  std::vector<Vec2> inverted;
-  for_each_half_edge(surface, [&](const HalfEdge& e) {
-    const auto side = static_cast<float>(side_of_jump(surface.boundary, e.a, e.b));
-    if (std::ranges::any_of(heights, [&](const Field& z) { return side * (z[e.b] - z[e.a]) > least; }))
-      inverted.push_back(surface.points[e.a].head<2>());
-  });
+  const std::vector<Vec2> inverted = inverted_places(surface, heights);
   const KdTree<Vec2> tree(inverted);
   std::vector<std::uint8_t> is_movable(surface.points.size(), 0);
-  parallel_for(is_movable.size(), [&](std::size_t i) {
-    Index nearest;
-    double distance_sq;
-    is_movable[i] = !surface.boundary.is_boundary[i] &&
-                    tree.nearest(surface.points[i].head<2>(), 1, &nearest, &distance_sq) &&
-                    distance_sq < distance * distance;
+  parallel_ranges(is_movable.size(), default_grain, [&](std::size_t begin, std::size_t end) {
+    NearPlaces near(tree, distance);
+    for (std::size_t i = begin; i < end; ++i)
+      is_movable[i] = !surface.boundary.is_boundary[i] && near.is_near(surface.points[i].head<2>());
   });
   return is_movable;
 }
@@ -130,13 +173,13 @@ Band band_of(const Surface& surface, std::span<const std::uint8_t> is_movable) {
   for (Index i = 0; i < is_movable.size(); ++i)
     if (is_movable[i]) number[i] = static_cast<Index>(band.points.size()), band.points.push_back(i);
   const auto outside = static_cast<Index>(band.points.size());
+  const std::vector<HalfEdge> edges = movable_edges(surface, is_movable);
   band.edges = grouped<Band::Edge>(band.points.size(), [&](auto&& add) {
-    for_each_half_edge(surface, [&](const HalfEdge& e) {
-      if (!is_movable[e.a] && !is_movable[e.b]) return;
+    for (const HalfEdge& e : edges) {
       const int side = side_of_jump(surface.boundary, e.a, e.b);
       if (is_movable[e.a]) add(number[e.a], {is_movable[e.b] ? number[e.b] : outside, side, e.weight});
       if (is_movable[e.b]) add(number[e.b], {is_movable[e.a] ? number[e.a] : outside, -side, e.weight});
-    });
+    }
   });
   return band;
 }
@@ -199,8 +242,9 @@ class BandFields {
 }  // namespace
 
 JumpLift JumpLift::find(const JumpLiftInput& input) {
-  const std::vector<Field> heights = reference_heights(input);
   const Surface& surface = input.surface;
+  if (surface.boundary.wall_side.empty()) return {};
+  const std::vector<Field> heights = reference_heights(input);
   const double distance = fading_distance * longer_side_of(surface.points);
   const Band band = band_of(surface, movable_points(surface, heights, extent * distance));
   const double area = std::numbers::sqrt3 / 2 * surface.rho * surface.rho;  // of a point

@@ -20,22 +20,20 @@ constexpr double half_kept_slope = 12;
 // itself. docs/method.md, "Slopes".
 constexpr double attenuation = 25, middle_share = .4, coarse_share = .82, broad_share = 2.2;
 
-// Returns -(n_x, n_y), faded out where the surface turns away from the viewer, because such slopes use up
-// height and add little shading.
-Vec2f faded(const Vec3f& normal) {
+}  // namespace
+
+Vec2f faded_xy(const Vec3f& normal) {
   const double slope =
       static_cast<double>(normal.head<2>().norm()) / std::max(static_cast<double>(normal.z()), 1e-3);
   return static_cast<float>(-1 / (1 + std::pow(slope / half_kept_slope, 8))) * normal.head<2>();
 }
-
-}  // namespace
 
 std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals) {
   std::vector<PointLayers> layers(points.size());
   const double longer_side = longer_side_of(points);
   if (!(longer_side > 0)) return layers;
   std::vector<Vec2f> kept(points.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = faded(normals[i]);
+  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = faded_xy(normals[i]);
   const auto blurred = [&](std::vector<Vec2f> values, double sigma) {
     SurfaceBlur(points, sigma * longer_side).apply(values);
     return values;

@@ -83,7 +83,18 @@ Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const P
 
 }  // namespace
 
-Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
+namespace {
+
+// What of a model its surface alone decides.
+struct Parts {
+  std::vector<PointLayers> layers;
+  HeightSystem system;
+  StepHeights steps;
+  JumpLift jump_lift;
+  HeightCorrection correction;
+};
+
+Result<Parts> prepare_parts(const Surface& surface, Progress* progress) {
   if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
   std::vector<PointLayers> layers = normal_layers(surface.points, surface.normals);
   if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
@@ -96,24 +107,39 @@ Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mo
   StepHeights steps = find_step_heights(surface, weights, *system);
   JumpLift jump_lift = JumpLift::find({surface, layers, *system});
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
-  HeightCorrection correction(surface, weights);
+  return Parts{std::move(layers), std::move(*system), std::move(steps), std::move(jump_lift),
+               HeightCorrection(surface, weights)};
+}
+
+}  // namespace
+
+Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
+  RELIEVO_TRY(Parts parts, prepare_parts(surface, progress));
   RELIEVO_CHECK(check_cancelled(progress));
   const Result<MembraneTuning> tuning =
-      tune_membrane({surface, layers, correction, *system, jump_lift}, progress);
+      tune_membrane({surface, parts.layers, parts.correction, parts.system, parts.jump_lift}, progress);
   if (!tuning) return std::unexpected(tuning.error());
   if (resolve_mode(mode, surface) == Mode::exact)
-    return ReliefModel(std::unique_ptr<const State>(
-        new State{std::move(surface), std::move(layers), std::move(steps), std::move(jump_lift),
-                  std::move(correction), *tuning, std::move(*system)}));
-  Result<SubspaceModel> subspace = prepare_subspace(surface, layers, std::move(*system), progress);
+    return ReliefModel(std::unique_ptr<const State>(new State{
+        std::move(surface), std::move(parts.layers), std::move(parts.steps), std::move(parts.jump_lift),
+        std::move(parts.correction), *tuning, std::move(parts.system)}));
+  Result<SubspaceModel> subspace = prepare_subspace(surface, parts.layers, std::move(parts.system), progress);
   if (!subspace) return std::unexpected(subspace.error());
   return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface),
                                                             {},
-                                                            std::move(steps),
-                                                            std::move(jump_lift),
-                                                            std::move(correction),
+                                                            std::move(parts.steps),
+                                                            std::move(parts.jump_lift),
+                                                            std::move(parts.correction),
                                                             *tuning,
                                                             std::move(*subspace)}));
+}
+
+Result<ReliefModel> ReliefModel::prepare_like(const ReliefModel* other, Surface surface, Progress* progress) {
+  RELIEVO_TRY(Parts parts, prepare_parts(surface, progress));
+  const MembraneTuning tuning = other ? other->state_->tuning : MembraneTuning();
+  return ReliefModel(std::unique_ptr<const State>(
+      new State{std::move(surface), std::move(parts.layers), std::move(parts.steps),
+                std::move(parts.jump_lift), std::move(parts.correction), tuning, std::move(parts.system)}));
 }
 
 std::size_t ReliefModel::memory() const {

@@ -1,6 +1,7 @@
 #include "relief/sliced_ell_matrix.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <numeric>
@@ -173,12 +174,18 @@ bool enter(std::span<const MatrixEntry> entries, std::span<const SlicedEllMatrix
 std::vector<SlicedEllMatrix::Coefficients> coefficients_in(const SlicedEllMatrix::Pattern& pattern,
                                                            const Rows& rows) {
   std::vector<SlicedEllMatrix::Coefficients> coefficients(pattern.others.size());
-  for (std::size_t place = 0; place < pattern.points.size(); ++place) {
-    const std::size_t slice = place / lanes;
-    const Index begin = pattern.begin[slice];
-    const auto others = std::span(pattern.others).subspan(begin, pattern.begin[slice + 1] - begin);
-    if (!enter(rows[pattern.point(place)], others, place % lanes, coefficients.data() + begin)) return {};
-  }
+  std::atomic<bool> is_complete = true;
+  parallel_for(
+      pattern.begin.size() - 1,
+      [&](std::size_t slice) {
+        const Index begin = pattern.begin[slice];
+        const auto others = std::span(pattern.others).subspan(begin, pattern.begin[slice + 1] - begin);
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+          if (!enter(rows[pattern.point(slice * lanes + lane)], others, lane, coefficients.data() + begin))
+            is_complete = false;
+      },
+      grain);
+  if (!is_complete) coefficients.clear();
   return coefficients;
 }
 

@@ -51,6 +51,9 @@ struct RaisedHeights {
   }
 };
 
+// Slopes near the steepest would make a change of normals a change of slopes that is many times as large.
+inline constexpr float least_gain_divisor = .25F;
+
 // A style is used in this order: slope() for every point, with w_k of weighted(); the system of heights;
 // raise(), which sets the height that the relief will have; finish(), once that is the height wanted.
 
@@ -66,6 +69,12 @@ class PaperStyle {
   Eigen::Vector2<Real> slope(const SlopeInput& input, std::size_t i, Real w_k, Real w_b) const {
     return compressed_slope(input.normals[i].template cast<Real>(), w_k * w_b,
                             static_cast<Real>(shape_.max_slope));
+  }
+
+  // Returns by how much the slope changes with -(n_x, n_y).
+  float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
+    const float w = w_k * w_b;
+    return w / std::max(w * input.normals[i].z() + 1 - w, least_gain_divisor);
   }
 
   // Adds the detail.
@@ -101,6 +110,13 @@ class LayeredStyle {
   Eigen::Vector2<Real> slope(const SlopeInput& input, std::size_t i, Real w_k, Real w_b) const {
     const Real saturation = static_cast<Real>(scale_) * w_k;
     return layered_slope(input.layers[i], weights_, saturation * w_b, static_cast<Real>(shape_.max_slope));
+  }
+
+  // Returns by how much the slope changes with the fine layer.
+  float gain(const SlopeInput& input, std::size_t i, float w_k, float w_b) const {
+    const float weight = static_cast<float>(scale_) * w_k * w_b, t = weights_.height_share;
+    const float sine_sq = weight * weight * weighted_sum(input.layers[i], weights_).squaredNorm();
+    return weight * weights_.fine / std::sqrt(std::max(1 - t * t * sine_sq, least_gain_divisor));
   }
 
   // The shape's membrane has to be set, as for raise().

@@ -2,72 +2,83 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "geometry/plane.h"
+#include "relief/matrix_rows.h"
 
 namespace relievo {
 namespace {
 
 struct Term {
-  Index point, other;
+  Index other;
   Vec2 coefficient;
 };
-
-// Adds the derivatives of the triangle's cross product at `a`, (b - a) x (c - a), by the height of each corner.
-void add_terms(std::span<const Vec2> points, Index a, Index b, Index c, std::vector<Term>& terms) {
-  const Vec2 ab = points[b] - points[a], ac = points[c] - points[a], bc = points[c] - points[b];
-  terms.push_back({a, a, {bc.y(), -bc.x()}});
-  terms.push_back({a, b, {-ac.y(), ac.x()}});
-  terms.push_back({a, c, {ab.y(), -ab.x()}});
-}
 
 double twice_area(std::span<const Vec2> points, const Triangle& t) {
   return cross(points[t[1]] - points[t[0]], points[t[2]] - points[t[0]]);
 }
 
+// Makes rows of the matrix one after the other. A corner is 3 t + i for corner i of triangle t.
+class NormalRows {
+ public:
+  NormalRows(std::span<const Vec2> points, const std::vector<Triangle>& triangles)
+      : points_(points), triangles_(triangles) {}
+
+  // Adds the row of a point to `entries`: the derivatives of the sum of the triangles' cross products there by heights,
+  // over z of that sum, which does not depend on heights.
+  void add(std::span<const Index> corners, std::vector<MatrixEntry>& entries) {
+    terms_.clear();
+    double z = 0;
+    for (const Index corner : corners) {
+      add_terms(triangles_[corner / 3], corner % 3);
+      z += twice_area(points_, triangles_[corner / 3]);
+    }
+    for (auto term = terms_.begin(); term != terms_.end();) {
+      Vec2 coefficient = Vec2::Zero();
+      const Index other = term->other;
+      for (; term != terms_.end() && term->other == other; ++term) coefficient += term->coefficient;
+      // The point's own height cancels where triangles close around it.
+      const bool cancels = coefficient.norm() <= 1e-12 * std::sqrt(z);
+      if (!cancels && z > 0) entries.push_back({other, (coefficient / z).cast<float>()});
+    }
+  }
+
+ private:
+  // Adds the derivatives of the cross product at `a`, (b - a) x (c - a), by the height of each corner.
+  void add_terms(const Triangle& t, Index corner) {
+    const Index a = t[corner], b = t[(corner + 1) % 3], c = t[(corner + 2) % 3];
+    const Vec2 ab = points_[b] - points_[a], ac = points_[c] - points_[a], bc = points_[c] - points_[b];
+    insert({a, {bc.y(), -bc.x()}});
+    insert({b, {-ac.y(), ac.x()}});
+    insert({c, {ab.y(), -ab.x()}});
+  }
+
+  // Keeps the terms sorted; those of one point stay in the order in which they came.
+  void insert(const Term& term) {
+    auto after = terms_.end();
+    while (after != terms_.begin() && std::prev(after)->other > term.other) --after;
+    terms_.insert(after, term);
+  }
+
+  std::span<const Vec2> points_;
+  const std::vector<Triangle>& triangles_;
+  std::vector<Term> terms_;
+};
+
 }  // namespace
 
 SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangulation& triangulation,
                                      const Boundary& boundary, const SlicedEllMatrix* like) {
-  std::vector<double> z(points.size(),
-                        0.0);  // z of the sum of cross products, which does not depend on heights
-  std::vector<Index> count(points.size() + 1, 0);
-  std::vector<Term> terms;
-  terms.reserve(triangulation.triangles.size() * 9);
-  for (std::size_t t = 0; t < triangulation.triangles.size(); ++t) {
-    if (!boundary.is_inside[t]) continue;
-    const auto [a, b, c] = triangulation.triangles[t];
-    add_terms(points, a, b, c, terms);
-    add_terms(points, b, c, a, terms);
-    add_terms(points, c, a, b, terms);
-    for (const Index corner : {a, b, c}) {
-      z[corner] += twice_area(points, {a, b, c});
-      count[corner + 1] += 3;
-    }
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) count[i + 1] += count[i];
-  std::vector<Term> sorted(terms.size());
-  std::vector<Index> next(count.begin(), count.end() - 1);
-  for (const Term& term : terms) sorted[next[term.point]++] = term;
-
-  std::vector<Index> begin;
-  std::vector<MatrixEntry> entries;
-  begin.reserve(points.size() + 1);
-  entries.reserve(terms.size() * 7 / 18 + 16);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    begin.push_back(static_cast<Index>(entries.size()));
-    const auto first = sorted.begin() + count[i], last = sorted.begin() + count[i + 1];
-    std::stable_sort(first, last, [](const Term& p, const Term& q) { return p.other < q.other; });
-    for (auto term = first; term != last;) {
-      Vec2 coefficient = Vec2::Zero();
-      const Index other = term->other;
-      for (; term != last && term->other == other; ++term) coefficient += term->coefficient;
-      // The point's own height cancels where triangles close around it.
-      const bool cancels = coefficient.norm() <= 1e-12 * std::sqrt(z[i]);
-      if (!cancels && z[i] > 0) entries.push_back({other, (coefficient / z[i]).cast<float>()});
-    }
-  }
-  begin.push_back(static_cast<Index>(entries.size()));
+  const std::vector<Triangle>& triangles = triangulation.triangles;
+  const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
+  std::vector<Index> begin(points.size() + 1);
+  const std::vector<MatrixEntry> entries =
+      rows_in_order<MatrixEntry>(begin, [&](std::size_t first, std::size_t end, auto&& row) {
+        NormalRows rows(points, triangles);
+        for (std::size_t i = first; i < end; ++i)
+          row(i, [&](std::vector<MatrixEntry>& added) { rows.add(corners[i], added); });
+      });
   return like ? SlicedEllMatrix(begin, entries, *like) : SlicedEllMatrix(begin, entries);
 }
 

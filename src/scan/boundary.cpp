@@ -99,11 +99,16 @@ std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<
   return distance;
 }
 
+std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
+                                           double rho, const BoundaryOptions& options,
+                                           std::span<const float> spacing) {
+  return BoundaryFinder(points, triangulation, rho, spacing).inside(options.gap, options.smallest_hole);
+}
+
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
                        const BoundaryOptions& options, std::span<const float> spacing) {
-  const BoundaryFinder finder(points, triangulation, rho, spacing);
   Boundary boundary;
-  boundary.is_inside = finder.inside(options.gap, options.smallest_hole);
+  boundary.is_inside = inside_triangles(points, triangulation, rho, options, spacing);
   boundary.is_boundary = boundary_points(points.size(), triangulation, boundary.is_inside);
   boundary.distance = distances_to(points, boundary.is_boundary);
   return boundary;

@@ -3,11 +3,12 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/quantile.h"
-#include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
+#include "scan/measure_with_tree.h"
 
 namespace relievo {
 namespace {
@@ -52,8 +53,8 @@ double fitted_curvature(std::span<const Neighbour> neighbours, double radius) {
 
 class CurvatureEstimator {
  public:
-  CurvatureEstimator(const Cloud& cloud, const Spacing& spacing, const CurvatureOptions& options)
-      : cloud_(cloud), spacing_(spacing), options_(options), tree_(cloud.points) {}
+  CurvatureEstimator(const SearchableCloud& searchable, const CurvatureOptions& options)
+      : cloud_(searchable.cloud), spacing_(searchable.spacing), options_(options), tree_(searchable.tree) {}
 
   double at(Index i, std::vector<KdTree<Vec3>::Match>& matches, std::vector<Neighbour>& neighbours) const {
     // At least rho: near coincident points the local spacing is almost 0, and the fit would see noise only.
@@ -73,16 +74,21 @@ class CurvatureEstimator {
   const Cloud& cloud_;
   const Spacing& spacing_;
   const CurvatureOptions& options_;
-  KdTree<Vec3> tree_;
+  const KdTree<Vec3>& tree_;
 };
 
 }  // namespace
 
 std::vector<double> mean_curvature(const Cloud& cloud, const Spacing& spacing, std::span<const Index> queries,
                                    const CurvatureOptions& options, const Progress* progress) {
+  return mean_curvature({cloud, spacing, KdTree<Vec3>(cloud.points)}, queries, options, progress);
+}
+
+std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<const Index> queries,
+                                   const CurvatureOptions& options, const Progress* progress) {
   std::vector<double> curvature(queries.size(), 0.0);
-  if (!cloud.has_normals() || !(spacing.rho > 0)) return curvature;
-  const CurvatureEstimator estimator(cloud, spacing, options);
+  if (!searchable.cloud.has_normals() || !(searchable.spacing.rho > 0)) return curvature;
+  const CurvatureEstimator estimator(searchable, options);
   parallel_ranges(queries.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<KdTree<Vec3>::Match> matches;
     std::vector<Neighbour> neighbours;
@@ -96,18 +102,24 @@ std::vector<double> average_in_plane(std::span<const double> values, std::span<c
                                      std::span<const Vec3f> normals, const Triangulation& triangulation,
                                      double rho) {
   constexpr int passes = 3;  // over direct neighbours; each widens the average by about rho, to 2 rho or more
-  std::vector<double> average(values.begin(), values.end());
+  const std::vector<Triangle>& triangles = triangulation.triangles;
+  const auto own_area = [&](Index i) { return static_cast<double>(normals[i].z()); };
+  std::vector<std::array<double, 3>> areas(triangles.size());  // that corners give to those before them
+  parallel_for(triangles.size(), [&](std::size_t t) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Index to = triangles[t][c], from = triangles[t][(c + 1) % 3];
+      areas[t][c] = std::exp(-(points[to] - points[from]).squaredNorm() / (rho * rho)) * own_area(from);
+    }
+  });
+  std::vector<double> average(values.begin(), values.end()), weight(values.size()), sum(values.size());
+  for (Index i = 0; i < values.size(); ++i) weight[i] = own_area(i);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) weight[triangles[t][c]] += areas[t][c];
   for (int pass = 0; pass < passes; ++pass) {
-    std::vector<double> weight(values.size()), sum(values.size());
-    const auto add = [&](Index to, Index from) {
-      const double theta = std::exp(-(points[to] - points[from]).squaredNorm() / (rho * rho));
-      const double area = theta * static_cast<double>(normals[from].z());
-      weight[to] += area;
-      sum[to] += area * average[from];
-    };
-    for (Index i = 0; i < values.size(); ++i) add(i, i);
-    for (const Triangle& t : triangulation.triangles)
-      for (int corner = 0; corner < 3; ++corner) add(t[corner], t[(corner + 1) % 3]);
+    for (Index i = 0; i < values.size(); ++i) sum[i] = own_area(i) * average[i];
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[triangles[t][c]] += areas[t][c] * average[triangles[t][(c + 1) % 3]];
     for (std::size_t i = 0; i < values.size(); ++i)
       if (weight[i] > 0) average[i] = sum[i] / weight[i];
   }

@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "core/quantile.h"
-#include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
+#include "scan/measure_with_tree.h"
 
 namespace relievo {
 namespace {
@@ -17,18 +17,21 @@ constexpr double almost_all = .98, largest_ratio = 4;
 }  // namespace
 
 Spacing measure_spacing(const Cloud& cloud) {
+  return measure_spacing(KdTree<Vec3>(cloud.points), cloud.points);
+}
+
+Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points) {
   constexpr std::size_t k = spacing_neighbours;
   Spacing spacing;
-  spacing.local.assign(cloud.size(), 0.F);
-  spacing.nearest.resize(cloud.size());
-  const KdTree<Vec3> tree(cloud.points);
+  spacing.local.assign(points.size(), 0.F);
+  spacing.nearest.resize(points.size());
   parallel_for(
-      cloud.size(),
+      points.size(),
       [&](std::size_t i) {
         std::array<Index, k + 1> found;
         std::array<double, k + 1> distances_sq;
         found.fill(no_index);
-        const std::size_t count = tree.nearest(cloud.points[i], k + 1, found.data(), distances_sq.data());
+        const std::size_t count = tree.nearest(points[i], k + 1, found.data(), distances_sq.data());
         if (count < 2) return;
         const double area = std::numbers::pi * distances_sq[count - 1] / static_cast<double>(count - 1);
         spacing.local[i] = static_cast<float>(std::sqrt(area));
@@ -38,7 +41,7 @@ Spacing measure_spacing(const Cloud& cloud) {
         std::copy(self + 1, found.end(), std::copy(found.begin(), self, spacing.nearest[i].begin()));
       },
       1024);
-  if (cloud.size() < 2) return spacing;
+  if (points.size() < 2) return spacing;
   // The median, not the mean, which a few far outliers or dense spots would change. Where density varies much, as among
   // the corners of a mesh, the sparse parts would be noise and holes to the median.
   std::vector<float> distances = spacing.local;

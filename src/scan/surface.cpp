@@ -1,55 +1,22 @@
 #include "relievo/scan/surface.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <iterator>
-#include <optional>
 
 #include "core/memory.h"
 #include "geometry/hilbert.h"
-#include "geometry/space_curve.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/normals.h"
+#include "scan/measured_cloud.h"
 #include "scan/noise/noise.h"
 #include "scan/orient_normals.h"
 #include "scan/outlines/outline_points.h"
 #include "scan/outlines/small_patches.h"
+#include "scan/pick.h"
 
 namespace relievo {
 namespace {
-
-template <typename T>
-std::vector<T> pick(const std::vector<T>& from, std::span<const Index> order) {
-  if (from.empty()) return {};
-  std::vector<T> out(order.size());
-  parallel_for(order.size(), [&](std::size_t i) { out[i] = from[order[i]]; });
-  return out;
-}
-
-Result<void> check_numbers(const Cloud& cloud) {
-  if (cloud.has_normals() && cloud.normals.size() != cloud.size())
-    return geometry_error(
-        cat("expected a normal for each of ", cloud.size(), " points, found ", cloud.normals.size()));
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if (!cloud.points[i].allFinite() || (cloud.has_normals() && !cloud.normals[i].allFinite()))
-      return geometry_error(cat("expected finite coordinates and normals, found others at point ", i));
-  return {};
-}
-
-// Refuses clouds that are a point or a line, up to rounding.
-Result<void> check_extent(const Cloud& cloud, const Box& box) {
-  if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
-  const Vec3 centre = box.centre();
-  const double scale = box.diagonal();
-  if (!(scale > 0)) return geometry_error("expected points that span a surface, found all of them equal");
-  Mat3 covariance = Mat3::Zero();
-  for (const Vec3& p : cloud.points) covariance += (p - centre) * (p - centre).transpose() / (scale * scale);
-  const Vec3 spread = Eigen::SelfAdjointEigenSolver<Mat3>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
-  if (spread[1] <= 1e-14 * spread[2])
-    return geometry_error("expected points that span a surface, found all of them on one line");
-  return {};
-}
 
 void scatter(const std::vector<double>& values, std::span<const Index> places, std::vector<double>& to) {
   for (std::size_t i = 0; i < places.size(); ++i) to[places[i]] = values[i];
@@ -66,10 +33,24 @@ std::vector<Index> along_the_plane(const Cloud& viewed, const std::vector<Index>
   return pick(points, hilbert_order(in_plane(pick(viewed.points, points))));
 }
 
-// The whole cloud in view coordinates, with normals, in the order of a space-filling curve.
+// Returns the points, normals and outlines of a cloud in a view. The colours are left out.
+Cloud turned(const Cloud& cloud, const Mat3& R) {
+  const Eigen::Matrix3f rotation = R.cast<float>();
+  Cloud out{std::vector<Vec3>(cloud.size()), std::vector<Vec3f>(cloud.normals.size())};
+  parallel_for(cloud.size(), [&](std::size_t i) { out.points[i] = R * cloud.points[i]; });
+  parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
+  for (const OutlineSegment& s : cloud.outlines)
+    out.outlines.push_back({Vec3(R * s.from), Vec3(R * s.to), s.is_jump});
+  return out;
+}
+
+// The whole cloud as the view shows it, with signed normals and without noise.
 struct ViewCloud {
-  Cloud cloud;
-  Spacing spacing;
+  Cloud cloud;  // without its colours
+  const MeasuredCloud& measured;
+  double sign = 1;  // of the normals, against those that were measured
+
+  const Spacing& spacing() const { return measured.spacing(); }
 };
 
 // Estimates normals from more neighbours, as noise needs them, with the signs that they have.
@@ -81,46 +62,49 @@ void estimate_again(Cloud& cloud, double noise) {
     if (cloud.normals[i].dot(before[i]) < 0) cloud.normals[i] = -cloud.normals[i];
 }
 
-// Removes the noise that the view asks for, else the noise that is measured. The spacing stays that of the scan: where
-// several scans overlap, points without noise lie closer together than the surface is sampled.
-void denoise(ViewCloud& viewed, Surface& surface) {
-  surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing);
+// Gives estimated normals the signs that the view suggests, and removes the noise, which can only be measured then.
+void sign_normals(ViewCloud& viewed, Surface& surface) {
+  give_signs(viewed.cloud, viewed.spacing());
+  surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());
   surface.removed_noise = surface.view.denoise.value_or(surface.measured_noise);
   if (surface.removed_noise == 0) return;
-  if (surface.has_estimated_normals) estimate_again(viewed.cloud, surface.removed_noise);
-  remove_noise(viewed.cloud, viewed.spacing, surface.removed_noise);
+  estimate_again(viewed.cloud, surface.removed_noise);
+  remove_noise(viewed.cloud, viewed.spacing(), surface.removed_noise);
 }
 
-// Stages 1 and 2.
-Result<ViewCloud> look_at(const Cloud& cloud, Surface& surface, Progress* progress) {
-  if (auto go = begin_stage(progress, "view", 0); !go) return std::unexpected(go.error());
-  ViewCloud viewed{in_view(cloud, surface.view), {}};
-  // A fixed order makes the result independent of the file's, and neighbours close in memory make all
-  // searches faster.
-  const std::vector<Index> order = space_curve_order(viewed.cloud.points);
-  RELIEVO_CHECK(check_cancelled(progress));
-  viewed.cloud = {pick(viewed.cloud.points, order), pick(viewed.cloud.normals, order),
-                  pick(viewed.cloud.colours, order), std::move(viewed.cloud.outlines)};
-
-  if (auto go = begin_stage(progress, "spacing", .05); !go) return std::unexpected(go.error());
-  viewed.spacing = measure_spacing(viewed.cloud);
-  surface.rho = viewed.spacing.rho;
-  if (!(surface.rho > 0))
-    return geometry_error("expected points at a distance from each other, found most of them equal");
-
-  if (auto go = begin_stage(progress, "normals", .2); !go) return std::unexpected(go.error());
-  const OriginalNormals were = orient_normals(viewed.cloud, viewed.spacing, cloud);
-  surface.has_estimated_normals = were == OriginalNormals::missing;
-  surface.has_flipped_normals = were == OriginalNormals::inward;
-  denoise(viewed, surface);
+// Stage 2.
+ViewCloud look_at(const MeasuredCloud& measured, Surface& surface) {
+  ViewCloud viewed{turned(measured.cloud(), surface.view.R_view_model), measured};
+  surface.rho = measured.spacing().rho;
+  surface.has_estimated_normals = measured.has_estimated_normals();
+  if (surface.has_estimated_normals) {
+    sign_normals(viewed, surface);
+    return viewed;
+  }
+  surface.measured_noise = measured.measured_noise();
+  surface.removed_noise = measured.removed_noise();
+  surface.has_flipped_normals = measured.do_normals_point_inward() && !all_face_viewer(viewed.cloud);
+  if (!surface.has_flipped_normals) return viewed;
+  flip_normals(viewed.cloud);
+  viewed.sign = -1;
   return viewed;
+}
+
+std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index> visible,
+                                 const CurvatureOptions& options, const Progress* progress) {
+  if (viewed.measured.has_estimated_normals())
+    return mean_curvature(viewed.cloud, viewed.spacing(), visible, options, progress);
+  std::vector<double> k = viewed.measured.curvature(visible, options, progress);
+  for (double& each : k) each *= viewed.sign;
+  return k;
 }
 
 // Stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& options, Surface& surface,
                                   Progress* progress) {
   if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
-  auto& [cloud, spacing] = viewed;
+  Cloud& cloud = viewed.cloud;
+  const Spacing& spacing = viewed.spacing();
   const auto [visible, removed] = find_visible(cloud, spacing, options.visible);
   if (visible.size() < 4)
     return geometry_error(
@@ -134,24 +118,31 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
 
   if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
   std::vector<double> k(cloud.size(), 0.0);
-  scatter(mean_curvature(cloud, spacing, visible, options.curvature, progress), visible, k);
+  scatter(curvature_of(viewed, visible, options.curvature, progress), visible, k);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Index> shown = along_the_plane(cloud, merged(visible, hole_fill));
   surface.points = pick(cloud.points, shown);
   surface.normals = pick(cloud.normals, shown);
-  surface.colours = pick(cloud.colours, shown);
+  surface.colours = pick(viewed.measured.cloud().colours, shown);
   return PointMeasures{pick(k, shown), spacing.is_uneven ? pick(spacing.local, shown) : std::vector<float>()};
 }
 
-// Stages 5 and 6.
+// Stages 5 and 6, but for what put_points_on_outlines() would only replace: the boundary has `is_inside` alone.
 Result<void> triangulate(Surface& surface, const PointMeasures& measures, const BoundaryOptions& options,
                          Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
   if (surface.triangulation.triangles.empty())
     return geometry_error("expected visible points that enclose an area, found all of them on one line");
-  surface.boundary = find_boundary(xy, surface.triangulation, surface.rho, options, measures.spacing);
+  surface.boundary = {
+      inside_triangles(xy, surface.triangulation, surface.rho, options, measures.spacing), {}, {}, {}};
   return check_cancelled(progress);
+}
+
+void complete(Boundary& boundary, std::span<const Vec2> points, const Triangulation& mesh) {
+  if (!boundary.is_boundary.empty()) return;
+  boundary.is_boundary = boundary_points(points.size(), mesh, boundary.is_inside);
+  boundary.distance = distances_to(points, boundary.is_boundary);
 }
 
 }  // namespace
@@ -168,37 +159,33 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
   return xy;
 }
 
-Result<Surface> find_surface(const Cloud& whole, const View& view, const SurfaceOptions& options,
+Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
                              Progress* progress) {
-  if (auto ok = check_numbers(whole); !ok) return std::unexpected(ok.error());
-  std::optional<Cloud> part;
-  if (view.crop != Crop{}) {
-    part = cropped(whole, view);
-    if (part->size() < 4)
-      return option_error("crop", cat("expected a part with at least 4 points, found ", part->size()));
-  }
-  const Cloud& cloud = part ? *part : whole;
-  const Box box = bounds(cloud);
-  if (auto ok = check_extent(cloud, box); !ok) return std::unexpected(ok.error());
+  RELIEVO_TRY(const auto measured, MeasuredCloud::measure(cloud, view, progress));
+  return find_surface(*measured, view, options, progress);
+}
+
+Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, const SurfaceOptions& options,
+                             Progress* progress) {
   Surface surface;
   surface.view = view;
-  surface.centre = box.centre();
-  surface.diagonal = box.diagonal();
-  surface.input_points = whole.size();
-
-  Result<ViewCloud> viewed = look_at(cloud, surface, progress);
-  if (!viewed) return std::unexpected(viewed.error());
-  RELIEVO_TRY(PointMeasures measures, find_points(*viewed, options, surface, progress));
+  surface.centre = measured.centre();
+  surface.diagonal = measured.diagonal();
+  surface.input_points = measured.input_points();
+  ViewCloud viewed = look_at(measured, surface);
+  RELIEVO_TRY(PointMeasures measures, find_points(viewed, options, surface, progress));
 
   if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
   RELIEVO_CHECK(triangulate(surface, measures, options.boundary, progress));
   if (auto go = begin_stage(progress, "boundary", .65); !go) return std::unexpected(go.error());
   if (drop_small_patches(surface, measures))
     RELIEVO_CHECK(triangulate(surface, measures, options.boundary, progress));
-  put_points_on_outlines(surface, measures, viewed->cloud.outlines);
+  put_points_on_outlines(surface, measures, viewed.cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
-  surface.curvature = normalise(average_in_plane(measures.k, in_plane(surface.points), surface.normals,
-                                                 surface.triangulation, surface.rho));
+  const std::vector<Vec2> xy = in_plane(surface.points);
+  complete(surface.boundary, xy, surface.triangulation);
+  surface.curvature =
+      normalise(average_in_plane(measures.k, xy, surface.normals, surface.triangulation, surface.rho));
   // Only the boundary needs the neighbours; they take as much memory as the triangles.
   surface.triangulation.neighbours = std::vector<Triangle>();
   return surface;

@@ -86,11 +86,13 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   nlohmann::json json = nlohmann::json::parse(GetParam());
   json["height"] = json.value("height", 4.0);
   const ReliefOptions options = *app::options_from_json(json, "options");
-  app::studio::PictureRequest request{options, json.dump(), {}, false, false, {}};
+  app::studio::PictureRequest request;
+  request.options = options;
+  request.key = json.dump();
   request.render.width = 480;
   request.render.height = 400;
   request.render.is_fine = request.is_finished = true;
-  Drawing drawing(model(), 0);
+  Drawing drawing({model(), {}}, 0);
   const auto order = drawing.missing_piece(request);
   ASSERT_TRUE(order && *order);
   drawing.take(std::make_shared<const MadeRelief>(*make_relief(*model(), (*order)->options)), **order);

@@ -31,7 +31,9 @@ const PICTURE_MS = 600; // from the fine picture to the small one of the documen
 
 const doc = new Document((before) => changed(before));
 const placing = new Placing({doc, shownWidth, setWidth: (width) => slide("width", width), say: toast});
-const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed, placing});
+const chooseView = () => engine.chooseView(viewOf(doc.now)).catch(failed);
+const stage = new Stage(engine, doc,
+  {picture: pictured, section: showSection, failed, placing, viewRests: chooseView});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
@@ -130,7 +132,7 @@ function changed(before) {
   showDocument();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);
-    engine.chooseView(viewOf(now)).catch(failed);
+    chooseView();
   }
   stage.invalidate();
 }
@@ -358,8 +360,8 @@ const COMMANDS = {
   s: () => facts && saveProject(), e: () => facts && exporting.open(),
 };
 const KEYS = {
-  l: () => modes.setTool("light"), o: () => modes.setTool("turn"), h: () => modes.setTool("pan"),
-  p: () => modes.setTool("place"), s: () => modes.setTool("section"),
+  l: () => modes.setTool("light"), r: () => modes.setTool("model"), o: () => modes.setTool("turn"),
+  h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
   m: () => modes.setTool("measure"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
   Escape: () => doc.cancelStroke() || modes.setTable(false),

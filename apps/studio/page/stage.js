@@ -6,6 +6,7 @@ import {engineOptions} from "./document.js";
 import {TABLE_LIGHTS, angles, degrees, direction} from "./lights.js";
 import {Measure} from "./measure.js";
 import {takePinches} from "./pinch.js";
+import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
@@ -18,7 +19,8 @@ export function paint(canvas, image) {
 }
 
 export class Stage {
-  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error).
+  // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() where the
+  // view of the document is to be prepared again.
   constructor(engine, doc, on) {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
@@ -32,6 +34,7 @@ export class Stage {
     this.isReady = false;
     this.pixelsPerMm = 1;
     this.measure = new Measure(this);
+    this.turning = new Turning(this);
     this.listen();
   }
 
@@ -45,6 +48,7 @@ export class Stage {
     const step = this.doc.now;
     const {material, light} = step;
     const request = {options: engineOptions(step), material, light, camera: this.camera, ...extra};
+    if (this.turning.shown) request.turned = this.turning.shown;
     if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
     return request;
   }
@@ -57,9 +61,10 @@ export class Stage {
     this.pump();
   }
 
-  // Shows that another model is being prepared.
+  // Shows that another model is being prepared, and until then a coarse relief of its view.
   await(isAwaiting) {
     this.isAwaiting = isAwaiting;
+    this.turning.await(isAwaiting);
     this.showBusy();
   }
 
@@ -87,7 +92,7 @@ export class Stage {
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
-      if (isFine && (this.isTable || this.isAwaiting || this.isLikeFile)) this.finished = number;
+      if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
       else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
     } catch (error) {
       if (error.kind !== "cancelled" && error.name !== "AbortError") {
@@ -163,8 +168,8 @@ export class Stage {
     this.tool = tool;
     this.element.dataset.tool = tool;
     const does = {
-      light: "move the light", turn: "turn the relief", pan: "move the picture", section: "move the section",
-      measure: "measure", place: "move the figure on its plate",
+      light: "move the light", model: "turn the model", turn: "turn the relief", pan: "move the picture",
+      section: "move the section", measure: "measure", place: "move the figure on its plate",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
     if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};
@@ -270,18 +275,20 @@ export class Stage {
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
+    if (tool === "model") this.turning.begin();
   }
 
   move(event) {
     const {tool, x, y} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
     if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
+    if (tool === "model") this.turning.drag(dx, dy, event.shiftKey);
     if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
     if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
     if (tool === "place") this.place(event, dx, dy);
     const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
     if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
     if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
-    if (tool === "turn" || tool === "pan") Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+    if (["turn", "pan", "model"].includes(tool)) Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
   }
 
   // The cursor tells what a drag would take.
@@ -292,8 +299,10 @@ export class Stage {
   }
 
   release() {
+    const isTurned = this.drag?.tool === "model";
     if (this.drag?.angle) this.on.placing.turn(this.drag.angle);
     this.drag = null;
+    if (isTurned) this.turning.end();
     this.sun = null;
     this.element.classList.remove("dragging");
     this.doc.endStroke();
@@ -385,6 +394,7 @@ export class Stage {
       const {azimuth, elevation} = angles(this.doc.now.light);
       this.setLight(azimuth - x * 10 * size, elevation + y * 5 * size);
     }
+    if (this.tool === "model") this.turning.step(x * size, y * size);
     if (this.tool === "turn") this.turn(x * 5 * size, -y * 5 * size);
     if (this.tool === "pan") this.shift(x * 20 * size / this.pixelsPerMm, y * 20 * size / this.pixelsPerMm);
     if (this.tool === "place" && this.on.placing.begin(this.about.size_mm)) this.on.placing.move(x * size, y * size);

@@ -3,20 +3,10 @@
 import {about} from "./about.js";
 import {$, make} from "./controls.js";
 import {paint} from "./stage.js";
+import {cross, text, triple, turned, unit, upright} from "./vectors.js";
 
 const SIDES = about.views.map(({name}) => name);
 const TOWARDS = Object.fromEntries(about.views.map(({name, towards, up}) => [name, [towards, up]]));
-
-const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-const unit = (a) => a.map((x) => x / Math.hypot(...a));
-// Returns a, turned about a unit axis.
-const turned = (a, axis, angle) => {
-  const c = Math.cos(angle), s = Math.sin(angle), side = cross(axis, a), along = dot(axis, a) * (1 - c);
-  return a.map((x, i) => x * c + side[i] * s + axis[i] * along);
-};
-const text = (a) => a.map((x) => Number(x.toFixed(4))).join(",");
-const triple = (t) => t.split(",").map(Number);
 
 // Returns "Front", or "Turned by hand" for other directions.
 export const viewName = (view) => (view === "auto" ? "Best side"
@@ -60,11 +50,8 @@ export class ViewDialog {
 
   // Makes `up` perpendicular to the view.
   straighten() {
-    let right = cross(this.up, this.towards);
-    const other = Math.abs(this.towards[2]) < 0.9 ? [0, 0, 1] : [0, 1, 0];
-    if (Math.hypot(...right) < 1e-6) right = cross(other, this.towards);
-    this.right = unit(right);
-    this.up = cross(this.towards, this.right);
+    this.up = upright(this.up, this.towards);
+    this.right = cross(this.up, this.towards);
     this.mark();
   }
 

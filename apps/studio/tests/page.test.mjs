@@ -388,6 +388,38 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   await change(() => page.getByRole("button", {name: "Light from: Raking, above"}).click());
 });
 
+test("turns the model by hand, shows its relief meanwhile, and undoes the view", {skip}, async () => {
+  const first = await picture(), stage = page.getByRole("application", {name: /^Relief/});
+  const viewIs = (name) => page.locator("#view-name").getByText(name, {exact: true}).waitFor();
+  await page.getByRole("radio", {name: "Turn", exact: true}).click();
+  const box = await stage.boundingBox(), middle = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(...middle);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 80, middle[1] + 30, {steps: 8});
+  await becomesOther(first);
+  await viewIs("Front"); // until the view rests
+  const coarse = await picture();
+  await page.mouse.up();
+  await viewIs("Turned by hand");
+  await untilReady();
+  await becomesOther(coarse);
+  const exact = await picture();
+  await button("Undo").click();
+  await viewIs("Front");
+  await becomesSame(first);
+  await button("Redo").click();
+  await viewIs("Turned by hand");
+  await becomesSame(exact);
+  await button("Undo").click();
+  await viewIs("Front");
+  await stage.press("ArrowRight");
+  await viewIs("Turned by hand");
+  await stage.press("ArrowLeft"); // snaps to the side that it left
+  await viewIs("Front");
+  await becomesSame(first);
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+});
+
 test("chooses another view in the background", {skip}, async () => {
   const first = await picture();
   await choose("Left");

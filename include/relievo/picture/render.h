@@ -44,12 +44,26 @@ struct RenderOptions {
   bool operator==(const RenderOptions&) const = default;
 };
 
+// Normals that a surface of few points leaves out: -(n_x, n_y) on a grid of square cells over the view plane, in rows from
+// below upwards. Where the scan
+// shows nothing, or an edge, it is not a number.
+struct SurfaceDetail {
+  Vec2f corner =
+      Vec2f::Zero();  // of the first cell, in the units and from the origin of the surface's points
+  float cell = 1;
+  Image<Vec2f> xy;
+  std::vector<Vec2f> own;  // per point of the surface: the same of its own normal
+};
+
 // The shading of a surface's points: one entry per point.
 struct Shown {
   std::span<const float> heights;                  // in the model's units, above the ground
   std::span<const Vec3f> normals;                  // unit length
   float stretch = 1;                               // shown this much higher, normals and all, > 0
   std::optional<std::array<float, 2>> range = {};  // lowest and highest, if known: else they are searched for
+  // Adds the detail to the slopes between the points, times a gain for each, see FrameMaker::write_gains().
+  const SurfaceDetail* detail = nullptr;
+  std::span<const float> gains = {};
 };
 
 // Draws frames of one model on a rectangular plate, on nothing (opacity 0) but the plate's soft shadow. Not for

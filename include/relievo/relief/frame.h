@@ -54,6 +54,10 @@ class FrameMaker {
   // threads and whatever was made before; but a locked height is searched from where the last one was found.
   void make(const FrameOptions& options, Frame& frame);
 
+  // Writes, for each point of the frame that was made last, by how much its slope would change with the x and y of a
+  // normal that differs from the point's at a scale that the points do not resolve. See SurfaceDetail in render.h.
+  void write_gains(std::vector<float>& gains) const;
+
   // Bytes held, the model's not included.
   std::size_t memory() const;
 

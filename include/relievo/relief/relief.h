@@ -42,6 +42,11 @@ class ReliefModel {
   // mode it goes on to the system of the control points. Errors: see HeightSystem::build(); kind cancelled.
   static Result<ReliefModel> prepare(Surface surface, Progress* progress = nullptr, Mode mode = Mode::exact);
 
+  // Does the same for exact reliefs, but tunes nothing: the height correction has the parameters of a model of the same
+  // scan in another view, or without one its defaults. For reliefs that are shown for a moment.
+  static Result<ReliefModel> prepare_like(const ReliefModel* other, Surface surface,
+                                          Progress* progress = nullptr);
+
   ReliefModel(ReliefModel&&) noexcept;
   ReliefModel& operator=(ReliefModel&&) noexcept;
   ~ReliefModel();

@@ -43,6 +43,11 @@ struct Boundary {
 Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
                        const BoundaryOptions& options = {}, std::span<const float> spacing = {});
 
+// Returns `is_inside` of find_boundary().
+std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
+                                           double rho, const BoundaryOptions& options = {},
+                                           std::span<const float> spacing = {});
+
 // Returns for each of `points` points whether it is a corner of a triangle outside, on the hull, or in no triangle.
 std::vector<std::uint8_t> boundary_points(std::size_t points, const Triangulation& triangulation,
                                           std::span<const std::uint8_t> is_inside);

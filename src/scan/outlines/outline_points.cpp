@@ -68,8 +68,10 @@ std::vector<Vec2> places_in_gaps(const Surface& surface) {
 // The new points of a surface, gathered before they replace the old ones.
 class NewSurface {
  public:
-  NewSurface(const Surface& surface, const PointMeasures& measures, const std::vector<OutlineCurve>& outlines)
+  NewSurface(const Surface& surface, const PlanePoints& plane, const PointMeasures& measures,
+             const std::vector<OutlineCurve>& outlines)
       : surface_(surface),
+        plane_(plane),
         measures_(measures),
         outlines_(outlines),
         grid_(segments_of(outlines), 1.5 * surface.rho),
@@ -136,17 +138,17 @@ class NewSurface {
   void add_gap_points(const std::vector<std::uint8_t>& is_kept, PointSet& taken,
                       std::vector<RowPoint>& rows) const {
     const double rho = surface_.rho;
-    std::vector<Vec2> plane;
-    for (Index i = 0; i < is_kept.size(); ++i)
-      if (is_kept[i]) plane.push_back(surface_.points[i].head<2>());
-    const KdTree<Vec2> tree(plane);
+    std::vector<KdTree<Vec2>::Match> near_points;
+    const auto is_near_kept = [&](const Vec2& place) {
+      plane_.tree.within(place, .81 * rho, near_points);
+      return std::ranges::any_of(
+          near_points, [&](const auto& m) { return is_kept[m.first] && m.second < .64 * rho * rho; });
+    };
     for (const Vec2& place : places_in_gaps(surface_)) {
       const NearestSegment near = silhouettes_.nearest(place, rows_end * rho);
       if (near.segment != no_index && (!near.is_left || near.distance < .6 * rho)) continue;
       if (grid_.nearest(place, .6 * rho).segment != no_index) continue;
-      Index nearest;
-      double distance_sq;
-      if (tree.nearest(place, 1, &nearest, &distance_sq) && distance_sq < .64 * rho * rho) continue;
+      if (is_near_kept(place)) continue;
       if (taken.add(place, cell_size * rho)) rows.push_back({place, place, Place::row});
     }
   }
@@ -161,7 +163,7 @@ class NewSurface {
   }
 
   void add_new(const std::vector<RowPoint>& rows) {
-    const SideInterpolation interpolation(surface_, measures_, grid_, outline_distance_);
+    const SideInterpolation interpolation({surface_, plane_, measures_, grid_, outline_distance_});
     std::vector<SideInterpolation::Value> values(rows.size());
     parallel_for(
         rows.size(), [&](std::size_t r) { values[r] = interpolation.at(rows[r]); }, 256);
@@ -220,6 +222,7 @@ class NewSurface {
   }
 
   const Surface& surface_;
+  const PlanePoints& plane_;
   const PointMeasures& measures_;
   const std::vector<OutlineCurve>& outlines_;
   SegmentGrid grid_, silhouettes_;
@@ -241,9 +244,10 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
   exact.open_gaps(before);
   if (!drop_crumbs(before)) return;
   surface.crumbs = before.crumbs;
-  const std::vector<OutlineCurve> outlines = find_outlines(before, exact);
+  const PlanePoints plane(before);
+  const std::vector<OutlineCurve> outlines = find_outlines(before, plane, exact);
   if (outlines.empty() || outlines.front().is_jump) return;
-  NewSurface now(before, measures, outlines);
+  NewSurface now(before, plane, measures, outlines);
   now.gather();
   PointMeasures new_measures;
   now.replace(surface, new_measures);

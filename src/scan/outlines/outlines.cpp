@@ -64,8 +64,8 @@ class Pieces {
 // Tells where the surface ends beyond a point, by the normals around it.
 class EdgeFinder {
  public:
-  explicit EdgeFinder(const Surface& surface)
-      : surface_(surface), plane_(in_plane(surface.points)), tree_(plane_) {}
+  EdgeFinder(const Surface& surface, const PlanePoints& plane)
+      : surface_(surface), plane_(plane.places), tree_(plane.tree) {}
 
   // Returns the place where the normals around a point, continued linearly, are perpendicular to the view; the
   // point's own, with little weight, if they do not tell or the place is farther than `farthest`.
@@ -94,8 +94,8 @@ class EdgeFinder {
 
  private:
   const Surface& surface_;
-  std::vector<Vec2> plane_;
-  KdTree<Vec2> tree_;
+  const std::vector<Vec2>& plane_;
+  const KdTree<Vec2>& tree_;
 };
 
 // Returns the exact outline near places, or a fair curve through guesses if there are no exact outlines.
@@ -107,8 +107,9 @@ OutlineCurve curve_near(const std::vector<Vec2>& places, const Guess& guess, con
     outline.curve = exact.curve(places, kind.is_closed, kind.is_jump, guess);
     return outline;
   }
-  std::vector<CurveNode> nodes;
-  for (std::size_t i = 0; i < places.size(); ++i) nodes.push_back(guess(i));
+  std::vector<CurveNode> nodes(places.size());
+  parallel_for(
+      nodes.size(), [&](std::size_t i) { nodes[i] = guess(i); }, 64);
   outline.curve = fair_curve(nodes, kind.is_closed, {point_spacing * rho, fair_window * rho});
   return outline;
 }
@@ -290,8 +291,9 @@ bool drop_crumbs(Surface& surface) {
   return is_any;
 }
 
-std::vector<OutlineCurve> find_outlines(const Surface& surface, const ExactOutlines& exact) {
-  const EdgeFinder finder(surface);
+std::vector<OutlineCurve> find_outlines(const Surface& surface, const PlanePoints& plane,
+                                        const ExactOutlines& exact) {
+  const EdgeFinder finder(surface, plane);
   std::vector<OutlineCurve> outlines;
   add_silhouettes(surface, finder, exact, outlines);
   JumpLines(surface, exact).add_outlines(finder, outlines);

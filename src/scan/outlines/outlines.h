@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "geometry/fair_curve.h"
+#include "geometry/neighbours.h"
 #include "geometry/segment_grid.h"
 #include "relievo/scan/surface.h"
 #include "scan/outlines/exact_outlines.h"
@@ -17,6 +18,14 @@ struct OutlineCurve {
   FairCurve curve;
   bool is_closed = false;
   bool is_jump = false;
+};
+
+// The points of a surface in the view plane.
+struct PlanePoints {
+  std::vector<Vec2> places;
+  KdTree<Vec2> tree;
+
+  explicit PlanePoints(const Surface& surface) : places(in_plane(surface.points)), tree(places) {}
 };
 
 // Returns whether no surface with the normals of two neighbouring points of a surface connects them. The chord of a circle is
@@ -34,7 +43,8 @@ bool drop_crumbs(Surface& surface);
 // perpendicular to the view; elsewhere it goes through the outermost points, or at jumps between the points in
 // front and those behind. Where exact outlines are near, it goes along them instead. Outlines shorter than 4 rho are
 // left out.
-std::vector<OutlineCurve> find_outlines(const Surface& surface, const ExactOutlines& exact);
+std::vector<OutlineCurve> find_outlines(const Surface& surface, const PlanePoints& plane,
+                                        const ExactOutlines& exact);
 
 // Returns the segments of outlines; curve numbers are those of the outlines.
 std::vector<Segment> segments_of(const std::vector<OutlineCurve>& outlines);

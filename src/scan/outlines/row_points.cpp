@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "relievo/core/parallel.h"
+
 namespace relievo {
 namespace {
 
@@ -66,20 +68,32 @@ class RowMaker {
     const bool is_between = row % 2 == 1;
     const Place place = row > 0 ? Place::row : side > 0 ? Place::front : Place::back;
     const std::size_t count = is_between && !outline.is_closed ? n - 1 : n;
-    for (std::size_t k = 0; k < count; ++k) {
-      const Vec2 left =
-          is_between ? (left_at(outline, k) + left_at(outline, (k + 1) % n)) / 2 : left_at(outline, k);
-      const Vec2 from = is_between ? Vec2((p[k] + p[(k + 1) % n]) / 2) : p[k];
-      add(c, from + .02 * rho_ * side * left, from + row_distance[row] * rho_ * side * left, row, place);
-    }
+    std::vector<Candidate> candidates(count);
+    parallel_for(
+        count,
+        [&](std::size_t k) {
+          const Vec2 left =
+              is_between ? (left_at(outline, k) + left_at(outline, (k + 1) % n)) / 2 : left_at(outline, k);
+          const Vec2 from = is_between ? Vec2((p[k] + p[(k + 1) % n]) / 2) : p[k];
+          const Vec2 at = from + row_distance[row] * rho_ * side * left;
+          candidates[k] = {at, is_free(c, from + .02 * rho_ * side * left, at, row)};
+        },
+        64);
+    const double apart = row == 0 ? least_on_outlines : row == 1 ? least_in_first_row : least_between_rows;
+    for (const auto& [at, is_free] : candidates)
+      if (is_free && taken_.add(at, apart * rho_)) points_.push_back({at, at, place});
   }
 
-  void add(Index c, const Vec2& from, const Vec2& at, std::size_t row, Place place) {
+  struct Candidate {
+    Vec2 at;
+    bool is_free;
+  };
+
+  // Returns whether no outline stands between a place of a row and its own outline, or too near to it.
+  bool is_free(Index c, const Vec2& from, const Vec2& at, std::size_t row) const {
     const double distance = row_distance[row] * rho_, nearest = .9 * distance;
-    if (grid_.is_crossed(from, at) || grid_.nearest(at, nearest).segment != no_index) return;
-    if (row == 0 && grid_.nearest(at, least_from_other_outline * rho_, c).segment != no_index) return;
-    const double apart = row == 0 ? least_on_outlines : row == 1 ? least_in_first_row : least_between_rows;
-    if (taken_.add(at, apart * rho_)) points_.push_back({at, at, place});
+    if (grid_.is_crossed(from, at) || grid_.nearest(at, nearest).segment != no_index) return false;
+    return row > 0 || grid_.nearest(at, least_from_other_outline * rho_, c).segment == no_index;
   }
 
   const std::vector<OutlineCurve>& outlines_;

@@ -16,15 +16,14 @@ constexpr double least_nz = .02;  // normals of the result lean at most 88.9 deg
 
 }  // namespace
 
-SideInterpolation::SideInterpolation(const Surface& surface, const PointMeasures& measures,
-                                     const SegmentGrid& grid, std::span<const float> outline_distance)
-    : surface_(surface),
-      measures_(measures),
-      grid_(grid),
-      outline_distance_(outline_distance),
-      on_outline_(static_cast<float>(half_wall * surface.rho)),
-      plane_(in_plane(surface.points)),
-      tree_(plane_) {}
+SideInterpolation::SideInterpolation(const Input& input)
+    : surface_(input.surface),
+      measures_(input.measures),
+      grid_(input.grid),
+      outline_distance_(input.outline_distance),
+      on_outline_(static_cast<float>(half_wall * input.surface.rho)),
+      plane_(input.plane.places),
+      tree_(input.plane.tree) {}
 
 SideInterpolation::Value SideInterpolation::at(const RowPoint& p) const {
   double radius = fit_radius * surface_.rho;
@@ -50,7 +49,12 @@ void SideInterpolation::leave_same_side(const RowPoint& p, std::vector<Match>& m
   Index safest = no_index;
   std::erase_if(matches, [&](const auto& m) {
     const float distance = outline_distance_[m.first];
-    if (distance < on_outline_ || grid_.is_crossed(p.seen_from, plane_[m.first])) return true;
+    if (distance < on_outline_) return true;
+    const Vec2& place = plane_[m.first];
+    constexpr double rounding = 1e-6;
+    const bool is_clear = std::isfinite(distance) &&  // it is not measured far from outlines, and outside
+                          (place - p.seen_from).norm() < (1 - rounding) * static_cast<double>(distance);
+    if (!is_clear && grid_.is_crossed(p.seen_from, place)) return true;
     if (safest == no_index || distance > outline_distance_[safest]) safest = m.first;
     return false;
   });

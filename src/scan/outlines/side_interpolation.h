@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "geometry/neighbours.h"
+#include "scan/outlines/outlines.h"
 #include "scan/outlines/row_points.h"
 
 namespace relievo {
@@ -18,9 +18,14 @@ struct PointMeasures {
 // Keeps views of its arguments, which must outlive it.
 class SideInterpolation {
  public:
-  // `outline_distance` has each point's distance to the nearest outline.
-  SideInterpolation(const Surface& surface, const PointMeasures& measures, const SegmentGrid& grid,
-                    std::span<const float> outline_distance);
+  struct Input {
+    const Surface& surface;
+    const PlanePoints& plane;  // of the surface
+    const PointMeasures& measures;
+    const SegmentGrid& grid;
+    std::span<const float> outline_distance;  // of each point to the nearest outline
+  };
+  explicit SideInterpolation(const Input& input);
 
   struct Value {
     bool is_known = false;
@@ -48,8 +53,8 @@ class SideInterpolation {
   const SegmentGrid& grid_;
   std::span<const float> outline_distance_;
   float on_outline_;
-  std::vector<Vec2> plane_;
-  KdTree<Vec2> tree_;
+  const std::vector<Vec2>& plane_;
+  const KdTree<Vec2>& tree_;
 };
 
 }  // namespace relievo

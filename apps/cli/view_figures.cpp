@@ -1,0 +1,86 @@
+#include "cli/view_figures.h"
+
+#include <Eigen/Geometry>
+#include <chrono>
+#include <cstdio>
+#include <numbers>
+
+#include "relievo/relief/frame.h"
+#include "relievo/session.h"
+
+namespace relievo::app::cli {
+namespace {
+
+constexpr double step_deg = 4;  // from one view to the next
+
+// Returns the milliseconds that work takes. Errors: its own.
+template <typename F>
+Result<double> milliseconds(F&& work) {
+  const auto start = std::chrono::steady_clock::now();
+  RELIEVO_CHECK(work());
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+View turned(const View& view, int steps) {
+  View other = view;
+  const double angle = steps * step_deg * std::numbers::pi / 180;
+  other.R_view_model = Eigen::AngleAxisd(angle, Vec3::UnitY()).toRotationMatrix() * view.R_view_model;
+  return other;
+}
+
+void make_frame(const ReliefModel& model, double spacing_ratio) {
+  FrameOptions options;
+  options.shape.boundary_width *= spacing_ratio;
+  Frame frame;
+  FrameMaker(model).make(options, frame);
+}
+
+Result<void> prepare(Session& session, const ViewRun& run, const View& view) {
+  Preparation preparation;
+  preparation.points = [&](Progress&) -> Preparation::Points { return run.cloud; };
+  preparation.view = view;
+  preparation.mode = run.mode;
+  session.open(std::move(preparation));
+  while (!session.wait_until_idle(std::chrono::hours(1))) {
+  }
+  if (const auto error = session.status().error) return std::unexpected(*error);
+  make_frame(*session.model(), 1);
+  return {};
+}
+
+Result<void> turn(Session& session, const View& view) {
+  RELIEVO_TRY(const TurnedRelief relief, session.turn(view));
+  make_frame(*relief.model, relief.spacing_ratio);
+  return {};
+}
+
+}  // namespace
+
+Result<ViewFigures> measure_views(const ViewRun& run) {
+  Session session;
+  ViewFigures figures;
+  RELIEVO_TRY(figures.first_ms, milliseconds([&] { return prepare(session, run, run.view); }));
+  RELIEVO_TRY(figures.first_turned_ms, milliseconds([&] { return turn(session, run.view); }));
+  for (int i = 1; i <= run.views; ++i) {
+    RELIEVO_TRY(const double ms, milliseconds([&] { return turn(session, turned(run.view, i)); }));
+    figures.turned.ms.push_back(ms);
+  }
+  for (int i = 1; i <= run.views; ++i) {
+    RELIEVO_TRY(const double ms, milliseconds([&] { return prepare(session, run, turned(run.view, i)); }));
+    figures.prepared.ms.push_back(ms);
+  }
+  return figures;
+}
+
+void print_views(const ViewFigures& f) {
+  const auto line = [](const char* name, const Series& series) {
+    std::printf("  %-28s %7.1f %7.1f\n", name, series.percentile(.5), series.percentile(.95));
+  };
+  std::printf("\nviews with their first frames, milliseconds %s %7s\n", "p50", "p95");
+  line("first", {{f.first_ms}});
+  line("first while it is turned", {{f.first_turned_ms}});
+  line("others while it is turned", f.turned);
+  line("others", f.prepared);
+}
+
+}  // namespace relievo::app::cli

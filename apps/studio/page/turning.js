@@ -1,0 +1,93 @@
+// Turns the model on the picture: a drag shows its relief from other sides while the view moves, and the view in which
+// it rests becomes that of the document.
+
+import {about} from "./about.js";
+import {cross, dot, text, triple, turned, unit, upright} from "./vectors.js";
+
+const SIDES = Object.fromEntries(about.views.map(({name, towards, up}) => [name, {towards, up}]));
+const NEAR = Math.cos(6 * Math.PI / 180); // views this near to a side or to level snap to it
+const HALF_TURN = 0.9; // of the shorter side of the picture, that a drag takes for half a turn
+
+// Returns the directions of a document's view; nothing where the engine is still to choose it.
+export function directionsOf({view, up}) {
+  if (view === "auto") return null;
+  const towards = unit(SIDES[view]?.towards ?? triple(view));
+  return {towards, up: upright(up ? triple(up) : SIDES[view]?.up ?? [0, 1, 0], towards)};
+}
+
+// Returns the view as options: a side by its name, others by their directions.
+export function optionsOf({towards, up}) {
+  const isAt = ([, side]) => dot(side.towards, towards) > 1 - 1e-9 && dot(side.up, up) > 1 - 1e-9;
+  const side = Object.entries(SIDES).find(isAt);
+  return side ? {view: side[0], up: ""} : {view: text(towards), up: text(up)};
+}
+
+// Returns the nearest side if the view is near to one, else the same view without its roll if that is small.
+export function snapped({towards, up}) {
+  for (const side of Object.values(SIDES)) {
+    if (dot(side.towards, towards) < NEAR) continue;
+    const axes = [side.up, cross(side.towards, side.up)].flatMap((a) => [a, a.map((x) => -x)]);
+    const near = axes.find((axis) => dot(axis, up) > NEAR);
+    if (near) return {towards: side.towards, up: near.map((x) => x + 0)};
+  }
+  for (const axis of [[0, 1, 0], [0, 0, 1]]) {
+    const level = upright(axis, towards);
+    if (dot(level, up) > NEAR) return {towards, up: level};
+  }
+  return {towards, up};
+}
+
+export class Turning {
+  constructor(stage) {
+    this.stage = stage;
+    this.shown = null; // directions of the view that is shown until it is prepared
+  }
+
+  show(directions) {
+    this.shown = directions;
+    this.stage.invalidate();
+  }
+
+  // A view is being prepared, or none any more: until it is there, a coarse relief stands for it.
+  await(isAwaiting) {
+    if (this.stage.drag?.tool === "model") return;
+    this.shown = isAwaiting ? directionsOf(this.stage.doc.now.options) : null;
+  }
+
+  begin() {
+    this.view = directionsOf(this.stage.doc.now.options) ?? directionsOf({view: "front"});
+  }
+
+  // Turns the model with the hand, which is to turn the viewer the other way. Angles in radians.
+  turn(dx, dy, roll = 0) {
+    let {towards, up} = this.view;
+    for (const [axis, angle] of [[up, -dx], [cross(up, towards), -dy], [towards, -roll]]) {
+      towards = unit(turned(towards, axis, angle));
+      up = upright(turned(up, axis, angle), towards);
+    }
+    this.view = {towards, up};
+    this.show(snapped(this.view));
+  }
+
+  drag(dx, dy, isRoll) {
+    const {width, height} = this.stage.size, scale = Math.PI / (HALF_TURN * Math.min(width, height));
+    isRoll ? this.turn(0, 0, dx * scale) : this.turn(dx * scale, dy * scale);
+  }
+
+  // Turns by keys: 10 degrees at a time.
+  step(x, y) {
+    this.begin();
+    this.turn(x * Math.PI / 18, -y * Math.PI / 18);
+    this.end();
+  }
+
+  // The view rests: the document takes it. One that it has already may have to be prepared again.
+  end() {
+    const {stage} = this, {doc} = stage;
+    if (!this.shown) return;
+    const options = optionsOf(this.shown), {view, up} = doc.now.options;
+    if (view !== options.view || up !== options.up) doc.change({options});
+    else if (stage.isAwaiting) stage.on.viewRests();
+    else this.show(null);
+  }
+}

@@ -1,0 +1,25 @@
+// Measures of scattered points by a k-d tree that the caller has already. Tested by tests/scan/spacing_test.cpp and
+// tests/scan/curvature_test.cpp.
+#pragma once
+
+#include "geometry/neighbours.h"
+#include "relievo/scan/curvature.h"
+#include "relievo/scan/spacing.h"
+
+namespace relievo {
+
+// See measure_spacing() in spacing.h. The tree is one of these points.
+Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points);
+
+// A cloud, its spacing, and the tree of its points.
+struct SearchableCloud {
+  const Cloud& cloud;
+  const Spacing& spacing;
+  const KdTree<Vec3>& tree;
+};
+
+// See mean_curvature() in curvature.h.
+std::vector<double> mean_curvature(const SearchableCloud& searchable, std::span<const Index> queries,
+                                   const CurvatureOptions& options, const Progress* progress);
+
+}  // namespace relievo

@@ -1,0 +1,126 @@
+#include "scan/measured_cloud.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "geometry/space_curve.h"
+#include "relievo/core/text.h"
+#include "relievo/scan/normals.h"
+#include "scan/measure_with_tree.h"
+#include "scan/noise/noise.h"
+#include "scan/pick.h"
+
+namespace relievo {
+namespace {
+
+Result<void> check_numbers(const Cloud& cloud) {
+  if (cloud.has_normals() && cloud.normals.size() != cloud.size())
+    return geometry_error(
+        cat("expected a normal for each of ", cloud.size(), " points, found ", cloud.normals.size()));
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (!cloud.points[i].allFinite() || (cloud.has_normals() && !cloud.normals[i].allFinite()))
+      return geometry_error(cat("expected finite coordinates and normals, found others at point ", i));
+  return {};
+}
+
+// Refuses clouds that are a point or a line, up to rounding.
+Result<void> check_extent(const Cloud& cloud, const Box& box) {
+  if (cloud.size() < 4) return geometry_error(cat("expected at least 4 points, found ", cloud.size()));
+  const Vec3 centre = box.centre();
+  const double scale = box.diagonal();
+  if (!(scale > 0)) return geometry_error("expected points that span a surface, found all of them equal");
+  Mat3 covariance = Mat3::Zero();
+  for (const Vec3& p : cloud.points) covariance += (p - centre) * (p - centre).transpose() / (scale * scale);
+  const Vec3 spread = Eigen::SelfAdjointEigenSolver<Mat3>(covariance, Eigen::EigenvaluesOnly).eigenvalues();
+  if (spread[1] <= 1e-14 * spread[2])
+    return geometry_error("expected points that span a surface, found all of them on one line");
+  return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud& whole, const View& view,
+                                                                    Progress* progress) {
+  RELIEVO_CHECK(check_numbers(whole));
+  std::optional<Cloud> part;
+  if (view.crop != Crop{}) {
+    part = cropped(whole, view);
+    if (part->size() < 4)
+      return option_error("crop", cat("expected a part with at least 4 points, found ", part->size()));
+  }
+  const Cloud& cloud = part ? *part : whole;
+  const Box box = bounds(cloud);
+  RELIEVO_CHECK(check_extent(cloud, box));
+  RELIEVO_CHECK(begin_stage(progress, "view", 0));
+  std::shared_ptr<MeasuredCloud> measured(new MeasuredCloud);
+  measured->view_ = view;
+  measured->centre_ = box.centre();
+  measured->diagonal_ = box.diagonal();
+  measured->input_points_ = whole.size();
+  measured->cloud_ = in_view(cloud, {});
+  // A fixed order makes the result independent of the file's, and neighbours close in memory make all searches faster.
+  const std::vector<Index> order = space_curve_order(measured->cloud_.points);
+  RELIEVO_CHECK(check_cancelled(progress));
+  measured->cloud_ = {pick(measured->cloud_.points, order), pick(measured->cloud_.normals, order),
+                      pick(measured->cloud_.colours, order), std::move(measured->cloud_.outlines)};
+  RELIEVO_CHECK(measured->measure_points(view, progress));
+  return measured;
+}
+
+Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress) {
+  RELIEVO_CHECK(begin_stage(progress, "spacing", .05));
+  tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
+  spacing_ = measure_spacing(*tree_, cloud_.points);
+  if (!(spacing_.rho > 0))
+    return geometry_error("expected points at a distance from each other, found most of them equal");
+  RELIEVO_CHECK(begin_stage(progress, "normals", .2));
+  has_estimated_normals_ = !cloud_.has_normals();
+  if (has_estimated_normals_)
+    estimate_normals(cloud_);  // their noise is measured when the view has given them signs
+  else
+    remove_noise(view);
+  do_normals_point_inward_ = !has_estimated_normals_ && normals_point_inward(cloud_);
+  return check_cancelled(progress);
+}
+
+// Removes the noise that the view asks for, else the noise that is measured. The spacing stays that of the scan: where
+// several scans overlap, points without noise lie closer together than the surface is sampled.
+void MeasuredCloud::remove_noise(const View& view) {
+  measured_noise_ = measure_noise(cloud_, spacing_);
+  removed_noise_ = view.denoise.value_or(measured_noise_);
+  if (removed_noise_ == 0) return;
+  relievo::remove_noise(cloud_, spacing_, removed_noise_);
+  tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
+}
+
+bool MeasuredCloud::serves(const View& view) const {
+  if (view.denoise != view_.denoise || view.crop != view_.crop) return false;
+  const bool is_of_any_view = view.crop == Crop{} && cloud_.outlines.empty();
+  return is_of_any_view || view.R_view_model == view_.R_view_model;
+}
+
+std::vector<double> MeasuredCloud::curvature(std::span<const Index> points, const CurvatureOptions& options,
+                                             const Progress* progress) const {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> k = known_.with([&](Known& known) {
+    if (known.curvature.empty() || known.options.scale != options.scale)
+      known = {options, std::vector<double>(cloud_.size(), unknown)};
+    return pick(known.curvature, points);
+  });
+  std::vector<Index> missing, places;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (std::isnan(k[i])) missing.push_back(points[i]), places.push_back(static_cast<Index>(i));
+  const std::vector<double> found = mean_curvature({cloud_, spacing_, *tree_}, missing, options, progress);
+  for (std::size_t i = 0; i < missing.size(); ++i) k[places[i]] = found[i];
+  if (progress && progress->is_cancelled()) return k;
+  known_.with([&](Known& known) {
+    if (known.options.scale != options.scale) return;
+    for (std::size_t i = 0; i < missing.size(); ++i) known.curvature[missing[i]] = found[i];
+  });
+  return k;
+}
+
+}  // namespace relievo

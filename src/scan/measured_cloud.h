@@ -1,0 +1,72 @@
+// What of a cloud does not depend on the view, measured once and used for every view: order, spacing, normals without
+// noise, curvature. Tested by tests/scan/measured_cloud_test.cpp.
+#pragma once
+
+#include <memory>
+
+#include "geometry/neighbours.h"
+#include "relievo/core/parallel.h"
+#include "relievo/core/progress.h"
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+
+class MeasuredCloud {
+ public:
+  // Measures the part of the cloud that the view crops, at the noise that it removes. Errors: those of find_surface() that
+  // do not depend on what is visible.
+  static Result<std::shared_ptr<const MeasuredCloud>> measure(const Cloud& whole, const View& view,
+                                                              Progress* progress = nullptr);
+
+  // Returns whether the view may show these measures: whether it would measure the same. A crop depends on the direction
+  // of the view, and so do the exact outlines of a mesh.
+  bool serves(const View& view) const;
+
+  // The points, from the centre of their box, in the axes of the cloud and in the order of a space-filling curve, which
+  // makes all results independent of the file's order. Signs of estimated normals are arbitrary.
+  const Cloud& cloud() const { return cloud_; }
+  const Spacing& spacing() const { return spacing_; }
+  const KdTree<Vec3>& tree() const { return *tree_; }
+
+  // Facts for the surfaces of all views.
+  const Vec3& centre() const { return centre_; }
+  double diagonal() const { return diagonal_; }
+  std::size_t input_points() const { return input_points_; }
+  bool has_estimated_normals() const { return has_estimated_normals_; }
+  bool do_normals_point_inward() const { return do_normals_point_inward_; }
+  double measured_noise() const { return measured_noise_; }
+  double removed_noise() const { return removed_noise_; }
+
+  // Returns the mean curvature at points, for normals that point outwards. Values are kept, so that each point is
+  // measured once. May be called concurrently.
+  std::vector<double> curvature(std::span<const Index> points, const CurvatureOptions& options,
+                                const Progress* progress) const;
+
+ private:
+  MeasuredCloud() = default;
+  Result<void> measure_points(const View& view, Progress* progress);
+  void remove_noise(const View& view);
+
+  struct Known {
+    CurvatureOptions options;
+    std::vector<double> curvature;  // per point; not a number where it is not measured yet
+  };
+
+  View view_;  // that it was measured for
+  Cloud cloud_;
+  Spacing spacing_;
+  std::unique_ptr<const KdTree<Vec3>> tree_;
+  Vec3 centre_ = Vec3::Zero();
+  double diagonal_ = 0;
+  std::size_t input_points_ = 0;
+  bool has_estimated_normals_ = false, do_normals_point_inward_ = false;
+  double measured_noise_ = 0, removed_noise_ = 0;
+  mutable Guarded<Known> known_;
+};
+
+// Returns the surface that a view shows, see the function of this name for a cloud. The view is one that the cloud was
+// measured for.
+Result<Surface> find_surface(const MeasuredCloud& measured, const View& view,
+                             const SurfaceOptions& options = {}, Progress* progress = nullptr);
+
+}  // namespace relievo

@@ -1,0 +1,343 @@
+#include "scan/turning/front_cells.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/disjoint_sets.h"
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+constexpr std::size_t block = 1 << 15;  // points that one task turns
+constexpr int band_rows = 32;           // rows of cells that one task draws
+// Radii of the discs that hide what is behind them, and of those whose normals are averaged, in spacings. Discs of 1.5
+// leave a thousandth of the places between scattered points uncovered.
+constexpr float hiding_radius = 2, mean_radius = 1.5F;
+constexpr float least_mean_radius = .8F;  // in cells
+constexpr float least_cell = .6F;         // in spacings: smaller cells show nothing more
+constexpr float depth_tolerance = 2;      // in spacings / n_z, as in VisibleOptions
+constexpr float least_facing = .1F;       // limits the tolerance where a surface is seen edge on
+constexpr float steepest = 20;            // slope of a disc
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+struct FlatBox {
+  Vec3f least = Vec3f::Constant(infinity), most = Vec3f::Constant(-infinity);
+  void extend(const Vec3f& p) { least = least.cwiseMin(p), most = most.cwiseMax(p); }
+  FlatBox merged(const FlatBox& other) const {
+    return {least.cwiseMin(other.least), most.cwiseMax(other.most)};
+  }
+  Vec3f size() const { return most - least; }
+};
+
+template <typename F>
+FlatBox box_of(std::span<const FrontPoint> points, F&& turned) {
+  return parallel_reduce(
+      points.size(), FlatBox{},
+      [&](std::size_t begin, std::size_t end) {
+        FlatBox box;
+        for (std::size_t i = begin; i < end; ++i) box.extend(turned(points[i].place));
+        return box;
+      },
+      [](const FlatBox& a, const FlatBox& b) { return a.merged(b); }, block);
+}
+
+// Returns the part of a box that the crop shows.
+FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
+  const Vec3f size = box.size();
+  const Vec3 least(crop.least.x(), crop.least.y(), 1 - crop.farthest),
+      most(crop.most.x(), crop.most.y(), 1 - crop.nearest);
+  return {box.least + size.cwiseProduct(least.cast<float>()),
+          box.least + size.cwiseProduct(most.cast<float>())};
+}
+
+// A point in view coordinates, in cells from the grid's corner.
+struct Disc {
+  Vec3f place;
+  Vec3f normal;
+  Vec2f slope;
+  float spacing;
+};
+
+// The points of one block that touch each band of rows.
+using Bands = std::vector<std::vector<Disc>>;
+
+class FrontDrawing {
+ public:
+  FrontDrawing(std::span<const FrontPoint> points, const View& view)
+      : points_(points), R_(view.R_view_model.cast<float>()), crop_(view.crop) {
+    box_ = box_of(points, [this](const Vec3f& p) -> Vec3f { return R_ * p; });
+    if (crop_ != Crop{}) box_ = cropped_box(box_, crop_);
+  }
+
+  FrontCells draw(std::size_t wanted) {
+    set_cells(wanted);
+    sort_into_bands();
+    parallel_for(
+        bands(), [this](std::size_t b) { draw_band(static_cast<int>(b)); }, 1);
+    cells_.covered = static_cast<std::size_t>(
+        std::ranges::count_if(cells_.normal.pixels, [](const Vec3f& n) { return n.z() > 0; }));
+    return std::move(cells_);
+  }
+
+ private:
+  std::size_t bands() const {
+    return static_cast<std::size_t>((cells_.depth.height + band_rows - 1) / band_rows);
+  }
+  bool is_shown(const Vec3f& p) const {
+    return (p.array() >= box_.least.array()).all() && (p.array() <= box_.most.array()).all();
+  }
+
+  // Returns about how much of the box the points cover, by a coarse mask of those that face the viewer.
+  float covered_area() const {
+    constexpr int side = 64;
+    using Mask = std::array<std::uint8_t, static_cast<std::size_t>(side * side)>;
+    const Vec3f size = box_.size();
+    const float cell = std::max({size.x(), size.y(), 1e-30F}) / side;
+    const Mask mask = parallel_reduce(
+        points_.size(), Mask{},
+        [&](std::size_t begin, std::size_t end) {
+          Mask part{};
+          for (std::size_t i = begin; i < end; ++i) {
+            if (R_.row(2).dot(points_[i].normal) <= 0) continue;
+            const Vec3f p = R_ * points_[i].place;
+            if (!is_shown(p)) continue;
+            const int x = std::min(static_cast<int>((p.x() - box_.least.x()) / cell), side - 1),
+                      y = std::min(static_cast<int>((p.y() - box_.least.y()) / cell), side - 1);
+            part[static_cast<std::size_t>(y * side + x)] = 1;
+          }
+          return part;
+        },
+        [](Mask a, const Mask& b) {
+          for (std::size_t i = 0; i < a.size(); ++i) a[i] |= b[i];
+          return a;
+        },
+        block);
+    return cell * cell * static_cast<float>(std::ranges::count(mask, 1));
+  }
+
+  float usual_spacing() const {
+    std::vector<float> some;
+    for (std::size_t i = 0; i < points_.size(); i += 97) some.push_back(points_[i].spacing);
+    if (some.empty()) return 0;
+    std::ranges::nth_element(some, some.begin() + static_cast<long>(some.size() / 2));
+    return some[some.size() / 2];
+  }
+
+  void set_cells(std::size_t wanted) {
+    constexpr float most_side = 4096;
+    const Vec3f size = box_.size();
+    const float longer = std::max({size.x(), size.y(), 1e-30F});
+    cells_.cell = std::max({std::sqrt(covered_area() / static_cast<float>(wanted)),
+                            least_cell * usual_spacing(), longer / most_side});
+    // One empty cell stands around what is drawn.
+    cells_.corner = box_.least.head<2>() - Vec2f::Constant(1.5F * cells_.cell);
+    const int columns = 3 + static_cast<int>(size.x() / cells_.cell),
+              rows = 3 + static_cast<int>(size.y() / cells_.cell);
+    cells_.depth = filled_image(columns, rows, -infinity);
+    cells_.normal = filled_image<Vec3f>(columns, rows, Vec3f::Zero());
+    cells_.is_behind = filled_image<std::uint8_t>(columns, rows, 0);
+  }
+
+  void sort_into_bands() {
+    blocks_.resize((points_.size() + block - 1) / block);
+    behind_.resize(blocks_.size());
+    parallel_ranges(points_.size(), block, [&](std::size_t begin, std::size_t end) {
+      Bands& mine = blocks_[begin / block];
+      mine.resize(bands());
+      for (std::size_t i = begin; i < end; ++i) add(points_[i], mine, behind_[begin / block]);
+    });
+    for (const std::vector<Vec2f>& places : behind_)
+      for (const Vec2f& p : places) cells_.is_behind.at(static_cast<int>(p.x()), static_cast<int>(p.y())) = 1;
+  }
+
+  void add(const FrontPoint& point, Bands& to, std::vector<Vec2f>& behind) const {
+    const Vec3f turned = R_ * point.place, n = R_ * point.normal;
+    if (!is_shown(turned)) return;
+    Vec3f place = turned / cells_.cell;
+    place.head<2>() -= cells_.corner / cells_.cell;
+    if (n.z() <= 0) return behind.emplace_back(place.head<2>()), void();
+    const float nz = std::max(n.z(), 1 / steepest), spacing = point.spacing / cells_.cell;
+    const Disc disc{place, n, Vec2f(-n.head<2>() / nz), spacing};
+    const float reach = std::max(hiding_radius * spacing, 1.F);
+    const int rows = cells_.depth.height;
+    const int first = std::clamp(static_cast<int>(place.y() - reach), 0, rows - 1) / band_rows,
+              last = std::clamp(static_cast<int>(place.y() + reach), 0, rows - 1) / band_rows;
+    for (int b = first; b <= last; ++b) to[static_cast<std::size_t>(b)].push_back(disc);
+  }
+
+  // Calls f(x, y, step) for the cells of a band whose centres lie within a distance of the disc's centre in the plane.
+  template <typename F>
+  void each_cell(const Disc& disc, float radius, int band, F&& f) const {
+    const int first = std::max(band * band_rows, static_cast<int>(std::ceil(disc.place.y() - radius - .5F))),
+              last = std::min({(band + 1) * band_rows, cells_.depth.height,
+                               static_cast<int>(std::floor(disc.place.y() + radius - .5F)) + 1});
+    const int left = std::max(0, static_cast<int>(std::ceil(disc.place.x() - radius - .5F))),
+              right = std::min(cells_.depth.width,
+                               static_cast<int>(std::floor(disc.place.x() + radius - .5F)) + 1);
+    for (int y = first; y < last; ++y)
+      for (int x = left; x < right; ++x)
+        f(x, y,
+          Vec2f(static_cast<float>(x) + .5F - disc.place.x(), static_cast<float>(y) + .5F - disc.place.y()));
+  }
+
+  void draw_band(int band) {
+    const auto b = static_cast<std::size_t>(band);
+    for (const Bands& bands : blocks_)
+      for (const Disc& disc : bands[b]) draw_depth(disc, band);
+    for (const Bands& bands : blocks_)
+      for (const Disc& disc : bands[b]) add_normal(disc, band);
+    const int last = std::min((band + 1) * band_rows, cells_.depth.height);
+    for (int y = band * band_rows; y < last; ++y)
+      for (int x = 0; x < cells_.depth.width; ++x) {
+        Vec3f& n = cells_.normal.at(x, y);
+        const float length = n.norm();
+        n = length > 0 ? Vec3f(n / length) : Vec3f::Zero();
+      }
+  }
+
+  void draw_depth(const Disc& disc, int band) {
+    const float radius = hiding_radius * disc.spacing, radius_sq = radius * radius;
+    each_cell(disc, radius, band, [&](int x, int y, const Vec2f& step) {
+      const float dz = disc.slope.dot(step);
+      if (step.squaredNorm() + dz * dz > radius_sq) return;
+      float& depth = cells_.depth.at(x, y);
+      depth = std::max(depth, disc.place.z() + dz);
+    });
+    const int x = static_cast<int>(disc.place.x()), y = static_cast<int>(disc.place.y());
+    if (y / band_rows != band) return;
+    const float dz = disc.slope.dot(Vec2f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F) -
+                                    disc.place.head<2>());
+    float& depth = cells_.depth.at(x, y);
+    depth = std::max(depth, disc.place.z() + std::clamp(dz, -1.F, 1.F));
+  }
+
+  // Adds the normal of a disc to the cells around in which it is in front.
+  void add_normal(const Disc& disc, int band) {
+    const float radius = std::max(mean_radius * disc.spacing, least_mean_radius), radius_sq = radius * radius;
+    const float tolerance =
+        depth_tolerance * std::max(disc.spacing, .5F) / std::max(disc.normal.z(), least_facing);
+    each_cell(disc, radius, band, [&](int x, int y, const Vec2f& step) {
+      const float rest = 1 - step.squaredNorm() / radius_sq, depth = cells_.depth.at(x, y);
+      if (rest <= 0 || depth == -infinity || disc.place.z() + disc.slope.dot(step) + tolerance < depth)
+        return;
+      cells_.normal.at(x, y) += rest * rest * disc.normal;
+    });
+  }
+
+  std::span<const FrontPoint> points_;
+  Eigen::Matrix3f R_;
+  Crop crop_;
+  FlatBox box_;
+  FrontCells cells_;
+  std::vector<Bands> blocks_;
+  std::vector<std::vector<Vec2f>> behind_;
+};
+
+}  // namespace
+
+FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted) {
+  FrontCells cells = FrontDrawing(points, view).draw(wanted);
+  for (float& depth : cells.depth.pixels) depth *= cells.cell;
+  return cells;
+}
+
+namespace {
+
+// Returns the sets of neighbouring cells that are all covered, or all not.
+DisjointSets pieces_of(const FrontCells& front) {
+  DisjointSets sets(front.normal.size());
+  const auto join = [&](int x, int y, int dx, int dy) {
+    if (!front.normal.contains(x + dx, y + dy)) return;
+    if (front.is_covered(x, y) != front.is_covered(x + dx, y + dy)) return;
+    sets.join(static_cast<Index>(front.normal.index(x, y)),
+              static_cast<Index>(front.normal.index(x + dx, y + dy)));
+  };
+  for (int y = 0; y < front.normal.height; ++y)
+    for (int x = 0; x < front.normal.width; ++x) join(x, y, 1, 0), join(x, y, 0, 1);
+  return sets;
+}
+
+struct Filling {
+  Index cell;
+  float depth;
+  Vec3f normal;
+};
+
+// Returns what the cell would be filled with; nothing without a covered neighbour.
+std::optional<Filling> filling_of(const FrontCells& front, Index cell) {
+  const int x = static_cast<int>(cell) % front.normal.width, y = static_cast<int>(cell) / front.normal.width;
+  Filling filling{cell, 0, Vec3f::Zero()};
+  float count = 0;
+  for (int j = y - 1; j <= y + 1; ++j)
+    for (int i = x - 1; i <= x + 1; ++i) {
+      if (!front.is_covered(i, j)) continue;
+      filling.depth += front.depth.at(i, j);
+      filling.normal += front.normal.at(i, j);
+      ++count;
+    }
+  if (count == 0) return std::nullopt;
+  filling.depth /= count;
+  filling.normal.normalize();
+  return filling;
+}
+
+}  // namespace
+
+void clear_small_pieces(FrontCells& front, std::size_t least) {
+  DisjointSets pieces = pieces_of(front);
+  for (Index i = 0; i < front.normal.size(); ++i) {
+    if (front.normal[i].z() <= 0 || pieces.size_of(i) >= least) continue;
+    front.normal[i] = Vec3f::Zero();
+    --front.covered;
+  }
+}
+
+void fill_small_holes(FrontCells& front, std::size_t most) {
+  DisjointSets pieces = pieces_of(front);
+  std::vector<Index> empty;
+  for (Index i = 0; i < front.normal.size(); ++i)
+    if (front.normal[i].z() <= 0 && pieces.size_of(i) <= most) empty.push_back(i);
+  while (!empty.empty()) {
+    std::vector<Filling> found;
+    for (const Index cell : empty)
+      if (const auto filling = filling_of(front, cell)) found.push_back(*filling);
+    for (const Filling& f : found) front.depth[f.cell] = f.depth, front.normal[f.cell] = f.normal;
+    front.covered += found.size();
+    std::erase_if(empty, [&](Index cell) { return front.normal[cell].z() > 0; });
+    if (found.empty()) return;
+  }
+}
+
+namespace {
+
+// Returns whether no surface spans two neighbouring cells, see is_jump().
+bool is_edge_between(const FrontCells& front, int x, int y, int dx, int dy) {
+  if (!front.is_covered(x + dx, y + dy)) return true;
+  const Vec2f step = front.cell * Vec2f(static_cast<float>(dx), static_cast<float>(dy));
+  const auto rise = [&](const Vec3f& n) { return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1F); };
+  const float rises = std::max(rise(front.normal.at(x, y)), rise(front.normal.at(x + dx, y + dy)));
+  return std::abs(front.depth.at(x, y) - front.depth.at(x + dx, y + dy)) > 2 * rises + 3 * front.cell;
+}
+
+}  // namespace
+
+void mark_edges(FrontCells& front) {
+  front.is_edge.resize(front.normal.width, front.normal.height);
+  parallel_for(
+      static_cast<std::size_t>(front.normal.height),
+      [&](std::size_t row) {
+        const int y = static_cast<int>(row);
+        for (int x = 0; x < front.normal.width; ++x)
+          front.is_edge.at(x, y) =
+              front.is_covered(x, y) &&
+              (is_edge_between(front, x, y, 1, 0) || is_edge_between(front, x, y, -1, 0) ||
+               is_edge_between(front, x, y, 0, 1) || is_edge_between(front, x, y, 0, -1));
+      },
+      16);
+}
+
+}  // namespace relievo

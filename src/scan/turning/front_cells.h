@@ -1,0 +1,49 @@
+// The front of a cloud on a grid of square cells over the view plane: a quick picture of depths and normals, from which
+// reliefs are made while the model is turned. Tested by tests/scan/turning_test.cpp.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "relievo/core/image.h"
+#include "relievo/core/types.h"
+#include "relievo/scan/view.h"
+
+namespace relievo {
+
+// A point as it is drawn, in the axes of the scan.
+struct FrontPoint {
+  Vec3f place, normal;
+  float spacing;  // of the points around it
+};
+
+// Cells are in rows from below upwards.
+struct FrontCells {
+  Vec2f corner = Vec2f::Zero();  // of the first cell
+  float cell = 1;                // its side
+  Image<float> depth;            // at the centre of the cell; minus infinity where no point covers it
+  Image<Vec3f> normal;           // mean of the visible points around, unit length; zero where there are none
+  Image8 is_behind;              // whether a point that faces away lies in the cell
+  Image8 is_edge;                // whether the surface ends at a covered cell, or jumps: set by mark_edges()
+  std::size_t covered = 0;       // number of cells with a normal
+
+  Vec2f centre(int x, int y) const {
+    return corner + cell * Vec2f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F);
+  }
+  bool is_covered(int x, int y) const { return normal.contains(x, y) && normal.at(x, y).z() > 0; }
+};
+
+// Draws what a view shows of the points. About `wanted` cells are covered, fewer where points lie so far apart that smaller
+// cells show nothing more. The same bits for any number of threads.
+FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted);
+
+// Clears what is connected to fewer than `least` covered cells.
+void clear_small_pieces(FrontCells& front, std::size_t least);
+
+// Covers holes of at most `most` cells by what is around them.
+void fill_small_holes(FrontCells& front, std::size_t most);
+
+// Sets `is_edge`.
+void mark_edges(FrontCells& front);
+
+}  // namespace relievo

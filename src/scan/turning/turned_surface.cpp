@@ -1,0 +1,246 @@
+#include "scan/turning/turned_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "geometry/hilbert.h"
+#include "relievo/core/parallel.h"
+#include "scan/measured_cloud.h"
+#include "scan/pick.h"
+
+namespace relievo {
+namespace {
+
+// Larger scans are drawn by every second point, every third ...: 600,000 points of all sides show a relief's detail at the
+// size of a screen.
+constexpr std::size_t most_drawn = 600'000;
+// Limits of the local spacing, in rho: see visible.cpp.
+constexpr double least_spacing = .25, largest_spacing = 4;
+constexpr std::size_t cells_per_point = 9;
+constexpr double largest_hole = 5;       // radius in spacings of holes that are closed: see BoundaryOptions
+constexpr std::size_t least_cells = 16;  // fewer show nothing
+// Smaller pieces are crumbs, as in find_surface(): share of the covered cells.
+constexpr double crumb_share = .005;
+constexpr float hole_fill_distance = 3;  // from what is visible, in spacings: see VisibleOptions
+
+// Chooses the cells whose centres are the points of a surface.
+class CellChoice {
+ public:
+  CellChoice(const FrontCells& front, std::size_t points, float spacing)
+      : front_(front), hole_reach_(static_cast<int>(std::ceil(hole_fill_distance * spacing / front.cell))) {
+    const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
+    step_ = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
+    is_quincunx_ = step_ == 1 && cells > std::numbers::sqrt2;
+  }
+
+  // Returns the distance between points, in cells, and the same rounded up.
+  double spacing() const { return is_quincunx_ ? std::numbers::sqrt2 : step_; }
+  int reach() const { return is_quincunx_ ? 2 : step_; }
+
+  // Returns the numbers of the cells, row by row.
+  std::vector<Index> chosen() const {
+    const int height = front_.normal.height;
+    std::vector<std::vector<Index>> rows(static_cast<std::size_t>(height));
+    parallel_for(
+        rows.size(),
+        [&](std::size_t r) {
+          const int y = static_cast<int>(r);
+          for (int x = 0; x < front_.normal.width; ++x)
+            if (is_chosen(x, y)) rows[r].push_back(static_cast<Index>(front_.normal.index(x, y)));
+        },
+        16);
+    std::vector<Index> all;
+    for (const auto& row : rows) all.insert(all.end(), row.begin(), row.end());
+    return all;
+  }
+
+ private:
+  // Rows of a step's width are shifted by half a step, so that triangles are about equilateral.
+  bool is_regular(int x, int y) const {
+    if (is_quincunx_) return (x + y) % 2 == 0;
+    return y % step_ == 0 && (x + y / step_ % 2 * (step_ / 2)) % step_ == 0;
+  }
+  bool is_chosen(int x, int y) const {
+    if (front_.is_covered(x, y)) return is_regular(x, y) || ((x + y) % 2 == 0 && front_.is_edge.at(x, y));
+    return is_regular(x, y) && front_.is_behind.at(x, y) && is_far_from_front(x, y);
+  }
+  bool is_far_from_front(int x, int y) const {
+    for (int j = y - hole_reach_; j <= y + hole_reach_; ++j)
+      for (int i = x - hole_reach_; i <= x + hole_reach_; ++i)
+        if (front_.is_covered(i, j)) return false;
+    return true;
+  }
+
+  const FrontCells& front_;
+  int step_ = 1, hole_reach_;
+  bool is_quincunx_ = false;  // every second cell, like the black fields of a chessboard
+};
+
+// Measures the front around the centres of cells, over as many cells as a point of the surface stands for.
+class CellMeasures {
+ public:
+  CellMeasures(const FrontCells& front, int step) : front_(front), step_(step), reach_(step / 2) {}
+
+  // Returns the mean normal of what lies about as deep.
+  Vec3f normal(int x, int y) const {
+    if (!front_.is_covered(x, y)) return Vec3f::UnitZ();
+    const float depth = front_.depth.at(x, y), most = 6 * static_cast<float>(step_) * front_.cell;
+    Vec3f sum = Vec3f::Zero();
+    for (int j = y - reach_; j <= y + reach_; ++j)
+      for (int i = x - reach_; i <= x + reach_; ++i)
+        if (front_.is_covered(i, j) && std::abs(front_.depth.at(i, j) - depth) < most)
+          sum += front_.normal.at(i, j);
+    return sum.normalized();
+  }
+
+  // Returns the mean curvature, which is half the divergence of the normal's x and y in the plane.
+  double curvature(int x, int y) const {
+    const int s = step_;
+    if (!front_.is_covered(x, y) || !front_.is_covered(x + s, y) || !front_.is_covered(x - s, y) ||
+        !front_.is_covered(x, y + s) || !front_.is_covered(x, y - s))
+      return 0;
+    const float sum =
+        normal(x + s, y).x() - normal(x - s, y).x() + normal(x, y + s).y() - normal(x, y - s).y();
+    return static_cast<double>(sum / (4 * static_cast<float>(s) * front_.cell));
+  }
+
+ private:
+  const FrontCells& front_;
+  int step_, reach_;
+};
+
+float lowest_depth(const FrontCells& front) {
+  float lowest = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < front.depth.size(); ++i)
+    if (front.normal[i].z() > 0) lowest = std::min(lowest, front.depth[i]);
+  return lowest;
+}
+
+// Returns a small offset from a cell's centre, in cells. Points in exact rows would be corners of triangles without area on
+// the hull.
+Vec2f offset_in(Index cell) {
+  constexpr float most = .2F;
+  const std::uint32_t x = cell * 2654435761U, y = (x ^ (x >> 15)) * 2246822519U;
+  const auto share = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-23F - 1; };
+  return most * Vec2f(share(x ^ (x >> 16)), share(y ^ (y >> 13)));
+}
+
+// Returns the surface's points with their normals and curvature, in the order of a space-filling curve.
+std::vector<double> put_points(const FrontCells& front, const CellChoice& choice, Surface& surface) {
+  const int width = front.normal.width;
+  const auto column = [&](Index cell) { return static_cast<int>(cell) % width; };
+  const auto row = [&](Index cell) { return static_cast<int>(cell) / width; };
+  std::vector<Index> cells = choice.chosen();
+  std::vector<Vec2> places(cells.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    places[i] =
+        (front.centre(column(cells[i]), row(cells[i])) + front.cell * offset_in(cells[i])).cast<double>();
+  const std::vector<Index> order = hilbert_order(places);
+  cells = pick(cells, order);
+  places = pick(places, order);
+  const CellMeasures measures(front, choice.reach());
+  const float lowest = lowest_depth(front);
+  surface.points.resize(cells.size());
+  surface.normals.resize(cells.size());
+  std::vector<double> k(cells.size());
+  parallel_for(
+      cells.size(),
+      [&](std::size_t i) {
+        const int x = column(cells[i]), y = row(cells[i]);
+        surface.points[i] << places[i],
+            static_cast<double>(front.is_covered(x, y) ? front.depth.at(x, y) : lowest);
+        surface.normals[i] = measures.normal(x, y);
+        k[i] = measures.curvature(x, y);
+      },
+      1024);
+  return k;
+}
+
+// A triangle is inside where the front covers its middle and the middles of its sides, or most of them.
+Boundary boundary_of(const FrontCells& front, std::span<const Vec2> points, const Triangulation& mesh) {
+  const auto is_covered = [&](const Vec2& p) {
+    const Vec2f at = (p.cast<float>() - front.corner) / front.cell;
+    return front.is_covered(static_cast<int>(at.x()), static_cast<int>(at.y()));
+  };
+  Boundary boundary;
+  boundary.is_inside.resize(mesh.triangles.size());
+  parallel_for(mesh.triangles.size(), [&](std::size_t t) {
+    const Vec2 a = points[mesh.triangles[t][0]], b = points[mesh.triangles[t][1]],
+               c = points[mesh.triangles[t][2]];
+    boundary.is_inside[t] = is_covered((a + b + c) / 3) + is_covered((a + b) / 2) + is_covered((b + c) / 2) +
+                                is_covered((c + a) / 2) >=
+                            3;
+  });
+  boundary.is_boundary = boundary_points(points.size(), mesh, boundary.is_inside);
+  boundary.distance = distances_to(points, boundary.is_boundary);
+  return boundary;
+}
+
+std::vector<FrontPoint> facing(std::vector<FrontPoint> points, const View& view) {
+  const Vec3f to_viewer = view.R_view_model.row(2).transpose().cast<float>();
+  parallel_for(points.size(), [&](std::size_t i) {
+    if (points[i].normal.dot(to_viewer) < 0) points[i].normal = -points[i].normal;
+  });
+  return points;
+}
+
+}  // namespace
+
+TurningScan::TurningScan(const MeasuredCloud& measured)
+    : do_normals_face_viewer(measured.has_estimated_normals()),
+      centre(measured.centre()),
+      rho(measured.spacing().rho),
+      diagonal(measured.diagonal()) {
+  const Cloud& cloud = measured.cloud();
+  const std::size_t stride = (cloud.size() + most_drawn - 1) / most_drawn;
+  const float sign = measured.do_normals_point_inward() ? -1.F : 1.F;
+  const double sparser = std::sqrt(static_cast<double>(stride));
+  points.resize((cloud.size() + stride - 1) / stride);
+  parallel_for(points.size(), [&](std::size_t i) {
+    const std::size_t from = i * stride;
+    const double local = std::clamp(static_cast<double>(measured.spacing().local[from]), least_spacing * rho,
+                                    largest_spacing * rho);
+    points[i] = {cloud.points[from].cast<float>(), sign * cloud.normals[from],
+                 static_cast<float>(local * sparser)};
+  });
+}
+
+Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
+                                     Progress* progress) {
+  TurnedSurface made;
+  if (scan.do_normals_face_viewer)
+    made.front = draw_front(facing(scan.points, view), view, points * cells_per_point);
+  else
+    made.front = draw_front(scan.points, view, points * cells_per_point);
+  RELIEVO_CHECK(check_cancelled(progress));
+  if (!view.has_crumbs)
+    clear_small_pieces(made.front,
+                       static_cast<std::size_t>(crumb_share * static_cast<double>(made.front.covered)));
+  const double hole_radius = largest_hole * scan.rho / static_cast<double>(made.front.cell);
+  fill_small_holes(made.front, static_cast<std::size_t>(std::numbers::pi * hole_radius * hole_radius));
+  mark_edges(made.front);
+  if (made.front.covered < least_cells)
+    return geometry_error("expected points that face the viewer; try another view");
+  Surface& surface = made.surface;
+  const CellChoice choice(made.front, points, static_cast<float>(scan.rho));
+  const std::vector<double> k = put_points(made.front, choice, surface);
+  const std::vector<Vec2> xy = in_plane(surface.points);
+  surface.triangulation = delaunay(xy);
+  if (surface.triangulation.triangles.empty())
+    return geometry_error("expected a view that shows an area; try another view");
+  RELIEVO_CHECK(check_cancelled(progress));
+  surface.boundary = boundary_of(made.front, xy, surface.triangulation);
+  surface.triangulation.neighbours = {};
+  surface.curvature = normalise(k);
+  surface.view = view;
+  surface.centre = scan.centre;
+  surface.rho = choice.spacing() * static_cast<double>(made.front.cell);
+  surface.diagonal = scan.diagonal;
+  surface.input_points = scan.points.size();
+  surface.visible_points = surface.points.size();
+  return made;
+}
+
+}  // namespace relievo

@@ -1,0 +1,33 @@
+// Surfaces of some 20,000 points, for reliefs that follow while the model is turned. Tested by
+// tests/scan/turning_test.cpp.
+#pragma once
+
+#include "relievo/core/progress.h"
+#include "relievo/scan/surface.h"
+#include "scan/turning/front_cells.h"
+
+namespace relievo {
+
+class MeasuredCloud;
+
+// The points of a scan as they are drawn, at most 600,000, evenly taken from larger scans.
+struct TurningScan {
+  explicit TurningScan(const MeasuredCloud& measured);
+
+  std::vector<FrontPoint> points;
+  bool do_normals_face_viewer = false;  // signs are unknown: each normal is turned towards the viewer
+  Vec3 centre = Vec3::Zero();           // see Surface
+  double rho = 0, diagonal = 0;
+};
+
+struct TurnedSurface {
+  Surface surface;   // its points are centres of cells
+  FrontCells front;  // of all points of the scan
+};
+
+// Returns a surface of about `points` points in that view: one in a few cells, and more along silhouettes and depth
+// jumps. Errors: kind geometry if the view shows no area; kind cancelled.
+Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
+                                     Progress* progress = nullptr);
+
+}  // namespace relievo

@@ -1,0 +1,110 @@
+#include "relievo/turning.h"
+
+#include <gtest/gtest.h>
+
+#include "relievo/core/parallel.h"
+#include "relievo/io/read.h"
+#include "relievo/make_relief.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/surface.h"
+#include "scan/measured_cloud.h"
+#include "support/picture_similarity.h"
+#include "support/shapes.h"
+#include "support/shared_scans.h"
+
+namespace relievo {
+namespace {
+
+constexpr double height_mm = 3;
+
+RenderOptions shown_at(double mm_per_unit) {
+  RenderOptions options;
+  options.width = 900;
+  options.height = 700;
+  options.mm_per_unit = mm_per_unit;
+  return options;
+}
+
+// Draws the relief as the studio does.
+Image8 picture_of(const TurnedRelief& relief) {
+  ReliefOptions options;
+  options.height_mm = height_mm;
+  const double mm = mm_per_unit(relief.model->surface(), options);
+  FrameOptions wanted{shape_of(options), height_mm / mm, nullptr};
+  wanted.shape.boundary_width *= relief.spacing_ratio;
+  FrameMaker maker(*relief.model);
+  Frame frame;
+  maker.make(wanted, frame);
+  EXPECT_TRUE(frame.is_height_met);
+  std::vector<float> gains;
+  maker.write_gains(gains);
+  FrameRenderer renderer(relief.model);
+  Picture picture;
+  renderer.render({frame.heights, frame.normals, 1, {}, relief.detail.get(), gains}, shown_at(mm), picture);
+  return std::move(picture.image);
+}
+
+TurnedRelief prepared(const MeasuredCloud& measured, const View& view) {
+  auto model = ReliefModel::prepare(find_surface(measured, view).value()).value();
+  return {std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1};
+}
+
+// The coarse relief takes over the height correction of another view, as it does while a model is turned.
+double similarity(const Cloud& cloud, const char* from, const char* to) {
+  const auto measured = MeasuredCloud::measure(cloud, {}).value();
+  const TurnedRelief before = prepared(*measured, parse_view(from).value());
+  const View view = parse_view(to).value();
+  const TurnedRelief turned = Turntable(*measured).turn(view, before.model.get()).value();
+  return test::structural_similarity(picture_of(turned), picture_of(prepared(*measured, view)));
+}
+
+class TurnedData : public testing::TestWithParam<const char*> {};
+
+TEST_P(TurnedData, LooksLikeTheFullRelief) {
+  const std::string name = std::string(GetParam()) + ".ply";
+  if (!test::has_shared(name)) GTEST_SKIP() << test::missing_scan(name);
+  const Cloud cloud = read_cloud(test::shared_bytes(name), name).value().cloud;
+  EXPECT_GT(similarity(cloud, "0,0,1", "0.5,0.2,1"), .9);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scans, TurnedData,
+                         testing::Values("armadillo", "dragon", "happy_buddha", "horse", "igea", "nefertiti"),
+                         [](const auto& scan) { return std::string(scan.param); });
+
+TEST(Turntable, LooksLikeTheFullRelief) {
+  EXPECT_GT(similarity(test::torus(100'000, 1, .4), "0,0,1", "0.3,1,1"), .9);
+}
+
+// Points that differ by less than half a cell would do as well, but the same call has to give the same relief.
+TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
+  const auto measured = MeasuredCloud::measure(test::torus(30'000, 1, .4), {}).value();
+  const Turntable table(*measured);
+  const View view = parse_view("1,1,1").value();
+  const TurnedRelief all = table.turn(view, nullptr).value();
+  set_thread_count(1);
+  const TurnedRelief one = table.turn(view, nullptr).value();
+  set_thread_count(0);
+  EXPECT_EQ(all.model->surface().points, one.model->surface().points);
+  EXPECT_EQ(picture_of(all).pixels, picture_of(one).pixels);
+}
+
+TEST(Turntable, HasAboutAsManyPointsAsItSays) {
+  for (const std::size_t points : {5'000, 50'000, 400'000}) {
+    const auto measured = MeasuredCloud::measure(test::sphere(points, 1), {}).value();
+    const TurnedRelief relief = Turntable(*measured).turn({}, nullptr).value();
+    const std::size_t made = relief.model->surface().points.size();
+    EXPECT_LT(made, Turntable::points * 7 / 5) << points;
+    EXPECT_GT(2 * made, std::min(points / 2, Turntable::points)) << points;
+  }
+}
+
+TEST(Turntable, ShowsNothingOfWhatFacesAway) {
+  Cloud sheet = test::sheet(20'000, 1, 0, 3);
+  const auto measured = MeasuredCloud::measure(sheet, {}).value();
+  const auto turned = Turntable(*measured).turn(parse_view("back").value(), nullptr);
+  ASSERT_FALSE(turned);
+  EXPECT_EQ(turned.error().kind, ErrorKind::geometry);
+}
+
+}  // namespace
+}  // namespace relievo

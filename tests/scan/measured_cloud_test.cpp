@@ -1,0 +1,53 @@
+#include "scan/measured_cloud.h"
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+std::shared_ptr<const MeasuredCloud> measured(const Cloud& cloud, const View& view = {}) {
+  return MeasuredCloud::measure(cloud, view).value();
+}
+
+// Measures of all views give the surface that a measure of this view alone gives, up to rounding.
+TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
+  const Cloud cloud = test::torus(20'000, 1, .4);
+  const auto once = measured(cloud);
+  for (const char* direction : {"front", "right", "1,2,3"}) {
+    const View view = parse_view(direction).value();
+    const Surface shared = find_surface(*once, view).value(), own = find_surface(cloud, view).value();
+    ASSERT_EQ(shared.points.size(), own.points.size()) << direction;
+    EXPECT_NEAR(shared.rho, own.rho, 1e-9);
+    EXPECT_NEAR(shared.curvature.delta, own.curvature.delta, 1e-6);
+    for (std::size_t i = 0; i < own.points.size(); ++i)
+      ASSERT_LT((shared.points[i] - own.points[i]).norm(), 1e-9) << direction << " " << i;
+  }
+}
+
+TEST(MeasuredCloud, KeepsTheCurvatureOfASphere) {
+  const auto sphere = measured(test::sphere(20'000, 2));
+  const std::vector<Index> some{3, 77, 1500};
+  const std::vector<double> first = sphere->curvature(some, {}, nullptr);
+  for (const double k : first) EXPECT_NEAR(k, .5, .05);
+  EXPECT_EQ(sphere->curvature(some, {}, nullptr), first);
+}
+
+TEST(MeasuredCloud, ServesViewsThatAskForTheSameMeasures) {
+  const auto whole = measured(test::torus(5'000, 1, .4));
+  View view = parse_view("right").value();
+  EXPECT_TRUE(whole->serves(view));
+  view.denoise = .2;
+  EXPECT_FALSE(whole->serves(view));
+  View part;
+  part.crop.most = {.5, .5};
+  EXPECT_FALSE(whole->serves(part));
+  const auto measured_part = measured(test::torus(5'000, 1, .4), part);
+  EXPECT_TRUE(measured_part->serves(part));
+  part.R_view_model = parse_view("right").value().R_view_model;
+  EXPECT_FALSE(measured_part->serves(part));
+}
+
+}  // namespace
+}  // namespace relievo
