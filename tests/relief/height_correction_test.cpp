@@ -1,5 +1,6 @@
 #include "relief/membrane/height_correction.h"
 
+#include <Eigen/LU>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 #include "relief/jump_lift.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <algorithm>
