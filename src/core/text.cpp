@@ -14,7 +14,8 @@ void append(std::string& out, double number) {
 #if defined(__wasm__)
   out.append(digits, static_cast<std::size_t>(std::snprintf(digits, sizeof digits, "%.6g", number)));
 #else
-  out.append(digits, std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6).ptr);
+  out.append(digits,
+             std::to_chars(digits, digits + sizeof digits, number, std::chars_format::general, 6).ptr);
 #endif
 }
 

@@ -53,12 +53,13 @@ void average_lines(const Lines& lines, std::size_t count) {
 SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(points.size()) {
   const Box box = Box::of(points);
   double side = sigma / sigma_in_cells;
-  const auto count = [&](int axis) { return static_cast<std::size_t>(box.size()[axis] / side) + 4; };
+  // Numbers may be beyond those of a size, which has 32 bits in WebAssembly.
+  const auto count = [&](int axis) { return std::floor(box.size()[axis] / side) + 4; };
   const double most =
       std::clamp(most_cells_a_point * static_cast<double>(points.size()), least_cells, most_cells);
-  while (static_cast<double>(count(0)) * static_cast<double>(count(1)) * static_cast<double>(count(2)) > most)
-    side *= 1.1;
-  for (int axis = 0; axis < 3; ++axis) size_[static_cast<std::size_t>(axis)] = count(axis);
+  while (count(0) * count(1) * count(2) > most) side *= 1.1;
+  for (int axis = 0; axis < 3; ++axis)
+    size_[static_cast<std::size_t>(axis)] = static_cast<std::size_t>(count(axis));
   parallel_for(points.size(), [&](std::size_t i) {
     const Vec3 at = (points[i] - box.min) / side + Vec3::Ones();  // a cell of margin for the neighbours
     const Vec3 floor = at.array().floor();

@@ -1,6 +1,7 @@
 #include "relief/membrane/height_correction.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "relief/jump_lift.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>

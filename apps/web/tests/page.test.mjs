@@ -6,17 +6,28 @@ import path from "node:path";
 import {pathToFileURL} from "node:url";
 import {after, before, test} from "node:test";
 import os from "node:os";
-import {admesh, browserNames, eventually, fileAddress, launch, missing, serve, temporaryFolder} from "./support.mjs";
+import {admesh, browserNames, eventually, fileAddress, launch, missing, pageWithLittleMemory, serve, temporaryFolder} from "./support.mjs";
 
 const relievo = await import(pathToFileURL(path.join(process.env.PACKAGE ?? "build/web/npm", "src/index.js")));
 const native = process.env.RELIEVO;
 let scans; // a folder of them
+
+// Returns a scan of so many rows, each of as many points.
+function waves(rows) {
+  const head = `ply\nformat binary_little_endian 1.0\nelement vertex ${rows * rows}\n` +
+    "property float x\nproperty float y\nproperty float z\nend_header\n";
+  const points = new Float32Array(3 * rows * rows);
+  for (let i = 0; i < rows * rows; i++)
+    points.set([i % rows, Math.floor(i / rows), 30 * Math.sin(i % rows / 40)], 3 * i);
+  return Buffer.concat([Buffer.from(head), Buffer.from(points.buffer)]);
+}
 
 before(async () => {
   scans = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-scans-"));
   const shell = await relievo.sample("shell", {points: 20000});
   fs.writeFileSync(path.join(scans, "shell.ply"), shell);
   fs.writeFileSync(path.join(scans, "urn.ply"), await relievo.sample("still_life", {points: 20000}));
+  fs.writeFileSync(path.join(scans, "large.ply"), waves(1500));
   fs.writeFileSync(path.join(scans, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 2\n");
   const models = [{file: "shell.ply"}, {file: "urn.ply", translate: [2.5, 0, 0]}];
   fs.writeFileSync(path.join(scans, "both.json"), JSON.stringify({models}));
@@ -196,6 +207,16 @@ test("a second tab shows what the first one changes", options, async (t) => {
   await second.page.getByText(/height 2\.20 mm/).waitFor();
   await second.setHeight(3.1);
   await studio.page.getByText(/height 3\.10 mm/).waitFor();
+});
+
+test("where the memory is not enough the page says so, and goes on", options, async (t) => {
+  const {studio} = await newStudio(t, "chromium", pageWithLittleMemory(t));
+  await studio.open(scan("large.ply"));
+  await studio.page.getByText(/expected more memory/).first().waitFor();
+  await studio.open(scan("shell.ply"));
+  await studio.untilReady("20,000");
+  await studio.setHeight(2.5);
+  assert.deepEqual(studio.errors, []);
 });
 
 test("where the browser has no room the page says so, and goes on", options, async (t) => {

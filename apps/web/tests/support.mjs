@@ -6,6 +6,7 @@ import {createRequire} from "node:module";
 import os from "node:os";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
+import zlib from "node:zlib";
 
 const tests = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../../studio/tests/");
 export const pageFolder = process.env.PAGE ?? path.resolve("build/web/page");
@@ -58,6 +59,34 @@ export async function serve(t) {
   await new Promise((resolve) => server.listen(0, "127.0.0.1", resolve));
   t.after(() => server.close() && server.closeAllConnections());
   return `http://127.0.0.1:${server.address().port}/relievo.html`;
+}
+
+// Returns the address of a page whose module has 256 MiB of memory at most: its text is no script, so the policy still holds.
+export function pageWithLittleMemory(t) {
+  const page = fs.readFileSync(file, "utf8"), [all, before, packed] = page.match(/(<script id="engine"[^>]*>)([^<]*)/);
+  const module = zlib.gunzipSync(Buffer.from(packed, "base64"));
+  const most = module.indexOf(Buffer.from([0x80, 0x80, 0x04]), memorySection(module)); // 65536 pages of 64 KiB
+  module.set([0x80, 0xa0, 0x00], most); // 4096 pages
+  const place = path.join(temporaryFolder(t), "relievo.html");
+  fs.writeFileSync(place, page.replace(all, () => before + zlib.gzipSync(module).toString("base64")));
+  return pathToFileURL(place).href;
+}
+
+// Returns where the section that describes the memory begins in a module.
+function memorySection(module) {
+  const MEMORY = 5;
+  for (let at = 8; at < module.length;) {
+    const id = module[at++];
+    let size = 0, shift = 0, byte;
+    do {
+      byte = module[at++];
+      size |= (byte & 127) << shift;
+      shift += 7;
+    } while (byte & 128);
+    if (id === MEMORY) return at;
+    at += size;
+  }
+  throw new Error("the module has no memory of its own");
 }
 
 // Calls a function until it returns something, for at most so long.
