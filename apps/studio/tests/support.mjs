@@ -98,8 +98,8 @@ export class EngineProcess {
 export const areKindsDrawn = () => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
   canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0);
 
-// Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets. Waits until
-// the field takes keys: those that a disabled field gets would go to the field before.
+// Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets. Waits
+// until the field takes keys: those that a disabled field gets would go to the field before.
 export async function type(field, text) {
   await field.page().bringToFront(); // Firefox sends keys to no other page
   await eventually(async () => {
