@@ -32,8 +32,7 @@ const PICTURE_MS = 600; // from the fine picture to the small one of the documen
 const doc = new Document((before) => changed(before));
 const placing = new Placing({doc, shownWidth, setWidth: (width) => slide("width", width), say: toast});
 const chooseView = () => engine.chooseView(viewOf(doc.now)).catch(failed);
-const stage = new Stage(engine, doc,
-  {picture: pictured, section: showSection, failed, placing, viewRests: chooseView});
+const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed, placing, viewRests: chooseView});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));

@@ -3,9 +3,10 @@
 
 import {$, clamp, make} from "./controls.js";
 import {engineOptions} from "./document.js";
-import {TABLE_LIGHTS, angles, degrees, direction} from "./lights.js";
+import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
 import {Measure} from "./measure.js";
 import {takePinches} from "./pinch.js";
+import {takeKey} from "./stage_keys.js";
 import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
@@ -261,7 +262,7 @@ export class Stage {
     stage.onpointerup = stage.onpointercancel = () => this.release();
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
-    stage.onkeydown = (event) => this.key(event);
+    stage.onkeydown = (event) => takeKey(this, event);
     takePinches(stage, {begin: () => this.giveUp(), move: (...pinch) => this.pinch(...pinch)});
     new ResizeObserver(() => this.invalidate()).observe(stage);
   }
@@ -379,28 +380,5 @@ export class Stage {
     this.camera = {...camera, zoom, x: camera.x + rest * (x - camera.x), y: camera.y + rest * (y - camera.y)};
     if (zoom <= 1) this.camera = {...this.camera, x: 0, y: 0};
     this.invalidate();
-  }
-
-  key(event) {
-    const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
-    if (event.key === "+" || event.key === "-") {
-      this.camera = {...this.camera, zoom: clamp(this.camera.zoom * (event.key === "+" ? 1.2 : 1 / 1.2), 0.3, 40)};
-      return this.invalidate();
-    }
-    if (!step || event.target !== this.element) return;
-    event.preventDefault();
-    const [x, y] = step, size = event.shiftKey ? 0.2 : 1;
-    if (this.tool === "light") {
-      const {azimuth, elevation} = angles(this.doc.now.light);
-      this.setLight(azimuth - x * 10 * size, elevation + y * 5 * size);
-    }
-    if (this.tool === "model") this.turning.step(x * size, y * size);
-    if (this.tool === "turn") this.turn(x * 5 * size, -y * 5 * size);
-    if (this.tool === "pan") this.shift(x * 20 * size / this.pixelsPerMm, y * 20 * size / this.pixelsPerMm);
-    if (this.tool === "place" && this.on.placing.begin(this.about.size_mm)) this.on.placing.move(x * size, y * size);
-    if (this.tool === "section") {
-      const moved = ([px, py]) => [px + x * size, py + y * size];
-      this.setLine({from: moved(this.line.from), to: moved(this.line.to)});
-    }
   }
 }
