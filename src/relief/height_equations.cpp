@@ -1,7 +1,6 @@
 #include "relief/height_equations.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 
 #include "relief/edge_weight.h"
@@ -54,9 +53,7 @@ class EdgeRows {
 
   // Keeps the terms sorted; those of one edge stay in the order in which they came.
   void insert(const WeightedEdge& term) {
-    auto after = terms_.end();
-    while (after != terms_.begin() && std::prev(after)->to > term.to) --after;
-    terms_.insert(after, term);
+    terms_.insert(std::ranges::upper_bound(terms_, term.to, {}, &WeightedEdge::to), term);
   }
 
   std::span<const Vec2> points_;

@@ -85,7 +85,7 @@ Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const P
 
 namespace {
 
-// What of a model its surface alone decides.
+// The parts of a model that its surface decides, without tuning.
 struct Parts {
   std::vector<PointLayers> layers;
   HeightSystem system;

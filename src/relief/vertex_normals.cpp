@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "geometry/plane.h"
 #include "relief/matrix_rows.h"
@@ -56,9 +55,7 @@ class NormalRows {
 
   // Keeps the terms sorted; those of one point stay in the order in which they came.
   void insert(const Term& term) {
-    auto after = terms_.end();
-    while (after != terms_.begin() && std::prev(after)->other > term.other) --after;
-    terms_.insert(after, term);
+    terms_.insert(std::ranges::upper_bound(terms_, term.other, {}, &Term::other), term);
   }
 
   std::span<const Vec2> points_;

@@ -1,4 +1,4 @@
-// What of a cloud does not depend on the view, measured once and used for every view: order, spacing, normals without
+// Measures of a cloud that do not depend on the view, made once and used for every view: order, spacing, normals without
 // noise, curvature. Tested by tests/scan/measured_cloud_test.cpp.
 #pragma once
 

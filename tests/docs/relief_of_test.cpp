@@ -8,7 +8,7 @@
 #include "relievo/io/write.h"
 #include "relievo/samples/sample.h"
 
-// Of examples/consumer/relief_of.cpp.
+// examples/consumer/relief_of.cpp defines it.
 relievo::Result<std::vector<std::byte>> relief_of(std::span<const std::byte> scan);
 
 namespace {

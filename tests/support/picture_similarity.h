@@ -1,5 +1,6 @@
-// How alike two pictures look: the structural similarity of Wang, Bovik, Sheikh and Simoncelli (2004) of their luminance, with
-// its usual constants, in the mean over what either of them shows in another shade than the plate around it.
+// Computes how alike two pictures look: the structural similarity of Wang, Bovik, Sheikh and Simoncelli (2004) of their
+// luminance, with its usual constants, in the mean over what either of them shows in another shade than the plate around
+// it.
 #pragma once
 
 #include <array>

@@ -45,8 +45,7 @@ struct RenderOptions {
 };
 
 // Normals that a surface of few points leaves out: -(n_x, n_y) on a grid of square cells over the view plane, in rows from
-// below upwards. Where the scan
-// shows nothing, or an edge, it is not a number.
+// below upwards. Where the scan shows nothing, or an edge, it is not a number.
 struct SurfaceDetail {
   Vec2f corner =
       Vec2f::Zero();  // of the first cell, in the units and from the origin of the surface's points
