@@ -22,7 +22,7 @@ class Course {
  public:
   Course(std::vector<Sample> samples, double begin, double end, bool is_closed)
       : begin_(begin), end_(end), is_closed_(is_closed) {
-    std::ranges::sort(samples, {}, &Sample::length);
+    std::ranges::stable_sort(samples, {}, &Sample::length);
     samples_ = std::move(samples);
   }
 
@@ -259,7 +259,7 @@ std::vector<Corner> corners_of(const Course& course, const FairCurveOptions& opt
             corners, [&](const Corner& k) { return apart(c.length, k.length) > 1.5 * options.window; }))
       corners.push_back(c);
   }
-  std::ranges::sort(corners, {}, &Corner::length);
+  std::ranges::stable_sort(corners, {}, &Corner::length);
   return corners;
 }
 
