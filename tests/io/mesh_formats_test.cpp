@@ -1,5 +1,6 @@
 // STL, OFF, glTF and the faces of PLY and OBJ: what is read, and what is said of each broken field.
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
 
 #include "support/format_samples.h"
 #include "support/ply_encoder.h"

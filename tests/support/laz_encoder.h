@@ -1,6 +1,7 @@
 // Writes LAZ files of point formats 0 and 6, independently of the reader's decoder.
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <string>
 #include <vector>
