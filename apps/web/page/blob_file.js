@@ -2,7 +2,8 @@
 
 const PIECE = 4 << 20; // bytes that are read at once
 
-// Returns a file as npm/src/files.js describes. Only workers can read without waiting.
+// Returns a file as npm/src/files.js describes, and throws if the browser does not let it be read. Only workers can read
+// without waiting.
 export function fileOf(blob) {
   const reader = new FileReaderSync();
   let start = 0, piece = new Uint8Array();
@@ -10,6 +11,7 @@ export function fileOf(blob) {
     piece = new Uint8Array(reader.readAsArrayBuffer(blob.slice(offset, offset + PIECE)));
     start = offset;
   };
+  load(0);
   return {
     size: blob.size,
     read(offset, to) {

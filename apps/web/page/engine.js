@@ -2,7 +2,7 @@
 // of apps/studio/page/engine.js, whose place this file takes.
 import {compile} from "../../../npm/src/compile.js";
 import {EngineError, TAB} from "../../studio/page/engine_base.js";
-import {documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
+import {bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
 
 export {EngineError, TAB};
@@ -63,7 +63,17 @@ export class Engine {
     for (const {call, reject} of waiting) reject(["piece", "export"].includes(call) ? error : others);
   }
 
-  async #call(call, request = {}, files = []) {
+  // WebKit lets the worker of a page that was opened from disk read no files: the page reads them as a whole then.
+  async #call(call, request, files = []) {
+    try {
+      return await this.#send(call, request, files);
+    } catch (error) {
+      if (error.kind !== "unreadable") throw error;
+      return this.#send(call, request, await bytesOf(files));
+    }
+  }
+
+  async #send(call, request = {}, files = []) {
     await this.#start();
     const id = ++this.#last;
     return new Promise((resolve, reject) => {

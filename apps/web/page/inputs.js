@@ -30,3 +30,9 @@ export function mainOf(files) {
   const entries = (models.length > 0 ? models : files).map(({name}) => ({file: name}));
   return new File([JSON.stringify({models: entries}, null, 1) + "\n"], "scene.json", {type: "application/json"});
 }
+
+// Returns files, [[path, file], ...], with their bytes in place of what the browser reads them from.
+export function bytesOf(files) {
+  return Promise.all(files.map(async ([path, file]) =>
+    [path, file instanceof Blob ? new Uint8Array(await file.arrayBuffer()) : file]));
+}

@@ -1,6 +1,6 @@
 // Keeps documents and scans in the browser (IndexedDB): documents with their pictures, and the files of scans.
 import {EngineError} from "../../studio/page/engine_base.js";
-import {inputOf, scanOf} from "./inputs.js";
+import {bytesOf, inputOf, scanOf} from "./inputs.js";
 
 const MOST_RECENT = 24; // documents that are kept, with their scans
 
@@ -14,9 +14,11 @@ const ended = (transaction) => new Promise((resolve, reject) => {
   transaction.onabort = () => reject(transaction.error);
 });
 
+const hasNoRoom = (error) => error?.name === "QuotaExceededError";
+
 // What went wrong, for people.
 function reason(error) {
-  if (error?.name === "QuotaExceededError") return "the browser has no room left for this page";
+  if (hasNoRoom(error)) return "the browser has no room left for this page";
   return `the browser does not allow it (${error?.name ?? error})`;
 }
 
@@ -66,7 +68,7 @@ export class BrowserStore {
       this.#memory[name].delete(key);
     } catch (error) {
       this.#memory[name].set(key, changed);
-      throw new EngineError("output", `${reason(error)}.`);
+      throw Object.assign(new EngineError("output", `${reason(error)}.`), {cause: error});
     }
   }
 
@@ -91,9 +93,16 @@ export class BrowserStore {
     return this.#change("documents", id, (kept) => ({...kept, id, touched: Date.now()}));
   }
 
-  // Keeps the files of a scan: {digits, main, files: [[path, blob], ...]}.
-  keepScan(scan) {
-    return this.#change("scans", scan.digits, () => scan);
+  // Keeps the files of a scan: {digits, main, files: [[path, blob], ...]}. Private windows of WebKit keep no blobs, but
+  // their bytes.
+  async keepScan(scan) {
+    const keep = (kept) => this.#change("scans", scan.digits, () => kept);
+    try {
+      await keep(scan);
+    } catch (error) {
+      if (hasNoRoom(error.cause)) throw error;
+      await keep({...scan, files: await bytesOf(scan.files)});
+    }
   }
 
   scan(digits) {

@@ -25,9 +25,17 @@ function bodyOf({ type }, bytes) {
   return JSON.parse(new TextDecoder().decode(bytes));
 }
 
+function addFiles(files) {
+  try {
+    for (const [path, file] of files) engine.addFile(path, file instanceof Blob ? fileOf(file) : file);
+  } catch {
+    throw Object.assign(new Error("expected a file that can be read"), { kind: "unreadable" });
+  }
+}
+
 function answer({ id, call, request, files = [] }) {
   try {
-    for (const [path, blob] of files) engine.addFile(path, fileOf(blob));
+    addFiles(files);
     const { json: { about, status = 200, ...json }, bytes } = engine.call(call, request);
     const body = json.type ? bodyOf(json, bytes) : bytes.length > 0 ? bytes : json;
     postMessage({ id, status, type: json.type, about, body }, body.buffer ? [body.buffer] : []);

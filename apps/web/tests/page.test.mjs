@@ -7,6 +7,7 @@ import {pathToFileURL} from "node:url";
 import {after, before, test} from "node:test";
 import os from "node:os";
 import {admesh, browserNames, eventually, fileAddress, launch, missing, pageWithLittleMemory, serve, temporaryFolder} from "./support.mjs";
+import {missingWebKit, WebKitPage} from "./webkit.mjs";
 
 const relievo = await import(pathToFileURL(path.join(process.env.PACKAGE ?? "build/web/npm", "src/index.js")));
 const native = process.env.RELIEVO;
@@ -34,6 +35,17 @@ before(async () => {
 });
 after(() => fs.rmSync(scans, {recursive: true, force: true}));
 const scan = (name) => path.join(scans, name);
+
+// Waits for a file that grows until it is whole, and returns its place.
+function downloaded(folder, name) {
+  const place = path.join(folder, name);
+  let size = 0;
+  return eventually(() => {
+    const before = size;
+    size = fs.existsSync(place) && !fs.existsSync(`${place}.part`) ? fs.statSync(place).size : 0;
+    return size > 0 && size === before && place;
+  });
+}
 
 // The page in a browser, as somebody uses it.
 class Studio {
@@ -82,12 +94,7 @@ class Studio {
       return place;
     }
     await trigger();
-    let size = 0; // the file grows until it is whole
-    return eventually(() => {
-      const before = size;
-      size = fs.existsSync(place) && !fs.existsSync(`${place}.part`) ? fs.statSync(place).size : 0;
-      return size > 0 && size === before && place;
-    });
+    return downloaded(this.downloads, name);
   }
 
   async exported(name) {
@@ -139,6 +146,26 @@ for (const name of browserNames)
       assert.equal(Number(await studio.height.inputValue()), 2.5);
       assert.deepEqual(studio.errors, []);
     });
+
+for (const place of ["from disk", "from a server"])
+  test(`WebKit, ${place}: from a scan to a solid`, {skip: missingWebKit()}, async (t) => {
+    const CONTROL_A = "\uE009a\uE000", ENTER = "\uE007"; // as WebDriver writes keys
+    const folder = temporaryFolder(t), address = place === "from disk" ? fileAddress : await serve(t);
+    const page = await WebKitPage.open(t, address, folder);
+    await page.untilThereIs("#samples button");
+    await page.type("#file", scan("shell.ply"));
+    await page.untilSaid("20,000 points.*height");
+    for (const keys of [CONTROL_A, "2.5", ENTER]) await page.type('[aria-label="Height in mm"]', keys);
+    await page.untilSaid("height 2\\.50 mm");
+    await page.click("#export");
+    await page.untilSaid("triangles");
+    await page.click("#export-go");
+    const solid = admesh(await downloaded(folder, "shell.stl"));
+    assert.ok(Math.abs(solid.height - 5.5) < 1e-5, `${solid.height} mm`);
+    assert.deepEqual([solid.parts, solid.repairs], [1, 0]);
+    await page.reload();
+    await page.untilSaid("20,000 points.*height 2\\.50 mm");
+  });
 
 const options = {skip: missing("chromium")};
 

@@ -1,0 +1,74 @@
+// WebKit by WebDriver: Debian's webkit2gtk-driver with its MiniBrowser on a display of Xvfb, as no driver of npm has it.
+import {spawn} from "node:child_process";
+import fs from "node:fs";
+import path from "node:path";
+import {eventually} from "./support.mjs";
+
+const BROWSER = "/usr/lib/x86_64-linux-gnu/webkit2gtk-4.1/MiniBrowser";
+const ELEMENT = "element-6066-11e4-a52e-4f735466cecf"; // as WebDriver names it
+
+// Returns why WebKit's test cannot run; false if it can.
+export function missingWebKit() {
+  const lacks = ["/usr/bin/xvfb-run", "/usr/bin/WebKitWebDriver", BROWSER].find((file) => !fs.existsSync(file));
+  return lacks ? `SKIPPED: ${lacks} is not there: run scripts/prepare --web` : false;
+}
+
+// A page in WebKit.
+export class WebKitPage {
+  // Opens an address; what is downloaded goes into the folder.
+  static async open(t, address, folder) {
+    const port = 20000 + process.pid % 20000;
+    const driver = spawn("xvfb-run", ["-a", "WebKitWebDriver", `--port=${port}`], {
+      env: {...process.env, HOME: folder, XDG_CONFIG_HOME: folder}, stdio: "ignore", detached: true,
+    });
+    const page = new WebKitPage();
+    t.after(async () => {
+      await page.#command("DELETE", "").catch(() => {}); // without a session when it did not begin
+      process.kill(-driver.pid);
+    });
+    page.address = `http://127.0.0.1:${port}`;
+    await eventually(() => page.#command("GET", "/status").catch(() => null));
+    const capabilities = {alwaysMatch: {"webkitgtk:browserOptions": {binary: BROWSER, args: ["--automation"]}}};
+    const {sessionId} = await page.#command("POST", "/session", {capabilities});
+    page.address += `/session/${sessionId}`;
+    await page.#command("POST", "/window/rect", {width: 1280, height: 900});
+    await page.#command("POST", "/url", {url: address});
+    return page;
+  }
+
+  async #command(method, place, body) {
+    const response = await fetch(this.address + place, {method, body: body && JSON.stringify(body)});
+    const {value} = await response.json();
+    if (value?.error) throw new Error(`${method} ${place}: ${value.error}: ${value.message}`);
+    return value;
+  }
+
+  async #element(selector) {
+    return (await this.#command("POST", "/element", {using: "css selector", value: selector}))[ELEMENT];
+  }
+
+  run(script, ...args) {
+    return this.#command("POST", "/execute/sync", {script, args});
+  }
+
+  // Types into a field, or gives the places of files to one that takes them.
+  async type(selector, text) {
+    await this.#command("POST", `/element/${await this.#element(selector)}/value`, {text});
+  }
+
+  reload() {
+    return this.#command("POST", "/refresh", {});
+  }
+
+  async click(selector) {
+    await this.#command("POST", `/element/${await this.#element(selector)}/click`, {});
+  }
+
+  untilThereIs(selector) {
+    return eventually(() => this.run("return document.querySelector(arguments[0]) !== null", selector), 120);
+  }
+
+  untilSaid(pattern) {
+    return eventually(() => this.run("return new RegExp(arguments[0]).test(document.body.innerText)", pattern), 120);
+  }
+}
