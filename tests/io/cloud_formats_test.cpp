@@ -58,6 +58,16 @@ TEST(Pcd, CommasMaySeparateNumbers) {
   EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{289814.25, 4320978.5, 170}, {1, 2, 3}}));
 }
 
+TEST(Pcd, PointsOfMoreThanAMegabyteAreRefused) {
+  const std::string text =
+      "VERSION 0.7\nFIELDS x y z more\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 1048565\nWIDTH 1\nHEIGHT 1\n"
+      "POINTS 1\nDATA binary\n";
+  EXPECT_TRUE(
+      message_of(text, "a.pcd").ends_with(": expected at most 1048576 bytes per point, found 1048577"));
+  const std::string widest = replaced(text, "1048565", "1048564") + std::string(1 << 20, '\0');
+  EXPECT_EQ(message_of(widest, "a.pcd"), "no error");
+}
+
 TEST(Pcd, CopiesOfLzfMayOverlapThemselves) {
   const std::string head =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 10\nPOINTS 10\nDATA binary_compressed\n";
