@@ -60,11 +60,12 @@ TEST(Pcd, CommasMaySeparateNumbers) {
 
 TEST(Pcd, PointsOfMoreThanAMegabyteAreRefused) {
   const std::string text =
-      "VERSION 0.7\nFIELDS x y z more\nSIZE 4 4 4 1\nTYPE F F F U\nCOUNT 1 1 1 1048565\nWIDTH 1\nHEIGHT 1\n"
+      "VERSION 0.7\nFIELDS x y z a b\nSIZE 4 4 4 8 8\nTYPE F F F F F\nCOUNT 1 1 1 65536 65536\nWIDTH "
+      "1\nHEIGHT 1\n"
       "POINTS 1\nDATA binary\n";
   EXPECT_TRUE(
-      message_of(text, "a.pcd").ends_with(": expected at most 1048576 bytes per point, found 1048577"));
-  const std::string widest = replaced(text, "1048565", "1048564") + std::string(1 << 20, '\0');
+      message_of(text, "a.pcd").ends_with(": expected at most 1048576 bytes per point, found 1048588"));
+  const std::string widest = replaced(text, "65536\n", "65534\n") + std::string(1 << 20, '\0');
   EXPECT_EQ(message_of(widest, "a.pcd"), "no error");
 }
 
