@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <new>
 #include <list>
+#include <new>
 
 #include "common/files.h"
 #include "common/temporary_file.h"
