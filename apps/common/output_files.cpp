@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <list>
+#include <new>
 
 #include "common/files.h"
 #include "common/temporary_file.h"
@@ -24,8 +25,11 @@ bool is_same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   if (std::filesystem::equivalent(a, b, ignored)) return true;
   const auto full = [](const std::string& path) {
-    std::error_code none;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(path, none), none);
+    std::error_code failed;
+    const std::filesystem::path absolute = std::filesystem::absolute(path, failed),
+                                canonical = std::filesystem::weakly_canonical(absolute, failed);
+    if (failed == std::errc::not_enough_memory) throw std::bad_alloc();  // as operator new does
+    return failed ? absolute : canonical;
   };
   return full(a) == full(b);
 }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <system_error>
 #include <thread>
 
 namespace relievo {
@@ -68,9 +69,13 @@ class Pool {
  private:
   Pool() { start(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1); }
 
+  // Where the system gives no more threads, those that there are do the work: results are the same.
   void start(int workers) {
     is_stopping_ = false;
-    for (int i = 0; i < workers; ++i) workers_.emplace_back([this, seen = generation_] { loop(seen); });
+    try {
+      for (int i = 0; i < workers; ++i) workers_.emplace_back([this, seen = generation_] { loop(seen); });
+    } catch (const std::system_error&) {
+    }
   }
 
   void stop() {

@@ -2,11 +2,16 @@
 // Tested by tests/scan/spacing_test.cpp and tests/scan/boundary_test.cpp.
 #pragma once
 
+#include <cstdio>
 #include <memory>
-#include <nanoflann.hpp>
 #include <span>
 #include <utility>
 #include <vector>
+
+// nanoflann prints a line of its own before it throws std::bad_alloc, but the library prints nothing.
+#define fprintf(...) static_cast<void>(0)
+#include <nanoflann.hpp>
+#undef fprintf
 
 #include "relievo/core/types.h"
 

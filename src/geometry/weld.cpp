@@ -1,20 +1,58 @@
 #include "geometry/weld.h"
 
-#include <algorithm>
-#include <numeric>
-#include <tuple>
+#include <bit>
+#include <utility>
 
 namespace relievo {
+namespace {
+
+using detail::bits_of;
+
+bool coincide(const Vec3& p, const Vec3& q) {
+  return bits_of(p.x()) == bits_of(q.x()) && bits_of(p.y()) == bits_of(q.y()) &&
+         bits_of(p.z()) == bits_of(q.z());
+}
+
+}  // namespace
+
+PointTable::PointTable(std::size_t expected) {
+  make_slots(std::bit_ceil(2 * expected + 16));
+}
+
+void PointTable::make_slots(std::size_t count) {
+  slots_.assign(count, Slot{0, no_index});
+  shift_ = 64 - std::countr_zero(count);
+}
+
+Index PointTable::find_or_add(const Vec3& point, std::uint64_t hash, const Vec3* points, Index next) {
+  const auto check = static_cast<std::uint32_t>(hash);
+  std::size_t at = hash >> shift_;
+  for (; slots_[at].number != no_index; at = (at + 1) & (slots_.size() - 1))
+    if (slots_[at].check == check && coincide(points[slots_[at].number], point)) return slots_[at].number;
+  slots_[at] = {check, next};
+  if (2 * ++used_ > slots_.size()) grow(points);
+  return next;
+}
+
+void PointTable::grow(const Vec3* points) {
+  const std::vector<Slot> former = std::exchange(slots_, {});
+  make_slots(2 * former.size());
+  for (const Slot& slot : former) {
+    if (slot.number == no_index) continue;
+    std::size_t at = hash_of(points[slot.number]) >> shift_;
+    while (slots_[at].number != no_index) at = (at + 1) & (slots_.size() - 1);
+    slots_[at] = slot;
+  }
+}
 
 std::vector<Index> first_coincident(std::span<const Vec3> points) {
-  std::vector<Index> order(points.size()), first(points.size());
-  std::iota(order.begin(), order.end(), Index{0});
-  const auto key = [&](Index i) { return std::tuple(points[i].x(), points[i].y(), points[i].z(), i); };
-  std::ranges::sort(order, [&](Index a, Index b) { return key(a) < key(b); });
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const bool is_coincident = k > 0 && points[order[k]] == points[order[k - 1]];
-    first[order[k]] = is_coincident ? first[order[k - 1]] : order[k];
-  }
+  PointTable table(points.size());
+  std::vector<Index> first(points.size());
+  for_each_hashed(
+      table, points.size(), [&](std::size_t i) -> const Vec3& { return points[i]; },
+      [&](std::size_t i, std::uint64_t hash) {
+        first[i] = table.find_or_add(points[i], hash, points.data(), static_cast<Index>(i));
+      });
   return first;
 }
 

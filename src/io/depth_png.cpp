@@ -44,9 +44,8 @@ void take(png_structp png, png_bytep to, png_size_t size) {
 bool read_header(png_structp png, png_infop info, Job& job) {
   if (setjmp(png_jmpbuf(png))) return false;
   png_set_read_fn(png, &job, take);
-  // libpng allocates what a chunk's length promises before it reads the chunk: texts and profiles are
-  // skipped, and the limit is for the others. A palette needs less than 1 kB.
-  png_set_chunk_malloc_max(png, 8 << 20);
+  // libpng allocates what a chunk's length promises before it reads the chunk: all are skipped that are not needed. A
+  // palette and its transparency have places of fixed size.
   png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   png_read_info(png, info);
   png_set_expand(png);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "geometry/weld.h"
 #include "io/polygon.h"
 #include "relievo/core/text.h"
 
@@ -77,25 +76,6 @@ Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles) {
   for (const auto& [a, b, c] : mesh.triangles)
     mesh.corner_normals.push_back({cloud.normals[a], cloud.normals[b], cloud.normals[c]});
   return mesh;
-}
-
-void weld(Mesh& mesh) {
-  const std::vector<Index> place = first_coincident(mesh.points);
-  std::vector<Index> number(place.size());
-  Index used = 0;
-  for (Index i = 0; i < place.size(); ++i) {
-    if (place[i] == i) {
-      mesh.points[used] = mesh.points[i];
-      number[i] = used++;
-    } else {
-      number[i] = number[place[i]];
-    }
-  }
-  mesh.points.resize(used);
-  std::vector<Triangle> kept;
-  kept.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles) add_triangle(number[a], number[b], number[c], kept);
-  mesh.triangles = std::move(kept);
 }
 
 }  // namespace relievo::io

@@ -25,7 +25,4 @@ std::string expected_corners(std::span<const std::int64_t> corners, std::span<co
 // finite. The cloud's normals, if any, become the corners' normals.
 Mesh mesh_over(const Cloud& cloud, std::vector<Triangle> triangles);
 
-// Merges coincident points, so that triangles that were given corner by corner become connected.
-void weld(Mesh& mesh);
-
 }  // namespace relievo::io

@@ -1,6 +1,7 @@
 // STL, binary and ascii: single triangles, of which coincident corners are merged.
 #include <algorithm>
 
+#include "geometry/weld.h"
 #include "io/faces.h"
 #include "io/formats.h"
 #include "io/numbers.h"
@@ -22,19 +23,47 @@ bool is_binary(const Source& source) {
   return bytes.size() == header_size + promised * triangle_size || has_control_bytes(bytes);
 }
 
-RawCloud as_raw(Mesh mesh, std::string format) {
-  weld(mesh);
-  std::vector<Triangle> triangles = std::move(mesh.triangles);
-  RawCloud raw{Cloud{std::move(mesh.points), {}}, std::move(format)};
-  raw.mesh = mesh_over(raw.cloud, std::move(triangles));
-  return raw;
-}
+// Collects the corners of single triangles, and merges those that coincide.
+class Corners {
+ public:
+  explicit Corners(std::size_t triangles)
+      : table_(triangles / 2 + 3) {  // a closed mesh has about that many vertices
+    points_.reserve(triangles / 2 + 3);
+    triangles_.reserve(triangles);
+  }
 
-void add_corner(Mesh& mesh, const Vec3& corner) {
-  const auto i = static_cast<Index>(mesh.points.size());
-  mesh.points.push_back(corner);
-  if (i % 3 == 2) mesh.triangles.push_back({i - 2, i - 1, i});
-}
+  // Adds the corners corner(0), ..., corner(n - 1).
+  template <typename Corner>
+  void add(std::size_t n, const Corner& corner) {
+    for_each_hashed(table_, n, corner, [&](std::size_t i, std::uint64_t hash) {
+      const auto next = static_cast<Index>(points_.size());
+      points_.push_back(corner(i));
+      const Index number = table_.find_or_add(points_.back(), hash, points_.data(), next);
+      if (number != next) points_.pop_back();
+      open_[count_++ % 3] = number;
+      if (count_ % 3 == 0) end_triangle();
+    });
+  }
+
+  std::size_t count() const { return count_; }
+
+  RawCloud take(std::string format) {
+    RawCloud raw{Cloud{std::move(points_), {}}, std::move(format)};
+    raw.mesh = mesh_over(raw.cloud, std::move(triangles_));
+    return raw;
+  }
+
+ private:
+  void end_triangle() {
+    if (open_[0] != open_[1] && open_[1] != open_[2] && open_[2] != open_[0]) triangles_.push_back(open_);
+  }
+
+  PointTable table_;
+  std::vector<Vec3> points_;
+  std::vector<Triangle> triangles_;
+  Triangle open_{};
+  std::size_t count_ = 0;
+};
 
 Result<RawCloud> read_binary(const Source& source) {
   if (source.bytes.size() < header_size)
@@ -46,15 +75,13 @@ Result<RawCloud> read_binary(const Source& source) {
     return source.error_at_byte(80, "expected the number of triangles, found " + std::to_string(promised) +
                                         ", and there is room for " + std::to_string(room));
   if (promised == 0) return source.error_at_byte(80, "expected at least one triangle, found 0");
-  Mesh mesh;
-  mesh.points.reserve(3 * promised);
-  mesh.triangles.reserve(promised);
-  for (std::size_t t = 0; t < promised; ++t) {
-    const char* at = source.bytes.data() + header_size + t * triangle_size + 12;
-    for (int corner = 0; corner < 3; ++corner, at += 12)
-      add_corner(mesh, Vec3(little<float>(at), little<float>(at + 4), little<float>(at + 8)));
-  }
-  return as_raw(std::move(mesh), "STL binary");
+  Corners corners(promised);
+  const char* first = source.bytes.data() + header_size + 12;
+  corners.add(3 * promised, [&](std::size_t i) {
+    const char* at = first + i / 3 * triangle_size + i % 3 * 12;
+    return Vec3(little<float>(at), little<float>(at + 4), little<float>(at + 8));
+  });
+  return corners.take("STL binary");
 }
 
 class AsciiReader {
@@ -72,12 +99,12 @@ class AsciiReader {
       if (equals_ignoring_case(keyword, "endsolid")) has_end_ = true;
       if (!taken) return std::unexpected(taken.error());
     }
-    if (!has_end_ || mesh_.points.size() % 3 != 0)
+    if (!has_end_ || corners_.count() % 3 != 0)
       return source_.error_in_line(lines_.number() + 1, "expected endsolid, found the end of the file");
-    if (mesh_.triangles.empty())
+    if (corners_.count() == 0)
       return source_.error_in_line(lines_.number(),
                                    "expected at least one facet with three vertices, found none");
-    return as_raw(std::move(mesh_), "STL ascii");
+    return corners_.take("STL ascii");
   }
 
  private:
@@ -89,13 +116,13 @@ class AsciiReader {
       if (!number) return fail("expected 3 numbers after vertex, found " + in_quotes(word));
       value = *number;
     }
-    add_corner(mesh_, corner);
+    corners_.add(1, [&](std::size_t) { return corner; });
     return {};
   }
 
   Result<void> end_facet() const {
-    if (mesh_.points.size() % 3 == 0) return {};
-    return fail(cat("expected 3 vertices in the facet, found ", mesh_.points.size() % 3));
+    if (corners_.count() % 3 == 0) return {};
+    return fail(cat("expected 3 vertices in the facet, found ", corners_.count() % 3));
   }
 
   Result<void> fail(std::string expected) const {
@@ -104,7 +131,7 @@ class AsciiReader {
 
   const Source& source_;
   Lines lines_;
-  Mesh mesh_;
+  Corners corners_{0};
   bool has_end_ = false;
 };
 

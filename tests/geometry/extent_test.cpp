@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <random>
 
 #include "geometry/space_curve.h"
 #include "geometry/weld.h"
@@ -25,6 +27,39 @@ TEST(Weld, FindsTheFirstOfCoincidentPoints) {
   const std::vector<Vec3> points{{1, 2, 3}, {0, 0, 0}, {1, 2, 3}, {1, 2, 4}, {0, 0, 0}, {1, 2, 3}};
   EXPECT_EQ(first_coincident(points), (std::vector<Index>{0, 1, 0, 3, 1, 0}));
   EXPECT_TRUE(first_coincident({}).empty());
+}
+
+// Points of a coarse lattice, of which many coincide; those on an axis have 0 or -0.
+std::vector<Vec3> lattice_points(std::size_t n) {
+  std::mt19937 random(5);
+  std::vector<Vec3> points(n);
+  for (Vec3& p : points)
+    for (double& value : p) value = (random() % 2 ? 1 : -1) * .25 * static_cast<double>(random() % 11);
+  return points;
+}
+
+TEST(Weld, FindsTheSameAsTheComparisonOfAllPairs) {
+  const std::vector<Vec3> points = lattice_points(3000);
+  const std::vector<Index> first = first_coincident(points);
+  for (Index i = 0; i < points.size(); ++i)
+    ASSERT_EQ(first[i], std::ranges::find(points, points[i]) - points.begin()) << i;
+}
+
+TEST(Weld, TreatsZeroAndMinusZeroAlike) {
+  EXPECT_EQ(first_coincident(std::vector<Vec3>{{0, 1, -0.0}, {-0.0, 1, 0}}), (std::vector<Index>{0, 0}));
+}
+
+TEST(Weld, EndsWithManyEqualPointsThatAreNotNumbers) {
+  const std::vector<Vec3> points(100000, Vec3::Constant(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_EQ(first_coincident(points), std::vector<Index>(points.size(), 0));
+}
+
+TEST(Weld, TableGrowsBeyondWhatWasExpected) {
+  const std::vector<Vec3> points = lattice_points(3000);
+  const std::vector<Index> first = first_coincident(points);
+  PointTable table(0);
+  for (Index i = 0; i < points.size(); ++i)
+    ASSERT_EQ(table.find_or_add(points[i], PointTable::hash_of(points[i]), points.data(), i), first[i]) << i;
 }
 
 std::vector<Vec3> ordered(const std::vector<Vec3>& points) {

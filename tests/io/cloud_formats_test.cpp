@@ -58,6 +58,17 @@ TEST(Pcd, CommasMaySeparateNumbers) {
   EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{289814.25, 4320978.5, 170}, {1, 2, 3}}));
 }
 
+TEST(Pcd, PointsOfMoreThanAMegabyteAreRefused) {
+  const std::string text =
+      "VERSION 0.7\nFIELDS x y z a b\nSIZE 4 4 4 8 8\nTYPE F F F F F\nCOUNT 1 1 1 65536 65536\nWIDTH "
+      "1\nHEIGHT 1\n"
+      "POINTS 1\nDATA binary\n";
+  EXPECT_TRUE(
+      message_of(text, "a.pcd").ends_with(": expected at most 1048576 bytes per point, found 1048588"));
+  const std::string widest = replaced(text, "65536\n", "65534\n") + std::string(1 << 20, '\0');
+  EXPECT_EQ(message_of(widest, "a.pcd"), "no error");
+}
+
 TEST(Pcd, CopiesOfLzfMayOverlapThemselves) {
   const std::string head =
       "VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 10\nPOINTS 10\nDATA binary_compressed\n";
@@ -171,6 +182,9 @@ TEST(Las, BrokenFieldsAreNamed) {
        {patched(newer, 247, ~std::uint64_t{0}),
         ", byte 247: expected fewer than 4294967295 points, found 18446744073709551615"},
        {patched(good, 131, 0.0), ", byte 131: expected a scale that is finite and not 0, found 0"},
+       {patched(good, 139, std::numeric_limits<double>::infinity()),
+        ", byte 139: expected a scale that is finite and not 0, found inf"},
+       {newer.substr(0, 375), ", byte 375: expected 2 points of 36 bytes, found room for 0"},
        {patched(good, 163, std::numeric_limits<double>::quiet_NaN()),
         ", byte 163: expected a finite offset, found nan"},
        {good.substr(0, 227 + 25), ", byte 227: expected 2 points of 26 bytes, found room for 0"},

@@ -210,6 +210,47 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
   EXPECT_EQ(message({64, 6}), numbers + "64-bit complex numbers");
 }
 
+// A picture of 40 x 24 numbers of 16 bits in 3 x 2 tiles of 16 x 16, of which those at its sides are cut. The number in
+// column x and row y is 100 y + x; beyond the sides stands 7.
+std::string tiled_tiff(std::uint32_t tile_width) {
+  constexpr std::uint32_t columns = 40, rows = 24, side = 16, tiles = 6, tile_bytes = 2 * side * side;
+  const std::uint32_t data = 8 + 2 + 11 * 12 + 4;
+  const TiffField fields[] = {{256, 4, 1, columns},    {257, 4, 1, rows},
+                              {258, 3, 1, 16},         {259, 3, 1, 1},
+                              {262, 3, 1, 1},          {277, 3, 1, 1},
+                              {322, 4, 1, tile_width}, {323, 4, 1, side},
+                              {324, 4, tiles, data},   {325, 4, tiles, data + 4 * tiles},
+                              {339, 3, 1, 1}};
+  std::string file = std::string("II*\0", 4) + raw(std::uint32_t{8}) + raw(std::uint16_t{11});
+  for (const TiffField& f : fields) file += raw(f.tag) + raw(f.type) + raw(f.count) + raw(f.value);
+  file += raw(std::uint32_t{0});
+  for (std::uint32_t t = 0; t < tiles; ++t) file += raw(data + 8 * tiles + t * tile_bytes);
+  for (std::uint32_t t = 0; t < tiles; ++t) file += raw(tile_bytes);
+  for (std::uint32_t t = 0; t < tiles; ++t)
+    for (std::uint32_t i = 0; i < side * side; ++i) {
+      const std::uint32_t x = t % 3 * side + i % side, y = t / 3 * side + i / side;
+      file += raw(static_cast<std::uint16_t>(x < columns && y < rows ? 100 * y + x : 7));
+    }
+  return file;
+}
+
+TEST(DepthTiff, ReadsTiles) {
+  const std::string file = tiled_tiff(16);
+  const auto image = read_depth_image(std::as_bytes(std::span(file)), "d.tif");
+  ASSERT_TRUE(image) << image.error().message();
+  for (int y = 0; y < 24; ++y)
+    for (int x = 0; x < 40; ++x)
+      ASSERT_EQ(image->values.at(x, y), static_cast<float>(100 * y + x)) << x << ", " << y;
+}
+
+TEST(DepthTiff, RefusesTilesWithoutWidth) {
+  const std::string file = tiled_tiff(0);
+  const auto image = read_depth_image(std::as_bytes(std::span(file)), "d.tif");
+  ASSERT_FALSE(image);
+  EXPECT_TRUE(image.error().message().starts_with("d.tif: expected the data of a TIFF picture"))
+      << image.error().message();
+}
+
 TEST(DepthTiff, SaysWhatLibtiffSays) {
   const std::string whole = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
   for (const std::size_t size : {std::size_t{60}, whole.size() - 10}) {

@@ -97,6 +97,25 @@ TEST(E57, ScansAreMovedByTheirPoses) {
   EXPECT_EQ(file->cloud.normals[1], Vec3f(1, 0, 0));
 }
 
+// Of a quarter turn about x, only two parts are given, and no translation.
+TEST(E57, MissingPartsOfAPoseAreZero) {
+  const auto file =
+      read(e57({scan_of({1}, {2}, {3}, "<pose><rotation><w>2</w><x>2</x></rotation></pose>")}), "a");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_LT((file->cloud.points[0] - Vec3(1, -3, 2)).norm(), 1e-14);
+}
+
+TEST(E57, ColoursOfFractionsAreScaledByTheirLimits) {
+  E57TestScan scan = scan_of({0, 1}, {0, 1}, {0, 1},
+                             "<colorLimits><colorRedMinimum>100</colorRedMinimum>"
+                             "<colorRedMaximum>300</colorRedMaximum></colorLimits>");
+  for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
+    scan.columns.push_back(e57_doubles(name, {name[5] == 'R' ? 150. : .2, name[5] == 'R' ? 300. : .8}));
+  const auto file = read(e57({scan}), "a");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{64, 51, 51}, {255, 204, 204}}));
+}
+
 TEST(E57, ColoursAreScaledByTheirLimits) {
   E57TestScan scan = scan_of({0, 1}, {0, 1}, {0, 1},
                              "<colorLimits><colorRedMinimum>100</colorRedMinimum>"

@@ -69,6 +69,15 @@ TEST(Write3mf, AndTheOthersTellInches) {
   }
 }
 
+TEST(WriteObj, NumbersCornersFromOne) {
+  const Solid solid = pyramid();
+  std::string faces;
+  for (const auto& [a, b, c] : solid.triangles)
+    faces += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " + std::to_string(c + 1) + "\n";
+  const auto file = write_obj(solid);
+  EXPECT_TRUE(std::string(reinterpret_cast<const char*>(file.data()), file.size()).ends_with("\n" + faces));
+}
+
 TEST(Write3mf, HoldsTheSolidInMillimetres) {
   const Solid solid = pyramid();
   const std::pair<std::string, std::string> metadata[] = {{"Title", "A <relief> & \"more\""}};

@@ -83,6 +83,30 @@ TEST(Gltf, ReadsMeshesWithoutNodes) {
   EXPECT_EQ(file->mesh.points, tetrahedron_points);
 }
 
+TEST(Gltf, ReadsAllMeshesWithoutNodes) {
+  std::string json = gltf_json();
+  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
+  json.erase(begin, end - begin);
+  const std::string mesh = R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]})";
+  const auto file = read(glb_of(replaced(json, mesh, mesh + "," + mesh)), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.triangles.size(), 8U);
+}
+
+// Chunks of unknown kinds, and a second one of the binary kind, say nothing.
+TEST(Gltf, TakesTheFirstBinaryChunk) {
+  const auto size = [](std::size_t n) { return raw(static_cast<std::uint32_t>(n)); };
+  const std::string chunks = glb().substr(12), text_size = chunks.substr(0, 4);
+  const std::size_t text_end = 8 + std::size_t{static_cast<unsigned char>(text_size[0])} +
+                               256 * std::size_t{static_cast<unsigned char>(text_size[1])};
+  const std::string zeros = size(72) + std::string("BIN\0", 4) + std::string(72, '\0');
+  const std::string unknown = size(4) + "ABCD" + "1234";
+  const std::string all = chunks.substr(0, text_end) + unknown + chunks.substr(text_end) + zeros + unknown;
+  const auto file = read("glTF" + size(2) + size(12 + all.size()) + all, "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.points, read(glb(), "a.glb")->mesh.points);
+}
+
 TEST(Gltf, ReadsPointsAsACloud) {
   const auto file = read(glb_of(replaced(gltf_json(), R"("indices":1)", R"("mode":0)")), "a.glb");
   ASSERT_TRUE(file) << file.error().message();

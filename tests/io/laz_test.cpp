@@ -178,6 +178,20 @@ TEST(Laz, BrokenFilesAreNamed) {
   EXPECT_TRUE(message(patched(good, 247, std::uint64_t{1} << 30)).contains(": expected "));
 }
 
+// Without a table of chunks, the points go on to the end of the file, which comes before so many.
+TEST(Laz, PointsBeyondTheEndAreRefused) {
+  std::string file = laz({any_points(50, 1)}, false);
+  file = patched(patched(file, 429, std::uint16_t{1}), 247, std::uint64_t{100000});
+  EXPECT_EQ(message_of(file, "a.laz"),
+            "a.laz, byte 469: expected 100000 points in chunk 1 of 1, found the end of the chunk");
+}
+
+TEST(Laz, UnknownItemsOfLayersAreNamed) {
+  const std::string good = laz({any_points(50, 1)}, true);
+  EXPECT_TRUE(message_of(patched(good, 463, std::uint16_t{15}), "a.laz")
+                  .contains("expected items of point formats 0 to 10, found type 15 of 30 bytes"));
+}
+
 TEST(Laz, AnyByteChangedOrMissingGetsAnAnswer) {
   for (const bool is_layered : {false, true}) {
     const std::string good = laz({any_points(5, 1), any_points(20, 2)}, is_layered);

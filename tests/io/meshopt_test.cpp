@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
+#include <deque>
 #include <limits>
 #include <random>
 
@@ -168,6 +170,82 @@ TEST(Meshopt, DecodesEveryKindOfTriangle) {
   const auto small =
       decode_meshopt(triangle_stream("\xF0", ""), {MeshoptMode::triangles, MeshoptFilter::none, 3, 2});
   EXPECT_EQ(text_of(small), bytes_of({0, 0, 1, 0, 2, 0}));
+}
+
+// Decodes triangles as the specification says, with lists instead of rings, and invents the data that the codes ask for.
+class TriangleModel {
+ public:
+  TriangleModel(const std::string& table, std::mt19937& random) : table_(table), random_(random) {}
+
+  void add(unsigned code) {
+    const unsigned high = code >> 4, low = code & 15;
+    high < 15 ? add_at_edge(edges_[high], low) : add_corners(low);
+  }
+
+  std::vector<std::uint32_t> corners;
+  std::string data;
+
+ private:
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+
+  std::uint32_t invented_index() {
+    const auto number = static_cast<std::uint32_t>(random_() % 300);
+    data += number < 128 ? bytes_of({static_cast<int>(number)})
+                         : bytes_of({static_cast<int>(number & 127) | 128, static_cast<int>(number >> 7)});
+    return last_ += number % 2 == 0 ? number / 2 : ~(number / 2);
+  }
+
+  void add_at_edge(Edge edge, unsigned low) {
+    std::uint32_t c = 0;
+    if (low == 0) c = next_++;
+    if (low > 0 && low < 13) c = vertices_[low];
+    if (low == 13) c = --last_;
+    if (low == 14) c = ++last_;
+    if (low == 15) c = invented_index();
+    if (low == 0 || low > 12) vertices_.push_front(c);
+    edges_.push_front({c, edge.second});
+    edges_.push_front({edge.first, c});
+    corners.insert(corners.end(), {edge.first, edge.second, c});
+  }
+
+  void add_corners(unsigned low) {
+    auto pair = static_cast<unsigned char>(low < 14 ? table_[low] : static_cast<char>(random_()));
+    if (low >= 14) {
+      if (random_() % 4 == 0) pair = 0;
+      data += static_cast<char>(pair);
+      if (pair == 0) next_ = 0;
+    }
+    const std::array<unsigned, 3> kinds = {low == 15 ? 15U : 0U, pair / 16U, pair % 16U};
+    std::array<std::uint32_t, 3> t{};
+    for (std::size_t i = 0; i < 3; ++i)
+      t[i] = kinds[i] == 0 ? next_++ : kinds[i] < 15 ? vertices_[kinds[i] - 1] : invented_index();
+    for (std::size_t i = 0; i < 3; ++i)
+      if (kinds[i] == 0 || kinds[i] == 15) vertices_.push_front(t[i]);
+    edges_.insert(edges_.begin(), {{t[0], t[2]}, {t[2], t[1]}, {t[1], t[0]}});
+    corners.insert(corners.end(), t.begin(), t.end());
+  }
+
+  const std::string& table_;
+  std::mt19937& random_;
+  std::uint32_t next_ = 0, last_ = 0;
+  std::deque<std::uint32_t> vertices_ = std::deque<std::uint32_t>(16);
+  std::deque<Edge> edges_ = std::deque<Edge>(16);
+};
+
+TEST(Meshopt, DecodesRandomTrianglesAsAModelDoes) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 200; ++round) {
+    std::string codes, table;
+    for (int i = 0; i < 14; ++i) table += bytes_of({static_cast<int>(random() % 15 * 16 + random() % 15)});
+    TriangleModel model(table, random);
+    for (int i = 0; i < 40; ++i) {
+      codes += static_cast<char>(random() % 3 == 0 ? 0xF0 | random() % 16 : random());
+      model.add(static_cast<unsigned char>(codes.back()));
+    }
+    const MeshoptLayout layout{MeshoptMode::triangles, MeshoptFilter::none, 120, 4};
+    const std::string stream = "\xE1" + codes + model.data + table + std::string(2, '\0');
+    ASSERT_EQ(numbers_of(decode_meshopt(stream, layout)), model.corners) << round;
+  }
 }
 
 TEST(Meshopt, DecodesIndicesAgainstTwoBaselines) {

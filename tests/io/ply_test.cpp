@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "relievo/core/text.h"
 #include "support/ply_encoder.h"
 #include "support/read_text.h"
 
@@ -171,6 +172,27 @@ TEST(PlyAscii, PropertiesThatAreNotReadMayBeTexts) {
   const std::string header = small_ply.substr(0, small_ply.find("end_header"));
   const std::string body = "end_header\n1 2 3 True\n4 5 6 False\n-7.5 8.25 1e6 1\n";
   EXPECT_EQ(points_of(header + "property bool is_edge\n" + body), three_points);
+}
+
+TEST(PlyHeader, CommentsMayStandBetweenProperties) {
+  const auto file = read(
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\ncomment one\nobj_info two\n\nproperty "
+      "float y\n"
+      "property float z\nend_header\n1 2 3\n",
+      "a");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->cloud.points, std::vector<Vec3>{Vec3(1, 2, 3)});
+}
+
+TEST(PlyAscii, ColoursOfFractionsReachToOne) {
+  for (const char* type : {"float", "double"}) {
+    std::string header = "ply\nformat ascii 1.0\nelement vertex 1\n";
+    for (const char* name : {"x", "y", "z"}) header += cat("property float ", name, "\n");
+    for (const char* name : {"red", "green", "blue"}) header += cat("property ", type, " ", name, "\n");
+    const auto file = read(header + "end_header\n1 2 3 0 0.2 1\n", "a");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{0, 51, 255}})) << type;
+  }
 }
 
 TEST(PlyHeader, LinesBeforeTheFirstElementMayBeComments) {

@@ -24,6 +24,15 @@ TEST(ScanSize, IsThatOfTheHeader) {
   EXPECT_TRUE(size.is_stated);
 }
 
+TEST(ScanSize, IsThatOfTheHeaderOfOtherRows) {
+  for (const auto& [name, text] : {std::pair("a.las", las(4)), std::pair("a.pcd", binary_pcd())}) {
+    const auto bytes = std::as_bytes(std::span(text));
+    const ScanSize size = scan_size(bytes, name, bytes.size());
+    EXPECT_EQ(size.points, read_cloud(bytes, name)->cloud.size()) << name;
+    EXPECT_TRUE(size.is_stated) << name;
+  }
+}
+
 TEST(ScanSize, IsThatOfAPicture) {
   const std::vector<std::byte> png = write_png(filled_image<std::uint16_t>(120, 50, 7));
   const ScanSize size = scan_size(head_of(png), "depths.png", png.size());

@@ -9,6 +9,7 @@
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "support/format_samples.h"
+#include "support/read_text.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -72,6 +73,16 @@ TEST(StreamFront, KeepsTheVisibleSideAtTheResolutionAskedFor) {
     error = std::max(error, (it.cloud.normals[i].cast<double>() - p.normalized()).norm());
   }
   EXPECT_LT(error, .03);
+}
+
+TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
+  const std::vector<std::byte> points = write_ply(shells(1000));
+  EXPECT_EQ(streamed(points).ignored_faces, 0U);
+  std::string text(reinterpret_cast<const char*>(points.data()), points.size());
+  text = replaced(text, "end_header", "element face 2\nproperty list uchar int vertex_indices\nend_header");
+  for (int face = 0; face < 2; ++face)
+    text += '\3' + raw(std::int32_t{0}) + raw(std::int32_t{1}) + raw(std::int32_t{2});
+  EXPECT_EQ(streamed(bytes_of(text)).ignored_faces, 2U);
 }
 
 TEST(StreamFront, MeansTakeNoiseAway) {
@@ -174,6 +185,10 @@ TEST(StreamFront, ReadsLas) {
   }
   const StreamedCloud it = streamed(bytes_of(file), front, 2000);
   EXPECT_EQ(it.format, "LAS");
+  EXPECT_EQ(it.missing_points + it.ignored_faces, 0U);
+  const StreamedCloud cut = streamed(bytes_of(file.substr(0, file.size() - 26 * 1000 - 5)), front, 2000);
+  EXPECT_EQ(cut.missing_points, 1001U);
+  EXPECT_EQ(cut.input_points, sphere.size() - 1001);
   EXPECT_NEAR(static_cast<double>(it.cloud.size()), 2000, 300);
   std::size_t behind = 0;
   for (std::size_t i = 0; i < it.cloud.size(); ++i) {

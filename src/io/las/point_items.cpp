@@ -68,7 +68,6 @@ void PositionItem::start(const char* raw) {
   for (std::size_t i = 0; i < 3; ++i) position_[i] = little<std::int32_t>(raw + 4 * i);
   returns_ = little<std::uint8_t>(raw + 14);
   classification_ = little<std::uint8_t>(raw + 15);
-  angle_ = little<std::uint8_t>(raw + 16);
   user_data_ = little<std::uint8_t>(raw + 17);
   source_ = little<std::uint16_t>(raw + 18);
 }
@@ -86,7 +85,7 @@ void PositionItem::decode_attributes(ArithmeticDecoder& decoder, std::uint32_t c
   }
   if ((changes & 8) != 0) classification_models_.next(decoder, classification_);
   if ((changes & 4) != 0)
-    angle_ = static_cast<std::uint8_t>(angle_ + decoder.symbol(angle_models_[returns_ >> 6 & 1]));
+    decoder.symbol(angle_models_[returns_ >> 6 & 1]);  // of the angle, which nothing needs
   if ((changes & 2) != 0) user_data_models_.next(decoder, user_data_);
   if ((changes & 1) != 0) source_ = static_cast<std::uint16_t>(source_decoder_.next(decoder, source_));
 }

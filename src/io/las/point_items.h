@@ -71,7 +71,7 @@ class PositionItem : public PointItem {
   std::size_t return_context() const;
 
   std::array<std::int32_t, 3> position_{};
-  std::uint8_t returns_ = 0, classification_ = 0, angle_ = 0, user_data_ = 0;
+  std::uint8_t returns_ = 0, classification_ = 0, user_data_ = 0;
   std::uint16_t source_ = 0;
   std::array<std::uint16_t, 16> intensities_{};
   std::array<std::int32_t, 8> heights_{};
