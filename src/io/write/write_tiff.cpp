@@ -1,3 +1,5 @@
+#include <new>
+
 #include "io/tiff_bytes.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
@@ -7,28 +9,24 @@
 namespace relievo {
 namespace {
 
-void set_tags(TIFF* tiff, const HeightsMm& heights) {
+// Returns whether there was memory for all tags. libtiff ends itself when it writes a file without some of them.
+bool set_tags(TIFF* tiff, const HeightsMm& heights) {
   const auto& [width, height, channels, pixels] = heights.image;
   const std::string description =
       cat("heights in mm, mm_per_pixel=", heights.mm_per_pixel, ", lowest point of the front is 0",
           heights.note.empty() ? "" : ", ", heights.note);
   const std::string software = cat("relievo ", version);
-  TIFFSetField(tiff, TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width));
-  TIFFSetField(tiff, TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height));
-  TIFFSetField(tiff, TIFFTAG_BITSPERSAMPLE, 32);
-  TIFFSetField(tiff, TIFFTAG_SAMPLESPERPIXEL, 1);
-  TIFFSetField(tiff, TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP);
-  TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK);
-  TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  TIFFSetField(tiff, TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE);
-  TIFFSetField(tiff, TIFFTAG_PREDICTOR, PREDICTOR_FLOATINGPOINT);
-  TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 64);
-  TIFFSetField(tiff, TIFFTAG_IMAGEDESCRIPTION, description.c_str());
-  TIFFSetField(tiff, TIFFTAG_SOFTWARE, software.c_str());
-  if (!(heights.mm_per_pixel > 0)) return;
-  TIFFSetField(tiff, TIFFTAG_RESOLUTIONUNIT, RESUNIT_CENTIMETER);
-  TIFFSetField(tiff, TIFFTAG_XRESOLUTION, 10 / heights.mm_per_pixel);
-  TIFFSetField(tiff, TIFFTAG_YRESOLUTION, 10 / heights.mm_per_pixel);
+  const auto set = [&](std::uint32_t tag, auto value) { return TIFFSetField(tiff, tag, value) == 1; };
+  return set(TIFFTAG_IMAGEWIDTH, static_cast<std::uint32_t>(width)) &&
+         set(TIFFTAG_IMAGELENGTH, static_cast<std::uint32_t>(height)) && set(TIFFTAG_BITSPERSAMPLE, 32) &&
+         set(TIFFTAG_SAMPLESPERPIXEL, 1) && set(TIFFTAG_SAMPLEFORMAT, SAMPLEFORMAT_IEEEFP) &&
+         set(TIFFTAG_PHOTOMETRIC, PHOTOMETRIC_MINISBLACK) && set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG) &&
+         set(TIFFTAG_COMPRESSION, COMPRESSION_ADOBE_DEFLATE) &&
+         set(TIFFTAG_PREDICTOR, PREDICTOR_FLOATINGPOINT) && set(TIFFTAG_ROWSPERSTRIP, 64) &&
+         set(TIFFTAG_IMAGEDESCRIPTION, description.c_str()) && set(TIFFTAG_SOFTWARE, software.c_str()) &&
+         (!(heights.mm_per_pixel > 0) || (set(TIFFTAG_RESOLUTIONUNIT, RESUNIT_CENTIMETER) &&
+                                          set(TIFFTAG_XRESOLUTION, 10 / heights.mm_per_pixel) &&
+                                          set(TIFFTAG_YRESOLUTION, 10 / heights.mm_per_pixel)));
 }
 
 }  // namespace
@@ -41,13 +39,14 @@ std::vector<std::byte> write_tiff(const HeightsMm& heights) {
     return {};
   std::vector<std::byte> bytes;
   io::TiffBytes file(bytes);
-  if (!file.handle()) return {};
-  set_tags(file.handle(), heights);
+  // Writing into memory, libtiff fails for want of memory alone.
+  if (!file.handle() || !set_tags(file.handle(), heights)) throw std::bad_alloc();
   std::vector<float> row(width);  // the predictor works in place
   for (int r = 0; r < image.height; ++r) {
     std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(r) * width),
                 width, row.begin());
-    if (TIFFWriteScanline(file.handle(), row.data(), static_cast<std::uint32_t>(r), 0) != 1) return {};
+    if (TIFFWriteScanline(file.handle(), row.data(), static_cast<std::uint32_t>(r), 0) != 1)
+      throw std::bad_alloc();
   }
   file.close();
   return bytes;
