@@ -169,7 +169,7 @@ export class Stage {
     this.tool = tool;
     this.element.dataset.tool = tool;
     const does = {
-      light: "move the light", model: "turn the model", turn: "turn the relief", pan: "move the picture",
+      light: "move the light", turn: "turn the model", orbit: "orbit the relief", pan: "move the picture",
       section: "move the section", measure: "measure", place: "move the figure on its plate",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
@@ -276,20 +276,20 @@ export class Stage {
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
-    if (tool === "model") this.turning.begin();
+    if (tool === "turn") this.turning.begin();
   }
 
   move(event) {
     const {tool, x, y} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
     if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
-    if (tool === "model") this.turning.drag(dx, dy, event.shiftKey);
-    if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
+    if (tool === "turn") this.turning.drag(dx, dy, event.shiftKey);
+    if (tool === "orbit") this.orbit(dx * 0.4, dy * 0.4);
     if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
     if (tool === "place") this.place(event, dx, dy);
     const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
     if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
     if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
-    if (["turn", "pan", "model"].includes(tool)) Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+    if (["orbit", "pan", "turn"].includes(tool)) Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
   }
 
   // The cursor tells what a drag would take.
@@ -300,7 +300,7 @@ export class Stage {
   }
 
   release() {
-    const isTurned = this.drag?.tool === "model";
+    const isTurned = this.drag?.tool === "turn";
     if (this.drag?.angle) this.on.placing.turn(this.drag.angle);
     this.drag = null;
     if (isTurned) this.turning.end();
@@ -338,7 +338,7 @@ export class Stage {
     return [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
   }
 
-  turn(yaw, pitch) {
+  orbit(yaw, pitch) {
     const {camera} = this;
     this.camera = {...camera, yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)};
     this.invalidate();
