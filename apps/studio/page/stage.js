@@ -13,6 +13,7 @@ const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
 const FINISH_MS = 500; // and after which the finished piece is made
 const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
+
 export function paint(canvas, image) {
   if (canvas.width !== image.width) canvas.width = image.width;
   if (canvas.height !== image.height) canvas.height = image.height;
@@ -86,10 +87,12 @@ export class Stage {
 
   async draw(isFine) {
     this.isBusy = true;
-    const number = this.wanted, start = performance.now(), changedAt = this.changedAt, isLast = this.fine === number;
+    const start = performance.now(), isLast = this.fine === this.wanted;
     this.unwanted = isFine ? new AbortController() : null;
+    const asked = this.ahead?.model === this.model ? this.ahead : this.ask(isFine, isLast), {number} = asked;
+    this.ahead = null;
     try {
-      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, changedAt, isLast));
+      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, asked));
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
@@ -117,12 +120,19 @@ export class Stage {
     return {width: Math.round(this.size.width * scale), height: Math.round(this.size.height * scale)};
   }
 
-  // The last picture of a state shows the piece as it will be exported.
-  async drawRelief(isFine, changedAt, isLast) {
-    const {model} = this, signal = this.unwanted?.signal;
-    const {image, about} = await this.engine.frame(
-      this.request({...this.pixels(isFine), fine: isFine, finished: isLast}), {signal});
+  // Asks for the picture of the newest state. The last picture of a state shows the piece as it will be exported.
+  ask(isFine, isLast) {
+    const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
+    const frame = this.isTable ? null : this.engine.frame(request, {signal: this.unwanted?.signal});
+    return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
+  }
+
+  // While things move, the engine makes the next picture when this one is shown.
+  async drawRelief(isFine, {model, changedAt, number, frame}) {
+    const {image, about} = await frame;
     if (!this.isReady || model !== this.model) return; // another document or view is shown by now
+    if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
+      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // whoever draws it says what is wrong
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
@@ -131,6 +141,11 @@ export class Stage {
     if (this.isComparing || this.isHolding) await this.drawBefore(isFine, `${this.model} ${about.scene}`);
     if (this.tool === "section") await this.cut();
     if (this.tool === "measure") this.measure.pictured();
+  }
+
+  // Whether the picture needs more of the engine before the next one.
+  get waitsForPicture() {
+    return this.isComparing || this.isHolding || ["section", "measure"].includes(this.tool);
   }
 
   // Draws the model itself, unless it was drawn in the same scene before.
