@@ -78,7 +78,7 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
 // Orbiting keeps the scale of the view from the front as long as the corners stay in the picture: they may come closer
 // to its edge than the plate from the front, whose shadow needs room.
 ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options) {
-  constexpr double least_padding = .02;
+  constexpr double least_padding = .03;
   const double side = std::min(options.width, options.height);
   const Camera& camera = options.camera;
   const Mat3 rotation = rotation_of(camera);
