@@ -117,7 +117,7 @@ struct Finished {
 void choose_view(const Scene& scene, View& view, std::vector<std::string>& remarks) {
   if (!view.is_best) return;
   const ViewGuess side = best_side(scene);
-  view = chosen_view(scene, view);
+  view = on_side(view, side);
   remarks.push_back(cat("view ", side.name, side.up.empty() ? "" : cat(" with up ", side.up)));
 }
 

@@ -123,7 +123,7 @@ struct Engine::State {
     if (auto go = progress.stage("view", 0); !go) return std::unexpected(go.error());
     if (view.is_best) {
       const ViewGuess best = best_side(scan.scene());
-      view = chosen_view(scan.scene(), view);
+      view = on_side(view, best);
       shared.with([&](Shared& s) { s.best = best; });
     }
     return scan.seen_from(view, number, &progress);
@@ -228,9 +228,13 @@ Result<void> Engine::choose_view(const PreparationTexts& view) {
   return {};
 }
 
+// Lets go of a scan of which no relief came. The session is cancelled first: who then finds no scan ends.
 void Engine::cancel() {
   state_->session.cancel();
-  state_->shared.with([](Shared& s) { s.unread = nullptr; });
+  state_->shared.with([](Shared& s) {
+    s.unread = nullptr;
+    s.scan = s.shown.scan;
+  });
 }
 
 bool Engine::is_idle() {

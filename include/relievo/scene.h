@@ -63,8 +63,11 @@ struct PlacedModel {
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view);
 
 // Returns the side of the scene that suits a relief best, see rank_views(). Several models, and a model that a pose moves,
-// stand as they are to be seen: their best side is the front.
+// stand as they are to be seen: their best side is the front. Of more than a million points a million are looked at.
 ViewGuess best_side(const Scene& scene);
+
+// Returns the view, turned to a side.
+View on_side(View view, const ViewGuess& side);
 
 // Returns the view, turned to the best side if that is still to be chosen (View::is_best).
 View chosen_view(const Scene& scene, const View& view);

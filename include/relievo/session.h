@@ -58,7 +58,7 @@ class Session {
   void open(Preparation preparation);
 
   // Cancels the preparation that runs or waits, if any. status() says so at once; the work itself ends when it next asks
-  // its Progress, which may take seconds for millions of points, and the next preparation begins after that.
+  // its Progress, and the next preparation begins after that. Before the first model, points that were read are freed.
   void cancel();
 
   // Returns a coarse relief of the points that were prepared last in another view, for as long as the view moves; open()

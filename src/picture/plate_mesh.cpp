@@ -75,13 +75,19 @@ DrawnBody frame_body(const PlateMesh& mesh, const Shown& shown, const RenderOpti
   return body;
 }
 
+// Orbiting keeps the scale of the view from the front as long as the corners stay in the picture: they may come closer
+// to its edge than the plate from the front, whose shadow needs room.
 ScreenTransform camera_transform(const Vec3& size, const RenderOptions& options) {
-  const double pad = 2 * frame_padding * std::min(options.width, options.height);
+  constexpr double least_padding = .03;
+  const double side = std::min(options.width, options.height);
   const Camera& camera = options.camera;
   const Mat3 rotation = rotation_of(camera);
   const Vec3 seen = rotation.cwiseAbs() * size;
-  const double fit = std::min((options.width - pad) / std::max(size.x(), seen.x()),
-                              (options.height - pad) / std::max(size.y(), seen.y()));
+  const auto fit_of = [&](const Vec3& box, double padding) {
+    const double pad = 2 * padding * side;
+    return std::min((options.width - pad) / box.x(), (options.height - pad) / box.y());
+  };
+  const double fit = std::min(fit_of(size, frame_padding), fit_of(seen, least_padding));
   ScreenTransform transform{options.width, options.height, std::max(fit, 1e-3) * camera.zoom, rotation};
   transform.pan << camera.pan, 0;
   transform.is_front = camera.yaw_deg == 0 && camera.pitch_deg == 0;

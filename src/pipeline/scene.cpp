@@ -33,6 +33,22 @@ Result<void> check(const Scene& scene) {
   return {};
 }
 
+// Returns `count` of the cloud's points. They are spread over the file by multiples of the golden ratio, because equal
+// steps could meet the rows of a scanner.
+Cloud some_of(const Cloud& cloud, std::size_t count) {
+  constexpr double golden_ratio = .6180339887498949;
+  Cloud some;
+  some.points.reserve(count);
+  if (cloud.has_normals()) some.normals.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double turns = static_cast<double>(i) * golden_ratio;
+    const auto at = static_cast<std::size_t>((turns - std::floor(turns)) * static_cast<double>(cloud.size()));
+    some.points.push_back(cloud.points[at]);
+    if (cloud.has_normals()) some.normals.push_back(cloud.normals[at]);
+  }
+  return some;
+}
+
 // Calls f for each point that counts: of a mesh those in triangles, of a cloud those that are no outliers.
 template <typename F>
 void each_point(const CloudFile& file, F&& f) {
@@ -127,19 +143,21 @@ Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& vi
 }
 
 ViewGuess best_side(const Scene& scene) {
-  constexpr std::size_t mesh_points = 200000;
+  constexpr std::size_t mesh_points = 200'000, most_points = 1'000'000;
   if (scene.models.size() != 1 || scene.models[0].pose != Pose{}) return {"front", ""};
   const CloudFile& file = *scene.models[0].file;
-  return rank_views(file.mesh.empty() ? file.cloud : scatter(file.mesh, mesh_points))[0];
+  if (!file.mesh.empty()) return rank_views(scatter(file.mesh, mesh_points))[0];
+  return rank_views(file.cloud.size() > most_points ? some_of(file.cloud, most_points) : file.cloud)[0];
+}
+
+View on_side(View view, const ViewGuess& side) {
+  view.R_view_model = parse_view(side.name, side.up).value_or(View{}).R_view_model;
+  view.is_best = false;
+  return view;
 }
 
 View chosen_view(const Scene& scene, const View& view) {
-  if (!view.is_best) return view;
-  const ViewGuess side = best_side(scene);
-  View chosen = view;
-  chosen.R_view_model = parse_view(side.name, side.up).value_or(View{}).R_view_model;
-  chosen.is_best = false;
-  return chosen;
+  return view.is_best ? on_side(view, best_side(scene)) : view;
 }
 
 }  // namespace relievo

@@ -30,6 +30,14 @@ struct Shared {
   void cancel_turning() {
     if (turning) turning->cancel();
   }
+
+  // Lets go of points of which no model came. Where there is a model, its next view may need them.
+  void forget_unused() {
+    if (model) return;
+    measured = {};
+    all_sides = nullptr;
+    turntable = nullptr;
+  }
 };
 
 std::unexpected<Error> cancelled() {
@@ -59,8 +67,8 @@ struct Session::State {
   void finish(const Preparation& wanted, const Progress& progress, const Result<Preparation::Model>& made) {
     shared.with([&](Shared& s) {
       s.progress = nullptr;
-      if (s.waiting || progress.is_cancelled())
-        return;  // a newer opening has overtaken this one, or cancel()
+      if (s.waiting) return;  // a newer opening has overtaken this one
+      if (progress.is_cancelled()) return s.forget_unused();
       s.status.is_preparing = false;
       if (!made) {
         s.status.error = made.error();
@@ -150,7 +158,10 @@ void Session::cancel() {
   state_->shared.with([](Shared& s) {
     s.cancel_turning();
     if (s.status.is_preparing) s.status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
-    if (s.progress) s.progress->cancel();
+    if (s.progress)
+      s.progress->cancel();
+    else
+      s.forget_unused();
     s.waiting = std::nullopt;
     s.status.is_preparing = false;
   });

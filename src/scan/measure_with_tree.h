@@ -3,13 +3,15 @@
 #pragma once
 
 #include "geometry/neighbours.h"
+#include "relievo/core/progress.h"
 #include "relievo/scan/curvature.h"
 #include "relievo/scan/spacing.h"
 
 namespace relievo {
 
-// See measure_spacing() in spacing.h. The tree is one of these points.
-Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points);
+// See measure_spacing() in spacing.h. The tree is one of these points. Of no use once the progress is cancelled.
+Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points,
+                        const Progress* progress = nullptr);
 
 // A cloud, its spacing, and the tree of its points.
 struct SearchableCloud {

@@ -73,26 +73,30 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
 Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress) {
   RELIEVO_CHECK(begin_stage(progress, "spacing", .05));
   tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
-  spacing_ = measure_spacing(*tree_, cloud_.points);
+  RELIEVO_CHECK(check_cancelled(progress));
+  spacing_ = measure_spacing(*tree_, cloud_.points, progress);
+  RELIEVO_CHECK(check_cancelled(progress));
   if (!(spacing_.rho > 0))
     return geometry_error("expected points at a distance from each other, found most of them equal");
   RELIEVO_CHECK(begin_stage(progress, "normals", .2));
   has_estimated_normals_ = !cloud_.has_normals();
   if (has_estimated_normals_)
-    estimate_normals(cloud_);  // their noise is measured when the view has given them signs
+    estimate_normals(cloud_, 16, progress);  // their noise is measured when the view has given them signs
   else
-    remove_noise(view);
+    remove_noise(view, progress);
+  RELIEVO_CHECK(check_cancelled(progress));
   do_normals_point_inward_ = !has_estimated_normals_ && normals_point_inward(cloud_);
-  return check_cancelled(progress);
+  return {};
 }
 
 // Removes the noise that the view asks for, else the noise that is measured. The spacing stays that of the scan: where
 // several scans overlap, points without noise lie closer together than the surface is sampled.
-void MeasuredCloud::remove_noise(const View& view) {
+void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
   measured_noise_ = measure_noise(cloud_, spacing_);
   removed_noise_ = view.denoise.value_or(measured_noise_);
   if (removed_noise_ == 0) return;
-  relievo::remove_noise(cloud_, spacing_, removed_noise_);
+  relievo::remove_noise(cloud_, spacing_, removed_noise_, progress);
+  if (progress && progress->is_cancelled()) return;
   tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
 }
 

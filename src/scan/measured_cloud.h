@@ -45,7 +45,7 @@ class MeasuredCloud {
  private:
   MeasuredCloud() = default;
   Result<void> measure_points(const View& view, Progress* progress);
-  void remove_noise(const View& view);
+  void remove_noise(const View& view, const Progress* progress);
 
   struct Known {
     CurvatureOptions options;

@@ -39,14 +39,15 @@ Vec3f unit_normal(const Vec3& n) {
   return (n / n.cwiseAbs().maxCoeff()).normalized().cast<float>();
 }
 
-void estimate_normals(Cloud& cloud, std::size_t neighbours) {
+void estimate_normals(Cloud& cloud, std::size_t neighbours, const Progress* progress) {
   if (cloud.size() < 3) return;
   const std::size_t k = std::min({neighbours, cloud.size(), most_neighbours});
   const KdTree<Vec3> tree(cloud.points);
-  cloud.normals.resize(cloud.size());
+  cloud.normals.assign(cloud.size(), Vec3f::Zero());
   parallel_for(
       cloud.size(),
       [&](std::size_t i) {
+        if (progress && progress->is_cancelled()) return;
         std::array<Index, most_neighbours> members;
         std::array<double, most_neighbours> distances_sq;
         const std::size_t found = tree.nearest(cloud.points[i], k, members.data(), distances_sq.data());

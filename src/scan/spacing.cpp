@@ -20,7 +20,7 @@ Spacing measure_spacing(const Cloud& cloud) {
   return measure_spacing(KdTree<Vec3>(cloud.points), cloud.points);
 }
 
-Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points) {
+Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points, const Progress* progress) {
   constexpr std::size_t k = spacing_neighbours;
   Spacing spacing;
   spacing.local.assign(points.size(), 0.F);
@@ -28,6 +28,7 @@ Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points) 
   parallel_for(
       points.size(),
       [&](std::size_t i) {
+        if (progress && progress->is_cancelled()) return;
         std::array<Index, k + 1> found;
         std::array<double, k + 1> distances_sq;
         found.fill(no_index);
@@ -41,7 +42,7 @@ Spacing measure_spacing(const KdTree<Vec3>& tree, std::span<const Vec3> points) 
         std::copy(self + 1, found.end(), std::copy(found.begin(), self, spacing.nearest[i].begin()));
       },
       1024);
-  if (points.size() < 2) return spacing;
+  if (points.size() < 2 || (progress && progress->is_cancelled())) return spacing;
   // The median, not the mean, which a few far outliers or dense spots would change. Where density varies much, as among
   // the corners of a mesh, the sparse parts would be noise and holes to the median.
   std::vector<float> distances = spacing.local;

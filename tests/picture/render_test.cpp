@@ -190,6 +190,22 @@ TEST(Render, ZoomsAroundTheMiddle) {
   EXPECT_EQ(opaque_pixels(picture(bumps(), options)), 240U * 200U);
 }
 
+TEST(Render, OrbitsAtTheScaleOfTheFrontAsLongAsThePlateFits) {
+  RenderOptions options = small();
+  const double front = picture(bumps(), options).pixels_per_mm;
+  options.camera.yaw_deg = 15;
+  options.camera.pitch_deg = 15;
+  EXPECT_EQ(picture(bumps(), options).pixels_per_mm, front);
+  for (const double yaw : {-45, 30, 60}) {
+    options.camera.yaw_deg = yaw;
+    options.camera.pitch_deg = 40;
+    const Picture made = picture(bumps(), options);
+    EXPECT_LT(made.pixels_per_mm, front);
+    EXPECT_GT(plate_in(made).low.minCoeff(), 0);
+    EXPECT_LT((plate_in(made).high - Vec2(240, 200)).maxCoeff(), 0);
+  }
+}
+
 // `pan` is the place of the plate in the middle of the picture, so the plate moves the other way; rows run downwards.
 TEST(Render, PansByMillimetresOfThePlate) {
   RenderOptions options = small();

@@ -141,6 +141,35 @@ TEST(Session, SaysAtOnceThatItIsCancelled) {
   EXPECT_EQ(session.status().error->kind, ErrorKind::cancelled);
 }
 
+TEST(Session, LetsGoOfPointsOfWhichNoModelCame) {
+  Session session;
+  std::weak_ptr<const Cloud> read;
+  std::binary_semaphore is_measured{0}, goes_on{0};
+  Preparation preparation = preparation_of();
+  preparation.points = [&, points = preparation.points](Progress& progress) {
+    const Preparation::Points made = points(progress);
+    read = *made;
+    return made;
+  };
+  bool is_first = true;
+  preparation.changed = [&] {
+    if (!is_first || session.status().stage != "curvature") return;
+    is_first = false;
+    is_measured.release();
+    goes_on.acquire();
+  };
+  session.open(preparation);
+  is_measured.acquire();
+  EXPECT_FALSE(read.expired());
+  session.cancel();
+  goes_on.release();
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  EXPECT_TRUE(read.expired());
+  session.open(preparation_of());
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  EXPECT_NE(session.model(), nullptr);
+}
+
 TEST(Session, CanBeCancelledWhileItWaits) {
   Stuck stuck;
   Session session;

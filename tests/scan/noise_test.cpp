@@ -151,6 +151,16 @@ TEST(RemoveNoise, IsNotMisledByOutliers) {
   EXPECT_LT(mean_error_deg(without_noise(noisy), noisy.truth), 1.05 * without);
 }
 
+TEST(RemoveNoise, LeavesTheCloudAsItWasWhenItIsCancelled) {
+  const NoisyCloud noisy = with_noise(cube(3000), .3);
+  Cloud cloud = noisy.cloud;
+  Progress progress;
+  progress.cancel();
+  remove_noise(cloud, measure_spacing(cloud), .3, &progress);
+  EXPECT_EQ(cloud.points, noisy.cloud.points);
+  EXPECT_EQ(cloud.normals, noisy.cloud.normals);
+}
+
 TEST(RemoveNoise, DoesNothingWithoutNormals) {
   Cloud bare = test::sphere(500, 1);
   bare.normals.clear();

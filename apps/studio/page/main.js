@@ -359,7 +359,7 @@ const COMMANDS = {
   s: () => facts && saveProject(), e: () => facts && exporting.open(),
 };
 const KEYS = {
-  l: () => modes.setTool("light"), r: () => modes.setTool("model"), o: () => modes.setTool("turn"),
+  l: () => modes.setTool("light"), r: () => modes.setTool("turn"), o: () => modes.setTool("orbit"),
   h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
   m: () => modes.setTool("measure"), f: () => stage.fit(),
   t: () => modes.toggleTable(),

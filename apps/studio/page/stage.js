@@ -13,6 +13,7 @@ const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
 const FINISH_MS = 500; // and after which the finished piece is made
 const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
+
 export function paint(canvas, image) {
   if (canvas.width !== image.width) canvas.width = image.width;
   if (canvas.height !== image.height) canvas.height = image.height;
@@ -86,10 +87,12 @@ export class Stage {
 
   async draw(isFine) {
     this.isBusy = true;
-    const number = this.wanted, start = performance.now(), changedAt = this.changedAt, isLast = this.fine === number;
+    const start = performance.now(), isLast = this.fine === this.wanted;
     this.unwanted = isFine ? new AbortController() : null;
+    const asked = this.ahead?.model === this.model ? this.ahead : this.ask(isFine, isLast), {number} = asked;
+    this.ahead = null;
     try {
-      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, changedAt, isLast));
+      await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, asked));
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
       this.shown = number;
@@ -117,12 +120,19 @@ export class Stage {
     return {width: Math.round(this.size.width * scale), height: Math.round(this.size.height * scale)};
   }
 
-  // The last picture of a state shows the piece as it will be exported.
-  async drawRelief(isFine, changedAt, isLast) {
-    const {model} = this, signal = this.unwanted?.signal;
-    const {image, about} = await this.engine.frame(
-      this.request({...this.pixels(isFine), fine: isFine, finished: isLast}), {signal});
+  // Asks for the picture of the newest state. The last picture of a state shows the piece as it will be exported.
+  ask(isFine, isLast) {
+    const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
+    const frame = this.isTable ? null : this.engine.frame(request, {signal: this.unwanted?.signal});
+    return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
+  }
+
+  // While things move, the engine makes the next picture when this one is shown.
+  async drawRelief(isFine, {model, changedAt, number, frame}) {
+    const {image, about} = await frame;
     if (!this.isReady || model !== this.model) return; // another document or view is shown by now
+    if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
+      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // whoever draws it says what is wrong
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
@@ -131,6 +141,11 @@ export class Stage {
     if (this.isComparing || this.isHolding) await this.drawBefore(isFine, `${this.model} ${about.scene}`);
     if (this.tool === "section") await this.cut();
     if (this.tool === "measure") this.measure.pictured();
+  }
+
+  // Whether the picture needs more of the engine before the next one.
+  get waitsForPicture() {
+    return this.isComparing || this.isHolding || ["section", "measure"].includes(this.tool);
   }
 
   // Draws the model itself, unless it was drawn in the same scene before.
@@ -169,7 +184,7 @@ export class Stage {
     this.tool = tool;
     this.element.dataset.tool = tool;
     const does = {
-      light: "move the light", model: "turn the model", turn: "turn the relief", pan: "move the picture",
+      light: "move the light", turn: "turn the model", orbit: "orbit the relief", pan: "move the picture",
       section: "move the section", measure: "measure", place: "move the figure on its plate",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
@@ -276,20 +291,20 @@ export class Stage {
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
-    if (tool === "model") this.turning.begin();
+    if (tool === "turn") this.turning.begin();
   }
 
   move(event) {
     const {tool, x, y} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
     if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
-    if (tool === "model") this.turning.drag(dx, dy, event.shiftKey);
-    if (tool === "turn") this.turn(dx * 0.4, dy * 0.4);
+    if (tool === "turn") this.turning.drag(dx, dy, event.shiftKey);
+    if (tool === "orbit") this.orbit(dx * 0.4, dy * 0.4);
     if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
     if (tool === "place") this.place(event, dx, dy);
     const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
     if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
     if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
-    if (["turn", "pan", "model"].includes(tool)) Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+    if (["orbit", "pan", "turn"].includes(tool)) Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
   }
 
   // The cursor tells what a drag would take.
@@ -300,7 +315,7 @@ export class Stage {
   }
 
   release() {
-    const isTurned = this.drag?.tool === "model";
+    const isTurned = this.drag?.tool === "turn";
     if (this.drag?.angle) this.on.placing.turn(this.drag.angle);
     this.drag = null;
     if (isTurned) this.turning.end();
@@ -338,7 +353,7 @@ export class Stage {
     return [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2];
   }
 
-  turn(yaw, pitch) {
+  orbit(yaw, pitch) {
     const {camera} = this;
     this.camera = {...camera, yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)};
     this.invalidate();

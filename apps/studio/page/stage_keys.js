@@ -11,8 +11,8 @@ function move(stage, x, y) {
     const {azimuth, elevation} = angles(stage.doc.now.light);
     stage.setLight(azimuth - x * 10, elevation + y * 5);
   }
-  if (tool === "model") stage.turning.step(x, y);
-  if (tool === "turn") stage.turn(x * 5, -y * 5);
+  if (tool === "turn") stage.turning.step(x, y);
+  if (tool === "orbit") stage.orbit(x * 5, -y * 5);
   if (tool === "pan") stage.shift(x * 20 / pixelsPerMm, y * 20 / pixelsPerMm);
   if (tool === "place" && on.placing.begin(stage.about.size_mm)) on.placing.move(x, y);
   if (tool === "section") {

@@ -50,7 +50,7 @@ export class Turning {
 
   // A view is being prepared, or none any more: until it is there, a coarse relief stands for it.
   await(isAwaiting) {
-    if (this.stage.drag?.tool === "model") return;
+    if (this.stage.drag?.tool === "turn") return;
     this.shown = isAwaiting ? directionsOf(this.stage.doc.now.options) : null;
   }
 

@@ -1,4 +1,4 @@
-// Numbers, keys and the reach of heights on the page, in Chromium.
+// Numbers, keys and the reach of heights on the page, in Chromium or Firefox.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import path from "node:path";

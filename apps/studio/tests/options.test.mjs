@@ -11,7 +11,6 @@ if (skip) console.log(`SKIPPED: ${skip}`);
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
 let browser, engine, page, options;
-let frame = null; // the newest request for a picture
 
 before(async () => {
   if (skip) return;
@@ -20,8 +19,12 @@ before(async () => {
   browser = await found.launch();
   page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
   page.setDefaultTimeout(30000);
-  page.on("request", (request) => {
-    if (request.url().endsWith("/api/frame")) frame = JSON.parse(request.postData());
+  await page.addInitScript(() => { // Firefox's driver does not tell what a request sends
+    const {fetch} = window;
+    window.fetch = (url, options) => {
+      if (url === "api/frame") window.frame = JSON.parse(options.body);
+      return fetch(url, options);
+    };
   });
   engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
   options = JSON.parse((await engine.get("api/about")).body).options;
@@ -69,7 +72,13 @@ async function set(name, value) {
   await (kind === "range" ? it.fill(String(value)) : enter(it, String(value)));
 }
 
-const reaches = (check) => eventually(() => assert.ok(check(), JSON.stringify(frame)));
+// Returns the newest request for a picture.
+const sent = () => page.evaluate(() => window.frame);
+
+const reaches = (check) => eventually(async () => {
+  const frame = await sent();
+  assert.ok(check(frame), JSON.stringify(frame));
+});
 
 test("has a control for each option of the table", {skip}, async () => {
   const names = options.map(({name}) => name);
@@ -77,18 +86,22 @@ test("has a control for each option of the table", {skip}, async () => {
   for (const name of names) assert.equal(await control(name).count(), 1, `the page has no control of ${name}`);
 });
 
-for (const [name, {value, first = {}, kind}] of Object.entries(CASES))
+// What differs between browsers is how a control is set: Firefox sets one of each kind.
+const KINDS = ["width", "alpha", "method", "tone", "view", "crop", "crumbs", "denoise", "plate", "rim"];
+const cases = Object.entries(CASES).filter(([name]) => found.name !== "firefox" || KINDS.includes(name));
+
+for (const [name, {value, first = {}, kind}] of cases)
   test(`passes ${name} on to the engine`, {skip}, async () => {
     if (kind) await page.locator(`[data-kind="${kind}"]`).click();
     for (const [other, set_to] of Object.entries(first)) {
       await set(other, set_to);
-      await reaches(() => frame.options[other] === set_to);
+      await reaches((frame) => frame.options[other] === set_to);
     }
-    assert.notEqual(frame.options[name], value);
+    assert.notEqual((await sent()).options[name], value);
     await set(name, value);
-    if (name === "alpha") await reaches(() => Math.abs(frame.u / value ** -first.saturation - 1) < 1e-9);
-    else if (name === "tone") await reaches(() => /^0,[\d.]+;/.test(frame.options.tone ?? ""));
-    else await reaches(() => frame.options[name] === value);
+    if (name === "alpha") await reaches((frame) => Math.abs(frame.u / value ** -first.saturation - 1) < 1e-9);
+    else if (name === "tone") await reaches((frame) => /^0,[\d.]+;/.test(frame.options.tone ?? ""));
+    else await reaches((frame) => frame.options[name] === value);
     await eventually(async () => { // back to the beginning
       const undo = page.getByRole("button", {name: "Undo"});
       while (await undo.isEnabled()) await undo.click({timeout: 2000});

@@ -1,10 +1,10 @@
-// The studio as its users work in it, in Chromium: found by role and label.
+// The studio as its users work in it, in Chromium or Firefox: found by role and label.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
+import {EngineProcess, PROGRAM, doubleClick, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
   temporaryFolder, type} from "./support.mjs";
 
 const found = await findBrowser();
@@ -157,7 +157,7 @@ test("moves sliders by wheel and double click, too", {skip}, async () => {
   await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await value("Steepest wall in degrees")) < 76));
   await eventually(async () => { // again if the machine is so slow that these were two clicks
-    await slider("Steepest wall").dblclick();
+    await doubleClick(slider("Steepest wall"));
     assert.equal(await value("Steepest wall in degrees"), 76);
   });
   await set("Height in mm", "nonsense");
@@ -498,21 +498,17 @@ test("exports several files at once, named for their form, and can be cancelled"
 
 test("can be used by the keyboard alone", {skip}, async () => {
   await page.locator("#home").focus();
-  const seen = new Set(), all = await page.evaluate(() => [...document.querySelectorAll(
-    "header button, #studio button, #studio input, #studio select, #studio summary, #stage")]
-    .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0).length);
-  for (let i = 0; i < all + 30; ++i) {
-    seen.add(await page.evaluate(() => {
-      document.activeElement.dataset.reached = "yes";
-      return document.activeElement.id || document.activeElement.textContent;
-    }));
-    await page.keyboard.press("Tab");
-  }
-  const missed = await page.evaluate(() => [...document.querySelectorAll(
+  const missed = () => page.evaluate(() => [...document.querySelectorAll(
     "header button, #studio button, #studio input, #studio select, #studio summary, #stage")]
     .filter((element) => element.checkVisibility() && !element.disabled && element.tabIndex >= 0 &&
       element.dataset.reached !== "yes").map((element) => element.outerHTML.slice(0, 90)));
-  assert.deepEqual(missed, [], `${seen.size} were reached`);
+  const all = (await missed()).length;
+  // Behind the last element, Tab would leave the page for the bars of the browser.
+  for (let i = 0; i < all + 30 && (await missed()).length > 0; ++i) {
+    await page.evaluate(() => (document.activeElement.dataset.reached = "yes"));
+    if ((await missed()).length > 0) await page.keyboard.press("Tab");
+  }
+  assert.deepEqual(await missed(), [], `of ${all}`);
   const material = () => page.locator("#materials [aria-checked=true]").getAttribute("data-material");
   const before = await material();
   await page.locator("#materials [aria-checked=true]").focus(); // in a group by arrows
@@ -520,7 +516,7 @@ test("can be used by the keyboard alone", {skip}, async () => {
   assert.notEqual(await material(), before);
   await button("Undo").focus();
   await page.keyboard.press("Enter");
-  assert.equal(await material(), before);
+  await eventually(async () => assert.equal(await material(), before));
 });
 
 test("moves nothing by itself where motion is to be reduced", {skip}, async (context) => {

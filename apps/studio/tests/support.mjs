@@ -108,7 +108,16 @@ export async function type(field, text) {
       !input.disabled && input.selectionEnd - input.selectionStart === input.value.length);
     if (!isSelected) throw new Error(`not selected: ${field}`);
   });
-  await (text === "" ? field.press("Delete") : field.pressSequentially(text));
+  // Keys of the page, not of the field: Playwright takes the selection away from a field of a page without the focus.
+  const {keyboard} = field.page();
+  await (text === "" ? keyboard.press("Delete") : keyboard.type(text));
+}
+
+// Clicks twice. Firefox's driver makes two single clicks of it, since it counts clicks in one chain of actions alone,
+// so that the event which the browser makes of them is sent by hand there.
+export async function doubleClick(locator) {
+  await locator.dblclick();
+  if (locator.page().context().browser().browserType().name() === "firefox") await locator.dispatchEvent("dblclick");
 }
 
 export async function enter(field, text) {
@@ -139,7 +148,9 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
     const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
     const folder = isFirefox ? temporaryFolder() : null; // of downloads
     process.on("exit", () => folder && removeFolder(folder));
-    const launch = () => (isFirefox ? firefox.launch({executablePath, channel: "moz-firefox", downloadsPath: folder})
+    const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // which takes the focus from the page
+    const launch = () => (isFirefox
+      ? firefox.launch({executablePath, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
       : chromium.launch({executablePath, args: CHROMIUM_FLAGS}));
     return {name, folder, launch};
   } catch {

@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "relievo/core/progress.h"
 #include "relievo/scan/cloud.h"
 #include "relievo/scan/spacing.h"
 
@@ -14,8 +15,8 @@ Vec3f unit_normal(const Vec3& n);
 
 // Gives every point the unit normal of the plane through its `neighbours` nearest points, at most 64
 // (principal component analysis). The sign is arbitrary until turn_to_viewer(). Does nothing to a cloud of
-// fewer than 3 points.
-void estimate_normals(Cloud& cloud, std::size_t neighbours = 16);
+// fewer than 3 points. Once the progress is cancelled, what is left of the normals is 0.
+void estimate_normals(Cloud& cloud, std::size_t neighbours = 16, const Progress* progress = nullptr);
 
 // Reverses the normals of a cloud in view coordinates that face away from the viewer, so that z >= 0.
 void turn_to_viewer(Cloud& viewed);

@@ -1,6 +1,7 @@
 // The noise of a scan: measuring it, and removing it while creases stay. Tested by tests/scan/noise_test.cpp.
 #pragma once
 
+#include "relievo/core/progress.h"
 #include "relievo/scan/cloud.h"
 #include "relievo/scan/spacing.h"
 
@@ -17,7 +18,7 @@ double measure_noise(const Cloud& cloud, const Spacing& spacing);
 // wider neighbourhoods and rounds sharper creases. Normals are fitted linearly in the tangent plane, with less weight
 // for neighbours that deviate from the last fit, which are those beyond a crease (Oeztireli, Guennebaud and Gross,
 // "Feature preserving point set surfaces based on non-linear kernel regression", 2009; there the fit is constant,
-// which flattens curved parts).
-void remove_noise(Cloud& cloud, const Spacing& spacing, double noise);
+// which flattens curved parts). Leaves the cloud as it was if the progress is cancelled.
+void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -110,7 +110,7 @@ class NoiseFilter {
 
 }  // namespace
 
-void remove_noise(Cloud& cloud, const Spacing& spacing, double noise) {
+void remove_noise(Cloud& cloud, const Spacing& spacing, double noise, const Progress* progress) {
   if (!cloud.has_normals() || !(spacing.rho > 0)) return;
   std::vector<Vec3> points(cloud.size());
   std::vector<Vec3f> normals(cloud.size());
@@ -118,9 +118,11 @@ void remove_noise(Cloud& cloud, const Spacing& spacing, double noise) {
   parallel_ranges(cloud.size(), 1024, [&](std::size_t begin, std::size_t end) {
     std::vector<KdTree<Vec3>::Match> matches;
     std::vector<NearPoint> neighbours;
+    if (progress && progress->is_cancelled()) return;
     for (std::size_t i = begin; i < end; ++i)
       std::tie(points[i], normals[i]) = filter.at(static_cast<Index>(i), matches, neighbours);
   });
+  if (progress && progress->is_cancelled()) return;
   cloud.points = std::move(points);
   cloud.normals = std::move(normals);
 }
