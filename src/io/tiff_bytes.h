@@ -21,6 +21,8 @@ class TiffBytes {
   TIFF* handle() const { return tiff_; }  // null if the bytes are no TIFF
   const std::string& message() const { return message_; }
   void close();
+  // Leaves the handle as it is, for good: libtiff crashes when it closes a file for whose tags there was no memory.
+  void abandon() { tiff_ = nullptr; }
 
  private:
   static int keep_message(TIFF*, void* self, const char* module, const char* format, va_list arguments);

@@ -9,7 +9,7 @@
 namespace relievo {
 namespace {
 
-// Returns whether there was memory for all tags. libtiff ends itself when it writes a file without some of them.
+// Returns whether there was memory for all tags.
 bool set_tags(TIFF* tiff, const HeightsMm& heights) {
   const auto& [width, height, channels, pixels] = heights.image;
   const std::string description =
@@ -39,15 +39,19 @@ std::vector<std::byte> write_tiff(const HeightsMm& heights) {
     return {};
   std::vector<std::byte> bytes;
   io::TiffBytes file(bytes);
-  // Writing into memory, libtiff fails for want of memory alone.
-  if (!file.handle() || !set_tags(file.handle(), heights)) throw std::bad_alloc();
+  const auto check = [&](bool is_done) {  // writing into memory, libtiff fails for want of memory alone
+    if (is_done) return;
+    file.abandon();
+    throw std::bad_alloc();
+  };
+  check(file.handle() && set_tags(file.handle(), heights));
   std::vector<float> row(width);  // the predictor works in place
   for (int r = 0; r < image.height; ++r) {
     std::copy_n(image.pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(r) * width),
                 width, row.begin());
-    if (TIFFWriteScanline(file.handle(), row.data(), static_cast<std::uint32_t>(r), 0) != 1)
-      throw std::bad_alloc();
+    check(TIFFWriteScanline(file.handle(), row.data(), static_cast<std::uint32_t>(r), 0) == 1);
   }
+  check(TIFFFlush(file.handle()) == 1);
   file.close();
   return bytes;
 }
