@@ -14,7 +14,8 @@ export class BaseImage {
   // `say` takes a line for people.
   constructor({engine, doc, say}) {
     Object.assign(this, {engine, doc, say});
-    this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true});
+    this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true,
+      "aria-label": "Image for the base"});
     this.choose = make("button", {type: "button", class: "quiet", "data-option": NAME,
       onclick: () => this.file.click()});
     this.remove = make("button", {type: "button", class: "quiet", "aria-label": "Remove the base image",

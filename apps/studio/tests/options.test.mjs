@@ -85,6 +85,10 @@ test("has a control for each option of the table", {skip}, async () => {
   const names = options.map(({name}) => name);
   assert.deepEqual([...names].sort(), Object.keys(CASES).sort(), "an option is missing in this test");
   for (const name of names) assert.equal(await control(name).count(), 1, `the page has no control of ${name}`);
+  const beyond = await page.locator("label [data-option]").evaluateAll((all) => all.filter((input) =>
+    input.getBoundingClientRect().right > input.closest("label").getBoundingClientRect().right + 0.5)
+    .map((input) => input.dataset.option));
+  assert.deepEqual(beyond, [], "fields stick out of their rows");
 });
 
 // What differs between browsers is how a control is set: Firefox sets one of each kind.
