@@ -32,6 +32,8 @@ void add_file(const std::string& path, std::vector<std::string>& files) {
     const auto project = read_project(text_of(path), path);
     if (project && project->input.sample.empty() && ending_of(project->input.path) != "relievo")
       add_file((folder / project->input.path).string(), files);
+    if (project && !project->base_image_path.empty())
+      files.push_back((folder / project->base_image_path).string());
   }
   if (ending == "gltf") {
     const Json json = Json::parse(text_of(path), nullptr, false);

@@ -59,7 +59,10 @@ Result<MakeOrder> order_of(MakeArguments arguments, const CLI::App& command) {
   const bool has_base = command.count("--base") > 0 || arguments.relief.base != OptionTexts{}.base;
   if (!arguments.base_image.empty() && !has_base) arguments.relief.base = "image";
   RELIEVO_TRY(order.relief, parse_options(arguments.relief));
-  RELIEVO_TRY(std::shared_ptr<const Image<float>> base_image, read_base_image(arguments.base_image));
+  std::optional<Project> project;
+  if (order.project) project = order.project->project;
+  RELIEVO_TRY(std::shared_ptr<const Image<float>> base_image,
+              base_image_for(order.relief.base, arguments.base_image, project));
   RELIEVO_CHECK(take_base_image(std::move(base_image), order.relief.base));
   RELIEVO_TRY(order.in, parse_input_texts(arguments.in));
   if (arguments.outputs.solid.empty())

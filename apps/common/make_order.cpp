@@ -18,8 +18,10 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Pro
   const bool has_image = order.base_image || !order.base_image_path.empty();
   if (has_image && texts.base == OptionTexts{}.base && !is_given("base")) texts.base = "image";
   RELIEVO_TRY(ReliefOptions options, parse_options(texts));
-  RELIEVO_TRY(std::shared_ptr<const Image<float>> image, read_base_image(order.base_image_path));
-  RELIEVO_CHECK(take_base_image(image ? std::move(image) : order.base_image, options.base));
+  RELIEVO_TRY(
+      std::shared_ptr<const Image<float>> image,
+      order.base_image ? order.base_image : base_image_for(options.base, order.base_image_path, project));
+  RELIEVO_CHECK(take_base_image(std::move(image), options.base));
   return options;
 }
 

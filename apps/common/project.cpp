@@ -1,6 +1,7 @@
 #include "common/project.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +16,7 @@
 #include "common/read_inputs.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/option_field.h"
+#include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/samples/sample.h"
 #include "relievo/scan/scan_file.h"
@@ -70,6 +72,8 @@ std::string unknown_name(const Json& json) {
   return {};
 }
 
+constexpr const char* base_image_name = "base-image";
+
 // Projects of older versions use former names.
 Json renamed(Json json) {
   if (json.contains("surface")) {
@@ -120,9 +124,49 @@ Result<OptionTexts> texts_from_json(const Json& given, std::string_view name) {
   return options;
 }
 
+std::string base_image_path_in(const Json& options) {
+  return options.is_object() ? text_or_nothing(options, base_image_name) : std::string();
+}
+
+namespace {
+
+// Returns the options of the table alone: the height map of a base is none of them.
+Result<OptionTexts> texts_without_image(Json json, std::string_view name) {
+  if (!base_image_path_in(json).empty()) json.erase(base_image_name);
+  return texts_from_json(json, name);
+}
+
+// The height map that was read last, for pictures that follow one another.
+struct LastImage {
+  std::string path;
+  timespec changed;
+  std::shared_ptr<const Image<float>> image;
+};
+
+Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& path) {
+  if (path.empty()) return nullptr;
+  static Guarded<LastImage> guarded;
+  return guarded.with([&](LastImage& last) -> Result<std::shared_ptr<const Image<float>>> {
+    struct stat now = {};
+    if (::stat(path.c_str(), &now) != 0) now = {};  // which reading explains
+    const auto [seconds, nanoseconds] = now.st_mtim;
+    if (last.image && last.path == path && last.changed.tv_sec == seconds &&
+        last.changed.tv_nsec == nanoseconds)
+      return last.image;
+    RELIEVO_TRY(std::shared_ptr<const Image<float>> image, read_base_image(path));
+    last = {path, now.st_mtim, image};
+    return image;
+  });
+}
+
+}  // namespace
+
 Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
-  RELIEVO_TRY(const OptionTexts texts, texts_from_json(json, name));
-  return parse_options(texts);
+  RELIEVO_TRY(const OptionTexts texts, texts_without_image(json, name));
+  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
+  RELIEVO_TRY(std::shared_ptr<const Image<float>> image, last_base_image(base_image_path_in(json)));
+  RELIEVO_CHECK(take_base_image(std::move(image), options.base));
+  return options;
 }
 
 bool is_same(const ScanSource& a, const ScanSource& b) {
@@ -154,8 +198,9 @@ Result<Project> read_project(std::string_view text, std::string_view name) {
   if (!json.contains("relievo") || json["relievo"] != 1)
     return fail(name, "relievo", "expected a project of version 1" + found(json.value("relievo", Json())));
   RELIEVO_TRY(const ScanSource input, input_from_json(json.value("input", Json()), name));
-  RELIEVO_TRY(const OptionTexts options, texts_from_json(json.value("options", Json()), name));
-  return Project{input, options};
+  const Json options = json.value("options", Json());
+  RELIEVO_TRY(const OptionTexts texts, texts_without_image(options, name));
+  return Project{input, texts, base_image_path_in(options)};
 }
 
 void FileHash::append(std::string_view bytes) {

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "relievo/core/image.h"
 #include "relievo/option_texts.h"
 #include "relievo/scene.h"
 
@@ -24,6 +26,9 @@ struct ScanSource {
 struct Project {
   ScanSource input;
   OptionTexts options;
+  std::string base_image_path;  // of the height map of a base; empty if there is none
+  // That map, or why it cannot be read. Null unless find_project() has read it.
+  Result<std::shared_ptr<const Image<float>>> base_image = nullptr;
 };
 
 // Returns a project from the bytes of its file, called `name` in errors. Unknown options are errors, so that
@@ -43,8 +48,12 @@ nlohmann::json to_json(const OptionTexts& options);
 // values of another type, calling the object `name`.
 Result<OptionTexts> texts_from_json(const nlohmann::json& json, std::string_view name);
 
-// The same, read by parse_options(). Errors: also those of it.
+// The same, read by parse_options(), with the height map whose path "base-image" is. Errors: also those of parse_options(),
+// read_base_image() and take_base_image().
 Result<ReliefOptions> options_from_json(const nlohmann::json& json, std::string_view name);
+
+// Returns the path "base-image" of an object with options; empty if it has none.
+std::string base_image_path_in(const nlohmann::json& options);
 
 // Returns whether both name the same sample or file, whatever is in it.
 bool is_same(const ScanSource& a, const ScanSource& b);

@@ -6,13 +6,15 @@
 
 #include "common/archive.h"
 #include "common/files.h"
+#include "common/read_inputs.h"
 #include "relievo/core/text.h"
+#include "relievo/io/read.h"
 
 namespace relievo::app {
 namespace {
 
 constexpr const char* project_name = "project.json";
-constexpr const char* scan_folder = "scan/";
+constexpr const char *scan_folder = "scan/", *base_folder = "base/";
 
 using ZipArchive = std::unique_ptr<zip_t, decltype([](zip_t* archive) { zip_discard(archive); })>;
 using ZipSource =
@@ -32,32 +34,50 @@ bool add(zip_t* archive, const std::string& name, std::span<const std::byte> byt
   return zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), midnight, first_day, 0) == 0;
 }
 
+// Returns the only file of a folder of the archive; null if there is none.
+Result<std::shared_ptr<const PackedFile>> file_in(const Archive& archive, std::string_view folder) {
+  for (const std::string& entry : archive.names()) {
+    if (!entry.starts_with(folder)) continue;
+    RELIEVO_TRY(std::vector<std::byte> bytes, archive.content(entry));
+    return std::make_shared<const PackedFile>(std::filesystem::path(entry).filename().string(),
+                                              std::move(bytes));
+  }
+  return nullptr;
+}
+
+// Reads the height map of a project's base from within its file, or from the place that the project names.
+Result<std::shared_ptr<const Image<float>>> read_base_image_of(const Project& project,
+                                                               const PackedFile* packed,
+                                                               const std::string& folder) {
+  if (project.base_image_path.empty()) return nullptr;
+  if (!packed) return read_base_image((std::filesystem::path(folder) / project.base_image_path).string());
+  RELIEVO_TRY(DepthImage image, read_depth_image(packed->bytes, packed->name));
+  return std::make_shared<const Image<float>>(std::move(image.values));
+}
+
 }  // namespace
 
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  if (!text.starts_with("PK")) return ProjectFile{std::string(text), nullptr};
+  if (!text.starts_with("PK")) return ProjectFile{std::string(text), nullptr, nullptr};
   RELIEVO_TRY(const Archive archive, Archive::open(bytes, name));
   RELIEVO_TRY(const std::vector<std::byte> json, archive.content(project_name));
-  ProjectFile file{{reinterpret_cast<const char*>(json.data()), json.size()}, nullptr};
-  for (const std::string& entry : archive.names()) {
-    if (!entry.starts_with(scan_folder)) continue;
-    RELIEVO_TRY(std::vector<std::byte> scan, archive.content(entry));
-    file.scan =
-        std::make_shared<const PackedScan>(std::filesystem::path(entry).filename().string(), std::move(scan));
-    break;
-  }
+  ProjectFile file{{reinterpret_cast<const char*>(json.data()), json.size()}, nullptr, nullptr};
+  RELIEVO_TRY(file.scan, file_in(archive, scan_folder));
+  RELIEVO_TRY(file.base_image, file_in(archive, base_folder));
   return file;
 }
 
-Result<std::vector<std::byte>> pack_project(std::string_view text, std::string_view scan_name,
-                                            std::span<const std::byte> scan) {
+Result<std::vector<std::byte>> pack_project(std::string_view text, const PackedFile& scan,
+                                            const PackedFile* base_image) {
   const ZipSource memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
   ZipArchive archive(memory ? zip_open_from_source(memory.get(), ZIP_TRUNCATE, nullptr) : nullptr);
   if (!archive) return not_packed();
   zip_source_keep(memory.get());  // the archive frees it, too
-  const bool is_added = add(archive.get(), project_name, std::as_bytes(std::span(text))) &&
-                        add(archive.get(), cat(scan_folder, scan_name), scan);
+  const bool is_added =
+      add(archive.get(), project_name, std::as_bytes(std::span(text))) &&
+      add(archive.get(), cat(scan_folder, scan.name), scan.bytes) &&
+      (!base_image || add(archive.get(), cat(base_folder, base_image->name), base_image->bytes));
   if (!is_added || zip_close(archive.get()) != 0) return not_packed();
   (void)archive.release();
   zip_stat_t stat;
@@ -79,7 +99,15 @@ Result<std::optional<StoredProject>> find_project(const std::vector<std::string>
   RELIEVO_TRY(ProjectFile file, unpack_project(bytes, inputs[0]));
   RELIEVO_TRY(Project project, read_project(file.text, inputs[0]));
   std::string folder = std::filesystem::path(inputs[0]).parent_path().string();
+  project.base_image = read_base_image_of(project, file.base_image.get(), folder);
   return StoredProject{std::move(project), std::move(folder), std::move(file.scan), located};
+}
+
+Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& base,
+                                                           const std::string& given_path,
+                                                           const std::optional<Project>& project) {
+  if (!given_path.empty() || !project || base.kind != BaseKind::image) return read_base_image(given_path);
+  return project->base_image;
 }
 
 Result<Scene> load_project_scan(const StoredProject& stored, const std::function<bool()>& is_unwanted) {

@@ -15,30 +15,31 @@
 
 namespace relievo::app {
 
-// The bytes of a scan that is part of a project file.
-struct PackedScan {
+// The bytes of a scan, or of the height map of a base, that is part of a project file.
+struct PackedFile {
   std::string name;  // without folders
   std::vector<std::byte> bytes;
 };
 
 struct ProjectFile {
-  std::string text;                        // see read_project()
-  std::shared_ptr<const PackedScan> scan;  // null if the project only names its scan
+  std::string text;                                    // see read_project()
+  std::shared_ptr<const PackedFile> scan, base_image;  // null if the project only names them, or has none
 };
 
 // Takes a project file apart, called `name` in errors. Errors: kind input, also for an archive without a project, or of
 // more than 4 GiB.
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name);
 
-// Returns a project file with the scan, compressed. Errors: kind output if the memory is not enough.
-Result<std::vector<std::byte>> pack_project(std::string_view text, std::string_view scan_name,
-                                            std::span<const std::byte> scan);
+// Returns a project file with the scan and, unless it is null, the height map of the base, compressed. Errors: kind output
+// if the memory is not enough.
+Result<std::vector<std::byte>> pack_project(std::string_view text, const PackedFile& scan,
+                                            const PackedFile* base_image);
 
 // A project that was read, and where its scan is.
 struct StoredProject {
   Project project;
   std::string folder;                        // of its file
-  std::shared_ptr<const PackedScan> packed;  // null unless the file contains the scan
+  std::shared_ptr<const PackedFile> packed;  // null unless the file contains the scan
   std::string located;                       // the place that the user names instead; empty if there is none
 };
 
@@ -46,6 +47,12 @@ struct StoredProject {
 // read_file(), unpack_project() and read_project(); kind option for a located scan without a project.
 Result<std::optional<StoredProject>> find_project(const std::vector<std::string>& inputs,
                                                   const std::string& located);
+
+// Returns the height map of a base: that of the path if one is given, otherwise that of the project where the base is an
+// image. Errors: those of read_base_image().
+Result<std::shared_ptr<const Image<float>>> base_image_for(const BaseOptions& base,
+                                                           const std::string& given_path,
+                                                           const std::optional<Project>& project);
 
 // Reads its scan: from the place that the user names, from within the file, or from the place that the project names.
 // Errors: those of load_scan() and load_input().

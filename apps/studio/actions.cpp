@@ -5,7 +5,6 @@
 #include <span>
 
 #include "common/files.h"
-#include "common/project_file.h"
 #include "relievo/core/text.h"
 #include "studio/requests.h"
 
@@ -153,9 +152,17 @@ void Actions::save(const Json& json, Answer& to) {
   if (!input) return answer(to, input.error());
   if (!input->sample.empty() || ending_of(input->path) == "json")
     return refuse(to, 400, "expected a scan of one file");
-  const Result<std::vector<std::byte>> scan = read_file(input->path);
+  Result<std::vector<std::byte>> scan = read_file(input->path);
   if (!scan) return answer(to, scan.error());
-  const auto file = pack_project(project.dump(1) + "\n", input->name, *scan);
+  const std::string image_path = base_image_path_in(project.value("options", Json()));
+  PackedFile image{plain_name(image_path), {}};
+  if (!image_path.empty()) {
+    Result<std::vector<std::byte>> bytes = read_file(image_path);
+    if (!bytes) return answer(to, bytes.error());
+    image.bytes = std::move(*bytes);
+  }
+  const auto file = pack_project(project.dump(1) + "\n", {input->name, std::move(*scan)},
+                                 image_path.empty() ? nullptr : &image);
   if (!file) return answer(to, file.error());
   to = {200, "application/zip", {reinterpret_cast<const char*>(file->data()), file->size()}};
 }
@@ -180,6 +187,13 @@ void Actions::take_project(const std::string& name, const BodyReader& read, Answ
   project ? answer(to, *project) : answer(to, project.error());
 }
 
+// Keeps a file that was part of a project.
+Result<ScanSource> Actions::kept(const PackedFile& file) {
+  const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.name);
+  RELIEVO_CHECK(scan->append({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()}));
+  return store_.keep(*scan);
+}
+
 // Returns what the page needs of a project file. A relative path starts at `folder`.
 Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::string& name,
                                  const std::string& folder) {
@@ -189,17 +203,23 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   ScanSource& input = project.input;
   const Lock lock(storing_);
   if (file.scan) {
-    const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.scan->name);
-    RELIEVO_CHECK(
-        scan->append({reinterpret_cast<const char*>(file.scan->bytes.data()), file.scan->bytes.size()}));
-    RELIEVO_TRY(input, store_.keep(*scan));
+    RELIEVO_TRY(input, kept(*file.scan));
+  }
+  std::string& image = project.base_image_path;
+  if (file.base_image) {
+    RELIEVO_TRY(const ScanSource kept_image, kept(*file.base_image));
+    image = kept_image.path;
+  } else if (!image.empty() && !folder.empty()) {
+    image = (std::filesystem::path(folder) / image).lexically_normal().string();
   }
   if (!folder.empty() && input.sample.empty())
     input.path = (std::filesystem::path(folder) / input.path).lexically_normal().string();
   if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
+  Json options = app::to_json(project.options);
+  if (!image.empty()) options["base-image"] = image;
   return Json{{"input", app::to_json(input)},
               {"is_there", is_there(input)},
-              {"options", app::to_json(project.options)},
+              {"options", std::move(options)},
               {"studio", Json::parse(file.text).value("studio", Json::object())}};
 }
 

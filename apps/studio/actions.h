@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/project_file.h"
 #include "relievo/core/parallel.h"
 #include "studio/answers.h"
 #include "studio/open_documents.h"
@@ -77,6 +78,7 @@ class Actions {
   void cancel_piece(const nlohmann::json& json, Answer& to);
   void make_file(const nlohmann::json& json, Answer& to);
 
+  Result<ScanSource> kept(const PackedFile& file);
   Result<nlohmann::json> project_in(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder);
   nlohmann::json recent_list() const;

@@ -208,6 +208,8 @@ void DiskStore::remove_old_scans() const {
   for (const KeptDocument& kept : recent()) {
     const fs::path path = kept.input.path;
     used.insert(path.parent_path());
+    for (const std::string& image : base_images_of(document(kept.id)))
+      used.insert(fs::path(image).parent_path());
     if (path.extension() != ".json") continue;
     const auto models =
         read_scene_file(read_text(path), path.string());  // of several files that were dropped

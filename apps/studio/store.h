@@ -73,6 +73,9 @@ bool is_document(std::string_view id);
 // Returns the scan of a document's present step; none if the state is not a page's.
 std::optional<ScanSource> input_of(const std::string& state);
 
+// Returns the paths of the height maps of bases in all steps of a document.
+std::vector<std::string> base_images_of(const std::string& state);
+
 // Returns the last part of a path, without anything that a file system could read as more than a name.
 std::string plain_name(const std::string& name);
 

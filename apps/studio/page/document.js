@@ -5,7 +5,7 @@ import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
 const START = {view: "auto", height: 5, method: "layered",
-  mode: "auto", tone: "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
+  mode: "auto", tone: "", "base-image": "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",

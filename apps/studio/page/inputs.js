@@ -31,8 +31,9 @@ export function takeDrops(veil, open) {
   addEventListener("dragover", show(true));
   addEventListener("dragleave", (event) => event.relatedTarget === null && show(false)(event));
   addEventListener("drop", (event) => {
+    const isTaken = event.defaultPrevented; // by the part of the page on which they were dropped
     show(false)(event);
-    open([...(event.dataTransfer?.files ?? [])]);
+    if (!isTaken) open([...(event.dataTransfer?.files ?? [])]);
   });
 }
 

@@ -7,7 +7,7 @@ import {paint} from "./stage.js";
 
 // A rectangular plate with nothing besides.
 export const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,
-  "rim-height": null, "rim-bevel": null, base: "plane", wrap: "none", form: "relief", draft: null});
+  "rim-height": null, "rim-bevel": null, base: "plane", "base-image": "", wrap: "none", form: "relief", draft: null});
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
 const round = {...PLAIN, outline: "circle", width: null, margin: 1};

@@ -1,6 +1,7 @@
 // The rows of all options of the engine that are no sliders.
 
 import {optionOf} from "./about.js";
+import {BaseImage, withoutImage} from "./base_image.js";
 import {$, make} from "./controls.js";
 import {FIRST, engineOptions} from "./document.js";
 import {KINDS, PLAIN, kindOf} from "./kinds.js";
@@ -47,6 +48,7 @@ const asShown = (name, text) => pairText(name, text, (side) => Number(shortLengt
 // Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, until a width
 // is asked for; an outline that cannot have that size is as large as the relief needs.
 function besides(name, value, {outline, diameter, plate}, shownWidth) {
+  if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
     const circle = name === "diameter" ? {outline: "circle", plate: ""} : {diameter: null};
     const straight = name === "plate" && outline === "circle" ? {outline: "rectangle"} : {};
@@ -63,6 +65,8 @@ export class PieceRows {
   constructor({engine, doc, say, shownWidth}) {
     Object.assign(this, {engine, doc, say, shownWidth, rows: {}});
     for (const name of ROWS) $(PLACES[name]).append((this.rows[name] = this.row(name)).element);
+    this.baseImage = new BaseImage({engine, doc, say});
+    this.rows.base.element.after(this.baseImage.element);
   }
 
   // Returns {element, input, isNumber, unit, min, max} of an option.
@@ -120,6 +124,7 @@ export class PieceRows {
       if (isOfPiece(name) && name !== "outline")
         element.hidden = !KINDS[kind].rows.includes(name) && value === (PLAIN[name] ?? "");
     }
+    this.baseImage.show(!this.rows.base.element.hidden);
     this.shownUnit = lengthUnit.unit;
     this.rows.finish.element.hidden = !options.tool || options.tool === "none";
   }

@@ -210,6 +210,42 @@ test("packs a scan into a project, from which make and another machine make the 
   writeFileSync(scan, bytes);
 });
 
+test("packs the height map of a base, and keeps it with the document", async () => {
+  const place = path.join(folder, "based"), map = path.join(folder, "map.png"), out = path.join(folder, "out.stl");
+  const make = (input, ...args) => {
+    const {status, stderr} = spawnSync(PROGRAM, ["make", input, "-o", out, "--quiet", ...args]);
+    return status === 0 ? readFileSync(out) : String(stderr);
+  };
+  make(scan, "--height", "3", "--heightmap", map, "--heightmap-size", "64");
+  const wanted = make(scan, "--height", "2", "--width", "40", "--base", "image:height=3", "--base-image", map);
+  const {input: {path: kept}} = await upload("map.png", readFileSync(map));
+  const options = {height: 2, width: 40, base: "image:height=3", "base-image": kept};
+  const project = {relievo: 1, input: {path: scan, name: "scan.ply"}, options};
+  const linked = path.join(folder, "based.relievo"), packed = path.join(folder, "based_packed.relievo");
+  writeFileSync(linked, JSON.stringify(project));
+  assert.ok(wanted.equals(make(linked)));
+  const plane = make(linked, "--base", "plane");
+  writeFileSync(packed, (await engine.post("save", {project})).body);
+  rmSync(kept);
+  assert.match(make(linked), /map\.png: expected a file that can be read/);
+  assert.ok(plane.equals(make(linked, "--base", "plane")), "an image that is not used is missed");
+  assert.ok(wanted.equals(make(packed)));
+  assert.ok(wanted.equals(make(linked, "--base-image", map)));
+
+  const other = await new EngineProcess(place).ready();
+  const {body} = await other.request(`${other.url.pathname}api/project?name=p.relievo`,
+    {method: "POST", body: readFileSync(packed)});
+  const {input, options: {"base-image": unpacked}} = JSON.parse(body);
+  assert.ok(readFileSync(unpacked).equals(readFileSync(map)));
+  const {document} = await other.json("document", {input});
+  const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // an undone step has it, too
+  await keep(other, document, {version: 1, changed: 5, at: 1, steps});
+  await other.stop();
+  const next = await new EngineProcess(place).ready();
+  assert.ok(existsSync(unpacked));
+  await next.stop();
+});
+
 test("keeps dropped scans for as long as it runs and their documents are recent", async () => {
   const place = path.join(folder, "dropped"), other = await new EngineProcess(place).ready(), inputs = [];
   for (let i = 0; i < 12; ++i) {

@@ -1,6 +1,7 @@
 // Every option of the engine's table has a control on the page, and what is set there reaches the engine.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
+import {readFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
@@ -84,6 +85,10 @@ test("has a control for each option of the table", {skip}, async () => {
   const names = options.map(({name}) => name);
   assert.deepEqual([...names].sort(), Object.keys(CASES).sort(), "an option is missing in this test");
   for (const name of names) assert.equal(await control(name).count(), 1, `the page has no control of ${name}`);
+  const beyond = await page.locator("label [data-option]").evaluateAll((all) => all.filter((input) =>
+    input.getBoundingClientRect().right > input.closest("label").getBoundingClientRect().right + 0.5)
+    .map((input) => input.dataset.option));
+  assert.deepEqual(beyond, [], "fields stick out of their rows");
 });
 
 // What differs between browsers is how a control is set: Firefox sets one of each kind.
@@ -108,6 +113,37 @@ for (const [name, {value, first = {}, kind}] of cases)
       await page.locator('[role="application"][aria-busy="false"]').first().waitFor({timeout: 2000});
     });
   });
+
+const baseImage = () => page.locator("label, div").filter({has: control("base-image")}).last();
+
+test("lays the relief on an image that is chosen or dropped, names it and removes it", {skip}, async () => {
+  const files = ["map.png", "map.tif"].map((name) => path.join(folder, name));
+  for (const file of files)
+    spawnSync(PROGRAM, ["make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", file, "--heightmap-size", "64"]);
+  assert.equal(await control("base-image").count(), 1);
+  await baseImage().locator("input").setInputFiles(files[0]);
+  await reaches(({options: {base, "base-image": map}}) => base === "image" && map?.endsWith("/map.png"));
+  await baseImage().getByText("map.png").waitFor();
+
+  const bytes = [...readFileSync(files[1])];
+  await baseImage().evaluate((row, bytes) => {
+    const dataTransfer = new DataTransfer();
+    dataTransfer.items.add(new File([new Uint8Array(bytes)], "map.tif"));
+    row.dispatchEvent(new DragEvent("drop", {bubbles: true, cancelable: true, dataTransfer}));
+  }, bytes);
+  await reaches(({options}) => options["base-image"]?.endsWith("/map.tif"));
+  await baseImage().getByText("map.tif").waitFor();
+
+  await baseImage().locator("input").setInputFiles(scan); // no image: refused, and nothing changes
+  await page.getByText("expected a PNG or TIFF picture of depths").waitFor();
+  assert.match((await sent()).options["base-image"], /map\.tif$/);
+  await baseImage().getByRole("button", {name: "Remove the base image"}).click();
+  await reaches(({options}) => !("base" in options) && !("base-image" in options));
+  await page.getByRole("button", {name: "Undo"}).click();
+  await reaches(({options}) => options["base-image"]?.endsWith("/map.tif"));
+  await set("base", "dome:height=5"); // which has no image
+  await reaches(({options}) => options.base === "dome:height=5" && !("base-image" in options));
+});
 
 test("opens a project without a height as make makes it", {skip}, async () => {
   const steps = await page.evaluate(async () => {

@@ -2,7 +2,7 @@
 // of apps/studio/page/engine.js, whose place this file takes.
 import {compile} from "../../../npm/src/compile.js";
 import {EngineError, TAB} from "../../studio/page/engine_base.js";
-import {bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
+import {BASE_IMAGE, bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
 
 export {EngineError, TAB};
@@ -86,7 +86,13 @@ export class Engine {
   async #ask(call, request = {}) {
     const {document} = this;
     if (!this.#isOpen.has(document)) throw closed();
-    return (await this.#call(call, {document, ...request})).body;
+    return (await this.#call(call, {document, ...request}, await this.#imageOf(request.options))).body;
+  }
+
+  // Returns the files that options name: the height map of a base.
+  async #imageOf(options) {
+    const path = options?.[BASE_IMAGE];
+    return path ? (await this.#store.scan(scanOf({path})))?.files ?? [] : [];
   }
 
   #take({id, statuses, error, isOver, status, about, type, body}) {
@@ -192,9 +198,17 @@ export class Engine {
   async readProject(file) {
     if (this.#isBusy) this.#end(cancelled(), closed());
     const {body: project} = await this.#call("project", {path: "project", name: file.name}, [["project", file]]);
-    const {body: bytes} = await this.#call("unpacked"), {input} = project;
-    if (bytes.buffer) await this.#keepScan(input.hash, input.name, [[input.name, new Blob([bytes])]]);
+    const {input, options} = project;
+    await this.#keepUnpacked(input.path);
+    await this.#keepUnpacked(options[BASE_IMAGE]);
     return {...project, ...(await this.find(input))};
+  }
+
+  // Keeps a file that was part of the project that was read last.
+  async #keepUnpacked(path) {
+    if (!path) return;
+    const {body: bytes} = await this.#call("unpacked", {path}), name = path.slice(path.lastIndexOf("/") + 1);
+    if (bytes.buffer) await this.#keepScan(`fnv1a64:${scanOf({path})}`, name, [[name, new Blob([bytes])]]);
   }
 
   async chooseView(view) {
@@ -219,7 +233,7 @@ export class Engine {
   async #picture(call, request) {
     const {document} = this;
     if (!this.#isOpen.has(document)) throw closed();
-    const {about, body} = await this.#call(call, {document, ...request});
+    const {about, body} = await this.#call(call, {document, ...request}, await this.#imageOf(request.options));
     const pixels = new Uint8ClampedArray(body.buffer, body.byteOffset, body.length);
     return {image: new ImageData(pixels, about.width, about.height), about};
   }
@@ -255,13 +269,14 @@ export class Engine {
   async exportFile(request) {
     const {document} = this;
     if (!this.#isOpen.has(document)) throw closed();
-    const {type, body} = await this.#call("export", {document, ...request});
+    const {type, body} = await this.#call("export", {document, ...request}, await this.#imageOf(request.options));
     return new Blob([body], {type});
   }
 
   async packProject(project) {
     const {files = []} = (await this.#store.scan(scanOf(project.input))) ?? {};
-    return new Blob([(await this.#call("save", {project}, files)).body], {type: "application/zip"});
+    const all = [...files, ...(await this.#imageOf(project.options))];
+    return new Blob([(await this.#call("save", {project}, all)).body], {type: "application/zip"});
   }
 
   async recent() {

@@ -17,6 +17,12 @@ export const scanOf = ({path = "", hash = ""}) =>
 // Returns the input that a state of a document is about; null if it is none.
 export const inputOf = (state) => state?.steps?.[state.at]?.input ?? null;
 
+export const BASE_IMAGE = "base-image"; // the option that is the path of the height map of a base
+
+// Returns the digits of the hashes of all files that a state of a document needs.
+export const scansOf = (state) => [scanOf(inputOf(state)),
+  ...state.steps.map(({options}) => scanOf({path: options?.[BASE_IMAGE]}))];
+
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // where another file is the model
 

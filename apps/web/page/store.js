@@ -1,6 +1,6 @@
 // Keeps documents and scans in the browser (IndexedDB): documents with their pictures, and the files of scans.
 import {EngineError} from "../../studio/page/engine_base.js";
-import {bytesOf, inputOf, scanOf} from "./inputs.js";
+import {bytesOf, inputOf, scansOf} from "./inputs.js";
 
 const MOST_RECENT = 24; // documents that are kept, with their scans
 
@@ -118,7 +118,7 @@ export class BrowserStore {
 
   async #removeOld() {
     const recent = await this.recent();
-    const documents = new Set(recent.map(({id}) => id)), scans = new Set(recent.map(({state}) => scanOf(inputOf(state))));
+    const documents = new Set(recent.map(({id}) => id)), scans = new Set(recent.flatMap(({state}) => scansOf(state)));
     const transaction = this.#base.transaction(["documents", "scans"], "readwrite");
     for (const [name, wanted] of [["documents", documents], ["scans", scans]]) {
       const store = transaction.objectStore(name);

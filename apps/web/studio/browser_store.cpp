@@ -31,8 +31,9 @@ std::unique_ptr<studio::DroppedScan> BrowserStore::begin_scan(const std::string&
 Result<ScanSource> BrowserStore::keep(studio::DroppedScan& scan) {
   auto& kept = static_cast<ScanInMemory&>(scan);  // which begin_scan() made
   const std::string hash = kept.hash.text();
-  bytes_ = std::move(kept.bytes);
-  return ScanSource{{}, cat("scans/", hash.substr(hash.find(':') + 1), "/", kept.name), kept.name, hash};
+  ScanSource source{{}, cat("scans/", hash.substr(hash.find(':') + 1), "/", kept.name), kept.name, hash};
+  bytes_[source.path] = std::move(kept.bytes);
+  return source;
 }
 
 }  // namespace relievo::app::web

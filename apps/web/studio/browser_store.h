@@ -1,11 +1,13 @@
 // The studio's store where a browser keeps documents and scans: what it hands over are names.
 #pragma once
 
+#include <map>
+
 #include "studio/store.h"
 
 namespace relievo::app::web {
 
-// Names scans by their hash, and keeps the bytes of the last one for the page to take. Documents are the page's own affair,
+// Names scans by their hash, and keeps their bytes for the page to take. Documents are the page's own affair,
 // see apps/web/page/store.js.
 class BrowserStore final : public studio::Store {
  public:
@@ -19,12 +21,12 @@ class BrowserStore final : public studio::Store {
   Result<ScanSource> keep(studio::DroppedScan& scan) override;
   std::optional<ScanSource> find_scan(const std::string&) const override { return std::nullopt; }
 
-  // Returns the bytes of the scan that was kept last; none on a second call.
-  std::vector<std::byte> take_bytes() { return std::exchange(bytes_, {}); }
+  // Returns the bytes of a scan that was kept under that path; none on a second call.
+  std::vector<std::byte> take_bytes(const std::string& path) { return std::exchange(bytes_[path], {}); }
 
  private:
   std::string notice_;
-  std::vector<std::byte> bytes_;
+  std::map<std::string, std::vector<std::byte>> bytes_;  // by path
 };
 
 }  // namespace relievo::app::web

@@ -44,7 +44,7 @@ CallAnswer call_answer(const studio::Answer& from, Json about) {
   return {std::move(about), {bytes.begin(), bytes.end()}};
 }
 
-// Takes a project file that the page shows under a path. The bytes of a scan in it follow by the call "unpacked".
+// Takes a project file that the page shows under a path. The bytes of each file in it follow by the call "unpacked".
 Result<CallAnswer> take_project(const Json& json) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
   studio::Answer answer;
@@ -69,7 +69,7 @@ Result<CallAnswer> call(std::string_view name, const Json& json) {
     return CallAnswer{{{"hash", hash}}};
   }
   if (name == "project") return take_project(json);
-  if (name == "unpacked") return CallAnswer{Json::object(), studio.store.take_bytes()};
+  if (name == "unpacked") return CallAnswer{Json::object(), studio.store.take_bytes(json.value("path", ""))};
   if (name == "work") {
     studio.documents.work();
     return CallAnswer{};

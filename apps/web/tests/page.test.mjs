@@ -30,6 +30,8 @@ before(async () => {
   fs.writeFileSync(path.join(scans, "urn.ply"), await relievo.sample("still_life", {points: 20000}));
   fs.writeFileSync(path.join(scans, "large.ply"), waves(1500));
   fs.writeFileSync(path.join(scans, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 2\n");
+  const relief = await relievo.make(shell, {heightMm: 3});
+  fs.writeFileSync(path.join(scans, "map.png"), relief.heightMapFile("png", {size: 64}));
   const models = [{file: "shell.ply"}, {file: "urn.ply", translate: [2.5, 0, 0]}];
   fs.writeFileSync(path.join(scans, "both.json"), JSON.stringify({models}));
 });
@@ -187,6 +189,33 @@ test("a project opens with its scan, and several files as a scene", options, asy
   await other.studio.page.getByText("scene.json", {exact: true}).waitFor();
   await other.studio.untilReady("[\\d,]+");
   assert.deepEqual(other.studio.errors, []);
+});
+
+test("a base takes an image, which the browser and a project keep", options, async (t) => {
+  const {studio} = await newStudio(t, "chromium", fileAddress);
+  await studio.open(scan("urn.ply"));
+  await studio.untilReady("20,000");
+  await studio.page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  const image = (page) => page.locator("[data-option='base-image']");
+  await studio.page.locator(".base-image input").setInputFiles(scan("map.png"));
+  await image(studio.page).filter({hasText: "map.png"}).waitFor();
+  await studio.untilReady("20,000");
+  const project = await studio.savedProject("urn.relievo");
+  await studio.page.reload();
+  await studio.untilReady("20,000");
+  assert.equal(await image(studio.page).textContent(), "map.png");
+  const {studio: other} = await newStudio(t, "chromium", fileAddress);
+  await other.open(project);
+  await other.untilReady("20,000");
+  const solids = [await studio.exported("kept.stl"), await other.exported("opened.stl")].map(admesh);
+  assert.ok(solids[0].height > 12, `${solids[0].height} mm`); // 8 mm without the image
+  assert.deepEqual(solids[1], solids[0]);
+  if (native && fs.existsSync(native)) {
+    const made = path.join(studio.downloads, "native.stl");
+    execFileSync(native, ["make", project, "-o", made, "--quiet"], {stdio: "pipe"});
+    assert.deepEqual(admesh(made), solids[0]);
+  }
+  assert.deepEqual([...studio.errors, ...other.errors], []);
 });
 
 test("broken and huge files are refused, and the relief stays", options, async (t) => {

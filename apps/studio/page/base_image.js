@@ -1,0 +1,66 @@
+// The height map of the base: an image that is chosen, or dropped on its row.
+
+import {$, make} from "./controls.js";
+import {engineOptions} from "./document.js";
+
+const NAME = "base-image";
+const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";
+const isImage = (base) => base === "image" || base.startsWith("image:");
+
+// Returns the changes besides the option's own that a base brings: one that is no image has none.
+export const withoutImage = (base) => (isImage(base) ? {} : {[NAME]: ""});
+
+export class BaseImage {
+  // `say` takes a line for people.
+  constructor({engine, doc, say}) {
+    Object.assign(this, {engine, doc, say});
+    this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true,
+      "aria-label": "Image for the base"});
+    this.choose = make("button", {type: "button", class: "quiet", "data-option": NAME,
+      onclick: () => this.file.click()});
+    this.remove = make("button", {type: "button", class: "quiet", "aria-label": "Remove the base image",
+      onclick: () => this.doc.change({options: {base: "plane", [NAME]: ""}})}, "×");
+    this.element = make("div", {class: "pair base-image", title: TIP}, make("span", {}, "Base image"),
+      make("span", {}, this.choose, this.remove), this.file);
+    this.listen();
+  }
+
+  listen() {
+    this.file.onchange = () => {
+      const [file] = this.file.files;
+      this.file.value = "";
+      if (file) this.take(file);
+    };
+    const veil = (text) => () => ($("#veil p").textContent = text);
+    this.element.ondragover = veil("Drop to lay the relief on this image");
+    this.element.ondragleave = veil("Drop to open");
+    this.element.ondrop = (event) => {
+      veil("Drop to open")();
+      event.preventDefault(); // the page opens no scan of it
+      const [file] = event.dataTransfer?.files ?? [];
+      if (file) this.take(file);
+    };
+  }
+
+  // Takes an image, unless the engine cannot read it or another document is shown by then.
+  async take(file) {
+    const {document} = this.engine;
+    try {
+      const {path} = await this.engine.upload([file]), {options} = this.doc.now;
+      const part = {base: isImage(options.base) ? options.base : "image", [NAME]: path};
+      await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
+      if (document === this.engine.document) this.doc.change({options: part});
+    } catch (error) {
+      this.say(error.message);
+    }
+  }
+
+  // Shows the document's image where its base is shown.
+  show(isBaseShown) {
+    const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
+    this.element.hidden = !isBaseShown;
+    this.choose.textContent = name || "Choose …";
+    this.choose.setAttribute("aria-label", name ? `Base image ${name}: choose another` : "Choose … for the base");
+    this.remove.hidden = path === "";
+  }
+}
