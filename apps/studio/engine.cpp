@@ -228,7 +228,8 @@ Result<void> Engine::choose_view(const PreparationTexts& view) {
   return {};
 }
 
-// Lets go of a scan of which no relief came. The session is cancelled first: who then finds no scan ends.
+// Cancels the session, and frees a scan that no relief was made of. The session comes first, so that work which finds no
+// scan ends.
 void Engine::cancel() {
   state_->session.cancel();
   state_->shared.with([](Shared& s) {

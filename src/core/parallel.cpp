@@ -69,7 +69,8 @@ class Pool {
  private:
   Pool() { start(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1); }
 
-  // Where the system gives no more threads, those that there are do the work: results are the same.
+  // Starts that many workers, or fewer if the system refuses to create more threads. Results do not depend on their
+  // number.
   void start(int workers) {
     is_stopping_ = false;
     try {

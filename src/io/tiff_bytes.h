@@ -21,7 +21,7 @@ class TiffBytes {
   TIFF* handle() const { return tiff_; }  // null if the bytes are no TIFF
   const std::string& message() const { return message_; }
   void close();
-  // Leaves the handle as it is, for good: libtiff crashes when it closes a file for whose tags there was no memory.
+  // Gives the handle up without closing it, because libtiff crashes when it closes a file whose tags lacked memory.
   void abandon() { tiff_ = nullptr; }
 
  private:

@@ -31,7 +31,7 @@ struct Shared {
     if (turning) turning->cancel();
   }
 
-  // Lets go of points of which no model came. Where there is a model, its next view may need them.
+  // Frees the points if no model was made of them. If there is a model, its next view may need them.
   void forget_unused() {
     if (model) return;
     measured = {};

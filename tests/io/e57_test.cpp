@@ -97,7 +97,7 @@ TEST(E57, ScansAreMovedByTheirPoses) {
   EXPECT_EQ(file->cloud.normals[1], Vec3f(1, 0, 0));
 }
 
-// Of a quarter turn about x, only two parts are given, and no translation.
+// The pose gives only w and x of its quaternion, which is a quarter turn about x. It gives no translation.
 TEST(E57, MissingPartsOfAPoseAreZero) {
   const auto file =
       read(e57({scan_of({1}, {2}, {3}, "<pose><rotation><w>2</w><x>2</x></rotation></pose>")}), "a");
