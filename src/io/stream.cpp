@@ -61,6 +61,7 @@ class Rows {
 // Returns runs of rows from all over the file.
 Result<Cloud> take_sample(Rows& rows) {
   const std::uint64_t count = rows.records().count;
+  if (count == 0) return Cloud{};  // their place may lie behind the end of the file
   const std::uint64_t runs =
       std::max<std::uint64_t>(1, std::min(count, std::uint64_t{sample_points}) / sample_run);
   Cloud sample, run;
@@ -120,13 +121,15 @@ class ViewGrid {
     }
   }
   std::uint64_t points() const { return points_; }
+  double extent() const { return std::max(box_.size().x(), box_.size().y()); }
 
   // Chooses the squares' size so that about `wanted` of them contain points: the sample shows which share of
-  // the box the points fill. Returns false for a cloud without extent.
+  // the box the points fill. Returns false for a cloud without extent, and for one whose extent has no square
+  // that a float holds.
   bool lay_grid(const Cloud& sample, double wanted) {
     const Vec3 size = box_.size();
-    const double longer = std::max(size.x(), size.y());
-    if (!(longer > 0)) return false;
+    const double longer = extent();
+    if (!(longer > 1e-18 && longer < 1e18)) return false;
     // About 20 points of the sample per square, so that hardly a square on the model is empty.
     const auto side =
         static_cast<std::size_t>(std::clamp(std::sqrt(static_cast<double>(sample.size()) / 20), 8.0, 192.0));
@@ -215,7 +218,7 @@ class ViewGrid {
       const Vec3 from_middle = piece.points[i] - scout_.middle;
       p.at = turn_ * from_middle;
       p.normal = has_normals_ ? Vec3f(turn * piece.normals[i]) : Vec3f(Vec3f::UnitZ());
-      p.counts = from_middle.norm() <= scout_.outlier_radius && p.normal.z() > 0;  // false for a NaN
+      p.counts = p.at.allFinite() && from_middle.norm() <= scout_.outlier_radius && p.normal.z() > 0;
       if (!p.counts || top_.empty()) return;
       const auto c = static_cast<std::size_t>((p.at.x() - box_.min.x()) / square_),
                  r = static_cast<std::size_t>((p.at.y() - box_.min.y()) / square_);
@@ -285,8 +288,11 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
 
   if (auto done = rows.each("extent", 0, .2, progress, [&](const Cloud& piece) { front.look(piece); }); !done)
     return std::unexpected(done.error());
-  if (front.points() == 0 || !front.lay_grid(*sample, points))
+  if (front.points() == 0)
     return geometry_error("expected points that face the viewer, found none; try another view");
+  if (!front.lay_grid(*sample, points))
+    return geometry_error(
+        cat("expected points that cover an area in the view, found an extent of ", front.extent()));
   if (auto done = rows.each("front", .2, .4, progress, [&](const Cloud& piece) { front.raise(piece); });
       !done)
     return std::unexpected(done.error());

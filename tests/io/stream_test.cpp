@@ -232,6 +232,40 @@ TEST(StreamFront, BrokenFilesAreNamed) {
   EXPECT_EQ(stream_front(good, "a.ply", front, 10).error().kind, ErrorKind::option);
 }
 
+// Returns a LAS file of 400 points on a slope, whose coordinates are multiples of the scale.
+std::string slope_las(double scale) {
+  std::string file = patched(las(2).substr(0, 227), 107, std::uint32_t{400});
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    file = patched(patched(file, 131 + 8 * axis, scale), 155 + 8 * axis, 0.);
+  for (std::int32_t i = 0; i < 400; ++i) {
+    std::string row(26, '\0');
+    file += patched(patched(patched(row, 0, i % 20), 4, i / 20), 8, i % 20 + i / 20);
+  }
+  return file;
+}
+
+TEST(StreamFront, RefusesExtentsThatAreTooSmallOrTooLarge) {
+  for (const double scale : {1e306, 1e200, 1e20, 1e-20, 1e-200, 5e-324}) {
+    MemorySource source(bytes_of(slope_las(scale)));
+    const auto cloud = stream_front(source, "a.las", front, 1000);
+    ASSERT_FALSE(cloud) << scale;
+    EXPECT_NE(
+        cloud.error().message().find("expected points that cover an area in the view, found an extent of "),
+        std::string::npos)
+        << cloud.error().message();
+  }
+  for (const double scale : {1e16, 1e-16})
+    EXPECT_EQ(streamed(bytes_of(slope_las(scale)), front, 1000).cloud.size(), 400U) << scale;
+}
+
+TEST(StreamFront, ReadsNothingBehindTheEndOfTheFileForNoPoints) {
+  const std::string file =
+      patched(patched(las(2).substr(0, 227), 107, std::uint32_t{0}), 96, std::uint32_t{5000});
+  MemorySource source(bytes_of(file));
+  EXPECT_EQ(stream_front(source, "a.las", front, 1000).error().message(),
+            "a.las: expected points, found none with finite coordinates");
+}
+
 TEST(StreamFront, MakesTheReliefOfTheWholeCloud) {
   const Cloud whole = test::sphere(60000, 1);
   ReliefOptions options;
