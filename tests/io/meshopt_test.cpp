@@ -1,10 +1,11 @@
-// Buffer views of glTF that EXT_meshopt_compression has compressed: examples of its specification, streams that are put
+// Buffer views of glTF that KHR_meshopt_compression and EXT_meshopt_compression have compressed: examples of its specification, streams that are put
 // together by hand, and an encoder that is independent of the decoder.
 #include "io/gltf/meshopt.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
+#include <bit>
 #include <cstring>
 #include <deque>
 #include <limits>
@@ -40,56 +41,125 @@ std::vector<std::uint32_t> numbers_of(const std::optional<std::vector<std::byte>
   return numbers;
 }
 
-// A group of 16 differences, in as few bits as they need: 0, 2, 4 or 8 each.
+// The bits of a difference, for each code of a group.
+using Widths = std::array<int, 4>;
+constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
+
+// A group of 16 differences, in the first of the widths that takes the fewest bytes.
 struct Group {
-  int mode = 3;
+  int code = -1;
   std::string bytes;
 };
 
-Group packed_group(const std::string& stored) {
-  Group best{3, stored};
-  if (stored == std::string(16, '\0')) return {0, ""};
-  for (const int bits : {4, 2}) {
-    std::string packed(static_cast<std::size_t>(2 * bits), '\0'), rest;
-    for (int i = 0; i < 16; ++i) {
-      const int value = static_cast<unsigned char>(stored[static_cast<std::size_t>(i)]),
-                escape = (1 << bits) - 1;
-      if (value >= escape) rest += static_cast<char>(value);
-      char& byte = packed[static_cast<std::size_t>(i * bits / 8)];
-      byte = static_cast<char>(byte | std::min(value, escape) << (8 - bits - i * bits % 8));
-    }
-    if (packed.size() + rest.size() < best.bytes.size()) best = {bits / 2, packed + rest};
+std::string packed(const std::string& stored, int bits) {
+  std::string bytes(static_cast<std::size_t>(2 * bits), '\0'), rest;
+  for (int i = 0; i < 16; ++i) {
+    const int value = static_cast<unsigned char>(stored[static_cast<std::size_t>(i)]),
+              escape = bits == 8 ? 256 : (1 << bits) - 1;
+    if (value >= escape) rest += static_cast<char>(value);
+    char& byte = bytes[static_cast<std::size_t>(i * bits / 8)];
+    byte = static_cast<char>(byte | std::min(value, escape) << (bits == 1 ? i % 8 : 8 - bits - i * bits % 8));
+  }
+  return bytes + rest;
+}
+
+Group packed_group(const std::string& stored, const Widths& widths) {
+  Group best;
+  for (int code = 0; code < 4; ++code) {
+    const int bits = widths[static_cast<std::size_t>(code)];
+    if (bits == 0 && stored != std::string(16, '\0')) continue;
+    const std::string bytes = bits == 0 ? "" : packed(stored, bits);
+    if (best.code < 0 || bytes.size() < best.bytes.size()) best = {code, bytes};
   }
   return best;
 }
 
-// Returns the differences of one byte of the elements from `first` on, of which there are `count`, filled up to 16.
+// Returns differences of one byte of each element, of which the last group may be cut, in groups.
+std::string packed_column(const std::string& differences, const Widths& widths) {
+  const std::size_t groups = (differences.size() + 15) / 16;
+  std::string codes((groups + 3) / 4, '\0'), bytes;
+  for (std::size_t i = 0; i < groups; ++i) {
+    std::string stored = differences.substr(16 * i, 16);
+    stored.resize(16, '\0');
+    const Group group = packed_group(stored, widths);
+    codes[i / 4] = static_cast<char>(codes[i / 4] | group.code << 2 * (i % 4));
+    bytes += group.bytes;
+  }
+  return codes + bytes;
+}
+
+// Returns the differences of one byte of the elements from `first` to `end`.
 std::string differences_of(const std::string& elements, std::size_t stride, std::size_t byte,
-                           std::size_t first, std::size_t count) {
+                           std::size_t first, std::size_t end) {
   std::string stored;
-  for (std::size_t i = first; i < first + count; ++i)
+  for (std::size_t i = first; i < end; ++i)
     stored += zigzag(elements[i * stride + byte] - elements[(i == 0 ? 0 : i - 1) * stride + byte]);
-  return stored + std::string(16 - count, '\0');
+  return stored;
+}
+
+std::size_t block_of(std::size_t stride) {
+  return std::min<std::size_t>(8192 / stride / 16 * 16, 256);
 }
 
 std::string compressed_attributes(const std::string& elements, std::size_t stride) {
-  const std::size_t count = elements.size() / stride,
-                    block = std::min<std::size_t>(8192 / stride / 16 * 16, 256);
+  const std::size_t count = elements.size() / stride, block = block_of(stride);
   std::string out = "\xA0";
   for (std::size_t first = 0; first < count; first += block)
-    for (std::size_t byte = 0; byte < stride; ++byte) {
-      const std::size_t end = std::min(first + block, count), groups = (end - first + 15) / 16;
-      std::string modes((groups + 3) / 4, '\0'), bytes;
-      for (std::size_t i = 0; i < groups; ++i) {
-        const std::size_t begin = first + 16 * i;
-        const Group group = packed_group(
-            differences_of(elements, stride, byte, begin, std::min<std::size_t>(16, end - begin)));
-        modes[i / 4] = static_cast<char>(modes[i / 4] | group.mode << 2 * (i % 4));
-        bytes += group.bytes;
-      }
-      out += modes + bytes;
-    }
+    for (std::size_t byte = 0; byte < stride; ++byte)
+      out += packed_column(differences_of(elements, stride, byte, first, std::min(first + block, count)),
+                           widths_0);
   return out + std::string(std::max<std::size_t>(stride, 32) - stride, '\0') + elements.substr(0, stride);
+}
+
+// Returns four bytes of the difference of two numbers, as a channel of that mode stores it in version 1.
+std::array<char, 4> channel_difference(unsigned mode, std::uint32_t before, std::uint32_t now) {
+  std::uint32_t stored = std::rotr(before ^ now, static_cast<int>(mode >> 4));
+  if (mode < 2) {
+    stored = 0;
+    const unsigned bits = mode == 0 ? 8 : 16;
+    for (unsigned shift = 0; shift < 32; shift += bits) {
+      const std::uint32_t all = (1U << bits) - 1, change = ((now >> shift) - (before >> shift)) & all;
+      stored |= ((change >> (bits - 1) != 0 ? ~(change << 1) : change << 1) & all) << shift;
+    }
+  }
+  std::array<char, 4> bytes;
+  std::memcpy(bytes.data(), &stored, 4);
+  return bytes;
+}
+
+// Returns the elements as version 1 compresses them. Each channel of four bytes has one of the modes, and each column of
+// bytes is stored in one of the ways that suit it, both in turns.
+std::string compressed_attributes_1(const std::string& elements, std::size_t stride,
+                                    const std::string& modes) {
+  const std::size_t count = elements.size() / stride, block = block_of(stride);
+  const auto number_at = [&](std::size_t i, std::size_t byte) {
+    std::uint32_t number = 0;
+    std::memcpy(&number, elements.data() + i * stride + byte, 4);
+    return number;
+  };
+  std::string out = "\xA1";
+  for (std::size_t first = 0, turn = 0; first < count; first += block) {
+    std::string controls(stride / 4, '\0'), columns;
+    for (std::size_t channel = 0; channel < stride / 4; ++channel) {
+      std::array<std::string, 4> differences;
+      for (std::size_t i = first; i < std::min(first + block, count); ++i) {
+        const auto bytes =
+            channel_difference(static_cast<unsigned char>(modes[channel]),
+                               number_at(i == 0 ? 0 : i - 1, 4 * channel), number_at(i, 4 * channel));
+        for (std::size_t b = 0; b < 4; ++b) differences[b] += bytes[b];
+      }
+      for (std::size_t b = 0; b < 4; ++b, ++turn) {
+        const bool is_zero = differences[b].find_first_not_of('\0') == std::string::npos;
+        const unsigned control = is_zero && turn % 4 != 3 ? 2 : std::array{0U, 1U, 3U}[turn % 3];
+        controls[channel] = static_cast<char>(static_cast<unsigned>(controls[channel]) | control << 2 * b);
+        if (control == 3) columns += differences[b];
+        if (control < 2) columns += packed_column(differences[b], control == 0 ? narrow_widths : wide_widths);
+      }
+    }
+    out += controls + columns;
+  }
+  const std::size_t tail = stride + stride / 4;
+  return out + std::string(std::max<std::size_t>(tail, 24) - tail, '\0') + elements.substr(0, stride) + modes;
 }
 
 TEST(Meshopt, DecodesTheExampleOfTheSpecification) {
@@ -121,6 +191,42 @@ TEST(Meshopt, DecodesAttributesOfAllSizes) {
         EXPECT_FALSE(decode_meshopt(stream + '\0', layout));
         EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1), layout));
       }
+}
+
+TEST(Meshopt, DecodesVersion1InAllItsWays) {
+  std::mt19937 random(3);
+  for (const std::size_t stride : {4U, 12U, 16U, 256U})
+    for (const std::size_t count : {1U, 16U, 17U, 255U, 257U, 1000U})
+      for (const int range : {1, 3, 256}) {
+        std::string elements, modes;
+        for (std::size_t i = 0; i < count * stride; ++i) {
+          const int before = i < stride ? 0 : elements[i - stride];
+          elements += static_cast<char>(before + static_cast<int>(random() % static_cast<unsigned>(range)));
+        }
+        for (std::size_t i = 0; i < stride / 4; ++i)
+          modes += std::array{'\x00', '\x01', '\x02', '\x52', '\xF2'}[random() % 5];
+        const std::string stream = compressed_attributes_1(elements, stride, modes);
+        const MeshoptLayout layout{.count = count, .stride = stride};
+        ASSERT_EQ(text_of(decode_meshopt(stream, layout)), elements)
+            << stride << " " << count << " " << range;
+        EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1), layout));
+      }
+}
+
+TEST(Meshopt, RefusesModesThatAreNone) {
+  const MeshoptLayout layout{.count = 16, .stride = 4};
+  const std::string stream = compressed_attributes_1(std::string(64, '\1'), 4, std::string(1, '\0'));
+  EXPECT_TRUE(decode_meshopt(stream, layout));
+  for (const char mode : {'\x03', '\x10', '\x21', '\x0F'})
+    EXPECT_FALSE(decode_meshopt(stream.substr(0, stream.size() - 1) + mode, layout));
+}
+
+// A block of version 1 whose differences are 0 takes a byte for four of its own.
+TEST(Meshopt, TakesNoMoreMemoryThanItsBytesStandFor) {
+  const std::string stream = "\xA1" + std::string(1000, '\xAA') + std::string(24, '\0');
+  EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 256'000, .stride = 4})), std::string(1'024'000, '\0'));
+  EXPECT_FALSE(decode_meshopt(stream, {.count = 256'001, .stride = 4}));
+  EXPECT_FALSE(decode_meshopt(stream, {.count = std::size_t{1} << 40, .stride = 4})) << "takes no memory";
 }
 
 TEST(Meshopt, RefusesLayoutsThatAreNotAllowed) {
@@ -293,15 +399,35 @@ TEST(Meshopt, ExpandsExponents) {
   EXPECT_EQ(values, expected);
 }
 
+TEST(Meshopt, MixesColours) {
+  // White, red and a grey of 8 bits, half of it opaque; then green of 16 bits.
+  const std::string stored = bytes_of({255, 0, 0, 255, 64, 127, -64, 255, 128, 0, 0, 128 | 64});
+  const MeshoptLayout layout{MeshoptMode::attributes, MeshoptFilter::colour, 3, 4};
+  EXPECT_EQ(text_of(decode_meshopt(compressed_attributes(stored, 4), layout)),
+            bytes_of({255, 255, 255, 255, 255, 0, 1, 255, 128, 128, 128, 128}));
+  const std::string few = bytes_of({15, 0, 0, 8 | 7});  // four bits
+  EXPECT_EQ(text_of(decode_meshopt(compressed_attributes(few, 4),
+                                   {MeshoptMode::attributes, MeshoptFilter::colour, 1, 4})),
+            bytes_of({255, 255, 255, 255}));
+  std::uint16_t words[4] = {16384, 0, 16384, 65535};
+  std::string wide(sizeof words, '\0');
+  std::memcpy(wide.data(), words, sizeof words);
+  EXPECT_EQ(text_of(decode_meshopt(compressed_attributes(wide, 8),
+                                   {MeshoptMode::attributes, MeshoptFilter::colour, 1, 8})),
+            bytes_of({0, 0, 0, 128, 0, 0, 255, 255}));
+  EXPECT_FALSE(decode_meshopt(compressed_attributes(std::string(4, '\0'), 4),
+                              {MeshoptMode::attributes, MeshoptFilter::colour, 1, 4}));
+}
+
 // Whatever the bytes are, as many come out as the layout says, or none.
 TEST(Meshopt, SurvivesAnyBytes) {
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
-    std::string stream = bytes_of({std::array{0xA0, 0xE1, 0xD1}[random() % 3]});
+    std::string stream = bytes_of({std::array{0xA0, 0xA1, 0xE1, 0xD1}[random() % 4]});
     for (std::size_t size = random() % 120; stream.size() < size + 1;)
       stream += static_cast<char>(random() & random());
     const MeshoptLayout layout{static_cast<MeshoptMode>(random() % 3),
-                               static_cast<MeshoptFilter>(random() % 3), random() % 70, random() % 20};
+                               static_cast<MeshoptFilter>(random() % 4), random() % 70, random() % 20};
     const auto decoded = decode_meshopt(stream, layout);
     EXPECT_TRUE(!decoded || decoded->size() == layout.count * layout.stride);
   }
@@ -313,12 +439,12 @@ struct TestView {
   std::size_t count = 0, stride = 0;
 };
 
-std::string json_of(const TestView& view, std::size_t offset) {
+std::string json_of(const TestView& view, std::size_t offset, const std::string& extension) {
   const auto number = [](const char* name, std::size_t value) {
     return "\"" + std::string(name) + "\":" + std::to_string(value) + ",";
   };
   return "{" + number("buffer", 1) + number("byteLength", view.count * view.stride) +
-         (view.stride == 8 ? number("byteStride", 8) : "") + R"("extensions":{"EXT_meshopt_compression":{)" +
+         (view.stride == 8 ? number("byteStride", 8) : "") + R"("extensions":{")" + extension + R"(":{)" +
          number("buffer", 0) + number("byteOffset", offset) + number("byteLength", view.bytes.size()) +
          number("byteStride", view.stride) + number("count", view.count) + R"("mode":")" + view.mode +
          "\"}}}";
@@ -353,16 +479,17 @@ TestView compressed_triangles() {
 }
 
 // The tetrahedron in a GLB whose second buffer is not there.
-std::string compressed_glb(const std::string& mode = "TRIANGLES") {
+std::string compressed_glb(const std::string& mode, const std::string& extension) {
   const TestView corners = compressed_corners();
   TestView triangles = compressed_triangles();
   triangles.mode = mode;
   const std::string bytes = corners.bytes + triangles.bytes;
   const std::string json =
-      R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization","EXT_meshopt_compression"],)"
+      R"({"asset":{"version":"2.0"},"extensionsRequired":["KHR_mesh_quantization",")" + extension +
+      R"("],)"
       R"("buffers":[{"byteLength":)" +
-      std::to_string(bytes.size()) + R"(},{"byteLength":9999}],"bufferViews":[)" + json_of(corners, 0) + "," +
-      json_of(triangles, corners.bytes.size()) +
+      std::to_string(bytes.size()) + R"(},{"byteLength":9999}],"bufferViews":[)" +
+      json_of(corners, 0, extension) + "," + json_of(triangles, corners.bytes.size(), extension) +
       R"(],"accessors":[{"bufferView":0,"componentType":5122,"count":4,"type":"VEC3"},)"
       R"({"bufferView":1,"componentType":5125,"count":12,"type":"SCALAR"}],)"
       R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],)"
@@ -371,17 +498,18 @@ std::string compressed_glb(const std::string& mode = "TRIANGLES") {
 }
 
 TEST(Meshopt, IsReadWithoutTheBufferThatItStandsFor) {
-  const auto file = read(compressed_glb(), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
-  ASSERT_EQ(file->mesh.points.size(), tetrahedron_points.size());
-  for (std::size_t i = 0; i < tetrahedron_points.size(); ++i)
-    EXPECT_LE((file->mesh.points[i] - tetrahedron_points[i]).norm(), 1e-12);
+  for (const std::string extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
+    const auto file = read(compressed_glb("TRIANGLES", extension), "a.glb");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+    ASSERT_EQ(file->mesh.points.size(), tetrahedron_points.size());
+    for (std::size_t i = 0; i < tetrahedron_points.size(); ++i)
+      EXPECT_LE((file->mesh.points[i] - tetrahedron_points[i]).norm(), 1e-12);
+  }
   for (const char* const mode : {"INDICES", "ATTRIBUTES", "OTHERS"})
-    EXPECT_EQ(message_of(compressed_glb(mode), "a.glb"),
-              "a.glb, mesh 0, accessor 1: expected a bufferView as EXT_meshopt_compression compresses it, "
-              "found other "
-              "bytes");
+    EXPECT_EQ(message_of(compressed_glb(mode, "KHR_meshopt_compression"), "a.glb"),
+              "a.glb, mesh 0, accessor 1: expected a bufferView that is compressed as its extension says, "
+              "found other bytes");
 }
 
 }  // namespace
