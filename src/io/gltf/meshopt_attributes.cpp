@@ -90,9 +90,11 @@ void step(std::uint8_t mode, const ChannelBytes& differences, ChannelBytes& last
   for (std::size_t i = 0; i < channel_size; ++i) last[i] = static_cast<std::uint8_t>(now >> 8 * i);
 }
 
+// A stream of attributes: a header, blocks of elements, and a tail with the element before the first one and, in version 1,
+// the mode of each channel.
 class Attributes {
  public:
-  // The stream has a header, a tail, and what is left between them.
+  // Returns nothing if the header or the modes are none that the specification has, or if the tail is cut.
   static std::optional<Attributes> open(std::string_view stream, std::size_t stride) {
     if (stream.empty() || stride == 0 || stride % channel_size != 0 || stride > most_stride)
       return std::nullopt;
@@ -102,18 +104,19 @@ class Attributes {
     const std::size_t tail = std::max(own_tail, has_modes ? least_tail_1 : least_tail_0);
     if ((!has_modes && header != version_0) || stream.size() < 1 + tail) return std::nullopt;
     Attributes it(stream.substr(1, stream.size() - 1 - tail), stride, has_modes);
-    std::memcpy(it.last_.data(), stream.data() + stream.size() - own_tail, own_tail);
-    std::copy_n(it.last_.begin() + static_cast<std::ptrdiff_t>(stride), own_tail - stride, it.modes_.begin());
+    const char* const last = stream.data() + stream.size() - own_tail;
+    std::memcpy(it.last_.data(), last, stride);
+    std::memcpy(it.modes_.data(), last + stride, own_tail - stride);
     const bool are_known =
         std::ranges::all_of(it.modes_, [](unsigned mode) { return mode < 2 || mode % 16 == 2; });
     return are_known ? std::optional(it) : std::nullopt;
   }
 
   std::optional<std::vector<std::byte>> decode(std::size_t count) {
-    // The fewest bytes that a block takes; so a short stream takes little memory.
     const std::size_t block = std::min(8192 / stride_ / group_size * group_size, most_in_block);
-    const std::size_t least = has_modes_ ? stride_ / channel_size : stride_;
-    if (count / block > body_size_ / least) return std::nullopt;
+    const std::size_t least =
+        has_modes_ ? stride_ / channel_size : stride_;            // the fewest bytes that a block takes
+    if (count / block > body_size_ / least) return std::nullopt;  // before memory is taken for them
     std::vector<std::byte> decoded(count * stride_);
     for (std::size_t first = 0; first < count && !from_.is_beyond(); first += block)
       decode_block(std::min(block, count - first), decoded.data() + first * stride_);
@@ -152,9 +155,8 @@ class Attributes {
 
   MeshoptBytes from_;
   std::size_t body_size_, stride_;
-  bool has_modes_;  // as in version 1
-  std::array<std::uint8_t, most_stride * 5 / 4>
-      last_{};  // the element before; then what the tail has behind it
+  bool has_modes_;                                // as in version 1
+  std::array<std::uint8_t, most_stride> last_{};  // the element before
   std::array<std::uint8_t, most_stride / channel_size> modes_{};
 };
 
