@@ -124,7 +124,7 @@ TEST_P(OutlinesOfShapes, KeepTheCornersOfAGear) {
 INSTANTIATE_TEST_SUITE_P(Clean, OutlinesOfShapes, testing::Values(ScanKind{20000}, ScanKind{100000}));
 INSTANTIATE_TEST_SUITE_P(Noisy, OutlinesOfShapes,
                          testing::Values(ScanKind{20000, .15}, ScanKind{100000, .15}));
-// These take a minute, and run with --gtest_also_run_disabled_tests alone.
+// These take minutes, and run with --gtest_also_run_disabled_tests alone.
 INSTANTIATE_TEST_SUITE_P(DISABLED_Large, OutlinesOfShapes,
                          testing::Values(ScanKind{1000000}, ScanKind{1000000, .15}));
 
