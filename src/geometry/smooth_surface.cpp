@@ -73,8 +73,8 @@ Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
   const double divisor =
       change_along * change_along + least_along * change.squaredNorm() * edge.squaredNorm();
   if (!(divisor > 0)) return Vec2::Zero();
-  const double share = along * change_along / divisor, excess = std::pow(share / most_share, 4);
-  return share / (1 + excess) * change;
+  const double share = along * change_along / divisor, excess = (share / most_share) * (share / most_share);
+  return share / (1 + excess * excess) * change;
 }
 
 // Returns the middle point of a third that gives the slope across the edge a-b that value in the middle of the edge.
