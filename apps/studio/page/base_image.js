@@ -1,7 +1,8 @@
 // The height map of the base: an image that is chosen, or dropped on its row.
 
 import {$, make} from "./controls.js";
-import {engineOptions} from "./document.js";
+import {engineOptions, isGone, markGone} from "./document.js";
+import {offer} from "./messages.js";
 
 const NAME = "base-image";
 const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";
@@ -55,11 +56,21 @@ export class BaseImage {
     }
   }
 
+  // Returns whether an error of a picture says that the image is gone, which is then said once.
+  isMissing({kind, message}) {
+    const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
+    if (kind !== "input" || !path || isGone(path) || !message.startsWith(`${path}:`)) return false;
+    markGone(path);
+    offer(`The base image ${name} is gone: the relief is shown without it.`, "Choose it again",
+      () => this.file.click());
+    return true;
+  }
+
   // Shows the document's image where its base is shown.
   show(isBaseShown) {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
     this.element.hidden = !isBaseShown;
-    this.choose.textContent = name || "Choose …";
+    this.choose.textContent = isGone(path) ? `${name} is gone` : name || "Choose …";
     this.choose.setAttribute("aria-label", name ? `Base image ${name}: choose another` : "Choose … for the base");
     this.remove.hidden = path === "";
   }

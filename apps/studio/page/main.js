@@ -279,6 +279,7 @@ let reopening = 0;
 function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
   if (error.kind === "option" && stage.drag?.tool === "place") return placing.squeeze();
+  if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return toast(error.message);
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.reopen().catch(failed), 200);
