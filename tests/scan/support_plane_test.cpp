@@ -103,6 +103,21 @@ TEST(SupportPlane, IsLeftOutUnlessTheViewHasIt) {
   EXPECT_NEAR(box.size().x(), 2, 2 * without.rho);
 }
 
+// A ridge beside the sphere, whose normals are not those of the plane, is too low for a figure.
+TEST(SupportPlane, IsLeftOutWithItsRidges) {
+  const Vec3 normal = tilted(50), up = normal.cross(Vec3::UnitX());
+  Cloud cloud = sphere_before(normal);
+  test::Random random(5);
+  for (int i = 0; i < 3000; ++i) {
+    const double across = random.uniform(-.1, .1), height = .08 - .8 * std::abs(across);
+    const Vec3 slope = (normal + (across > 0 ? .8 : -.8) * Vec3::UnitX()).normalized();
+    test::add(cloud, (1.6 + across) * Vec3::UnitX() + random.uniform(-1, 1) * up + height * normal, slope);
+  }
+  const Surface without = surface_of(cloud, false);
+  const Vec3 centre = normal - without.centre;
+  for (const Vec3& p : without.points) EXPECT_NEAR((p - centre).norm(), 1, .06);
+}
+
 TEST(SupportPlane, LeavesThePointsOfTheFigureThatStandOnIt) {
   SupportPlane plane{PlaneKind::table, Vec3::UnitY(), 0, .1, .5};
   EXPECT_TRUE(plane.takes({0, .05, 0}, Vec3f(0, 1, 0)));
