@@ -41,14 +41,16 @@ app::cli::FrameFigures measure_stock(StockPipeline& pipeline, std::string name, 
   return figures;
 }
 
-// Ours, with all threads. Returns its control points.
+// Prints our own, in the paper's style and in the default one, with all threads. Returns their control points.
 Result<ControlPoints> print_ours(const Surface& surface) {
   const int threads = thread_count();
   ControlPoints control;
   for (const Mode mode : {Mode::exact, Mode::subspace}) {
     const Result<ReliefModel> model = ReliefModel::prepare(surface, nullptr, mode);
     if (!model) return std::unexpected(model.error());
-    app::cli::print_frames(app::cli::measure_frames(*model, {threads, frames, false}), surface.points.size());
+    for (const Style style : {Style::paper, Style::layered})
+      app::cli::print_frames(app::cli::measure_frames(*model, {threads, frames, false, style}),
+                             surface.points.size());
     if (model->subspace()) control = model->subspace()->control_points();
   }
   return control;

@@ -253,8 +253,8 @@ EngineStatus Engine::status() const {
       state_->making.with([](const Making& m) { return std::pair(m.stage, m.fraction); });
   return state_->shared.with([&](const Shared& s) {
     return EngineStatus{
-        session.is_preparing,      session.stage, session.fraction, session.error, s.shown.scan.input(),
-        with_side(s.view, s.best), stage,         fraction,         s.shown.number};
+        session.is_preparing,      session.stage, session.fraction, session.error,  s.shown.scan.input(),
+        with_side(s.view, s.best), stage,         fraction,         s.shown.number, session.can_turn};
   });
 }
 

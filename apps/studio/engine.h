@@ -34,7 +34,8 @@ struct EngineStatus {
   std::string making_stage;    // of the file that is being made; empty if there is none
   double making_fraction = 0;
   std::uint64_t model =
-      0;  // number of the model that is shown, of no other model of any engine; 0 is none yet
+      0;                  // number of the model that is shown, of no other model of any engine; 0 is none yet
+  bool can_turn = false;  // whether pictures of other views than the model's can be drawn
 };
 
 // A file to make of the scan that is shown.

@@ -186,6 +186,7 @@ Json to_json(const EngineStatus& status) {
             {"stage", status.stage},
             {"fraction", status.fraction},
             {"model", status.model},
+            {"can_turn", status.can_turn},
             {"error", nullptr},
             {"input", nullptr},
             {"making", {{"stage", status.making_stage}, {"fraction", status.making_fraction}}},

@@ -19,7 +19,8 @@ struct SessionStatus {
   std::string stage;    // of the preparation, see Progress
   double fraction = 0;  // of the preparation that is done, in [0, 1]
   std::optional<Error>
-      error;  // why the last preparation failed or that it was cancelled; none while one runs
+      error;              // why the last preparation failed or that it was cancelled; none while one runs
+  bool can_turn = false;  // whether points were measured, which comes long before their first model
 };
 
 // One model to prepare. Its functions are called in the session's own thread.

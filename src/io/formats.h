@@ -35,8 +35,8 @@ bool is_text(const Source& source);
 // - STL, binary and ascii: coincident corners become one point; the file's normals are not used.
 // - OFF, with normals (NOFF) and colours (COFF).
 // - glTF 2.0, .glb or .gltf, with buffers inside the file or beside it: the triangles and points of the scene,
-//   transformed by its nodes; without nodes, of all meshes. They may be quantised, and
-//   compressed by EXT_meshopt_compression, but not by Draco.
+//   transformed by its nodes; without nodes, of all meshes. They may be quantised, and compressed by
+//   EXT_meshopt_compression or KHR_meshopt_compression, but not by Draco.
 // - PCD: ascii, also with commas between the numbers, binary and binary_compressed; x y z, normal_x normal_y normal_z and rgb.
 // - LAS 1.0 to 1.5, with colours, up to its end if it has fewer points than promised; and LAZ, which is LAS
 //   compressed by LASzip 2 or later.

@@ -187,7 +187,11 @@ Result<TurnedRelief> Session::turn(const View& view) {
 }
 
 SessionStatus Session::status() const {
-  return state_->shared.with([](const Shared& s) { return s.status; });
+  return state_->shared.with([](const Shared& s) {
+    SessionStatus status = s.status;
+    status.can_turn = s.measured.cloud != nullptr;
+    return status;
+  });
 }
 
 std::shared_ptr<const ReliefModel> Session::model() const {

@@ -256,7 +256,28 @@ TEST(Session, TurnsWhatWasPrepared) {
 
 TEST(Session, HasNothingToTurnAtFirst) {
   Session session;
+  EXPECT_FALSE(session.status().can_turn);
   EXPECT_EQ(session.turn({}).error().kind, ErrorKind::geometry);
+}
+
+TEST(Session, TurnsWhatIsMeasuredBeforeTheFirstModel) {
+  Session session;
+  std::binary_semaphore has_measured{0}, may_go_on{0};
+  Preparation preparation = preparation_of(20'000);
+  preparation.changed = [&] {
+    if (session.status().stage != "visible points") return;
+    has_measured.release();
+    may_go_on.acquire();
+  };
+  session.open(preparation);
+  has_measured.acquire();
+  EXPECT_TRUE(session.status().can_turn);
+  EXPECT_EQ(session.model(), nullptr);
+  const auto turned = session.turn({});
+  may_go_on.release();
+  EXPECT_TRUE(turned);
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  EXPECT_NE(session.model(), nullptr);
 }
 
 // A picture of the model while it is turned may be asked for late, when the view in which it rests is being prepared.

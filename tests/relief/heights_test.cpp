@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "relief/vertex_normals.h"
 #include "relievo/core/parallel.h"
 #include "support/shapes.h"
 
@@ -212,6 +213,24 @@ TEST(Heights, OfBoundaryAloneAreZero) {
   DiscCase disc(0, 50);
   const HeightSystem system = disc.system();
   EXPECT_EQ(heights_of(system, std::vector<Vec2>(50, Vec2(1, 2))), std::vector<double>(50, 0.0));
+}
+
+// Memory is a measure of that: a pattern counts for the matrix alone that has made it. Points on the boundary, which have
+// no unknown, come before their neighbours, and after them.
+TEST(HeightSystem, HasThePatternThatVertexNormalsNeed) {
+  for (const bool is_boundary_last : {false, true}) {
+    DiscCase disc(500);
+    if (is_boundary_last) {
+      std::ranges::reverse(disc.points);
+      std::ranges::reverse(disc.boundary.is_boundary);
+      disc.mesh = delaunay(disc.points);
+    }
+    const HeightSystem system = disc.system();
+    const auto memory = [&](const SlicedEllMatrix* like) {
+      return vertex_normal_matrix(disc.points, disc.mesh, disc.boundary, like).memory();
+    };
+    EXPECT_LT(memory(&system.divergence_matrix()), memory(nullptr)) << is_boundary_last;
+  }
 }
 
 }  // namespace

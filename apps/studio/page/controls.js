@@ -217,3 +217,14 @@ export function download(blob, name) {
   link.remove();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
+
+// Returns a button that says whether the height is kept while other things change.
+export function lockButton(onclick) {
+  const lock = make("button", {
+    class: "lock", "aria-label": "Lock the height", "aria-pressed": "true", onclick,
+    title: "Keep this height while other things change",
+  });
+  lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11" width="14" height="9" rx="2"/>' +
+    '<path class="shackle" d="M8 11V8a4 4 0 0 1 8 0v3"/></svg>';
+  return lock;
+}

@@ -2,7 +2,7 @@
 
 import {about, defaultOf, engine} from "./about.js";
 import {AlphaRow} from "./alpha.js";
-import {$, Slider, clamp, make} from "./controls.js";
+import {$, Slider, clamp, lockButton, make} from "./controls.js";
 import {CurveEditor} from "./curve.js";
 import {Document, FIRST, engineOptions} from "./document.js";
 import {ExportDialog} from "./export.js";
@@ -19,7 +19,7 @@ import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
 import {Projects} from "./projects.js";
 import {Reach} from "./reach.js";
-import {showNumbers, showSection, showToolReach} from "./readouts.js";
+import {paperWords, showNumbers, showSection, showToolReach} from "./readouts.js";
 import {ScanPanel} from "./scan_panel.js";
 import {ScenePanel} from "./scene_panel.js";
 import {Stage} from "./stage.js";
@@ -53,7 +53,7 @@ const keeper = new Keeper({
   onFailed: notKept, onKept: () => (isKept = true),
 });
 const opened = new OpenDocument({engine, doc, keeper, on: {
-  begun, arrived, failed, refused, changed: stateCame, progress,
+  begun, measured, arrived, failed, refused, changed: stateCame, progress,
   missing: (input, work) => projects.askFor(input, work), closed: () => showStart(true),
 }});
 const reach = new Reach({engine, doc, slider: () => sliders.height, chooseView: () => views.show(doc.now.options)});
@@ -66,12 +66,7 @@ let isKept = !about.notice;
 
 // ------------------------------------------------------------------------------------------------- sliders
 
-const lock = make("button", {
-  class: "lock", "aria-label": "Lock the height", "aria-pressed": "true", onclick: toggleLock,
-  title: "Keep this height while other things change",
-});
-lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11" width="14" height="9" rx="2"/>' +
-  '<path class="shackle" d="M8 11V8a4 4 0 0 1 8 0v3"/></svg>';
+const lock = lockButton(toggleLock);
 
 const sliders = {};
 for (const [name, field] of Object.entries(FIELDS)) {
@@ -170,10 +165,8 @@ function notKept({message}) {
   if (isKept) toast(`Your work is not kept: ${message}`);
   isKept = false;
 }
-addEventListener("pagehide", () => {
-  keeper.flush();
-  engine.leave();
-});
+addEventListener("pagehide", () => keeper.flush());
+addEventListener("pagehide", () => engine.leave());
 
 // Returns the options of the files: a height that the view does not reach is replaced by the one that it does.
 function finalOptions() {
@@ -201,22 +194,18 @@ function pictured(frame, ms, isFine) {
     sliders.height.show(doc.now.options.height);
   }
   showWidth();
+  if (opened.status.busy) showProgress(opened.status, false);
   alphaRow.show(frame);
   clearTimeout(pictureTimer);
   if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
-  if (isFine) reach.pictured(frame);
-  if (isFine) kinds.pictured(stage.model);
+  if (isFine && opened.isReady) reach.pictured(frame);
+  if (isFine && opened.isReady) kinds.pictured(stage.model);
   if (isFine) showToolReach(frame.tool);
-  const {detail} = doc.now.options;
-  const words = Object.entries({alpha: frame.alpha, beta: frame.beta, gamma: detail, u: frame.u})
-    .map(([name, value]) => `${name} ${number(value)}`);
-  sliders.height.name.title = `${FIELDS.height.help}. In the paper's words: ${words.join(", ")}`;
+  sliders.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
   showNumbers({about: frame, ms, isFine, facts, height: shownHeight(frame)});
   stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about: frame, ms, isFine}}));
 }
-
-const number = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString());
 
 // Returns the height to show. A frame meets a locked height to a part in a thousand, the finished relief exactly.
 const shownHeight = ({height_mm, is_height_met}) =>
@@ -225,7 +214,7 @@ const shownHeight = ({height_mm, is_height_met}) =>
 // --------------------------------------------------------------------------------------------------- documents
 
 function progress(status) {
-  showProgress(status, status.model === 0);
+  showProgress(status, last === null);
   exporting.progress(status);
 }
 
@@ -239,11 +228,22 @@ function begun() {
   reach.clear();
   $("#numbers").textContent = "";
   stage.isReady = false;
+  stage.model = 0;
   stage.await(true);
   $("#save").hidden = $("#export").hidden = true;
   showStart(false);
   showDocument();
   showProgress({busy: true, stage: "waiting"}, true);
+}
+
+// The first view is still being prepared: a coarse relief stands for it.
+function measured({shown}) {
+  if (stage.isReady || !engine.drawsMeanwhile) return;
+  doc.note({options: shown});
+  showDocument();
+  stage.isReady = true;
+  stage.await(true);
+  stage.invalidate();
 }
 
 async function arrived(status) {

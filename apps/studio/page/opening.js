@@ -15,7 +15,8 @@ const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps
   at});
 
 export class OpenDocument {
-  // Calls on.begun() when another document is shown, on.progress(status), on.arrived(status) when its model is ready,
+  // Calls on.begun() when another document is shown, on.progress(status), on.measured(status) when pictures can be
+  // drawn of the view that is being prepared first, on.arrived(status) when its model is ready,
   // on.changed() when its state came from elsewhere, on.missing(input, kept) if its scan is not there,
   // on.failed(error),
   // and on.closed() when there is no document left to show.
@@ -82,6 +83,7 @@ export class OpenDocument {
     const before = this.status;
     this.status = status;
     this.on.progress(status);
+    if (!this.isReady && status.busy && status.can_turn && status.shown.view !== "auto") this.on.measured(status);
     if (status.model > 0 && status.model !== this.model && this.isWanted(status)) this.arrive(status);
     else if (status.error && JSON.stringify(status.error) !== JSON.stringify(before.error)) this.complain(status);
     if (status.kept.changed > this.doc.changedAt && status.kept.tab !== TAB) this.adopt().catch(this.on.failed);

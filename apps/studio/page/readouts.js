@@ -22,6 +22,13 @@ export function showNumbers({about, ms, isFine, height, facts}) {
   $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
 
+// Returns the parameters of a picture in the symbols of the paper.
+export function paperWords({alpha, beta, u}, gamma) {
+  const text = (x) => (x === null ? "–" : Number(x.toPrecision(4)).toString());
+  const words = Object.entries({alpha, beta, gamma, u}).map(([name, value]) => `${name} ${text(value)}`);
+  return `In the paper's words: ${words.join(", ")}`;
+}
+
 // Says what the tool leaves standing, which is coloured on the piece.
 export function showToolReach(tool) {
   $("#tool-reach").textContent = !tool ? "" :

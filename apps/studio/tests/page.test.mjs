@@ -129,11 +129,19 @@ async function choose(side) {
   await untilReady();
 }
 
-test("opens a sample and shows its progress", {skip}, async () => {
+test("opens a sample and shows its progress, and a coarse relief until the exact one is there", {skip}, async () => {
+  const areExact = page.evaluate(() => new Promise((resolve) => {
+    const seen = [], stage = document.querySelector("#stage");
+    stage.addEventListener("picture", () => {
+      seen.push(!document.querySelector("#export").hidden);
+      if (seen.at(-1)) resolve(seen);
+    });
+  }));
   await page.getByRole("list", {name: "Try a sample"}).getByRole("button", {name: /green man/i}).click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor();
   await untilReady();
   assert.match(await numbers().innerText(), /[\d,]+ of 300,000 points/);
+  assert.equal((await areExact)[0], false);
 });
 
 test("opens a scan of the browser", {skip}, async () => {

@@ -87,8 +87,10 @@ class GltfReader {
     const auto required = file_.json().find("extensionsRequired");
     if (required == file_.json().end() || !required->is_array()) return {};
     for (const Json& name : *required)
-      if (name == "KHR_draco_mesh_compression" || name == "KHR_meshopt_compression")
-        return source_.error("extensionsRequired", expected_plain_meshes(name.get_ref<const std::string&>()));
+      if (name == "KHR_draco_mesh_compression")
+        return source_.error("extensionsRequired",
+                             "expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; "
+                             "Blender opens the file, and exports it without compression");
     return {};
   }
 

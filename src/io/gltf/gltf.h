@@ -80,9 +80,6 @@ std::optional<std::size_t> number_in(const Json& object, const char* name, std::
 // Returns a member that is an object, else null.
 const Json* object_in(const Json& json, const char* name);
 
-// Returns the message for meshes that an extension has compressed.
-std::string expected_plain_meshes(std::string_view extension);
-
 // Returns the relative name of a file that a URI states, without escapes (%20). Nothing if it may lead out of
 // the folder: an absolute path, a scheme such as http:, or a part '..'.
 std::optional<std::string> name_in_uri(std::string_view uri);

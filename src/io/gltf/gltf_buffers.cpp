@@ -79,13 +79,6 @@ std::optional<std::string> name_in_uri(std::string_view uri) {
   return name;
 }
 
-std::string expected_plain_meshes(std::string_view extension) {
-  const bool is_draco = extension == "KHR_draco_mesh_compression";
-  return "expected meshes that are not compressed, found " + in_quotes(extension) +
-         (is_draco ? "; Blender opens the file, and exports it without compression"
-                   : "; export the file without compression");
-}
-
 // Returns the bytes that a URI contains or names.
 Result<std::string_view> GltfFile::load(const std::string& uri, const std::string& place) {
   const auto known = loaded_.find(uri);
@@ -143,7 +136,9 @@ Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place)
   const Json* json = element("bufferViews", i);
   if (!json) return source_->error(place, "expected a bufferView, found none");
   const Json* extensions = object_in(*json, "extensions");
-  const Json* meshopt = extensions ? object_in(*extensions, "EXT_meshopt_compression") : nullptr;
+  const Json* meshopt = nullptr;
+  for (const char* const name : {"KHR_meshopt_compression", "EXT_meshopt_compression"})
+    if (extensions && !meshopt) meshopt = object_in(*extensions, name);
   if (!meshopt) return part_of_buffer(*json, place);
   const auto known = decoded_.find(i);
   if (known == decoded_.end()) {
@@ -152,7 +147,7 @@ Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place)
     auto decoded = layout ? decode_meshopt(compressed, *layout) : std::nullopt;
     if (!decoded)
       return source_->error(
-          place, "expected a bufferView as EXT_meshopt_compression compresses it, found other bytes");
+          place, "expected a bufferView that is compressed as its extension says, found other bytes");
     decoded_[i] = std::move(*decoded);
   }
   const auto& bytes = decoded_[i];

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "io/gltf/meshopt_reader.h"
 
@@ -13,65 +15,14 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::size_t group_size = 16;  // elements whose differences are stored alike
-constexpr std::size_t most_stride = 256, attributes_tail = 32, triangles_tail = 16, indices_tail = 4;
-constexpr unsigned char attributes_header = 0xA0, triangles_header = 0xE1, indices_header = 0xD1;
+constexpr std::size_t triangles_tail = 16, indices_tail = 4;
+constexpr unsigned char triangles_header = 0xE1, indices_header = 0xD1;
 
 // Returns the bytes between the header and the tail; nothing if the header is another or the bytes are too few.
 std::optional<std::string_view> body_of(std::string_view compressed, unsigned char header, std::size_t tail) {
   if (compressed.size() < 1 + tail || static_cast<unsigned char>(compressed[0]) != header)
     return std::nullopt;
   return compressed.substr(1, compressed.size() - 1 - tail);
-}
-
-// Reads the differences of a group: 0, 2, 4 or 8 bits each. All bits set mean that the difference follows in a byte.
-std::array<std::uint8_t, group_size> next_differences(MeshoptBytes& from, unsigned mode) {
-  std::array<std::uint8_t, group_size> differences{};
-  if (mode == 0) return differences;
-  const unsigned bits = 1U << mode, in_byte = 8 / bits, escape = (1U << bits) - 1;
-  for (std::size_t i = 0; i < group_size; i += in_byte) {
-    const unsigned packed = from.next();
-    for (unsigned j = 0; j < in_byte; ++j)
-      differences[i + j] = static_cast<std::uint8_t>(packed >> (8 - bits * (j + 1)) & escape);
-  }
-  if (mode == 3) return differences;
-  for (std::uint8_t& difference : differences)
-    if (difference == escape) difference = from.next();
-  return differences;
-}
-
-// Decodes one byte of each of the elements of a block, beginning at `to`, which follow `last`.
-void decode_column(MeshoptBytes& from, std::size_t elements, std::size_t stride, std::uint8_t& last,
-                   std::byte* to) {
-  const std::size_t groups = (elements + group_size - 1) / group_size;
-  std::array<std::uint8_t, 4> modes{};  // of at most 16 groups, two bits each
-  for (std::size_t i = 0; i < (groups + 3) / 4; ++i) modes[i] = from.next();
-  for (std::size_t group = 0; group < groups; ++group) {
-    const auto differences = next_differences(from, modes[group / 4] >> 2 * (group % 4) & 3U);
-    const std::size_t first = group * group_size;
-    for (std::size_t i = first; i < std::min(first + group_size, elements); ++i) {
-      last = static_cast<std::uint8_t>(last + without_zigzag(differences[i - first]));
-      to[i * stride] = static_cast<std::byte>(last);
-    }
-  }
-}
-
-std::optional<Bytes> decode_attributes(std::string_view compressed, const MeshoptLayout& layout) {
-  const std::size_t stride = layout.stride;
-  if (stride == 0 || stride % 4 != 0 || stride > most_stride) return std::nullopt;
-  const auto body = body_of(compressed, attributes_header, std::max(stride, attributes_tail));
-  // Two bits are the least that 16 elements take, for each of their bytes.
-  if (!body || layout.count / (4 * group_size) > body->size() / stride) return std::nullopt;
-  std::array<std::uint8_t, most_stride> last{};
-  std::memcpy(last.data(), compressed.data() + compressed.size() - stride, stride);
-  Bytes decoded(layout.count * stride);
-  MeshoptBytes from(*body);
-  const std::size_t block = std::min<std::size_t>(8192 / stride / group_size * group_size, 256);
-  for (std::size_t first = 0; first < layout.count && !from.is_beyond(); first += block)
-    for (std::size_t byte = 0; byte < stride; ++byte)
-      decode_column(from, std::min(block, layout.count - first), stride, last[byte],
-                    decoded.data() + first * stride + byte);
-  return from.is_at_end() ? std::optional(std::move(decoded)) : std::nullopt;
 }
 
 // Returns the indices in `stride` bytes each.
@@ -141,11 +92,44 @@ void expand_exponents(Bytes& bytes) {
   }
 }
 
+// Makes red, green, blue and opacity of brightness, two differences of colours and opacity, in place. The highest bit of
+// the last number says how many bits all of them have.
+template <typename Integer>
+bool mix_colours(Bytes& bytes) {
+  using Signed = std::make_signed_t<Integer>;
+  for (std::size_t at = 0; at < bytes.size(); at += 4 * sizeof(Integer)) {
+    std::array<Integer, 4> numbers;
+    std::memcpy(numbers.data(), bytes.data() + at, sizeof numbers);
+    if (numbers[3] < 2) return false;
+    const int most = static_cast<int>(std::bit_ceil(numbers[3] + 1U)) - 1, opacity = numbers[3] & most >> 1;
+    const int y = numbers[0], orange = static_cast<Signed>(numbers[1]),
+              green = static_cast<Signed>(numbers[2]);
+    const std::array<int, 4> mixed = {y + orange - green, y + green, y - orange - green,
+                                      2 * opacity | (opacity & 1)};
+    for (std::size_t i = 0; i < mixed.size(); ++i)
+      numbers[i] =
+          static_cast<Integer>(std::lround(static_cast<float>(std::clamp(mixed[i], 0, most)) *
+                                           std::numeric_limits<Integer>::max() / static_cast<float>(most)));
+    std::memcpy(bytes.data() + at, numbers.data(), sizeof numbers);
+  }
+  return true;
+}
+
 bool apply(MeshoptFilter filter, std::size_t stride, Bytes& bytes) {
-  if (filter == MeshoptFilter::exponential) expand_exponents(bytes);
-  if (filter != MeshoptFilter::octahedral) return true;
-  if (stride == 4) return unfold_octahedron<std::int8_t>(bytes);
-  return stride == 8 && unfold_octahedron<std::int16_t>(bytes);
+  switch (filter) {
+    case MeshoptFilter::none:
+      return true;
+    case MeshoptFilter::exponential:
+      expand_exponents(bytes);
+      return true;
+    case MeshoptFilter::octahedral:
+      if (stride == 4) return unfold_octahedron<std::int8_t>(bytes);
+      return stride == 8 && unfold_octahedron<std::int16_t>(bytes);
+    case MeshoptFilter::colour:
+      if (stride == 4) return mix_colours<std::uint8_t>(bytes);
+      return stride == 8 && mix_colours<std::uint16_t>(bytes);
+  }
+  return false;
 }
 
 }  // namespace
@@ -161,13 +145,14 @@ std::optional<MeshoptFilter> meshopt_filter(std::string_view name) {
   if (name == "NONE") return MeshoptFilter::none;
   if (name == "OCTAHEDRAL") return MeshoptFilter::octahedral;
   if (name == "EXPONENTIAL") return MeshoptFilter::exponential;
+  if (name == "COLOR") return MeshoptFilter::colour;
   return std::nullopt;
 }
 
 std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
                                                      const MeshoptLayout& layout) {
   if (layout.mode == MeshoptMode::attributes) {
-    auto decoded = decode_attributes(compressed, layout);
+    auto decoded = decode_meshopt_attributes(compressed, layout.count, layout.stride);
     if (decoded && !apply(layout.filter, layout.stride, *decoded)) return std::nullopt;
     return decoded;
   }

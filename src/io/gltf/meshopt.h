@@ -1,5 +1,5 @@
-// Buffer views that the glTF extension EXT_meshopt_compression has compressed. The format is specified in appendices A
-// and B of that extension. Tested by tests/io/meshopt_test.cpp.
+// Buffer views that the glTF extensions KHR_meshopt_compression and EXT_meshopt_compression have compressed. The format is
+// specified in appendices A and B of the former, which has all that the latter has. Tested by tests/io/meshopt_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@ namespace relievo::io {
 
 enum class MeshoptMode { attributes, triangles, indices };
 
-enum class MeshoptFilter { none, octahedral, exponential };
+enum class MeshoptFilter { none, octahedral, exponential, colour };
 
 // Describes how a view was compressed, as the JSON of the file states it. The view has `count` elements of `stride` bytes.
 struct MeshoptLayout {
@@ -26,7 +26,7 @@ std::optional<MeshoptMode> meshopt_mode(std::string_view name);
 std::optional<MeshoptFilter> meshopt_filter(std::string_view name);
 
 // Returns the count * stride bytes of a view. Nothing if the compressed bytes do not have that many elements, or if the
-// layout is none that the extension allows. The memory it takes is at most 64 times that of the compressed bytes.
+// layout is none that the extensions allow. The memory it takes is at most 1,024 times that of the compressed bytes.
 std::optional<std::vector<std::byte>> decode_meshopt(std::string_view compressed,
                                                      const MeshoptLayout& layout);
 

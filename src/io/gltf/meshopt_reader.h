@@ -3,7 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+#include <vector>
 
 namespace relievo::io {
 
@@ -42,12 +44,16 @@ class MeshoptBytes {
 };
 
 // Returns the signed number that was stored without sign: 0, -1, 1, -2, 2 are stored as 0, 1, 2, 3, 4. It is returned
-// modulo 2^8 or 2^32.
+// modulo 2^8, 2^16 or 2^32.
 template <typename Unsigned>
 constexpr Unsigned without_zigzag(Unsigned stored) {
   const auto half = static_cast<Unsigned>(stored >> 1);
   return (stored & 1) != 0 ? static_cast<Unsigned>(~half) : half;
 }
+
+// Decodes `count` elements of `stride` bytes each; nothing if the stream, with its header, does not have them.
+std::optional<std::vector<std::byte>> decode_meshopt_attributes(std::string_view stream, std::size_t count,
+                                                                std::size_t stride);
 
 // Decodes three indices of each triangle. `codes` has a byte of each, `table` has 16 bytes; false if `data`, which has the
 // rest, does not end with the last triangle.
