@@ -12,9 +12,9 @@ const isImage = (base) => base === "image" || base.startsWith("image:");
 export const withoutImage = (base) => (isImage(base) ? {} : {[NAME]: ""});
 
 export class BaseImage {
-  // `say` takes a line for people.
-  constructor({engine, doc, say}) {
-    Object.assign(this, {engine, doc, say});
+  // `say` takes a line for people; `redraw` shows the document anew.
+  constructor({engine, doc, say, redraw}) {
+    Object.assign(this, {engine, doc, say, redraw});
     this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true,
       "aria-label": "Image for the base"});
     this.choose = make("button", {type: "button", class: "quiet", "data-option": NAME,
@@ -50,7 +50,11 @@ export class BaseImage {
       const {path} = await this.engine.upload([file]), {options} = this.doc.now;
       const part = {base: isImage(options.base) ? options.base : "image", [NAME]: path};
       await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
-      if (document === this.engine.document) this.doc.change({options: part});
+      if (document !== this.engine.document) return;
+      const wasGone = isGone(path); // the same picture was chosen again, whose path is that of its content
+      markGone(path, false);
+      this.doc.change({options: part});
+      if (wasGone) this.redraw();
     } catch (error) {
       this.say(error.message);
     }

@@ -158,7 +158,7 @@ export function engineOptions(step) {
 // The height maps of bases that the engine could not read when it was asked for a picture.
 const goneImages = new Set();
 export const isGone = (path) => goneImages.has(path);
-export const markGone = (path) => goneImages.add(path);
+export const markGone = (path, isGone = true) => (isGone ? goneImages.add(path) : goneImages.delete(path));
 
 // Returns the options of pictures: a relief whose base image is gone is shown on a plane.
 export function shownOptions(step) {

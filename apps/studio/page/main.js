@@ -38,7 +38,7 @@ const views = new ViewDialog(engine, (view) => doc.change({options: view}), fail
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
 const modes = new Modes({stage, doc});
 const alphaRow = new AlphaRow({doc, say: toast});
-const pieces = new PieceRows({engine, doc, say: toast, shownWidth});
+const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
 const scanPanel = new ScanPanel({doc});

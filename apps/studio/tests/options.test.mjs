@@ -4,7 +4,8 @@ import {spawnSync} from "node:child_process";
 import {readFileSync, rmSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, areKindsDrawn, enter, eventually, findBrowser, removeFolder,
+  temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -175,6 +176,7 @@ test("shows a relief without its base image when that is gone, says so, and take
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   await page.getByText(/points.*height/).waitFor();
   await page.getByText("image.png is gone", {exact: true}).waitFor({state: "attached"});
+  await page.waitForFunction(areKindsDrawn); // whose requests the page sends, too
   await baseImage().locator("input").setInputFiles(image);
   await reaches(({options}) => options.base === "image" && options["base-image"]?.endsWith("/image.png"));
 });
