@@ -60,14 +60,33 @@ Vec3 weights_in(const Vec2& a, const Vec2& b, const Vec2& s, const Vec2& place) 
   return {1 - share, share, 0};
 }
 
-// Returns the middle point of a third that makes the slope across the edge a-b linear along it.
+// Returns how much the slope in the middle of an edge differs from the mean of its ends; `change` is the slope at the
+// second end less that at the first. The heights along the edge tell one component. As most surfaces bend in one
+// direction more than in the other, the slope is taken to lie on the line through those of the ends: bends across rows
+// of points then do not depend on the triangles between these.
 template <typename Third>
-double middle_point(const Third& t, const Vec2& a, const Vec2& b, const Vec2& s) {
+Vec2 middle_deviation(const Third& t, const Vec2& edge, const Vec2& change) {
+  constexpr double least_along = .05;  // share of the change that has to lie along the edge, squared
+  constexpr double most_share = 1.5;   // of the change; more is noise, and counts less
+  const double along = 3 * ((t.ba - t.ab) / 2 - (t.ab - t.a) / 4 - (t.b - t.ba) / 4);
+  const double change_along = change.dot(edge);
+  const double divisor =
+      change_along * change_along + least_along * change.squaredNorm() * edge.squaredNorm();
+  if (!(divisor > 0)) return Vec2::Zero();
+  const double share = along * change_along / divisor, excess = std::pow(share / most_share, 4);
+  return share / (1 + excess) * change;
+}
+
+// Returns the middle point of a third that gives the slope across the edge a-b that value in the middle of the edge.
+template <typename Third>
+double middle_point(const Third& t, const std::array<Vec2, 3>& corners, const Vec2& change) {
+  const auto& [a, b, s] = corners;
   const Vec2 edge = b - a;
   const double foot = (s - a).dot(edge) / edge.squaredNorm();  // where s projects onto the edge
   const double along_a = -(1 - foot), along_b = -foot;
   const double begin = along_a * t.a + along_b * t.ab + t.as, end = along_a * t.ba + along_b * t.b + t.bs;
-  return (begin + end) / 2 - along_a * t.ab - along_b * t.ba;
+  const double across = middle_deviation(t, edge, change).dot(s - a - foot * edge) / 3;
+  return (begin + end) / 2 + 2 * across - along_a * t.ab - along_b * t.ba;
 }
 
 }  // namespace
@@ -172,7 +191,7 @@ SmoothSurface::Element SmoothSurface::element(Index t) const {
              to_centre[a],
              to_centre[b],
              0};
-    third.abs = middle_point(third, p[a], p[b], e.centre);
+    third.abs = middle_point(third, {p[a], p[b], e.centre}, slopes_[numbers[b]] - slopes_[numbers[a]]);
   }
   for (std::size_t i = 0; i < 3; ++i)
     e.near_centre[i] = (to_centre[i] + e.thirds[(i + 1) % 3].abs + e.thirds[(i + 2) % 3].abs) / 3;

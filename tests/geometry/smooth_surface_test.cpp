@@ -51,6 +51,40 @@ TEST(SmoothSurface, ReproducesQuadratics) {
     }
 }
 
+// Rows of points beside outlines: the surface bends by 24 degrees at one of them. Along the rows it shall stay straight,
+// or every triangle shows as a bead.
+TEST(SmoothSurface, BendsBetweenRowsAsIfThereWereNoTriangles) {
+  const double bend = .45;
+  std::vector<Vec3> points;
+  for (int row = 0; row < 12; ++row)
+    for (int i = 0; i < 40; ++i) {
+      const double x = row * .1, y = (i + .5 * (row % 2)) * .09;
+      points.emplace_back(x, y, x < .55 ? bend * x : bend * .5 + .05 * (x - .5));
+    }
+  std::vector<Vec2> plane;
+  for (const Vec3& p : points) plane.emplace_back(p.head<2>());
+  const std::vector<Triangle> triangles = delaunay(plane).triangles;
+  const std::vector<std::uint8_t> smooth(triangles.size(), 1);
+  const SmoothSurface surface(points, triangles, smooth);
+  for (int column = 20; column < 90; ++column) {
+    const double x = .0103 * column;
+    Vec2 least = Vec2::Constant(1e9), most = -least;
+    for (Index t = 0; t < triangles.size(); ++t)
+      for (int k = 0; k < 40; ++k) {
+        const Vec2 place(x, 1 + .0197 * k);
+        const auto& [a, b, c] = triangles[t];
+        const auto is_left = [&](Index i, Index j) {
+          const Vec2 u = plane[j] - plane[i], v = place - plane[i];
+          return u.x() * v.y() - u.y() * v.x() >= 0;
+        };
+        if (!is_left(a, b) || !is_left(b, c) || !is_left(c, a)) continue;
+        const Vec2 slope = surface.at(t, place).slope;
+        least = least.cwiseMin(slope), most = most.cwiseMax(slope);
+      }
+    EXPECT_LT((most - least).maxCoeff(), .02) << x;
+  }
+}
+
 TEST(SmoothSurface, InterpolatesItsPoints) {
   const Field field(300, [](const Vec2& p) { return std::sin(20 * p.x()) * std::cos(13 * p.y()); });
   const std::vector<std::uint8_t> smooth = field.all_smooth();

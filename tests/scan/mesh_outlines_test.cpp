@@ -150,6 +150,8 @@ TEST_P(MeshOutlines, LeaveNotchesOpen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, MeshOutlines, testing::Values(20000, 100000));
+// These take minutes, and run with --gtest_also_run_disabled_tests alone.
+INSTANTIATE_TEST_SUITE_P(DISABLED_Large, MeshOutlines, testing::Values(1000000));
 
 TEST(SeenOutlines, EndWhereAnotherSurfaceHidesThem) {
   // A square before another whose left half it covers.
