@@ -31,6 +31,7 @@ void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
   command.add_option("--up", arguments.up, "as for make")->type_name("X,Y,Z");
   command.add_option("--crop", arguments.crop, "as for make")->type_name("X0,Y0,X1,Y1");
   command.add_option("--crumbs", arguments.crumbs, "as for make")->type_name("WHAT")->capture_default_str();
+  command.add_option("--plane", arguments.plane, "as for make")->type_name("WHAT")->capture_default_str();
   command.add_option("--denoise", arguments.denoise, "as for make")
       ->type_name("NOISE")
       ->capture_default_str();

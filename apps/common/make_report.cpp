@@ -36,6 +36,13 @@ std::vector<double> as_list(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
+nlohmann::json plane_json(const std::optional<ReliefReport::FoundPlane>& plane) {
+  if (!plane) return {};
+  return {{"kind", name_in(plane_kinds, plane->kind)},
+          {"share", plane->share},
+          {"is_left_out", plane->is_left_out}};
+}
+
 nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime> times) {
   const auto number_or_null = [](double x) {
     return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json();
@@ -51,6 +58,7 @@ nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime
       {"crumbs", report.crumbs},
       {"measured_noise", report.measured_noise},
       {"removed_noise", report.removed_noise},
+      {"plane", plane_json(report.plane)},
       {"rho", report.rho},
       {"diagonal", report.diagonal},
       {"method", name_of(report.method)},

@@ -42,6 +42,13 @@ std::string wrap_text(const ReliefReport::Wrapped& wrap) {
              " degrees and has ", wrap.mm_per_degree, " mm in a degree");
 }
 
+std::string plane_text(const ReliefReport::FoundPlane& plane) {
+  const std::string what = cat("a ", name_in(plane_kinds, plane.kind), ", ", std::lround(100 * plane.share),
+                               " % of the visible points");
+  return plane.is_left_out ? cat("left out ", what, "; with plane 'keep' it stays")
+                           : cat("found ", what, "; with plane 'drop' it is left out");
+}
+
 }  // namespace
 
 std::vector<std::string> remarks_on(const ScanFacts& facts) {
@@ -56,6 +63,7 @@ std::vector<std::string> remarks_on(const ScanFacts& facts) {
   if (facts.crumbs > 0)
     lines.push_back(cat("left out ", facts.crumbs, facts.crumbs == 1 ? " small piece" : " small pieces",
                         " of the surface; with crumbs 'keep' only single specks are left out"));
+  if (facts.plane) lines.push_back(plane_text(*facts.plane));
   if (facts.removed_noise > 0 && facts.removed_noise == facts.measured_noise)
     lines.push_back(cat("removed noise of ", std::round(100 * facts.removed_noise) / 100,
                         " sampling distances; with denoise '0' it stays"));
@@ -73,9 +81,9 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
   if (report.has_needed_steps)
     lines.push_back(cat("slopes alone do not reach the height: depth jumps take ",
                         std::lround(100 * report.steps), " % of it"));
-  for (const std::string& line : remarks_on(
-           ScanFacts{report.has_estimated_normals, report.has_turned_normals, 0, report.visible_points,
-                     report.removed_points, report.crumbs, report.measured_noise, report.removed_noise}))
+  for (const std::string& line : remarks_on(ScanFacts{
+           report.has_estimated_normals, report.has_turned_normals, 0, report.visible_points,
+           report.removed_points, report.crumbs, report.measured_noise, report.removed_noise, report.plane}))
     lines.push_back(line);
   if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
   if (report.simplification_error_mm)

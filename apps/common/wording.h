@@ -1,6 +1,7 @@
 // Sentences for people, made of the facts that the library returns: for the command line and the studio alike.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ struct ScanFacts {
   std::size_t left_out = 0;                                        // outliers
   std::size_t visible_points = 0, removed_points = 0, crumbs = 0;  // see Surface
   double measured_noise = 0, removed_noise = 0;
+  std::optional<ReliefReport::FoundPlane> plane = {};
 };
 
 // Returns a line for each fact that a user should know, without capital and full stop.

@@ -22,24 +22,18 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
   return counts;
 }
 
+std::optional<ReliefReport::FoundPlane> plane_of(const Surface& surface) {
+  if (!surface.plane) return std::nullopt;
+  return ReliefReport::FoundPlane{surface.plane->kind, surface.plane->share, !surface.view.has_plane};
+}
+
 std::vector<std::string> sentences_on(const Surface& surface, std::size_t left_out) {
   std::vector<std::string> sentences;
   const ScanFacts facts{surface.has_estimated_normals, surface.has_flipped_normals, left_out,
                         surface.visible_points,        surface.removed_points,      surface.crumbs,
-                        surface.measured_noise,        surface.removed_noise};
+                        surface.measured_noise,        surface.removed_noise,       plane_of(surface)};
   for (const std::string& line : remarks_on(facts)) sentences.push_back(as_sentence(line));
   return sentences;
-}
-
-double area_of(const Surface& surface) {
-  double sum = 0;
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const auto& [a, b, c] = surface.triangulation.triangles[t];
-    const Vec3 u = surface.points[b] - surface.points[a], v = surface.points[c] - surface.points[a];
-    sum += (u.x() * v.y() - u.y() * v.x()) / 2;
-  }
-  return sum;
 }
 
 ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
@@ -51,9 +45,9 @@ ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
           .hull = surface.triangulation.hull.size(),
           .size = box.size().head<2>(),
           .corner = box.min.head<2>(),
-          .area = area_of(surface),
           .noise = surface.removed_noise,
           .crumbs = surface.crumbs,
+          .plane = plane_of(surface),
           .rho = surface.rho,
           .delta = surface.curvature.delta,
           .rotation = surface.view.R_view_model,

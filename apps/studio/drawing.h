@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "relievo/make_relief.h"
 #include "relievo/options.h"
 #include "relievo/picture/render.h"
 #include "relievo/turning.h"
@@ -21,9 +22,9 @@ namespace relievo::app::studio {
 struct ModelFacts {
   std::size_t input_points = 0, visible_points = 0, points = 0, triangles = 0, hull = 0;
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // of the relief's box, in the scan's units
-  double area = 0;         // of the relief without its ground, in those units squared
-  double noise = 0;        // that was removed, in sampling distances
-  std::size_t crumbs = 0;  // small pieces that were left out
+  double noise = 0;                                 // that was removed, in sampling distances
+  std::size_t crumbs = 0;                           // small pieces that were left out
+  std::optional<ReliefReport::FoundPlane> plane = {};
   double rho = 0, delta = 0;
   Mat3 rotation = Mat3::Identity();
   std::vector<std::string> remarks;

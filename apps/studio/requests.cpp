@@ -133,6 +133,7 @@ Result<PictureRequest> picture_request(const Json& json) {
     RELIEVO_TRY(View view, view_from(*turned));
     view.crop = request.options.view.crop;
     view.has_crumbs = request.options.view.has_crumbs;
+    view.has_plane = request.options.view.has_plane;
     view.denoise = request.options.view.denoise;
     request.turned = view;
   }
@@ -164,7 +165,8 @@ Result<View> view_from(const Json& json) {
 PreparationTexts preparation_texts(const Json& json) {
   const PreparationTexts none;
   return {{json.value("view", none.view), json.value("up", none.up), json.value("crop", none.crop),
-           json.value("crumbs", none.crumbs), json.value("denoise", none.denoise)},
+           json.value("crumbs", none.crumbs), json.value("plane", none.plane),
+           json.value("denoise", none.denoise)},
           json.value("mode", none.mode),
           number(json, "points", {1000, 1e7, none.points}).value_or(none.points)};
 }
@@ -175,8 +177,8 @@ Result<int> pixels_from(const Json& json) {
 }
 
 static Json to_json(const PreparationTexts& texts) {
-  return {{"view", texts.view},       {"up", texts.up},     {"crop", texts.crop},    {"crumbs", texts.crumbs},
-          {"denoise", texts.denoise}, {"mode", texts.mode}, {"points", texts.points}};
+  return {{"view", texts.view},   {"up", texts.up},           {"crop", texts.crop}, {"crumbs", texts.crumbs},
+          {"plane", texts.plane}, {"denoise", texts.denoise}, {"mode", texts.mode}, {"points", texts.points}};
 }
 
 Json to_json(const EngineStatus& status) {
@@ -195,6 +197,8 @@ Json to_json(const EngineStatus& status) {
 }
 
 Json to_json(const ModelFacts& facts) {
+  Json plane;
+  if (facts.plane) plane = {{"share", facts.plane->share}, {"is_left_out", facts.plane->is_left_out}};
   std::vector<double> rotation;
   for (int i = 0; i < 9; ++i) rotation.push_back(facts.rotation(i / 3, i % 3));
   return {{"input_points", facts.input_points},
@@ -203,10 +207,10 @@ Json to_json(const ModelFacts& facts) {
           {"triangles", facts.triangles},
           {"hull", facts.hull},
           {"size", {facts.size.x(), facts.size.y()}},
-          {"area", facts.area},
           {"rho", facts.rho},
           {"noise", facts.noise},
           {"crumbs", facts.crumbs},
+          {"plane", plane},
           {"delta", facts.delta},
           {"rotation", rotation},
           {"remarks", facts.remarks},

@@ -8,6 +8,7 @@
 #include "relievo/options.h"
 #include "relievo/plate/solid.h"
 #include "relievo/plate/tool.h"
+#include "relievo/scan/support_plane.h"
 #include "relievo/view_sample.h"
 
 namespace relievo {
@@ -22,6 +23,14 @@ struct Surface;
 struct ReliefReport {
   std::size_t input_points = 0, visible_points = 0, removed_points = 0, crumbs = 0;  // see Surface
   double measured_noise = 0, removed_noise = 0;                                      // see Surface
+
+  // The table or background that was found.
+  struct FoundPlane {
+    PlaneKind kind = PlaneKind::background;
+    double share = 0;          // of the visible points that belong to it
+    bool is_left_out = false;  // as the view asked for
+  };
+  std::optional<FoundPlane> plane;
   double rho = 0;                 // sampling distance, in the cloud's units
   double diagonal = 0;            // L_d: diagonal of the cloud's box, in its units
   Method method = Method::paper;  // alpha, beta, gamma and u mean nothing where it has no shape

@@ -19,6 +19,7 @@ struct ViewTexts {
   std::string view = "front", up;  // see parse_view()
   std::string crop;                // see parse_crop(); empty: all
   std::string crumbs = "drop";     // or keep, see View
+  std::string plane = "keep";      // or drop, see View
   std::string denoise = "auto";    // see parse_denoise()
 
   bool operator==(const ViewTexts&) const = default;

@@ -22,7 +22,7 @@ INPUT = [row["keyword"] for row in TABLE if row.get("is_of_input")] + ["camera",
 _TEXTS = {row["keyword"] for row in TABLE if "min" not in row and row["unit"] not in ("R", "N")}
 
 # What a session prepares once, and what its frames can change.
-PREPARED = {"view", "up", "crop", "crumbs", "denoise", "mode", "points", *INPUT} - {"base_image"}
+PREPARED = {"view", "up", "crop", "crumbs", "plane", "denoise", "mode", "points", *INPUT} - {"base_image"}
 SHAPE = {"width_mm", "height_mm", "alpha", "saturation", "detail", "method", "steepest_deg", "boundary", "steps", "tone"}
 OF_MAKE = [row["keyword"] for row in RELIEF] + INPUT
 OF_SESSION = [keyword for keyword in OF_MAKE if keyword not in PREPARED]

@@ -76,8 +76,8 @@ std::vector<ReliefField> shape_rows() {
   };
 }
 
-// The words for whether the view has crumbs.
-constexpr std::array<Choice<bool>, 2> crumb_choices{{{"drop", false}, {"keep", true}}};
+// The words for whether the view has crumbs, or a support plane.
+constexpr std::array<Choice<bool>, 2> keep_choices{{{"drop", false}, {"keep", true}}};
 
 // Returns the rows of the relief's limits.
 std::vector<ReliefField> limit_rows() {
@@ -141,8 +141,15 @@ std::vector<ReliefField> view_rows() {
       ReliefField{{.name = "crumbs",
                    .unit = "WHAT",
                    .help = "drop or keep pieces of less than 0.5 % of what is seen",
-                   .choices = names_of(crumb_choices)},
+                   .choices = names_of(keep_choices)},
                   &OptionTexts::crumbs},
+      ReliefField{
+          {.name = "plane",
+           .unit = "WHAT",
+           .help = "keep or drop a table or background that is found: a plane that the figure stands on or "
+                   "before, and what lies behind it",
+           .choices = names_of(keep_choices)},
+          &OptionTexts::plane},
       ReliefField{
           {.name = "denoise",
            .unit = "NOISE",
@@ -282,7 +289,8 @@ Result<View> parse_view(const ViewTexts& texts) {
   RELIEVO_TRY(View view, parse_view(is_best ? "front" : std::string_view(texts.view), texts.up));
   view.is_best = is_best;
   RELIEVO_TRY(view.crop, parse_crop(texts.crop));
-  RELIEVO_TRY(view.has_crumbs, parse_choice("crumbs", texts.crumbs, crumb_choices));
+  RELIEVO_TRY(view.has_crumbs, parse_choice("crumbs", texts.crumbs, keep_choices));
+  RELIEVO_TRY(view.has_plane, parse_choice("plane", texts.plane, keep_choices));
   RELIEVO_TRY(view.denoise, parse_denoise(texts.denoise));
   return view;
 }

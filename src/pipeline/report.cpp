@@ -24,6 +24,7 @@ void report_surface(const Surface& surface, ReliefReport& report) {
   report.crumbs = surface.crumbs;
   report.measured_noise = surface.measured_noise;
   report.removed_noise = surface.removed_noise;
+  if (surface.plane) report.plane = {surface.plane->kind, surface.plane->share, !surface.view.has_plane};
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   report.has_estimated_normals = surface.has_estimated_normals;

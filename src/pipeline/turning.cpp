@@ -35,7 +35,11 @@ Turntable::Turntable(const MeasuredCloud& measured)
 Turntable::~Turntable() = default;
 
 Result<TurnedRelief> Turntable::turn(const View& view, const ReliefModel* like, Progress* progress) const {
-  RELIEVO_TRY(TurnedSurface turned, turned_surface(state_->scan, view, points, progress));
+  const bool leaves_plane_out = like && like->surface().plane && !view.has_plane;
+  RELIEVO_TRY(TurnedSurface turned,
+              leaves_plane_out
+                  ? turned_surface(state_->scan.without_plane(like->surface()), view, points, progress)
+                  : turned_surface(state_->scan, view, points, progress));
   TurnedRelief relief;
   relief.detail = std::make_shared<const SurfaceDetail>(detail_of(turned));
   relief.spacing_ratio = state_->scan.rho / turned.surface.rho;

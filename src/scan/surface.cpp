@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "core/disjoint_sets.h"
 #include "core/memory.h"
 #include "geometry/hilbert.h"
 #include "relievo/core/parallel.h"
@@ -99,20 +100,60 @@ std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index>
   return k;
 }
 
+// Leaves out what is left of a plane: pieces that stay low over it. A depth camera bends tables, and boards have ridges.
+void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
+                     std::vector<Index>& visible) {
+  constexpr double low = 4;          // in tolerances
+  constexpr double connected = 3;    // in local spacings, as for floating noise: see visible.cpp
+  constexpr double high_share = .1;  // of a figure's points
+  std::vector<std::uint8_t> is_left(cloud.size(), 0);
+  for (const Index i : visible) is_left[i] = 1;
+  DisjointSets pieces(cloud.size());
+  for (const Index i : visible)
+    for (const Index j : spacing.nearest[i])
+      if (j != no_index && is_left[j] &&
+          (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
+        pieces.join(i, j);
+  std::vector<Index> high(cloud.size(), 0);
+  for (const Index i : visible)
+    high[pieces.find(i)] += plane.normal.dot(cloud.points[i]) - plane.offset > low * plane.tolerance;
+  std::vector<Index> rest;
+  for (const Index i : visible)
+    if (high[pieces.find(i)] >= high_share * static_cast<double>(pieces.size_of(i))) rest.push_back(i);
+  if (!rest.empty()) visible = std::move(rest);
+}
+
+// Leaves out the plane that the figure stands on or before: points of it, and exact outlines.
+void leave_out(const SupportPlane& plane, Cloud& cloud, std::vector<Index>& visible,
+               std::vector<Index>& hole_fill) {
+  const auto is_taken = [&](Index i) { return plane.takes(cloud.points[i], cloud.normals[i]); };
+  std::erase_if(visible, is_taken);
+  std::erase_if(hole_fill, is_taken);
+  const Vec3f normal = plane.normal.cast<float>();
+  std::erase_if(cloud.outlines, [&](const OutlineSegment& s) {
+    return plane.takes(s.from, normal) && plane.takes(s.to, normal);
+  });
+}
+
 // Stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& options, Surface& surface,
                                   Progress* progress) {
   if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
   Cloud& cloud = viewed.cloud;
   const Spacing& spacing = viewed.spacing();
-  const auto [visible, removed] = find_visible(cloud, spacing, options.visible);
+  auto [visible, removed] = find_visible(cloud, spacing, options.visible);
   if (visible.size() < 4)
     return geometry_error(
         cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
-  surface.visible_points = visible.size();
   surface.removed_points = removed;
   RELIEVO_CHECK(check_cancelled(progress));
-  const std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible, options.visible);
+  std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible, options.visible);
+  surface.plane = find_support_plane(cloud, visible, surface.rho);
+  if (surface.plane && !surface.view.has_plane) {
+    leave_out(*surface.plane, cloud, visible, hole_fill);
+    drop_low_pieces(*surface.plane, cloud, spacing, visible);
+  }
+  surface.visible_points = visible.size();
   // Flat, as nothing is known of the front there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
 

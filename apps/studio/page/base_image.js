@@ -1,7 +1,8 @@
 // The height map of the base: an image that is chosen, or dropped on its row.
 
 import {$, make} from "./controls.js";
-import {engineOptions} from "./document.js";
+import {engineOptions, isGone, markGone} from "./document.js";
+import {offer} from "./messages.js";
 
 const NAME = "base-image";
 const TIP = "Height map under the relief, bright is high: a grey PNG of 8 or 16 bits, or a TIFF. Drop it here, too.";
@@ -11,9 +12,9 @@ const isImage = (base) => base === "image" || base.startsWith("image:");
 export const withoutImage = (base) => (isImage(base) ? {} : {[NAME]: ""});
 
 export class BaseImage {
-  // `say` takes a line for people.
-  constructor({engine, doc, say}) {
-    Object.assign(this, {engine, doc, say});
+  // `say` takes a line for people; `redraw` shows the document anew.
+  constructor({engine, doc, say, redraw}) {
+    Object.assign(this, {engine, doc, say, redraw});
     this.file = make("input", {type: "file", accept: ".png,.tif,.tiff", hidden: true,
       "aria-label": "Image for the base"});
     this.choose = make("button", {type: "button", class: "quiet", "data-option": NAME,
@@ -49,17 +50,31 @@ export class BaseImage {
       const {path} = await this.engine.upload([file]), {options} = this.doc.now;
       const part = {base: isImage(options.base) ? options.base : "image", [NAME]: path};
       await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
-      if (document === this.engine.document) this.doc.change({options: part});
+      if (document !== this.engine.document) return;
+      const wasGone = isGone(path); // the same picture was chosen again, whose path is that of its content
+      markGone(path, false);
+      this.doc.change({options: part});
+      if (wasGone) this.redraw();
     } catch (error) {
       this.say(error.message);
     }
+  }
+
+  // Returns whether an error of a picture says that the image is gone, which is then said once.
+  isMissing({kind, message}) {
+    const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
+    if (kind !== "input" || !path || isGone(path) || !message.startsWith(`${path}:`)) return false;
+    markGone(path);
+    offer(`The base image ${name} is gone: the relief is shown without it.`, "Choose it again",
+      () => this.file.click());
+    return true;
   }
 
   // Shows the document's image where its base is shown.
   show(isBaseShown) {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
     this.element.hidden = !isBaseShown;
-    this.choose.textContent = name || "Choose …";
+    this.choose.textContent = isGone(path) ? `${name} is gone` : name || "Choose …";
     this.choose.setAttribute("aria-label", name ? `Base image ${name}: choose another` : "Choose … for the base");
     this.remove.hidden = path === "";
   }

@@ -5,7 +5,7 @@ import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
 const START = {view: "auto", height: 5, method: "layered",
-  mode: "auto", tone: "", "base-image": "", up: "", crop: "", crumbs: "drop", denoise: "auto"};
+  mode: "auto", tone: "", "base-image": "", up: "", crop: "", crumbs: "drop", plane: "keep", denoise: "auto"};
 
 // The options that the page changes besides.
 const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",
@@ -152,6 +152,18 @@ export function engineOptions(step) {
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
   if (form === "lithophane") delete options.draft;
+  return options;
+}
+
+// The height maps of bases that the engine could not read when it was asked for a picture.
+const goneImages = new Set();
+export const isGone = (path) => goneImages.has(path);
+export const markGone = (path, isGone = true) => (isGone ? goneImages.add(path) : goneImages.delete(path));
+
+// Returns the options of pictures: a relief whose base image is gone is shown on a plane.
+export function shownOptions(step) {
+  const options = engineOptions(step);
+  if (isGone(options["base-image"])) delete options.base, delete options["base-image"];
   return options;
 }
 

@@ -16,7 +16,7 @@
 //   open(input, view)              makes that scan's document the one that all of the following concern
 //   upload(files)               -> input for files of the browser; readProject(file) -> {input, is_there,
 //                                  options, studio}
-//   chooseView(view), cancel()     view is {view, up, crop, crumbs, denoise, mode, points} as on the command line
+//   chooseView(view), cancel()     view is {view, up, crop, crumbs, plane, denoise, mode, points} as make has it
 //   facts(), suggestViews()     -> facts about the model; {view, up} of each side, best first
 //   frame(request, {signal}), scan(request)-> {image: ImageData, about}; a picture that is aborted is cancelled
 //   profile(request)            -> heights in mm

@@ -1,7 +1,7 @@
 // The kinds of work, as pictures of this scan: each sets the piece, its size and its material.
 
 import {$, check, make} from "./controls.js";
-import {FIRST, engineOptions} from "./document.js";
+import {FIRST, shownOptions} from "./document.js";
 import {takeArrowKeys} from "./inputs.js";
 import {paint} from "./stage.js";
 
@@ -49,8 +49,8 @@ function partOf(kind, {diameter}) {
 }
 
 // The options that a kind leaves as they are: how the scan is seen and shaped.
-const KEPT = ["view", "up", "crop", "crumbs", "denoise", "mode", "points", "method", "saturation", "detail", "steepest",
-  "boundary", "steps", "tone", "tool", "finish", "resolution", "tolerance", "triangles"];
+const KEPT = ["view", "up", "crop", "crumbs", "plane", "denoise", "mode", "points", "method", "saturation", "detail",
+  "steepest", "boundary", "steps", "tone", "tool", "finish", "resolution", "tolerance", "triangles"];
 
 const kept = (options) => Object.fromEntries(KEPT.map((name) => [name, options[name]]));
 
@@ -93,7 +93,7 @@ export class KindCards {
       do await pause(); while (!this.isAtRest() && model === this.model);
       if (model !== this.model) return;
       const {options, ...step} = this.stepOf(kind), {material, light} = step;
-      const request = {options: engineOptions({options}), material, light, width: WIDTH, height: HEIGHT,
+      const request = {options: shownOptions({options}), material, light, width: WIDTH, height: HEIGHT,
         camera: {yaw: 0, pitch: 0, zoom: 1.06, ...camera}};
       const made = await this.engine.frame(request).catch(() => null); // a view that does not suit the kind
       if (made && model === this.model) paint($(`#kinds [data-kind="${kind}"] canvas`), made.image);

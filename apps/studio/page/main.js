@@ -38,7 +38,7 @@ const views = new ViewDialog(engine, (view) => doc.change({options: view}), fail
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
 const modes = new Modes({stage, doc});
 const alphaRow = new AlphaRow({doc, say: toast});
-const pieces = new PieceRows({engine, doc, say: toast, shownWidth});
+const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
 const scanPanel = new ScanPanel({doc});
@@ -279,6 +279,7 @@ let reopening = 0;
 function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
   if (error.kind === "option" && stage.drag?.tool === "place") return placing.squeeze();
+  if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return toast(error.message);
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.reopen().catch(failed), 200);

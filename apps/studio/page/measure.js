@@ -5,15 +5,28 @@ import {clamp, make} from "./controls.js";
 import {lengthText, shown} from "./lengths.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
+const ROW = 22; // pixels that a label needs in height
 const GAP = 14; // pixels from the piece to its dimensions
 
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
-// Returns a line between two pixels with a text in its middle, on a ground that keeps it readable, within the picture.
+let labels = []; // of the marks that are being drawn: {x, y, width}, of their middles
+
+// Returns the place nearest to `y` that keeps a label clear of the others, within the picture.
+function freeHeight(x, y, width, picture) {
+  const isFree = (y) => y >= ROW / 2 && y <= picture.height - ROW / 2 && labels.every((other) =>
+    Math.abs(other.x - x) >= (other.width + width) / 2 || Math.abs(other.y - y) >= ROW);
+  const steps = Array.from({length: Math.ceil(picture.height / 2)}, (_, i) => 2 * i);
+  return steps.flatMap((step) => [y - step, y + step]).find(isFree) ?? y;
+}
+
+// Returns a line between two pixels with a text in its middle, on a ground that keeps it readable, within the picture
+// and beside the labels before it.
 function labelled([x1, y1], [x2, y2], text, kind, picture) {
   const width = 7.2 * text.length + 10, x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
-  const y = clamp((y1 + y2) / 2, 11, picture.height - 11);
+  const y = freeHeight(x, clamp((y1 + y2) / 2, ROW / 2, picture.height - ROW / 2), width, picture);
+  labels.push({x, y, width});
   const label = make("text", {x, y: y + 4, "text-anchor": "middle"}, text);
   return [make("line", {class: kind, x1, y1, x2, y2}),
     make("rect", {class: "ground", x: x - width / 2, y: y - 10, width, height: 20, rx: 5}), label];
@@ -80,6 +93,7 @@ export class Measure {
   }
 
   marks() {
+    labels = [];
     const marks = this.dimensionMarks(), {angle} = this.stage.drag ?? {};
     if (angle) {
       const middle = this.stage.toPixels(this.stage.figureMiddle());

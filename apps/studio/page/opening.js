@@ -6,8 +6,8 @@ import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
 import {engineBack, toast} from "./messages.js";
 
-export const viewOf = ({options: {view, up, crop, crumbs, denoise, mode, points}}) =>
-  ({view, up, crop, crumbs, denoise, mode, points});
+export const viewOf = ({options: {view, up, crop, crumbs, plane, denoise, mode, points}}) =>
+  ({view, up, crop, crumbs, plane, denoise, mode, points});
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 

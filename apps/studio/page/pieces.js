@@ -62,10 +62,10 @@ function besides(name, value, {outline, diameter, plate}, shownWidth) {
 
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
-  constructor({engine, doc, say, shownWidth}) {
+  constructor({engine, doc, say, shownWidth, redraw}) {
     Object.assign(this, {engine, doc, say, shownWidth, rows: {}});
     for (const name of ROWS) $(PLACES[name]).append((this.rows[name] = this.row(name)).element);
-    this.baseImage = new BaseImage({engine, doc, say});
+    this.baseImage = new BaseImage({engine, doc, say, redraw});
     this.rows.base.element.after(this.baseImage.element);
   }
 

@@ -2,7 +2,7 @@
 // reach, with a button that loosens it.
 
 import {$, make} from "./controls.js";
-import {engineOptions} from "./document.js";
+import {shownOptions} from "./document.js";
 import {lengthText, shown} from "./lengths.js";
 
 // Changes that may let a relief be higher, with the words for what limits it, the mildest first.
@@ -26,7 +26,7 @@ export class Reach {
   // Called when things rest. The reach does not depend on the height: it is asked for when something else changes.
   async pictured(frame) {
     if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
-    const {height, ...rest} = engineOptions(this.doc.now), key = JSON.stringify(rest);
+    const {height, ...rest} = shownOptions(this.doc.now), key = JSON.stringify(rest);
     if (key !== this.key) {
       this.key = key;
       try {
@@ -47,7 +47,7 @@ export class Reach {
     let best = null;
     for (const looser of LOOSER) {
       if (Object.entries(looser.part).every(([name, value]) => (this.doc.now.options[name] ?? "") === value)) continue;
-      const changed = engineOptions({...this.doc.now, options: {...this.doc.now.options, ...looser.part}});
+      const changed = shownOptions({...this.doc.now, options: {...this.doc.now.options, ...looser.part}});
       const reach = await this.engine.reach(changed).catch(() => 0);
       if (key !== this.key) return; // something else is shown, perhaps another document
       if (reach > this.reach * WORTH && !best) best = looser;

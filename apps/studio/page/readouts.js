@@ -3,17 +3,18 @@
 import {$, count, make} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown} from "./lengths.js";
 
-let times = [], frames = ""; // of the newest pictures
+const FEWEST = 6; // pictures in a second from which their number is told
+
+let times = []; // of the newest pictures
 
 // Shows the numbers that come with a picture: `height` is the one to show, `facts` those of the model.
 export function showNumbers({about, ms, isFine, height, facts}) {
   const now = performance.now();
-  if (!isFine) times = [...times.filter((time) => now - time < 1000), now];
-  if (!isFine && times.length > 5) frames = `${times.length} frames/s`;
+  times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
   const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
     `height ${lengthText(height)} ${shown.unit}`,
-    `piece ${about.size_mm.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`, frames,
-    !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
+    `piece ${about.size_mm.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`,
+    times.length >= FEWEST ? `${times.length} frames/s` : "", !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
   $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
   const spent = [`${time("heights", about.heights_ms)} in ${about.solves} solves`, time("detail", about.detail_ms),

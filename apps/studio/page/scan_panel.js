@@ -7,7 +7,6 @@ const FULL = [0, 0, 1, 1, 0, 1];
 // from the viewer on. A cut of 0 takes nothing away.
 const SIDES = [["Left", 0], ["Right", 2], ["Top", 3], ["Bottom", 1], ["Front", 4], ["Back", 5]];
 const MOST_CUT = 95; // percent
-const FILLED = 0.85; // of its box: what a scan with a table or a background shows
 
 const numbersOf = (crop) => FULL.map((otherwise, i) => {
   const number = crop.split(",")[i]?.trim();
@@ -36,6 +35,7 @@ export class ScanPanel {
     const set = (options) => doc.change({options});
     $("#crop").onchange = (event) => set({crop: event.target.value.replaceAll(" ", "")});
     $("#crumbs").onchange = (event) => set({crumbs: event.target.checked ? "keep" : "drop"});
+    $("#plane").onchange = (event) => set({plane: event.target.checked ? "keep" : "drop"});
     $("#denoise").oninput = (event) => this.showNoise(Number(event.target.value));
     $("#denoise").onchange = (event) => set({denoise: event.target.value});
     $("#denoise-auto").onchange = (event) => set({denoise: event.target.checked ? "auto" : $("#denoise").value});
@@ -71,12 +71,14 @@ export class ScanPanel {
 
   // Shows what the document says.
   show() {
-    const {crop, crumbs, denoise} = this.doc.now.options, key = [crop, crumbs, denoise, this.facts?.noise].join();
+    const {crop, crumbs, plane, denoise} = this.doc.now.options;
+    const key = [crop, crumbs, plane, denoise, this.facts?.noise].join();
     if (key === this.shown) return; // this runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
     $("#crop").value = crop;
     $("#crumbs").checked = crumbs === "keep";
+    $("#plane").checked = plane === "keep";
     $("#denoise-auto").checked = denoise === "auto";
     this.showNoise(denoise === "auto" ? this.facts?.noise ?? 0 : Number(denoise));
     for (const cut of this.cuts)
@@ -94,17 +96,17 @@ export class ScanPanel {
     this.show();
   }
 
-  notesOn({remarks, crumbs, noise, area, size: [width, height]}) {
+  notesOn({remarks, crumbs, plane, noise}) {
     const {options} = this.doc.now, notes = [];
     for (const text of remarks) {
       const about = text.split(";")[0] + (text.includes(";") ? "." : "");
       if (crumbs > 0 && /small piece/.test(text)) notes.push([about, "Keep them", {crumbs: "keep"}]);
+      else if (plane && /with plane/.test(text))
+        notes.push(plane.is_left_out ? [about, "Keep it", {plane: "keep"}] : [about, "Leave it out", {plane: "drop"}]);
       else if (noise > 0 && /^Removed noise/.test(text)) notes.push([about, "Keep it", {denoise: "0"}]);
       else notes.push([text]);
     }
     if (options.crumbs === "keep") notes.push(["Small pieces are kept.", "Leave them out", {crumbs: "drop"}]);
-    if (area > FILLED * width * height && options.crop === "")
-      notes.push(["The scan fills its whole frame. Is there a table or a background? It can be cut away below."]);
     return notes;
   }
 }

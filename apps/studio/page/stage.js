@@ -2,7 +2,7 @@
 // and keys.
 
 import {$, clamp, make} from "./controls.js";
-import {engineOptions} from "./document.js";
+import {shownOptions} from "./document.js";
 import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
 import {Measure} from "./measure.js";
 import {takePinches} from "./pinch.js";
@@ -12,6 +12,7 @@ import {Turning} from "./turning.js";
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
 const FINISH_MS = 500; // and after which the finished piece is made
+const MOST_PIXELS = 7.9e6; // a little less than the engine draws: a window on a screen of 5,120 x 2,880 has more
 const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
 
 export function paint(canvas, image) {
@@ -49,7 +50,7 @@ export class Stage {
   request(extra = {}) {
     const step = this.doc.now;
     const {material, light} = step;
-    const request = {options: engineOptions(step), material, light, camera: this.camera, ...extra};
+    const request = {options: shownOptions(step), material, light, camera: this.camera, ...extra};
     if (this.turning.shown) request.turned = this.turning.shown;
     if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
     return request;
@@ -116,8 +117,9 @@ export class Stage {
   }
 
   pixels(isFine) {
-    const scale = isFine ? Math.min(window.devicePixelRatio, 2) : this.share;
-    return {width: Math.round(this.size.width * scale), height: Math.round(this.size.height * scale)};
+    const {width, height} = this.size, most = Math.sqrt(MOST_PIXELS / (width * height));
+    const scale = Math.min(isFine ? Math.min(window.devicePixelRatio, 2) : this.share, most);
+    return {width: Math.round(width * scale), height: Math.round(height * scale)};
   }
 
   // Asks for the picture of the newest state. The last picture of a state shows the piece as it will be exported.

@@ -2,6 +2,7 @@
 // one scene.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
+import {writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
@@ -211,4 +212,47 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   await page.goto(engine.address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady();
+});
+
+// Writes a ball on a tilted table, 4 x 4 of its radius, whose points scatter.
+function writeBallOnTable(file) {
+  let seed = 1;
+  const random = () => (seed = (seed * 16807) % 2147483647) / 2147483647;
+  const n = [0, 0.766, 0.643], lines = [];
+  const add = (p, normal) => lines.push([...p, ...normal].map((x) => x.toFixed(5)).join(" "));
+  for (let i = 0; i < 6000; ++i) {
+    const z = 2 * random() - 1, angle = 2 * Math.PI * random(), r = Math.sqrt(1 - z * z);
+    const normal = [r * Math.cos(angle), r * Math.sin(angle), z];
+    add(normal.map((x, k) => x + n[k]), normal);
+    const [u, v, off] = [4 * random() - 2, 4 * random() - 2, 0.02 * random() - 0.01];
+    add([u, -v * n[2] + off * n[1], v * n[1] + off * n[2]], n);
+  }
+  const names = ["x", "y", "z", "nx", "ny", "nz"].map((name) => `property float ${name}`).join("\n");
+  const header = `ply\nformat ascii 1.0\nelement vertex ${lines.length}\n${names}\nend_header\n`;
+  writeFileSync(file, `${header}${lines.join("\n")}\n`);
+}
+
+test("finds a table, and leaves it out at the press of a button", {skip}, async () => {
+  const points = async () => Number((await numbers().innerText()).match(/^([\d,]+) of/)[1].replaceAll(",", ""));
+  const table = path.join(folder, "table.ply");
+  writeBallOnTable(table);
+  await page.locator("#file").setInputFiles(table);
+  await page.getByText(/of 12,000 points/).waitFor();
+  await untilReady();
+  const before = await points();
+  await openPanel("Scan");
+  const note = await page.locator("#notes li", {hasText: /^Found a table, \d+ % of the visible points\./}).innerText();
+  const share = Number(note.match(/\d+/)[0]) / 100;
+  await button("Leave it out").click();
+  await page.getByText(/^Left out a table/).waitFor();
+  await eventually(async () => {
+    const left = (await points()) / before;
+    assert.ok(Math.abs(left - (1 - share)) < 0.06, `${left} left of a table of ${share}`);
+  });
+  await untilReady();
+  assert.ok(!await page.locator("#plane").isChecked());
+  await button("Keep it").click();
+  await page.getByText(/^Found a table/).waitFor();
+  await eventually(async () => assert.equal(await points(), before));
+  assert.equal(await page.locator("#notes").getByText(/fills its whole frame/).count(), 0);
 });

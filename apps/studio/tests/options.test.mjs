@@ -1,10 +1,11 @@
 // Every option of the engine's table has a control on the page, and what is set there reaches the engine.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {readFileSync} from "node:fs";
+import {readFileSync, rmSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, areKindsDrawn, enter, eventually, findBrowser, removeFolder,
+  temporaryFolder} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -47,7 +48,8 @@ const CASES = {
   alpha: {value: 3, first: {saturation: 0.5}},
   method: {value: "paper"}, mode: {value: "exact"}, steepest: {value: 66}, draft: {value: 12},
   steps: {value: 0.2}, tone: {value: "0,0.8;0.5,0.6;1,0.45"}, view: {value: "left"}, up: {value: "1,0,0"},
-  crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, denoise: {value: "0.5"}, points: {value: 20000},
+  crop: {value: "0,0,0.9,1"}, crumbs: {value: "keep"}, plane: {value: "drop"}, denoise: {value: "0.5"},
+  points: {value: 20000},
   outline: {value: "ellipse"}, corner: {value: 9, first: {outline: "round"}}, diameter: {value: 77, kind: "coin"},
   plate: {value: "140x120"}, shift: {value: "5,-3", first: {plate: "180x160"}},
   margin: {value: 6}, thickness: {value: 4}, rim: {value: 3, kind: "coin"},
@@ -67,7 +69,7 @@ async function set(name, value) {
     await page.locator(`#sides [data-side="${value}"]`).click();
     return page.getByRole("button", {name: "Use this view"}).click();
   }
-  if (name === "crumbs") return it.setChecked(value === "keep");
+  if (name === "crumbs" || name === "plane") return it.setChecked(value === "keep");
   const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
   if (kind === "select") return name === "tone" ? it.selectOption({index: 1}) : it.selectOption(value);
   await (kind === "range" ? it.fill(String(value)) : enter(it, String(value)));
@@ -92,7 +94,7 @@ test("has a control for each option of the table", {skip}, async () => {
 });
 
 // What differs between browsers is how a control is set: Firefox sets one of each kind.
-const KINDS = ["width", "alpha", "method", "tone", "view", "crop", "crumbs", "denoise", "plate", "rim"];
+const KINDS = ["width", "alpha", "method", "tone", "view", "crop", "crumbs", "plane", "denoise", "plate", "rim"];
 const cases = Object.entries(CASES).filter(([name]) => found.name !== "firefox" || KINDS.includes(name));
 
 for (const [name, {value, first = {}, kind}] of cases)
@@ -160,4 +162,21 @@ test("opens a project with the paper's height coefficient", {skip}, async () => 
   const step = await page.evaluate(async () =>
     (await import(new URL("document.js", location))).stepOfProject({options: {alpha: 4, saturation: 0.5}}));
   assert.deepEqual([step.isHeightLocked, step.u, "alpha" in step.options], [false, 0.5, false]);
+});
+
+test("shows a relief without its base image when that is gone, says so, and takes another", {skip}, async () => {
+  const image = path.join(folder, "image.png");
+  spawnSync(PROGRAM, ["make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", image, "--heightmap-size", "64"]);
+  await baseImage().locator("input").setInputFiles(image);
+  await reaches(({options}) => options["base-image"]?.endsWith("/image.png"));
+  rmSync((await sent()).options["base-image"]);
+  await page.reload();
+  await page.getByText("The base image image.png is gone: the relief is shown without it.").waitFor();
+  await reaches(({options}) => !("base" in options) && !("base-image" in options));
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await page.getByText(/points.*height/).waitFor();
+  await page.getByText("image.png is gone", {exact: true}).waitFor({state: "attached"});
+  await page.waitForFunction(areKindsDrawn); // whose requests the page sends, too
+  await baseImage().locator("input").setInputFiles(image);
+  await reaches(({options}) => options.base === "image" && options["base-image"]?.endsWith("/image.png"));
 });

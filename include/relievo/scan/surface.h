@@ -5,6 +5,7 @@
 #include "relievo/geometry/triangulation.h"
 #include "relievo/scan/boundary.h"
 #include "relievo/scan/curvature.h"
+#include "relievo/scan/support_plane.h"
 #include "relievo/scan/view.h"
 #include "relievo/scan/visible.h"
 
@@ -35,8 +36,10 @@ struct Surface {
   std::size_t visible_points = 0;  // of the cloud; the rest of `points` are hole fill points
   std::size_t removed_points = 0;  // would be visible, but were taken for floating noise
   std::size_t crumbs = 0;          // small pieces that were left out
-  double measured_noise = 0;       // along the normals, in sampling distances; 0 if little
-  double removed_noise = 0;        // what View::denoise asked for, or the measured noise
+  // The table or background that was found, in the coordinates of `points`. It is left out unless View::has_plane.
+  std::optional<SupportPlane> plane = {};
+  double measured_noise = 0;  // along the normals, in sampling distances; 0 if little
+  double removed_noise = 0;   // what View::denoise asked for, or the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 
@@ -49,7 +52,7 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points);
 
 // Returns the surface of the part of the cloud that the view crops. Normals are estimated if the cloud has none, and
 // turned if they point inwards. Noise is removed, see View::denoise. Pieces of less than 0.5 % of what is seen
-// are left out as crumbs.
+// are left out as crumbs, and so is a support plane with what is behind it if the view says so.
 // Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
 // are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind
 // cancelled.

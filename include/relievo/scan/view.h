@@ -27,6 +27,7 @@ struct View {
   Mat3 R_view_model = Mat3::Identity();
   Crop crop = {};
   bool has_crumbs = false;  // shows pieces of the surface that are taken for crumbs, see find_surface()
+  bool has_plane = true;  // shows the table or background that the figure stands on, see find_support_plane()
   std::optional<double> denoise =
       {};  // noise that is removed, in sampling distances, [0, 1]; else what is measured
   bool is_best =

@@ -207,6 +207,20 @@ TurningScan::TurningScan(const MeasuredCloud& measured)
   });
 }
 
+TurningScan TurningScan::without_plane(const Surface& surface) const {
+  TurningScan rest = *this;
+  const Mat3& R = surface.view.R_view_model;
+  const Vec3 shift = centre - surface.centre;
+  const Eigen::Matrix3f rotation = R.cast<float>();
+  const Vec3f normal = surface.plane->normal.cast<float>();
+  std::erase_if(rest.points, [&](const FrontPoint& p) {
+    const Vec3f n = rotation * p.normal;
+    const bool is_reversed = do_normals_face_viewer && n.dot(normal) < 0;
+    return surface.plane->takes(R * (p.place.cast<double>() + shift), is_reversed ? Vec3f(-n) : n);
+  });
+  return rest;
+}
+
 Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
                                      Progress* progress) {
   TurnedSurface made;

@@ -1,0 +1,131 @@
+// What lies over or beside the piece, on a desk and a phone: lines for people, labels of measures, numbers.
+import assert from "node:assert/strict";
+import {spawnSync} from "node:child_process";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+
+const found = await findBrowser();
+const skip = found.missing ? `${found.missing}: the page is not tested` : false;
+if (skip) console.log(`SKIPPED: ${skip}`);
+
+const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
+const SCREENS = [{width: 1280, height: 800}, {width: 820, height: 1180}, {width: 390, height: 844}];
+let browser, engine, page;
+
+before(async () => {
+  if (skip) return;
+  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "8000"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  browser = await found.launch();
+  page = await (await browser.newContext({viewport: SCREENS[0]})).newPage();
+  page.setDefaultTimeout(60000);
+  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
+  await page.goto(engine.address);
+  await untilReady();
+});
+
+after(async () => {
+  await browser?.close();
+  await engine?.stop();
+  removeFolder(folder);
+});
+
+async function untilReady() {
+  await page.getByText(/points.*height/).waitFor();
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+}
+
+const overlap = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+
+test("covers no part of the picture with a line for people", {skip}, async () => {
+  const text = "The engine has stopped. Start relievo studio again: this page keeps your work, and goes on by itself.";
+  for (const screen of SCREENS) {
+    await page.setViewportSize(screen);
+    await page.evaluate(async (text) => (await import(new URL("messages.js", location))).toast(text, true), text);
+    const toast = page.getByRole("alert").filter({hasText: text}), box = await toast.boundingBox();
+    for (const kept of ["#stage", ".bar", "#numbers"])
+      assert.ok(!overlap(box, await page.locator(kept).boundingBox()), `${kept} at ${screen.width}`);
+    assert.ok(box.x >= 0 && box.x + box.width <= screen.width && box.y + box.height <= screen.height);
+    await toast.click();
+    await toast.waitFor({state: "hidden"});
+  }
+});
+
+// The line ends so that its label would lie on that of the relief's height, or of its width.
+test("keeps the labels of measures apart", {skip}, async () => {
+  for (const screen of SCREENS) {
+    await page.setViewportSize(screen);
+    await page.getByRole("radio", {name: "Measure"}).click();
+    await untilReady();
+    const labels = () => page.locator("#overlay rect.ground").evaluateAll((all) =>
+      all.map((rect) => rect.getBoundingClientRect().toJSON()));
+    await eventually(async () => assert.equal((await labels()).length, 5));
+    const stage = await page.locator("#stage").boundingBox();
+    for (const {x, y, width, height} of (await labels()).slice(0, 2)) {
+      const [left, top] = [Math.max(stage.x + 5, x + width / 2 - 20), y + height / 2 + 8];
+      await page.mouse.move(left, top);
+      await page.mouse.down();
+      await page.mouse.move(left + 40, top, {steps: 4});
+      await page.mouse.up();
+      await page.mouse.move(left + 40, top + 1);
+      await eventually(async () => assert.ok((await labels()).length >= 7));
+      const all = await labels();
+      for (const [i, a] of all.entries())
+        for (const b of all.slice(0, i)) assert.ok(!overlap(a, b), `${JSON.stringify([a, b])} at ${screen.width}`);
+    }
+    await page.mouse.move(0, 0);
+    await page.reload();
+    await untilReady();
+  }
+});
+
+// The engine refuses pictures of more than eight million pixels.
+test("draws no more pixels on a large screen than the engine makes", {skip}, async () => {
+  const large = await browser.newContext({viewport: {width: 2560, height: 1440}, deviceScaleFactor: 2});
+  const screen = await large.newPage();
+  screen.setDefaultTimeout(60000);
+  await screen.goto(engine.address);
+  await screen.getByText(/points.*height/).waitFor();
+  await screen.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  const {width, height} = await screen.locator("#picture").evaluate(({width, height}) => ({width, height}));
+  assert.ok(width * height > 6e6 && width * height <= 8e6, `${width} x ${height}`);
+  assert.equal(await screen.getByRole("alert").filter({hasText: /million/}).count(), 0);
+  await large.close();
+});
+
+test("shows every state without a scroll bar beside the picture", {skip}, async () => {
+  for (const screen of [SCREENS[0], SCREENS[2]]) {
+    await page.setViewportSize(screen);
+    const states = ["Turn", "Orbit", "Pan", "Place", "Section", "Measure", "Light"];
+    for (const state of states) {
+      await page.getByRole("radio", {name: state, exact: true}).click();
+      const bars = await page.evaluate(() => ["html", "body", "main", ".studio", ".viewer", "#stage"]
+        .map((name) => [name, document.querySelector(name)]).filter(([, it]) => it)
+        .filter(([, it]) => it.offsetWidth - it.clientWidth > 2 || it.scrollHeight > it.clientHeight + 1 ||
+          it.scrollWidth > it.clientWidth + 1).map(([name]) => name));
+      assert.deepEqual(bars, [], `${state} at ${screen.width}`);
+    }
+  }
+});
+
+test("tells frames in a second while things move, and not at rest", {skip}, async () => {
+  await page.setViewportSize(SCREENS[2]);
+  await untilReady();
+  const numbers = page.locator("#numbers"), {x, y, width, height} = await page.locator("#stage").boundingBox();
+  await page.evaluate(() => {
+    window.told = [];
+    new MutationObserver(() => window.told.push(document.querySelector("#numbers").textContent))
+      .observe(document.querySelector("#numbers"), {childList: true});
+  });
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await page.mouse.move(x + width / 2, y + height / 2);
+  await page.mouse.down();
+  await eventually(async () => {
+    for (let i = 0; i < 40; ++i) await page.mouse.move(x + width / 2 + 2 * i, y + height / 3 + i);
+    assert.ok(await page.evaluate(() => window.told.some((text) => /\d frames\/s/.test(text))));
+  });
+  await page.mouse.up();
+  await untilReady();
+  assert.doesNotMatch(await numbers.textContent(), /frames\/s/);
+});
