@@ -122,8 +122,9 @@ export class Slider {
     this.number.select();
   }
 
+  // The wheel moves the slider that has the focus. Over any other it scrolls the panel, and changes nothing.
   wheel(event) {
-    if (this.range.disabled || event.ctrlKey) return;
+    if (this.range.disabled || event.ctrlKey || !this.element.contains(document.activeElement)) return;
     event.preventDefault();
     const step = -Math.sign(event.deltaY) * (event.shiftKey ? 1 : 8);
     this.moved(this.valueAt(clamp(this.position() + step, 0, STEPS)));

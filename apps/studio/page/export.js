@@ -20,9 +20,9 @@ function sizes({triangles, points, size_mm: [x, y]}, pixels) {
 const nameOf = (name, {form}) => (form && form !== "relief" ? `${name}-${form}` : name);
 
 export class ExportDialog {
-  // `current` returns {options, name}: what is to be made.
-  constructor(engine, current) {
-    Object.assign(this, {engine, current, pixels: 2048, piece: null});
+  // `current` returns {options, name}: what is to be made. `say` takes a line for people.
+  constructor(engine, current, say) {
+    Object.assign(this, {engine, current, say, pixels: 2048, piece: null});
     this.dialog = $("#export-dialog");
     $("#formats").append(...about.formats.map(({name, label, use}, i) => make("label", {},
       make("input", {type: "checkbox", name: "format", value: name, checked: i === 0}),
@@ -88,6 +88,7 @@ export class ExportDialog {
     $("#export-progress").hidden = false;
     $("#export-progress").removeAttribute("value");
     $("#export-note").textContent = text;
+    $("#export-note").classList.add("muted");
     this.show();
     let complaint = "";
     try {
@@ -98,6 +99,7 @@ export class ExportDialog {
     this.isBusy = false;
     $("#export-progress").hidden = true;
     $("#export-note").textContent = complaint;
+    $("#export-note").classList.remove("muted");
     return complaint === "";
   }
 
@@ -105,15 +107,19 @@ export class ExportDialog {
     if (this.isBusy || !this.choosePixels()) return;
     const {options, name} = this.current(), {formats} = this, typed = $("#export-name").value.replace(/[/\\]/g,
       " ").trim();
+    const saved = [];
     const isDone = await this.run("Writing the files …", async () => {
       for (const [i, {name: format, ending}] of formats.entries()) {
         $("#export-note").textContent = `Writing file ${i + 1} of ${formats.length} …`;
         const file = await this.engine.exportFile({options, format, pixels: this.pixels});
         if (!this.dialog.open) return;
-        download(file, (typed || nameOf(name, options)) + ending);
+        saved.push((typed || nameOf(name, options)) + ending);
+        download(file, saved.at(-1));
       }
     });
     this.show();
-    if (isDone) this.dialog.close("export");
+    if (!isDone || !this.dialog.open) return;
+    this.say(`Saved: ${saved.join(", ")}. ${$("#export-size").textContent}.`);
+    this.dialog.close("export");
   }
 }

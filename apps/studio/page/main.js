@@ -35,7 +35,7 @@ const chooseView = () => engine.chooseView(viewOf(doc.now)).catch(failed);
 const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed, placing, viewRests: chooseView});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}));
+const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}), toast);
 const modes = new Modes({stage, doc});
 const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
@@ -59,9 +59,8 @@ const opened = new OpenDocument({engine, doc, keeper, on: {
 const reach = new Reach({engine, doc, slider: () => sliders.height, chooseView: () => views.show(doc.now.options)});
 const projects = new Projects({engine, open: openInput, take, failed});
 
-let facts = null;
+let facts = null, shownView = null; // of the model that is shown
 let last = null; // numbers of the newest picture
-let shownView = null; // the view of the model that is shown
 let isKept = !about.notice;
 
 // ------------------------------------------------------------------------------------------------- sliders
@@ -199,7 +198,7 @@ function pictured(frame, ms, isFine) {
   clearTimeout(pictureTimer);
   if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
-  if (isFine && opened.isReady) reach.pictured(frame);
+  if (opened.isReady) reach.pictured(frame, isFine);
   if (isFine && opened.isReady) kinds.pictured(stage.model);
   if (isFine) showToolReach(frame.tool);
   sliders.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
@@ -219,16 +218,16 @@ function progress(status) {
 }
 
 // Another document is shown, whose model is not ready yet: no picture of the one before stays under its name.
-function begun() {
+function begun(former) {
+  if (former) toast(`Your work on ${former.name} is kept: the start page lists it.`);
+  $(".inspector").scrollTop = 0;
   facts = shownView = last = null;
   $("#picture").width = $("#before").width = 1;
   scanPanel.tell(null);
   scenePanel.show([]);
-  kinds.clear();
-  reach.clear();
+  for (const part of [kinds, reach]) part.clear();
   $("#numbers").textContent = "";
-  stage.isReady = false;
-  stage.model = 0;
+  Object.assign(stage, {isReady: false, model: 0});
   stage.await(true);
   $("#save").hidden = $("#export").hidden = true;
   showStart(false);

@@ -1,6 +1,5 @@
 // The document that this page shows: opens scans and projects, follows what the engine says of the document, and goes
-// on
-// when another engine or another tab has news of it.
+// on when another engine or another tab has news of it.
 
 import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
@@ -15,11 +14,11 @@ const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps
   at});
 
 export class OpenDocument {
-  // Calls on.begun() when another document is shown, on.progress(status), on.measured(status) when pictures can be
-  // drawn of the view that is being prepared first, on.arrived(status) when its model is ready,
-  // on.changed() when its state came from elsewhere, on.missing(input, kept) if its scan is not there,
-  // on.failed(error),
-  // and on.closed() when there is no document left to show.
+  // Calls on.begun(former) when another document is shown, with the input of the one before if there was one,
+  // on.progress(status), on.measured(status) when pictures can be drawn of the view that is being prepared first,
+  // on.arrived(status) when its model is ready, on.changed() when its state came from elsewhere,
+  // on.missing(input, kept) if its scan is not there, on.failed(error), and on.closed() when there is no document left
+  // to show.
   constructor({engine, doc, keeper, on}) {
     Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
     this.statuses = new Map(); // of all documents that are open
@@ -49,7 +48,7 @@ export class OpenDocument {
     this.model = 0;
     this.status = {busy: true, model: 0, stage: "waiting"};
     history.replaceState(null, "", `#${this.id}`);
-    this.on.begun();
+    this.on.begun(former);
     await this.engine.open(found.input, viewOf(this.doc.now));
     const status = this.statuses.get(this.id);
     if (status && this.id === found.document) this.take(status);

@@ -28,7 +28,8 @@ const SUGGESTED = {
     "sphere:diameter=80"],
   tool: ["ball:3", "ball:1", "flat:3", "v:60", "v:30:0.5"],
 };
-const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed", shift: "0,0"};
+const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed", shift: "0,0",
+  "rim-height": "as the relief", "rim-bevel": "by itself"};
 const UNITS = {MM: "mm", DEG: "°"};
 export const ROWS = Object.keys(LABELS);
 

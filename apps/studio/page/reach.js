@@ -23,8 +23,11 @@ export class Reach {
     $("#reach").replaceChildren();
   }
 
-  // Called when things rest. The reach does not depend on the height: it is asked for when something else changes.
-  async pictured(frame) {
+  // Called with each picture, and with the fine one when things rest. The reach does not depend on the height: it is
+  // asked for when something else changes.
+  async pictured(frame, isFine) {
+    if (frame.is_height_met) $("#reach").replaceChildren();
+    if (!isFine) return;
     if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
     const {height, ...rest} = shownOptions(this.doc.now), key = JSON.stringify(rest);
     if (key !== this.key) {
@@ -38,8 +41,9 @@ export class Reach {
       }
     }
     const most = frame.is_height_met ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
-    this.slider().showMark(most, `Reachable: ${lengthText(most)} ${shown.unit}`);
-    if (frame.is_height_met) return $("#reach").replaceChildren();
+    const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
+    this.slider().showMark(most, `${name}: ${lengthText(most)} ${shown.unit}`);
+    if (frame.is_height_met) return;
     await this.explain(most, {...rest, height}, key);
   }
 

@@ -147,6 +147,7 @@ test("opens a sample and shows its progress, and a coarse relief until the exact
 test("opens a scan of the browser", {skip}, async () => {
   await openFile(scan);
   await page.getByText("scan.ply", {exact: true}).waitFor();
+  await page.getByRole("alert").getByText(/^Your work on .* is kept/).waitFor();
   await page.getByText("of 30,000 points").waitFor();
   await untilReady();
 });
@@ -159,8 +160,15 @@ test("drags the height: number and picture change", {skip}, async () => {
   await becomesOther(first);
 });
 
-test("moves sliders by wheel and double click, too", {skip}, async () => {
-  const height = await value("Height in mm");
+test("moves a slider that has the focus by wheel, and any by double click", {skip}, async () => {
+  const height = await value("Height in mm"), panel = page.getByRole("complementary", {name: "Adjustments"});
+  await slider("Height").focus();
+  await slider("Steepest wall").hover();
+  const scrolled = await panel.evaluate((element) => element.scrollTop);
+  await page.mouse.wheel(0, -100);
+  await eventually(async () => assert.ok((await panel.evaluate((element) => element.scrollTop)) < scrolled));
+  assert.equal(await value("Steepest wall in degrees"), 76);
+  await slider("Steepest wall").focus();
   await slider("Steepest wall").hover();
   await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await value("Steepest wall in degrees")) < 76));
@@ -495,6 +503,8 @@ test("exports several files at once, named for their form, and can be cancelled"
   await type(dialog.getByLabel("Longer side in pixels"), "300");
   const files = await savedFiles(found, page, 3, () => dialog.getByRole("button", {name: "Export"}).click());
   assert.deepEqual(files.map(({name}) => name), ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]);
+  const saved = /^Saved: scan-mirror.stl, .* mm, relief .* high, [\d,]+ triangles\.$/;
+  await page.getByRole("alert").getByText(saved).waitFor();
   await dialog.waitFor({state: "hidden"});
   await set("Height in mm", 2.4); // another piece, which is not made yet
   await button("Export").click();
