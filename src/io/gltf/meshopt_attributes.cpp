@@ -2,6 +2,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "io/gltf/meshopt_reader.h"
@@ -114,9 +115,10 @@ class Attributes {
 
   std::optional<std::vector<std::byte>> decode(std::size_t count) {
     const std::size_t block = std::min(8192 / stride_ / group_size * group_size, most_in_block);
-    const std::size_t least =
-        has_modes_ ? stride_ / channel_size : stride_;            // the fewest bytes that a block takes
-    if (count / block > body_size_ / least) return std::nullopt;  // before memory is taken for them
+    const std::size_t least_size = has_modes_ ? stride_ / channel_size : stride_;  // of a block, in bytes
+    // Before memory is taken for them. Where addresses have 32 bits, the product may have more.
+    if (count / block > body_size_ / least_size || count > std::numeric_limits<std::size_t>::max() / stride_)
+      return std::nullopt;
     std::vector<std::byte> decoded(count * stride_);
     for (std::size_t first = 0; first < count && !from_.is_beyond(); first += block)
       decode_block(std::min(block, count - first), decoded.data() + first * stride_);
