@@ -20,7 +20,7 @@ constexpr std::size_t tries = 6000;
 constexpr std::uint64_t seed = 20;
 constexpr double first_tolerance =
     .01;  // of the visible points' diagonal: the noise of a depth camera across a table
-// Where the points do not gather about a plane, each fit finds them farther from it.
+// The tolerance is limited, because each fit widens it where the points do not gather about a plane.
 constexpr double most_tolerance = .015;
 constexpr int refinements = 6;
 constexpr double widest_angle_deg =
@@ -29,7 +29,8 @@ constexpr double least_share = .08;   // of the points: less is no trouble to a 
 constexpr double least_figure = .02;  // of the points
 constexpr double most_behind = .1;    // of the points beside the plane
 constexpr double least_over = .7;     // of the points before the plane, over the place that it covers
-// Of the side of a square with the area that the figure covers: reliefs, medals and letters rise by less.
+// A figure rises by at least this share of the side of a square with the area that it covers. Reliefs, medals and letters
+// rise by less.
 constexpr double least_rise = .2;
 constexpr double least_facing = .1;  // normal's z: a plane that is seen edge on covers nothing
 constexpr double steepest_table_deg =

@@ -350,7 +350,7 @@ function wire() {
   takeDrops($("#veil"), openFiles);
   takeKeys({
     commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
-    isReady: () => facts && !$("#studio").hidden, hold: (isHeld) => stage.hold(isHeld),
+    isReady: () => facts && !$("#studio").hidden, hold: (isHolding) => stage.compare({isHolding}),
   });
 }
 

@@ -50,7 +50,7 @@ export class Modes {
     const isComparing = !isPressed("#compare");
     $("#compare").setAttribute("aria-pressed", isComparing);
     $("#split").hidden = $("#labels").hidden = !isComparing;
-    this.stage.setComparing(isComparing);
+    this.stage.compare({isComparing});
   }
 
   showMaterial(material) {

@@ -201,15 +201,9 @@ export class Stage {
     this.invalidate();
   }
 
-  setComparing(isComparing) {
-    this.isComparing = isComparing;
-    this.before.hidden = !(this.isComparing || this.isHolding);
-    this.setSplit(this.split ?? 0.5);
-    this.invalidate();
-  }
-
-  hold(isHolding) {
-    this.isHolding = isHolding;
+  // Shows the model itself beside the relief (isComparing) or in its place (isHolding).
+  compare(how) {
+    Object.assign(this, how);
     this.before.hidden = !(this.isComparing || this.isHolding);
     this.setSplit(this.split ?? 0.5);
     this.invalidate();

@@ -19,7 +19,7 @@ constexpr std::size_t least_tail_0 = 32, least_tail_1 = 24;
 using Widths = std::array<unsigned, 4>;
 constexpr Widths widths_0 = {0, 2, 4, 8}, narrow_widths = {0, 1, 2, 4}, wide_widths = {1, 2, 4, 8};
 
-// What the two bits of version 1 say of one byte of the elements of a block.
+// Says how version 1 stores the differences of one byte position in a block, by a code of two bits.
 enum class Control : std::uint8_t { narrow, wide, all_zero, literal };
 
 using Group = std::array<std::uint8_t, group_size>;

@@ -17,10 +17,10 @@ struct TurningScan {
   std::vector<FrontPoint> points;
   bool do_normals_face_viewer = false;  // signs are unknown: each normal is turned towards the viewer
   Vec3 centre = Vec3::Zero();           // see Surface
-
-  // Returns the points without those of the plane of a surface of the same scan, which has one, and behind it.
-  TurningScan without_plane(const Surface& surface) const;
   double rho = 0, diagonal = 0;
+
+  // Returns the scan without the points on the plane of a surface of the same scan, which has one, and behind it.
+  TurningScan without_plane(const Surface& surface) const;
 };
 
 struct TurnedSurface {
