@@ -32,7 +32,7 @@ constexpr double least_over = .7;     // of the points before the plane, over th
 // A figure rises by at least this share of the side of a square with the area that it covers. Reliefs, medals and letters
 // rise by less.
 constexpr double least_rise = .2;
-constexpr double least_facing = .1;  // normal's z: a plane that is seen edge on covers nothing
+constexpr double least_plane_facing = .1;  // normal's z: a plane that is seen edge on covers nothing
 constexpr double steepest_table_deg =
     65;  // between a table and the view's up direction: cameras look down on tables
 
@@ -71,14 +71,14 @@ std::optional<Plane> plane_through(const Sample& sample, const std::array<std::s
   if (!(length > 0)) return std::nullopt;
   n /= n.z() < 0 ? -length : length;
   const Plane plane{n, n.dot(a)};
-  if (n.z() < least_facing) return std::nullopt;
+  if (n.z() < least_plane_facing) return std::nullopt;
   for (const std::size_t i : of)
     if (!fits(plane, sample.normals[i])) return std::nullopt;
   return plane;
 }
 
 // Counts of the points on a plane, before it and behind it.
-struct Sides {
+struct SideCounts {
   std::size_t on = 0, before = 0, behind = 0;
   bool has_figure_before() const {
     const auto of = static_cast<double>(before + behind);
@@ -86,8 +86,8 @@ struct Sides {
   }
 };
 
-Sides sides_of(const Plane& plane, const Sample& sample, double tolerance) {
-  Sides sides;
+SideCounts sides_of(const Plane& plane, const Sample& sample, double tolerance) {
+  SideCounts sides;
   for (std::size_t i = 0; i < sample.points.size(); ++i) {
     const double height = plane.height(sample.points[i]);
     if (height < -tolerance)
@@ -118,7 +118,7 @@ std::optional<Plane> best_plane(const Sample& sample, double tolerance) {
             i = static_cast<std::size_t>(random.uniform() * static_cast<double>(sample.points.size()));
           const std::optional<Plane> plane = plane_through(sample, of);
           if (!plane) continue;
-          const Sides sides = sides_of(*plane, sample, tolerance);
+          const SideCounts sides = sides_of(*plane, sample, tolerance);
           if (sides.on > found.on && sides.has_figure_before()) found = {sides.on, *plane};
         }
         return found;
@@ -250,7 +250,7 @@ std::optional<SupportPlane> find_support_plane(const Cloud& viewed, std::span<co
   }
   const std::vector<std::size_t> on = points_on(plane, sample, tolerance);
   const double share = static_cast<double>(on.size()) / static_cast<double>(sample.points.size());
-  const bool is_found = plane.normal.z() >= least_facing && share >= least_share &&
+  const bool is_found = plane.normal.z() >= least_plane_facing && share >= least_share &&
                         sides_of(plane, sample, tolerance).has_figure_before() &&
                         has_figure_over(plane, sample, on, tolerance);
   if (!is_found) return std::nullopt;
