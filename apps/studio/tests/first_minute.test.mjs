@@ -1,11 +1,11 @@
 // The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as
 // one scene.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
+  writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -16,16 +16,9 @@ let browser, engine, page;
 
 before(async () => {
   if (skip) return;
-  for (const [i, scan] of scans.entries()) {
-    const made = spawnSync(PROGRAM, ["sample", ["still_life", "shell"][i], "-o", scan, "--points", "6000"]);
-    assert.equal(made.status, 0, String(made.stderr));
-  }
+  for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 6000, scan);
   browser = await found.launch();
-  page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
-  page.setDefaultTimeout(30000);
-  engine = await new EngineProcess(path.join(folder, "state"), scans[0]).ready();
-  await page.goto(engine.address);
-  await untilReady();
+  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan: scans[0]}));
 });
 
 after(async () => {
@@ -33,11 +26,6 @@ after(async () => {
   await engine?.stop();
   removeFolder(folder);
 });
-
-async function untilReady() {
-  await page.getByText(/points.*height/).waitFor();
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-}
 
 const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
 const button = (name) => page.getByRole("button", {name, exact: true});
@@ -105,7 +93,7 @@ test("leads through five steps, once by itself and then from the help", {skip}, 
   await page.keyboard.press("Escape");
   await tour.waitFor({state: "hidden"});
   await page.reload();
-  await untilReady();
+  await untilReady(page);
   assert.ok(!await button("Show me").isVisible());
 });
 
@@ -118,7 +106,7 @@ test("offers what can be done about the scan, and cuts it", {skip}, async () => 
   assert.ok(Number(await noise.inputValue()) > 0);
   await button("Keep it").click();
   await eventually(async () => assert.equal(await noise.inputValue(), "0"));
-  await untilReady();
+  await untilReady(page);
   await button("Undo").click();
   await page.getByText(/^Removed noise of/).waitFor();
   const bottom = page.getByRole("slider", {name: "Cut away: Bottom"});
@@ -146,12 +134,12 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
   await page.getByRole("radio", {name: "Orbit"}).click(); // which it stays in every view
   await page.locator("#stage").focus();
   for (let step = 0; step < 4; ++step) await page.keyboard.press("ArrowRight");
-  await untilReady();
+  await untilReady(page);
   assert.ok((await orange()) > marked / 2);
   await page.locator("#finish").selectOption("reachable");
   await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor();
   for (let step = 0; step < 2; ++step) await button("Undo").click();
-  await untilReady();
+  await untilReady(page);
   assert.ok((await orange()) < before + 500);
   await button("Fit").click();
 });
@@ -160,7 +148,7 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   const size = async () => (await numbers().innerText()).match(/piece ([\d.]+ × [\d.]+)/)[1], before = await size();
   const longer = async () => Number(await text("Longer side in mm")), whole = await longer();
   await page.getByRole("radio", {name: "Place"}).click();
-  await untilReady();
+  await untilReady(page);
   const {x, y, width, height} = await page.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
   await page.mouse.move(...middle);
   for (let notch = 0; notch < 5; ++notch) await page.mouse.wheel(0, 200);
@@ -168,7 +156,7 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   await page.mouse.down();
   await page.mouse.move(middle[0] + 30, middle[1] - 20, {steps: 5});
   await page.mouse.up();
-  await untilReady();
+  await untilReady(page);
   const [right, up] = (await page.locator("#shift").inputValue()).split(",").map(Number);
   assert.ok(right > 2 && up > 1, `${right},${up}`);
   assert.equal(await size(), before, "the plate stays as large as it was");
@@ -180,10 +168,10 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   await page.mouse.up();
   await page.keyboard.up("Shift");
   await page.getByText("Turned by hand").waitFor();
-  await untilReady();
+  await untilReady(page);
   const undo = button("Undo");
   while ((await undo.isEnabled()) && (await longer()) !== whole) await undo.click();
-  await untilReady();
+  await untilReady(page);
   await page.getByRole("radio", {name: "Light", exact: true}).click();
 });
 
@@ -192,7 +180,7 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   await button("Open").click();
   await (await chooser).setFiles(scans);
   await page.getByText("urn + ammonite.json", {exact: true}).waitFor();
-  await untilReady();
+  await untilReady(page);
   await page.locator("#scene li").nth(1).getByText("ammonite.ply").waitFor();
   const width = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
   const [across, up] = await width();
@@ -205,13 +193,13 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   assert.equal(await text("Height in mm"), "5.00");
   await button("Remove urn.ply").click();
   await page.getByText("ammonite.json", {exact: true}).waitFor();
-  await untilReady();
+  await untilReady(page);
   assert.equal(await page.locator("#scene li").count(), 1);
   await engine.stop(); // the scans of a scene stay as long as it does
   engine = await new EngineProcess(path.join(folder, "state")).ready();
   await page.goto(engine.address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
-  await untilReady();
+  await untilReady(page);
 });
 
 // Writes a ball on a tilted table, 4 x 4 of its radius, whose points scatter.
@@ -238,7 +226,7 @@ test("finds a table, and leaves it out at the press of a button", {skip}, async 
   writeBallOnTable(table);
   await page.locator("#file").setInputFiles(table);
   await page.getByText(/of 12,000 points/).waitFor();
-  await untilReady();
+  await untilReady(page);
   const before = await points();
   await openPanel("Scan");
   const note = await page.locator("#notes li", {hasText: /^Found a table, \d+ % of the visible points\./}).innerText();
@@ -249,7 +237,7 @@ test("finds a table, and leaves it out at the press of a button", {skip}, async 
     const left = (await points()) / before;
     assert.ok(Math.abs(left - (1 - share)) < 0.06, `${left} left of a table of ${share}`);
   });
-  await untilReady();
+  await untilReady(page);
   assert.ok(!await page.locator("#plane").isChecked());
   await button("Keep it").click();
   await page.getByText(/^Found a table/).waitFor();

@@ -1,9 +1,8 @@
 // What lies over or beside the piece, on a desk and a phone: lines for people, labels of measures, numbers.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady, writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -15,14 +14,10 @@ let browser, engine, page;
 
 before(async () => {
   if (skip) return;
-  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "8000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("shell", 8000, scan);
   browser = await found.launch();
-  page = await (await browser.newContext({viewport: SCREENS[0]})).newPage();
-  page.setDefaultTimeout(60000);
-  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
-  await page.goto(engine.address);
-  await untilReady();
+  ({engine, page} = await showScan(browser,
+    {state: path.join(folder, "state"), scan, screen: SCREENS[0], timeout: 60000}));
 });
 
 after(async () => {
@@ -30,11 +25,6 @@ after(async () => {
   await engine?.stop();
   removeFolder(folder);
 });
-
-async function untilReady() {
-  await page.getByText(/points.*height/).waitFor();
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-}
 
 const overlap = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
@@ -57,7 +47,7 @@ test("keeps the labels of measures apart", {skip}, async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
     await page.getByRole("radio", {name: "Measure"}).click();
-    await untilReady();
+    await untilReady(page);
     const labels = () => page.locator("#overlay rect.ground").evaluateAll((all) =>
       all.map((rect) => rect.getBoundingClientRect().toJSON()));
     await eventually(async () => assert.equal((await labels()).length, 5));
@@ -76,7 +66,7 @@ test("keeps the labels of measures apart", {skip}, async () => {
     }
     await page.mouse.move(0, 0);
     await page.reload();
-    await untilReady();
+    await untilReady(page);
   }
 });
 
@@ -86,8 +76,7 @@ test("draws no more pixels on a large screen than the engine makes", {skip}, asy
   const screen = await large.newPage();
   screen.setDefaultTimeout(60000);
   await screen.goto(engine.address);
-  await screen.getByText(/points.*height/).waitFor();
-  await screen.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await untilReady(screen);
   const {width, height} = await screen.locator("#picture").evaluate(({width, height}) => ({width, height}));
   assert.ok(width * height > 6e6 && width * height <= 8e6, `${width} x ${height}`);
   assert.equal(await screen.getByRole("alert").filter({hasText: /million/}).count(), 0);
@@ -111,7 +100,7 @@ test("shows every state without a scroll bar beside the picture", {skip}, async 
 
 test("tells frames in a second while things move, and not at rest", {skip}, async () => {
   await page.setViewportSize(SCREENS[2]);
-  await untilReady();
+  await untilReady(page);
   const numbers = page.locator("#numbers"), {x, y, width, height} = await page.locator("#stage").boundingBox();
   await page.evaluate(() => {
     window.told = [];
@@ -126,6 +115,6 @@ test("tells frames in a second while things move, and not at rest", {skip}, asyn
     assert.ok(await page.evaluate(() => window.told.some((text) => /\d frames\/s/.test(text))));
   });
   await page.mouse.up();
-  await untilReady();
+  await untilReady(page);
   assert.doesNotMatch(await numbers.textContent(), /frames\/s/);
 });

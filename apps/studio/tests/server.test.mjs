@@ -6,7 +6,7 @@ import net from "node:net";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {fileURLToPath} from "node:url";
-import {EngineProcess, PROGRAM, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, readStl, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
 let engine;
@@ -15,8 +15,7 @@ const OPTIONS = {width: 60, height: 2, view: "front"};
 const FRAME = {options: OPTIONS, width: 200, height: 150};
 
 before(async () => {
-  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "20000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("shell", 20000, scan);
   engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
   await engine.open({path: scan});
 });
