@@ -27,6 +27,39 @@ after(async () => {
   removeFolder(folder);
 });
 
+// Only the engine's answer tells the page that a document is open: until then the engine refuses to prepare a view.
+test("takes what is changed while a scan is still opening", {skip}, async () => {
+  const other = await page.context().newPage(), answers = [];
+  other.setDefaultTimeout(30000);
+  other.on("response", (response) => answers.push(response.status()));
+  await other.addInitScript(() => {
+    const {fetch} = window;
+    window.fetch = async (url, options) => {
+      if (url === "api/open") await new Promise((resolve) => (window.letOpen = resolve));
+      return fetch(url, options);
+    };
+  });
+  await other.goto(engine.address.replace(/#.*/, ""));
+  await other.locator("#file").setInputFiles(scans[1]);
+  await other.getByText("ammonite.ply", {exact: true}).waitFor();
+  await eventually(async () => assert.ok(await other.evaluate(() => Boolean(window.letOpen))));
+  assert.ok(await other.getByRole("button", {name: "Choose view"}).isDisabled(), "there is no model yet");
+  await other.locator("#scan").evaluate((panel) => (panel.open = true));
+  await enter(other.locator("#crop"), "0,0.4,1,1");
+  await enter(other.getByRole("spinbutton", {name: "Height in mm"}), "2.5");
+  await other.waitForTimeout(300); // for what would be refused
+  await other.evaluate(() => window.letOpen());
+  await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
+  await untilReady(other);
+  assert.equal(await other.locator("#crop").inputValue(), "0,0.4,1,1");
+  const visible = async () => Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replace(",", ""));
+  const part = await visible();
+  await enter(other.locator("#crop"), "");
+  await eventually(async () => assert.ok((await visible()) > 1.2 * part, `${await visible()} after ${part}`));
+  assert.deepEqual(answers.filter((status) => status >= 400), []);
+  await other.close();
+});
+
 const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
 const button = (name) => page.getByRole("button", {name, exact: true});
 const text = (name) => page.getByRole("spinbutton", {name, exact: true}).inputValue();
