@@ -309,7 +309,7 @@ function wire() {
   takeDrops($("#veil"), openFiles);
   takeKeys({
     commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
-    isReady: () => facts && !$("#studio").hidden, hold: (isHolding) => stage.compare({isHolding}),
+    isReady: () => facts && !$("#studio").hidden, hold: (isHolding) => stage.comparing.set({isHolding}),
   });
 }
 

@@ -25,7 +25,7 @@ export class Modes {
     $("#light-table").onclick = () => this.toggleTable();
     $("#compare").onclick = () => this.toggleComparing();
     $("#fit").onclick = () => stage.fit();
-    $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
+    $("#split").oninput = (event) => stage.comparing.setSplit(event.target.value / 1000);
     this.setTool("light");
   }
 
@@ -50,7 +50,7 @@ export class Modes {
     const isComparing = !isPressed("#compare");
     $("#compare").setAttribute("aria-pressed", isComparing);
     $("#split").hidden = $("#labels").hidden = !isComparing;
-    this.stage.compare({isComparing});
+    this.stage.comparing.set({isComparing});
   }
 
   showMaterial(material) {

@@ -1,6 +1,7 @@
 // The relief in the middle of the page: shows the engine's pictures, and turns, lights and cuts the relief by mouse
 // and keys.
 
+import {Comparing} from "./comparing.js";
 import {$, clamp, make} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
@@ -28,7 +29,6 @@ export class Stage {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
     this.picture = $("#picture");
-    this.before = $("#before");
     this.overlay = $("#overlay");
     this.camera = {...FRONT};
     this.tool = "light";
@@ -37,6 +37,7 @@ export class Stage {
     this.isReady = false;
     this.pixelsPerMm = 1;
     this.measure = new Measure(this);
+    this.comparing = new Comparing(this);
     this.turning = new Turning(this);
     this.listen();
   }
@@ -140,23 +141,14 @@ export class Stage {
     this.about = about;
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
-    if (this.isComparing || this.isHolding) await this.drawBefore(isFine, `${this.model} ${about.scene}`);
+    if (this.comparing.isShown) await this.comparing.draw(isFine);
     if (this.tool === "section") await this.cut();
     if (this.tool === "measure") this.measure.pictured();
   }
 
   // Whether the picture needs more of the engine before the next one.
   get waitsForPicture() {
-    return this.isComparing || this.isHolding || ["section", "measure"].includes(this.tool);
-  }
-
-  // Draws the model itself, unless it was drawn in the same scene before.
-  async drawBefore(isFine, scene) {
-    if (scene === this.sceneBefore) return;
-    const request = this.request({...this.pixels(isFine), fine: isFine, original: true});
-    const {image, about} = await this.engine.frame(request);
-    paint(this.before, image);
-    this.sceneBefore = `${this.model} ${about.scene}`;
+    return this.comparing.isShown || ["section", "measure"].includes(this.tool);
   }
 
   async drawTable(isFine) {
@@ -201,22 +193,6 @@ export class Stage {
     this.invalidate();
   }
 
-  // Shows the model itself beside the relief (isComparing) or in its place (isHolding).
-  compare(how) {
-    Object.assign(this, how);
-    this.before.hidden = !(this.isComparing || this.isHolding);
-    this.setSplit(this.split ?? 0.5);
-    this.invalidate();
-  }
-
-  setSplit(share) {
-    this.split = share;
-    this.before.style.clipPath = this.isHolding ? "none" : `inset(0 ${(1 - share) * 100}% 0 0)`;
-    const cut = this.isComparing ? `inset(0 0 0 ${share * 100}%)` : "none";
-    this.picture.style.clipPath = this.isHolding ? "inset(100%)" : cut;
-    this.drawOverlay();
-  }
-
   fit() {
     this.camera = {...FRONT};
     this.invalidate();
@@ -247,12 +223,8 @@ export class Stage {
   }
 
   drawOverlay() {
-    const {width, height} = this.size, marks = [];
+    const {width, height} = this.size, marks = this.comparing.marks(this.size);
     this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    if (this.isComparing && !this.isHolding) {
-      const x = this.split * width;
-      marks.push(make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height}));
-    }
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
     if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
     if (this.sun) {

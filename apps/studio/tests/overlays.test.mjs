@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady, writeSample} from "./support.mjs";
+import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady, writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -96,6 +96,60 @@ test("shows every state without a scroll bar beside the picture", {skip}, async 
       assert.deepEqual(bars, [], `${state} at ${screen.width}`);
     }
   }
+});
+
+// Returns for each quarter of the figure by how many pixels the edges of the model's picture are off those of the relief.
+const edgesOff = () => page.evaluate(async () => {
+  const {width, height} = document.querySelector("#picture");
+  const edges = (id) => {
+    const {data} = document.querySelector(id).getContext("2d").getImageData(0, 0, width, height);
+    return Float32Array.from({length: width * height}, (_, i) => {
+      const at = (j) => data[4 * j + 3] / 255 * data[4 * j + 1];
+      return Math.min(60, Math.hypot(at(i + 1) - at(i), at(i + width) - at(i)) || 0);
+    });
+  };
+  const [model, relief] = [edges("#before"), edges("#picture")], [low, high] = window.figure;
+  const alike = ([left, top, right, bottom], dx, dy) => {
+    let sum = 0;
+    for (let y = top; y < bottom; ++y)
+      for (let x = left; x < right; ++x) sum += relief[y * width + x] * model[(y + dy) * width + x + dx];
+    return sum;
+  };
+  const [middleX, middleY] = [0, 1].map((k) => Math.round((low[k] + high[k]) / 2));
+  const quarters = [[low[0], low[1], middleX, middleY], [middleX, low[1], high[0], middleY],
+    [low[0], middleY, middleX, high[1]], [middleX, middleY, high[0], high[1]]];
+  return quarters.map((quarter) => {
+    let best = [0, 0, 0];
+    for (let dy = -12; dy <= 12; ++dy)
+      for (let dx = -12; dx <= 12; ++dx) {
+        const sum = alike(quarter, dx, dy);
+        if (sum > best[0]) best = [sum, dx, dy];
+      }
+    return Math.max(Math.abs(best[1]), Math.abs(best[2]));
+  });
+});
+
+test("lays the model over the relief, wherever that stands on its plate, and mirrored", {skip}, async () => {
+  await page.setViewportSize(SCREENS[0]);
+  await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail: {about}}) => {
+    const {width, height, pixels_per_mm: scale, relief_mm: [[left, bottom], [right, top]]} = about;
+    window.figure = [[left, -top], [right, -bottom]]
+      .map(([x, y]) => [Math.round(width / 2 + x * scale), Math.round(height / 2 + y * scale)]);
+  }));
+  await page.getByRole("button", {name: "Compare"}).click();
+  const kinds = {relief: {"#plate": "200x150", "#shift": "30,10"}, coin: {"#diameter": "60"}, die: {}};
+  for (const [kind, fields] of Object.entries(kinds)) {
+    await page.locator(`[data-kind="${kind}"]`).click();
+    for (const [field, value] of Object.entries(fields)) await enter(page.locator(field), value);
+    await eventually(async () => {
+      await untilReady(page);
+      const off = (await edgesOff()).sort((a, b) => a - b); // one quarter may have walls that slope
+      assert.ok(off[2] <= 2 && off[3] <= 6, `${kind}: ${off}`);
+    });
+  }
+  await page.getByRole("button", {name: "Compare"}).click();
+  await page.locator('[data-kind="relief"]').click();
 });
 
 test("tells frames in a second while things move, and not at rest", {skip}, async () => {
