@@ -3,6 +3,7 @@
 import {about, defaultOf, engine} from "./about.js";
 import {AlphaRow} from "./alpha.js";
 import {$, clamp, make} from "./controls.js";
+import {CropFrame} from "./crop_frame.js";
 import {CurveEditor} from "./curve.js";
 import {Document, engineOptions} from "./document.js";
 import {ExportDialog} from "./export.js";
@@ -35,16 +36,18 @@ const sliders = new Sliders({doc, frame: () => last, say: toast});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
 const chooseView = () => opened.chooseView().catch(failed);
-const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed, placing, viewRests: chooseView});
+const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
+const stage = new Stage(engine, doc,
+  {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: chooseView});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}), toast);
-const modes = new Modes({stage, doc});
+const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
-const scanPanel = new ScanPanel({doc});
+const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const tour = new Tour();
 const scenePanel = new ScenePanel({say: toast, open: (models) =>
   projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed)});
@@ -109,6 +112,7 @@ function showDocument() {
   pieces.show();
   kinds.show();
   scanPanel.show();
+  cropFrame.refresh();
   $("#undo").disabled = !doc.canUndo;
   $("#redo").disabled = !doc.canRedo;
   $("#view-name").textContent = viewName(options.view);
@@ -221,6 +225,7 @@ async function arrived(status) {
   stage.await(false);
   stage.share = 1;
   scanPanel.tell(facts);
+  cropFrame.refresh();
   scenePanel.show(engine.takesSeveral ? [] : facts.models); // whose files no other scene finds
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
@@ -320,9 +325,9 @@ const COMMANDS = {
 const KEYS = {
   l: () => modes.setTool("light"), r: () => modes.setTool("turn"), o: () => modes.setTool("orbit"),
   h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
-  m: () => modes.setTool("measure"), f: () => stage.fit(),
+  m: () => modes.setTool("measure"), x: () => modes.setTool("crop"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
-  Escape: () => doc.cancelStroke() || modes.setTable(false),
+  Escape: () => cropFrame.giveUp() || doc.cancelStroke() || modes.setTable(false),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
   ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),
 };

@@ -8,8 +8,8 @@ import {TABLE_LIGHTS} from "./lights.js";
 const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "true";
 
 export class Modes {
-  constructor({stage, doc}) {
-    Object.assign(this, {stage, doc});
+  constructor({stage, doc, cropFrame}) {
+    Object.assign(this, {stage, doc, cropFrame});
     $("#materials").append(...about.materials.map(({id, name}) => make("button", {
       role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
     })));
@@ -32,6 +32,7 @@ export class Modes {
   setTool(tool) {
     for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
     $("#section").hidden = tool !== "section";
+    this.cropFrame.show(tool === "crop");
     if (tool !== "light") this.setTable(false);
     this.stage.setTool(tool);
   }

@@ -180,6 +180,7 @@ export class Stage {
     const does = {
       light: "move the light", turn: "turn the model", orbit: "orbit the relief", pan: "move the picture",
       section: "move the section", measure: "measure", place: "move the figure on its plate",
+      crop: "move the frame of the crop",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
     if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};

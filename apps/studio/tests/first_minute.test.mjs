@@ -151,6 +151,54 @@ test("offers what can be done about the scan, and cuts it", {skip}, async () => 
   assert.equal(await bottom.inputValue(), "0");
 });
 
+test("crops the scan by a frame on the picture", {skip}, async () => {
+  const points = async () => Number((await numbers().innerText()).match(/^([\d,]+) of/)[1].replaceAll(",", ""));
+  const crop = async () => (await page.locator("#crop").inputValue()).split(",").map(Number);
+  const before = await points(), frame = page.locator("#crop-frame .frame"), box = async () => frame.boundingBox();
+  await openPanel("Scan");
+  await button("Crop on the picture").click();
+  await frame.waitFor();
+  const whole = await box(), at = (x, y) => [whole.x + x * whole.width, whole.y + (1 - y) * whole.height];
+  const drag = async (from, to, end = () => page.mouse.up()) => {
+    await page.mouse.move(...at(...from));
+    await page.mouse.down();
+    await page.mouse.move(...at(...to), {steps: 4});
+    await end();
+  };
+  const untilCrop = async (...wanted) => eventually(async () => {
+    const found = await crop();
+    assert.ok(wanted.every((x, i) => Math.abs(x - found[i]) < 0.02), `${found} for ${wanted}`);
+    const {x, y, width, height} = await box(), drawn = [...at(wanted[0], wanted[3]), ...at(wanted[2], wanted[1])];
+    for (const [i, side] of [x, y, x + width, y + height].entries()) assert.ok(Math.abs(side - drawn[i]) < 8);
+  });
+  await drag([0.2, 0.2], [0.7, 0.8]); // draws a frame
+  await untilCrop(0.2, 0.2, 0.7, 0.8);
+  await drag([0.7, 0.5], [0.9, 0.5]); // takes a side
+  await untilCrop(0.2, 0.2, 0.9, 0.8);
+  await drag([0.2, 0.2], [0.1, 0.3]); // takes a corner
+  await untilCrop(0.1, 0.3, 0.9, 0.8);
+  await drag([0.5, 0.5], [0.6, 0.4]); // moves the frame
+  await untilCrop(0.2, 0.2, 1, 0.7);
+  await drag([0.5, 0.5], [0.3, 0.6], async () => {
+    await page.keyboard.press("Escape");
+    await page.mouse.up();
+  });
+  await untilCrop(0.2, 0.2, 1, 0.7);
+  await page.locator("#stage").focus();
+  await page.keyboard.press("ArrowLeft");
+  await untilCrop(0.19, 0.2, 0.99, 0.7);
+  await button("Done").click();
+  await page.locator("#crop-frame").waitFor({state: "hidden"});
+  await eventually(async () => assert.ok((await points()) < 0.85 * before, `${await points()} of ${before}`));
+  await page.getByRole("radio", {name: "Crop"}).click();
+  await button("Whole scan").click();
+  await eventually(async () => assert.equal(await points(), before));
+  assert.equal(await page.locator("#crop").inputValue(), "");
+  await button("Done").click();
+  for (let step = 0; step < 6; ++step) await button("Undo").click();
+  await untilReady(page);
+});
+
 test("colours on the piece what a tool leaves standing", {skip}, async () => {
   const orange = () => page.locator("#picture").evaluate((canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
