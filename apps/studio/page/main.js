@@ -13,6 +13,7 @@ import {Keeper} from "./keeper.js";
 import {shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
+import {KindPanel} from "./kind_panel.js";
 import {KindCards} from "./kinds.js";
 import {PieceRows} from "./pieces.js";
 import {Placing} from "./placing.js";
@@ -47,6 +48,7 @@ const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
+const kindPanel = new KindPanel({doc, elements: {...pieces.elements, ...sliders.elements}});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const tour = new Tour();
 const scenePanel = new ScenePanel({say: toast, open: (models) =>
@@ -111,6 +113,7 @@ function showDocument() {
   $("#method").value = options.method;
   pieces.show();
   kinds.show();
+  kindPanel.show();
   scanPanel.show();
   cropFrame.refresh();
   $("#undo").disabled = !doc.canUndo;

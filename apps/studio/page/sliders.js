@@ -23,6 +23,11 @@ export class Sliders {
     }
   }
 
+  // The elements by the names of their options.
+  get elements() {
+    return Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
+  }
+
   shownWidth() {
     return Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
   }
@@ -59,7 +64,7 @@ export class Sliders {
     this.showWidth();
     for (const name of SHAPING) this.all[name].disabled = !isShaped;
     this.all.saturation.disabled = !isShaped || options.tone !== "";
-    this.all.corner.disabled = options.outline !== "round";
+    this.all.corner.element.hidden = options.outline !== "round";
     this.all.margin.disabled = options.outline === "none";
     this.lock.setAttribute("aria-pressed", isHeightLocked);
   }

@@ -27,39 +27,6 @@ after(async () => {
   removeFolder(folder);
 });
 
-// Only the engine's answer tells the page that a document is open: until then the engine refuses to prepare a view.
-test("takes what is changed while a scan is still opening", {skip}, async () => {
-  const other = await page.context().newPage(), answers = [];
-  other.setDefaultTimeout(30000);
-  other.on("response", (response) => answers.push(response.status()));
-  await other.addInitScript(() => {
-    const {fetch} = window;
-    window.fetch = async (url, options) => {
-      if (url === "api/open") await new Promise((resolve) => (window.letOpen = resolve));
-      return fetch(url, options);
-    };
-  });
-  await other.goto(engine.address.replace(/#.*/, ""));
-  await other.locator("#file").setInputFiles(scans[1]);
-  await other.getByText("ammonite.ply", {exact: true}).waitFor();
-  await eventually(async () => assert.ok(await other.evaluate(() => Boolean(window.letOpen))));
-  assert.ok(await other.getByRole("button", {name: "Choose view"}).isDisabled(), "there is no model yet");
-  await other.locator("#scan").evaluate((panel) => (panel.open = true));
-  await enter(other.locator("#crop"), "0,0.4,1,1");
-  await enter(other.getByRole("spinbutton", {name: "Height in mm"}), "2.5");
-  await other.waitForTimeout(300); // for what would be refused
-  await other.evaluate(() => window.letOpen());
-  await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
-  await untilReady(other);
-  assert.equal(await other.locator("#crop").inputValue(), "0,0.4,1,1");
-  const visible = async () => Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replace(",", ""));
-  const part = await visible();
-  await enter(other.locator("#crop"), "");
-  await eventually(async () => assert.ok((await visible()) > 1.2 * part, `${await visible()} after ${part}`));
-  assert.deepEqual(answers.filter((status) => status >= 400), []);
-  await other.close();
-});
-
 const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
 const button = (name) => page.getByRole("button", {name, exact: true});
 const text = (name) => page.getByRole("spinbutton", {name, exact: true}).inputValue();
@@ -128,6 +95,44 @@ test("leads through five steps, once by itself and then from the help", {skip}, 
   await page.reload();
   await untilReady(page);
   assert.ok(!await button("Show me").isVisible());
+});
+
+const PANELS = {
+  Plaque: ["plate", "outline", "margin", "thickness"],
+  Coin: ["diameter", "outline", "rim", "rim-height", "rim-bevel", "margin", "thickness", "form"],
+  Carving: ["plate", "outline", "corner", "margin", "thickness"],
+  Seal: ["diameter", "draft", "rim", "rim-height", "rim-bevel", "margin", "thickness", "form"],
+  Lithophane: ["thickness", "plate", "margin", "form"],
+  Bent: ["wrap", "thickness", "plate", "margin", "form"],
+};
+
+test("shows first, with each kind, the controls that matter for it", {skip}, async () => {
+  const panel = page.locator("#kind"), outline = page.locator("#outline"), height = page.locator('[data-option="height"]');
+  const shown = () => panel.locator("[data-option]:visible").evaluateAll((all) =>
+    all.map((input) => input.dataset.option));
+  for (const [name, options] of Object.entries(PANELS)) {
+    await kind(name).click();
+    await panel.getByRole("heading", {name, exact: true}).waitFor();
+    assert.deepEqual(await shown(), options, name);
+    const [box, below] = [await panel.boundingBox(), await height.boundingBox()];
+    assert.ok(box.y + box.height <= below.y && below.y + below.height < 772, `${name} and the height fit the page`);
+  }
+  await kind("Coin").click();
+  await outline.selectOption("hexagon"); // a medal of another outline is one still
+  await page.waitForTimeout(300); // the engine is asked whether it can read it
+  assert.ok(await kind("Coin").isChecked());
+  const untilKind = (name) => page.getByRole("radio", {name, exact: true, checked: true}).waitFor();
+  await outline.selectOption({label: "Round corners"});
+  await untilKind("Plaque");
+  await outline.focus();
+  await outline.selectOption("circle"); // whose control moves into another panel
+  await untilKind("Coin");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "outline");
+  assert.deepEqual(await shown(), PANELS.Coin);
+  const undo = button("Undo");
+  while (await undo.isEnabled()) await undo.click();
+  await untilReady(page);
+  assert.ok(await kind("Plaque").isChecked());
 });
 
 test("offers what can be done about the scan, and cuts it", {skip}, async () => {
@@ -281,6 +286,40 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   await page.goto(engine.address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady(page);
+});
+
+// Only the engine's answer tells the page that a document is open: until then the engine refuses to prepare a view.
+test("takes what is changed while a scan is still opening", {skip}, async () => {
+  const other = await page.context().newPage(), answers = [];
+  other.setDefaultTimeout(30000);
+  other.on("response", (response) => answers.push(response.status()));
+  await other.addInitScript(() => {
+    const {fetch} = window;
+    window.fetch = async (url, options) => {
+      if (url === "api/open") await new Promise((resolve) => (window.letOpen = resolve));
+      return fetch(url, options);
+    };
+  });
+  await other.goto(engine.address.replace(/#.*/, ""));
+  await other.waitForFunction(() => document.querySelector("#undo").onclick !== null); // it listens
+  await other.locator("#file").setInputFiles(scans[1]);
+  await other.getByText("ammonite.ply", {exact: true}).waitFor();
+  await eventually(async () => assert.ok(await other.evaluate(() => Boolean(window.letOpen))));
+  assert.ok(await other.getByRole("button", {name: "Choose view"}).isDisabled(), "there is no model yet");
+  await other.locator("#scan").evaluate((panel) => (panel.open = true));
+  await enter(other.locator("#crop"), "0,0.4,1,1");
+  await enter(other.getByRole("spinbutton", {name: "Height in mm"}), "2.5");
+  await other.waitForTimeout(300); // for what would be refused
+  await other.evaluate(() => window.letOpen());
+  await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
+  await untilReady(other);
+  assert.equal(await other.locator("#crop").inputValue(), "0,0.4,1,1");
+  const visible = async () => Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replace(",", ""));
+  const part = await visible();
+  await enter(other.locator("#crop"), "");
+  await eventually(async () => assert.ok((await visible()) > 1.2 * part, `${await visible()} after ${part}`));
+  assert.deepEqual(answers.filter((status) => status >= 400), []);
+  await other.close();
 });
 
 // Writes a ball on a tilted table, 4 x 4 of its radius, whose points scatter.
