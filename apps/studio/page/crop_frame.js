@@ -119,9 +119,11 @@ export class CropFrame {
       act(event.clientX - left, event.clientY - top, event);
     };
     element.onpointerdown = place((x, y, event) => this.press(x, y, event));
-    element.onpointermove = place((x, y) => (this.drag ? this.move(x, y) : this.hover(x, y)));
-    element.onpointerup = place(() => this.release());
-    element.onpointercancel = () => this.giveUp();
+    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // a palm beside a pen
+    element.onpointermove = place((x, y, event) =>
+      (!this.drag ? this.hover(x, y) : isOther(event) || this.move(x, y)));
+    element.onpointerup = place((x, y, event) => isOther(event) || this.release());
+    element.onpointercancel = (event) => isOther(event) || this.giveUp();
     element.ondblclick = (event) => event.stopPropagation();
     element.addEventListener("wheel", (event) => event.stopPropagation());
     new ResizeObserver(() => this.refresh()).observe(element);
@@ -149,9 +151,10 @@ export class CropFrame {
 
   // A drag takes a side or a corner, moves a frame from its inside, and draws another one from anywhere else.
   press(x, y, event) {
-    if (!this.box || event.button !== 0 || !event.isPrimary) return;
+    if (!this.box || event.button !== 0 || !event.isPrimary || this.drag) return;
     this.element.setPointerCapture(event.pointerId);
-    this.drag = {x, y, sides: this.sidesAt(x, y), isMove: this.isInside(x, y), from: this.numbers};
+    const {pointerId} = event, sides = this.sidesAt(x, y), isMove = this.isInside(x, y);
+    this.drag = {pointerId, x, y, sides, isMove, from: this.numbers};
   }
 
   move(x, y) {

@@ -77,7 +77,8 @@ export class PieceRows {
     const isList = Boolean(choices) && !SUGGESTED[name];
     const attributes = {id: name, "data-option": name, autocomplete: "off", "aria-label": LABELS[name]};
     const input = isList
-      ? make("select", attributes, ...choices.map((choice) => make("option", {value: choice}, CHOICES[choice] ?? sentence(choice))))
+      ? make("select", attributes, ...choices.map((choice) =>
+        make("option", {value: choice}, CHOICES[choice] ?? sentence(choice))))
       : make("input", {
         ...attributes, inputmode: min === undefined ? "text" : "decimal",
         placeholder: PLACEHOLDERS[name] ?? String(otherwise || "none"),

@@ -241,9 +241,10 @@ export class Stage {
   listen() {
     const stage = this.element;
     stage.onpointerdown = (event) => this.press(event);
-    stage.onpointermove = (event) => (this.drag ? this.move(event) : this.hover(event));
+    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // a palm beside a pen
+    stage.onpointermove = (event) => (!this.drag ? this.hover(event) : isOther(event) || this.move(event));
     stage.onpointerleave = () => this.tool === "measure" && this.measure.point(null);
-    stage.onpointerup = stage.onpointercancel = () => this.release();
+    stage.onpointerup = stage.onpointercancel = (event) => isOther(event) || this.release();
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
     stage.onkeydown = (event) => takeKey(this, event);
@@ -252,13 +253,14 @@ export class Stage {
   }
 
   press(event) {
-    if (event.target.id === "split" || event.button > 1 || !event.isPrimary) return;
+    if (event.target.id === "split" || event.button > 1 || !event.isPrimary || this.drag) return;
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
     if (tool === "place" && !this.on.placing.begin(this.about.size_mm)) return this.release();
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
-    this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
+    const {pointerId} = event;
+    this.drag = {pointerId, tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
     if (tool === "turn") this.turning.begin();
   }

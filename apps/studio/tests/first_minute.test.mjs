@@ -107,7 +107,8 @@ const PANELS = {
 };
 
 test("shows first, with each kind, the controls that matter for it", {skip}, async () => {
-  const panel = page.locator("#kind"), outline = page.locator("#outline"), height = page.locator('[data-option="height"]');
+  const panel = page.locator("#kind"), outline = page.locator("#outline");
+  const height = page.locator('[data-option="height"]');
   const shown = () => panel.locator("[data-option]:visible").evaluateAll((all) =>
     all.map((input) => input.dataset.option));
   for (const [name, options] of Object.entries(PANELS)) {
@@ -314,7 +315,8 @@ test("takes what is changed while a scan is still opening", {skip}, async () => 
   await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
   await untilReady(other);
   assert.equal(await other.locator("#crop").inputValue(), "0,0.4,1,1");
-  const visible = async () => Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replace(",", ""));
+  const visible = async () =>
+    Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replace(",", ""));
   const part = await visible();
   await enter(other.locator("#crop"), "");
   await eventually(async () => assert.ok((await visible()) > 1.2 * part, `${await visible()} after ${part}`));

@@ -2,7 +2,8 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady, writeSample} from "./support.mjs";
+import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
+  writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -94,14 +95,14 @@ test("shows every state without a scroll bar beside the picture", {skip}, async 
         .filter(([, it]) => it.offsetWidth - it.clientWidth > 2 || it.scrollHeight > it.clientHeight + 1 ||
           it.scrollWidth > it.clientWidth + 1).map(([name]) => name));
       assert.deepEqual(bars, [], `${state} at ${screen.width}`);
-      const rows = await page.locator(".tools > *").evaluateAll((all) =>
-        new Set(all.map((group) => group.getBoundingClientRect()).map(({y, height}) => Math.round(y + height / 2))).size);
+      const rows = await page.locator(".tools > *").evaluateAll((all) => new Set(all
+        .map((group) => group.getBoundingClientRect()).map(({y, height}) => Math.round(y + height / 2))).size);
       assert.equal(rows, 1, `tools at ${screen.width}`);
     }
   }
 });
 
-// Returns for each quarter of the figure by how many pixels the edges of the model's picture are off those of the relief.
+// Returns for each quarter of the figure by how many pixels the edges of the model are off those of the relief.
 const edgesOff = () => page.evaluate(async () => {
   const {width, height} = document.querySelector("#picture");
   const edges = (id) => {
@@ -153,6 +154,44 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
   }
   await page.getByRole("button", {name: "Compare"}).click();
   await page.locator('[data-kind="relief"]').click();
+});
+
+test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}, async (context) => {
+  if (found.name !== "chromium") return context.skip("only Chromium takes made-up pens");
+  const touched = await browser.newContext({viewport: SCREENS[1], hasTouch: true});
+  const tablet = await touched.newPage(), cdp = await touched.newCDPSession(tablet);
+  tablet.setDefaultTimeout(60000);
+  await tablet.goto(engine.address);
+  await untilReady(tablet);
+  await tablet.evaluate(() => ["pointerdown", "pointermove"].forEach((type) =>
+    document.querySelector("#stage").addEventListener(type, (event) => (window.pointer = event.pointerType), true)));
+  const pen = (type, x, y, rest = {}) => cdp.send("Input.dispatchMouseEvent",
+    {type, x, y, pointerType: "pen", button: "left", buttons: 1, force: 0.5, clickCount: 1, ...rest});
+  const {x, y, width, height} = await tablet.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
+  const sun = () => tablet.locator("#overlay .sun").evaluate((circle) =>
+    ["cx", "cy"].map((name) => Number(circle.getAttribute(name))));
+  await pen("mousePressed", ...middle);
+  await pen("mouseMoved", middle[0] + 60, middle[1] - 40);
+  const palm = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
+  await palm("touchStart", [{x: x + 30, y: y + 30, id: 5}]);
+  await palm("touchEnd", []);
+  await pen("mouseMoved", middle[0] + 80, middle[1] - 50);
+  assert.equal(await tablet.evaluate(() => window.pointer), "pen");
+  const [sunX, sunY] = await sun();
+  assert.ok(Math.hypot(sunX - width / 2 - 80, sunY - height / 2 + 50) < 2, `${sunX} ${sunY}`);
+  await pen("mouseReleased", middle[0] + 80, middle[1] - 50, {buttons: 0});
+  assert.equal(await tablet.locator("#overlay .sun").count(), 0);
+  await tablet.getByRole("button", {name: "Undo"}).click();
+  assert.ok(await tablet.getByRole("button", {name: "Undo"}).isDisabled(), "one stroke is one step");
+  await tablet.getByRole("radio", {name: "Crop"}).click();
+  const frame = tablet.locator("#crop-frame .frame"), whole = await frame.boundingBox();
+  await pen("mousePressed", whole.x + whole.width, whole.y + whole.height / 2);
+  await pen("mouseMoved", whole.x + whole.width / 2, whole.y + whole.height / 2);
+  await pen("mouseReleased", whole.x + whole.width / 2, whole.y + whole.height / 2, {buttons: 0});
+  await eventually(async () => assert.match(await tablet.locator("#crop").inputValue(), /^0,0,0\.(49|5)\d*,1$/));
+  await tablet.getByRole("button", {name: "Undo"}).click();
+  await untilReady(tablet);
+  await touched.close();
 });
 
 test("tells frames in a second while things move, and not at rest", {skip}, async () => {
