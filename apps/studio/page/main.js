@@ -10,7 +10,7 @@ import {ExportDialog} from "./export.js";
 import {FIELDS} from "./fields.js";
 import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 import {Keeper} from "./keeper.js";
-import {shown} from "./lengths.js";
+import {lengthText, shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
@@ -42,7 +42,8 @@ const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: chooseView});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}), toast);
+const exporting = new ExportDialog(engine,
+  () => ({options: finalOptions(), name: baseName(), note: heightNote()}), toast);
 const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
@@ -137,6 +138,12 @@ function finalOptions() {
   const options = engineOptions(doc.now);
   if (last && !last.is_height_met) options.height = Math.floor(last.height_mm * 1000) / 1000;
   return options;
+}
+
+function heightNote() {
+  const {isHeightLocked, options} = doc.now;
+  return last && !last.is_height_met && isHeightLocked
+    ? `A height of ${lengthText(options.height)} ${shown.unit} is out of reach here.` : "";
 }
 
 const baseName = () => (doc.now.input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");

@@ -121,6 +121,10 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   assert.ok(limited < most, `${limited} of ${most}`);
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
   await reach.getByText(/The steepest wall keeps it at [\d.]+ mm/).waitFor();
+  await page.keyboard.press("Control+e"); // the file has another height than the one that was asked for
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
+  await dialog.getByRole("button", {name: "Cancel"}).click();
   await reach.getByRole("button", {name: "Allow steeper walls"}).click();
   assert.equal(await text("Steepest wall in degrees"), "85");
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();

@@ -260,7 +260,7 @@ test("has sliders, defaults and units of the engine's options", {skip}, async ()
     assert.equal(Boolean(unit), ["MM", "DEG", "W"].includes(engineUnit), name);
     assert.ok(first[name] >= hand[0] && first[name] <= hand[1], `${name} ${first[name]}`);
     assert.equal(first[name], Number(first[name].toFixed(decimals)), name);
-    const number = page.getByRole("spinbutton", {name: new RegExp(`^${label} `)});
+    const number = page.getByRole("spinbutton", {name: new RegExp(`^${label} `), includeHidden: true});
     const range = [await number.getAttribute("aria-valuemin"), await number.getAttribute("aria-valuemax")];
     assert.deepEqual(range, [`${min}`, `${max}`], name);
   }
