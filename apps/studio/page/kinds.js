@@ -26,7 +26,7 @@ export const KINDS = {
   die: {label: "Seal", title: "Seal or die: the negative, 30 mm across, 1.2 mm deep, with walls that come off",
     material: "bronze", part: {...circle, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
     panel: ["diameter", "draft", ...RIM, "margin", "thickness", "form"],
-    note: "Walls that lean by the draft angle let it come off."},
+    note: "The diameter is that of what it shapes. Walls that lean by the draft angle let it come off."},
   lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
     material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4},
     panel: ["thickness", "plate", "margin", "form"],
