@@ -1,5 +1,6 @@
 # For the web, only the rooms that compute for most of the time are compiled for speed; the others, which are files, plates
-# and measures, are compiled for size. They are a target of their own, whose objects are part of the library.
+# and measures, are compiled for size, and so are sources of those rooms that run once for a scan. They are a target of
+# their own, whose objects are part of the library.
 set(RELIEVO_PRECOMPILED relievo)
 if(NOT RELIEVO_WEB)
   return()
@@ -8,6 +9,10 @@ endif()
 get_target_property(small_sources relievo SOURCES)
 list(FILTER small_sources EXCLUDE REGEX "/src/(core|geometry|scan|solver|relief|relief/membrane|picture)/[^/]*$")
 get_target_property(fast_sources relievo SOURCES)
+set(brief_sources ${fast_sources})
+list(FILTER brief_sources INCLUDE REGEX
+     "/(core/(choice|json_place|length)|relief/(method|nearest_draft)|scan/(support_plane|view|view_ranking))[.]cpp$")
+list(APPEND small_sources ${brief_sources})
 list(REMOVE_ITEM fast_sources ${small_sources})
 set_target_properties(relievo PROPERTIES SOURCES "${fast_sources}")
 

@@ -22,16 +22,12 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
   return counts;
 }
 
-std::optional<ReliefReport::FoundPlane> plane_of(const Surface& surface) {
-  if (!surface.plane) return std::nullopt;
-  return ReliefReport::FoundPlane{surface.plane->kind, surface.plane->share, !surface.view.has_plane};
-}
-
 std::vector<std::string> sentences_on(const Surface& surface, std::size_t left_out) {
   std::vector<std::string> sentences;
-  const ScanFacts facts{surface.has_estimated_normals, surface.has_flipped_normals, left_out,
-                        surface.visible_points,        surface.removed_points,      surface.crumbs,
-                        surface.measured_noise,        surface.removed_noise,       plane_of(surface)};
+  const ScanFacts facts{
+      surface.has_estimated_normals, surface.has_flipped_normals, left_out,
+      surface.visible_points,        surface.removed_points,      surface.crumbs,
+      surface.measured_noise,        surface.removed_noise,       ReliefReport::FoundPlane::of(surface)};
   for (const std::string& line : remarks_on(facts)) sentences.push_back(as_sentence(line));
   return sentences;
 }
@@ -47,7 +43,7 @@ ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
           .corner = box.min.head<2>(),
           .noise = surface.removed_noise,
           .crumbs = surface.crumbs,
-          .plane = plane_of(surface),
+          .plane = ReliefReport::FoundPlane::of(surface),
           .rho = surface.rho,
           .delta = surface.curvature.delta,
           .rotation = surface.view.R_view_model,

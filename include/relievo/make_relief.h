@@ -29,6 +29,9 @@ struct ReliefReport {
     PlaneKind kind = PlaneKind::background;
     double share = 0;          // of the visible points that belong to it
     bool is_left_out = false;  // as the view asked for
+
+    // Returns nothing for a surface without such a plane.
+    static std::optional<FoundPlane> of(const Surface& surface);
   };
   std::optional<FoundPlane> plane;
   double rho = 0;                 // sampling distance, in the cloud's units

@@ -24,7 +24,7 @@ void report_surface(const Surface& surface, ReliefReport& report) {
   report.crumbs = surface.crumbs;
   report.measured_noise = surface.measured_noise;
   report.removed_noise = surface.removed_noise;
-  if (surface.plane) report.plane = {surface.plane->kind, surface.plane->share, !surface.view.has_plane};
+  report.plane = ReliefReport::FoundPlane::of(surface);
   report.rho = surface.rho;
   report.diagonal = surface.diagonal;
   report.has_estimated_normals = surface.has_estimated_normals;
@@ -89,6 +89,11 @@ void report_place(const ReliefFacts& facts, ReliefReport& report) {
 }
 
 }  // namespace
+
+std::optional<ReliefReport::FoundPlane> ReliefReport::FoundPlane::of(const Surface& surface) {
+  if (!surface.plane) return std::nullopt;
+  return FoundPlane{surface.plane->kind, surface.plane->share, !surface.view.has_plane};
+}
 
 ReliefReport report_on(const ReliefFacts& facts) {
   ReliefReport report;

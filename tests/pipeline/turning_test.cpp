@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "relievo/core/parallel.h"
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
@@ -109,6 +111,24 @@ TEST(Turntable, HasAboutAsManyPointsAsItSays) {
     EXPECT_LT(made, Turntable::points * 7 / 5) << points;
     EXPECT_GT(2 * made, std::min(points / 2, Turntable::points)) << points;
   }
+}
+
+// Returns the diameter of what is left of a sphere of radius 1 where the model before had a plane at that height.
+double diameter_before_plane(const Turntable& table, const MeasuredCloud& measured, double height) {
+  Surface surface = find_surface(measured, {}).value();
+  surface.plane = SupportPlane{PlaneKind::background, Vec3::UnitZ(), height - surface.centre.z(), .01, .3};
+  const ReliefModel before = ReliefModel::prepare(std::move(surface)).value();
+  View view;
+  view.has_plane = false;
+  return Box::of(table.turn(view, &before).value().model->surface().points).size().x();
+}
+
+TEST(Turntable, LeavesOutThePlaneOfTheModelBefore) {
+  const auto measured = MeasuredCloud::measure(test::sphere(40'000, 1), {}).value();
+  const Turntable table(*measured);
+  for (const double height : {.4, .4, .8, .4})
+    EXPECT_NEAR(diameter_before_plane(table, *measured, height), 2 * std::sqrt(1 - height * height), .05)
+        << height;
 }
 
 TEST(Turntable, ShowsNothingOfWhatFacesAway) {

@@ -25,6 +25,7 @@ struct SupportPlane {
 
   // Returns whether a point is no part of the figure: it lies on the plane, with a normal that fits, or behind it.
   bool takes(const Vec3& point, const Vec3f& point_normal) const;
+  bool operator==(const SupportPlane&) const = default;
 };
 
 // Returns the plane that the visible points of a cloud stand on or before; nothing where there is none. `viewed` is in
