@@ -70,10 +70,9 @@ export class BaseImage {
     return true;
   }
 
-  // Shows the document's image where its base is shown.
-  show(isBaseShown) {
+  // Shows the document's image.
+  show() {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
-    this.element.hidden = !isBaseShown;
     this.choose.textContent = isGone(path) ? `${name} is gone` : name || "Choose …";
     this.choose.setAttribute("aria-label", name ? `Base image ${name}: choose another` : "Choose … for the base");
     this.remove.hidden = path === "";

@@ -20,7 +20,7 @@ function sizes({triangles, points, size_mm: [x, y]}, pixels) {
 const nameOf = (name, {form}) => (form && form !== "relief" ? `${name}-${form}` : name);
 
 export class ExportDialog {
-  // `current` returns {options, name}: what is to be made. `say` takes a line for people.
+  // `current` returns {options, name, note}: what is to be made, and a line about it. `say` takes a line for people.
   constructor(engine, current, say) {
     Object.assign(this, {engine, current, say, pixels: 2048, piece: null});
     this.dialog = $("#export-dialog");
@@ -53,13 +53,14 @@ export class ExportDialog {
 
   // Makes the piece at once: then its sizes are known, and files of it are written in a moment.
   async open() {
-    const {options, name} = this.current();
+    const {options, name, note} = this.current();
     this.piece = null;
     $("#export-name").value = nameOf(name, options);
     $("#export-note").textContent = "";
     this.show();
     this.dialog.showModal();
-    await this.run("Making the piece …", async () => (this.piece = await this.engine.piece(options)));
+    const isMade = await this.run("Making the piece …", async () => (this.piece = await this.engine.piece(options)));
+    if (isMade) $("#export-note").textContent = note;
     this.show();
   }
 

@@ -6,30 +6,34 @@ import {takeArrowKeys} from "./inputs.js";
 import {paint} from "./stage.js";
 
 // A rectangular plate with nothing besides.
-export const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,
+const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,
   "rim-height": null, "rim-bevel": null, base: "plane", "base-image": "", wrap: "none", form: "relief", draft: null});
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
-const round = {...PLAIN, outline: "circle", width: null, margin: 1};
-const RIM = ["diameter", "shift", "rim", "rim-height", "rim-bevel"];
+const circle = {...PLAIN, outline: "circle", width: null, margin: 1};
+const RIM = ["rim", "rim-height", "rim-bevel"], PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
-// `part` are the options that a kind sets when it is chosen, `rows` those that it shows besides those of all kinds.
+// `part` are the options that a kind sets when it is chosen, `panel` those whose controls stand first then.
 export const KINDS = {
   relief: {label: "Plaque", title: "Plaque: 100 mm long, 5 mm high", part: plaque, material: "plaster",
-    rows: ["plate", "shift", "base", "form"]},
+    panel: PLATE},
   coin: {label: "Coin", title: "Coin or medal: 40 mm across, 1.6 mm high, with a rim", material: "silver",
-    part: {...round, diameter: 40, rim: 1.5, height: 1.6, thickness: 2}, rows: [...RIM, "base"]},
+    part: {...circle, diameter: 40, rim: 1.5, height: 1.6, thickness: 2},
+    panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"]},
   wood: {label: "Carving", title: "Carving in wood: 180 mm long, 10 mm high", material: "walnut",
     part: {...plaque, outline: "round", corner: 12, width: 180, height: 10, margin: 12, thickness: 12},
-    rows: ["plate", "shift", "base", "form"]},
+    panel: PLATE},
   die: {label: "Seal", title: "Seal or die: the negative, 30 mm across, 1.2 mm deep, with walls that come off",
-    material: "bronze", part: {...round, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
-    rows: [...RIM, "draft"]},
+    material: "bronze", part: {...circle, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
+    panel: ["diameter", "draft", ...RIM, "margin", "thickness", "form"],
+    note: "The diameter is that of what it shapes. Walls that lean by the draft angle let it come off."},
   lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
     material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4},
-    rows: ["plate", "shift"]},
+    panel: ["thickness", "plate", "margin", "form"],
+    note: "Thickness is that of the brightest places, and height what the darkest add. Porcelain is lit from behind."},
   shell: {label: "Bent", title: "Bent around a body, such as a vase or a ring", material: "plaster",
-    part: {...plaque, wrap: "cylinder:turn=180"}, rows: ["plate", "wrap", "form"],
+    part: {...plaque, wrap: "cylinder:turn=180"}, panel: ["wrap", "thickness", "plate", "margin", "form"],
+    note: "Thickness is that of the wall.",
     camera: {yaw: -28, pitch: 18}},
 };
 
@@ -37,7 +41,7 @@ export const KINDS = {
 export function kindOf({material, options: {form, wrap, rim, outline}}) {
   if (form === "lithophane" || form === "die") return form;
   if (wrap !== "none") return "shell";
-  if (rim || outline === "circle") return "coin";
+  if (outline === "circle" || (rim && !["rectangle", "round"].includes(outline))) return "coin";
   return material === "walnut" ? "wood" : "relief";
 }
 

@@ -2,9 +2,10 @@
 
 import {about, defaultOf, engine} from "./about.js";
 import {AlphaRow} from "./alpha.js";
-import {$, Slider, clamp, lockButton, make} from "./controls.js";
+import {$, clamp, make} from "./controls.js";
+import {CropFrame} from "./crop_frame.js";
 import {CurveEditor} from "./curve.js";
-import {Document, FIRST, engineOptions} from "./document.js";
+import {Document, engineOptions} from "./document.js";
 import {ExportDialog} from "./export.js";
 import {FIELDS} from "./fields.js";
 import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
@@ -12,6 +13,7 @@ import {Keeper} from "./keeper.js";
 import {lengthText, shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
+import {KindPanel} from "./kind_panel.js";
 import {KindCards} from "./kinds.js";
 import {PieceRows} from "./pieces.js";
 import {Placing} from "./placing.js";
@@ -22,6 +24,7 @@ import {Reach} from "./reach.js";
 import {paperWords, showNumbers, showSection, showToolReach} from "./readouts.js";
 import {ScanPanel} from "./scan_panel.js";
 import {ScenePanel} from "./scene_panel.js";
+import {Sliders} from "./sliders.js";
 import {Stage} from "./stage.js";
 import {nameOf, showRecent, showSamples, smallPicture} from "./start.js";
 import {Tour} from "./tour.js";
@@ -30,18 +33,24 @@ import {ViewDialog, viewName} from "./views.js";
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
 
 const doc = new Document((before) => changed(before));
-const placing = new Placing({doc, shownWidth, setWidth: (width) => slide("width", width), say: toast});
-const chooseView = () => engine.chooseView(viewOf(doc.now)).catch(failed);
-const stage = new Stage(engine, doc, {picture: pictured, section: showSection, failed, placing, viewRests: chooseView});
+const sliders = new Sliders({doc, frame: () => last, say: toast});
+const shownWidth = () => sliders.shownWidth();
+const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
+const chooseView = () => opened.chooseView().catch(failed);
+const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
+const stage = new Stage(engine, doc,
+  {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: chooseView});
 const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine, () => ({options: finalOptions(), name: baseName()}), toast);
-const modes = new Modes({stage, doc});
+const exporting = new ExportDialog(engine,
+  () => ({options: finalOptions(), name: baseName(), note: heightNote()}), toast);
+const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
-const scanPanel = new ScanPanel({doc});
+const kindPanel = new KindPanel({doc, elements: {...pieces.elements, ...sliders.elements}});
+const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const tour = new Tour();
 const scenePanel = new ScenePanel({say: toast, open: (models) =>
   projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed)});
@@ -56,45 +65,12 @@ const opened = new OpenDocument({engine, doc, keeper, on: {
   begun, measured, arrived, failed, refused, changed: stateCame, progress,
   missing: (input, work) => projects.askFor(input, work), closed: () => showStart(true),
 }});
-const reach = new Reach({engine, doc, slider: () => sliders.height, chooseView: () => views.show(doc.now.options)});
+const reach = new Reach({engine, doc, slider: () => sliders.all.height, chooseView: () => views.show(doc.now.options)});
 const projects = new Projects({engine, open: openInput, take, failed});
 
 let facts = null, shownView = null; // of the model that is shown
 let last = null; // numbers of the newest picture
 let isKept = !about.notice;
-
-// ------------------------------------------------------------------------------------------------- sliders
-
-const lock = lockButton(toggleLock);
-
-const sliders = {};
-for (const [name, field] of Object.entries(FIELDS)) {
-  const slider = new Slider({...field, extra: name === "height" ? lock : null, otherwise: FIRST.options[name]},
-    (value) => slide(name, value), () => doc.endStroke(name), toast);
-  sliders[name] = slider;
-  slider.number.dataset.option = name;
-  $(field.place).append(slider.element);
-}
-
-function shownWidth() {
-  return Number((doc.now.options.width ?? last?.width_mm ?? defaultOf("width")).toFixed(4));
-}
-
-// Marks the width that a plate of a given size leaves.
-function showWidth() {
-  const most = last?.most_width_mm ?? null;
-  sliders.width.show(shownWidth());
-  sliders.width.showMark(most, most && `The plate leaves ${lengthText(most)} ${shown.unit}`);
-}
-
-function slide(name, value) {
-  const part = {options: {[name]: value}}, most = last?.most_width_mm ?? Infinity;
-  if (name === "width" && value >= most) part.options.width = null; // as wide as the plate leaves
-  if (name === "height") part.u = null; // to be found anew
-  doc.change(part, name);
-  if (name === "width") showWidth();
-  else if (doc.now.options[name] !== value) sliders[name].show(doc.now.options[name]); // the drag was taken back
-}
 
 // Changes the method. A soft rim that was not touched becomes the one that the new method starts from.
 function changeMethod(method) {
@@ -107,14 +83,9 @@ function changeMethod(method) {
 function chooseUnit(unit) {
   shown.unit = unit;
   localStorage.setItem("unit", unit);
-  for (const slider of Object.values(sliders)) slider.showUnit();
+  sliders.showUnit();
   pieces.show();
   if (last) stage.invalidate();
-}
-
-function toggleLock() {
-  const {isHeightLocked} = doc.now;
-  doc.change({isHeightLocked: !isHeightLocked, u: isHeightLocked ? last?.u ?? null : null});
 }
 
 // ----------------------------------------------------------------------------------------------- the document
@@ -137,20 +108,15 @@ function stateCame() {
 }
 
 function showDocument() {
-  const {options, isHeightLocked, material, input} = doc.now;
-  for (const [name, slider] of Object.entries(sliders)) slider.show(options[name] ?? shownWidth());
-  showWidth();
-  const isShaped = options.form !== "lithophane"; // whose thickness the depth alone decides
-  for (const name of ["detail", "boundary", "steepest", "steps"]) sliders[name].disabled = !isShaped;
-  sliders.saturation.disabled = !isShaped || options.tone !== "";
-  lock.setAttribute("aria-pressed", isHeightLocked);
+  const {options, material, input} = doc.now;
+  sliders.show();
   curve.show({tone: options.tone});
   $("#method").value = options.method;
   pieces.show();
   kinds.show();
+  kindPanel.show();
   scanPanel.show();
-  sliders.corner.disabled = options.outline !== "round";
-  sliders.margin.disabled = options.outline === "none";
+  cropFrame.refresh();
   $("#undo").disabled = !doc.canUndo;
   $("#redo").disabled = !doc.canRedo;
   $("#view-name").textContent = viewName(options.view);
@@ -174,6 +140,12 @@ function finalOptions() {
   return options;
 }
 
+function heightNote() {
+  const {isHeightLocked, options} = doc.now;
+  return last && !last.is_height_met && isHeightLocked
+    ? `A height of ${lengthText(options.height)} ${shown.unit} is out of reach here.` : "";
+}
+
 const baseName = () => (doc.now.input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");
 
 // --------------------------------------------------------------------------------------------------- pictures
@@ -190,9 +162,9 @@ function pictured(frame, ms, isFine) {
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
     const height = Math.round(frame.height_mm * 1e4) / 1e4;
     doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
-    sliders.height.show(doc.now.options.height);
+    sliders.all.height.show(doc.now.options.height);
   }
-  showWidth();
+  sliders.showWidth();
   if (opened.status.busy) showProgress(opened.status, false);
   alphaRow.show(frame);
   clearTimeout(pictureTimer);
@@ -201,7 +173,7 @@ function pictured(frame, ms, isFine) {
   if (opened.isReady) reach.pictured(frame, isFine);
   if (isFine && opened.isReady) kinds.pictured(stage.model);
   if (isFine) showToolReach(frame.tool);
-  sliders.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
+  sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
   showNumbers({about: frame, ms, isFine, facts, height: shownHeight(frame)});
   stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about: frame, ms, isFine}}));
 }
@@ -229,7 +201,7 @@ function begun(former) {
   $("#numbers").textContent = "";
   Object.assign(stage, {isReady: false, model: 0});
   stage.await(true);
-  $("#save").hidden = $("#export").hidden = true;
+  $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = true;
   showStart(false);
   showDocument();
   showProgress({busy: true, stage: "waiting"}, true);
@@ -240,6 +212,7 @@ function measured({shown}) {
   if (stage.isReady || !engine.drawsMeanwhile) return;
   doc.note({options: shown});
   showDocument();
+  $("#choose-view").disabled = false;
   stage.isReady = true;
   stage.await(true);
   stage.invalidate();
@@ -262,9 +235,10 @@ async function arrived(status) {
   stage.await(false);
   stage.share = 1;
   scanPanel.tell(facts);
+  cropFrame.refresh();
   scenePanel.show(engine.takesSeveral ? [] : facts.models); // whose files no other scene finds
   tour.offer();
-  $("#save").hidden = $("#export").hidden = false;
+  $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();
 }
 
@@ -281,7 +255,7 @@ function failed(error) {
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return toast(error.message);
   clearTimeout(reopening);
-  reopening = setTimeout(() => opened.reopen().catch(failed), 200);
+  reopening = setTimeout(() => opened.closed().catch(failed), 200);
 }
 
 function openInput(input, work) {
@@ -339,7 +313,7 @@ function wire() {
   help.onclose = () => help.returnValue === "tour" && facts && tour.start();
   click("#home", () => showStart(true));
   click("#back", () => showStart(false));
-  click("#cancel", () => engine.cancel().catch(failed));
+  click("#cancel", () => opened.cancel().catch(failed));
   click("#choose-view", () => views.show(doc.now.options));
   $("#file").onchange = (event) => {
     openFiles([...event.target.files]);
@@ -350,7 +324,7 @@ function wire() {
   takeDrops($("#veil"), openFiles);
   takeKeys({
     commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
-    isReady: () => facts && !$("#studio").hidden, hold: (isHolding) => stage.compare({isHolding}),
+    isReady: () => facts && !$("#studio").hidden, hold: (isHolding) => stage.comparing.set({isHolding}),
   });
 }
 
@@ -361,9 +335,9 @@ const COMMANDS = {
 const KEYS = {
   l: () => modes.setTool("light"), r: () => modes.setTool("turn"), o: () => modes.setTool("orbit"),
   h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
-  m: () => modes.setTool("measure"), f: () => stage.fit(),
+  m: () => modes.setTool("measure"), x: () => modes.setTool("crop"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
-  Escape: () => doc.cancelStroke() || modes.setTable(false),
+  Escape: () => cropFrame.giveUp() || doc.cancelStroke() || modes.setTable(false),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
   ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),
 };

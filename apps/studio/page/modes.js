@@ -8,8 +8,8 @@ import {TABLE_LIGHTS} from "./lights.js";
 const isPressed = (selector) => $(selector).getAttribute("aria-pressed") === "true";
 
 export class Modes {
-  constructor({stage, doc}) {
-    Object.assign(this, {stage, doc});
+  constructor({stage, doc, cropFrame}) {
+    Object.assign(this, {stage, doc, cropFrame});
     $("#materials").append(...about.materials.map(({id, name}) => make("button", {
       role: "radio", "data-material": id, "aria-label": name, title: name, onclick: () => doc.change({material: id}),
     })));
@@ -25,13 +25,14 @@ export class Modes {
     $("#light-table").onclick = () => this.toggleTable();
     $("#compare").onclick = () => this.toggleComparing();
     $("#fit").onclick = () => stage.fit();
-    $("#split").oninput = (event) => stage.setSplit(event.target.value / 1000);
+    $("#split").oninput = (event) => stage.comparing.setSplit(event.target.value / 1000);
     this.setTool("light");
   }
 
   setTool(tool) {
     for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
     $("#section").hidden = tool !== "section";
+    this.cropFrame.show(tool === "crop");
     if (tool !== "light") this.setTable(false);
     this.stage.setTool(tool);
   }
@@ -50,7 +51,7 @@ export class Modes {
     const isComparing = !isPressed("#compare");
     $("#compare").setAttribute("aria-pressed", isComparing);
     $("#split").hidden = $("#labels").hidden = !isComparing;
-    this.stage.compare({isComparing});
+    this.stage.comparing.set({isComparing});
   }
 
   showMaterial(material) {

@@ -49,9 +49,28 @@ export class OpenDocument {
     this.status = {busy: true, model: 0, stage: "waiting"};
     history.replaceState(null, "", `#${this.id}`);
     this.on.begun(former);
-    await this.engine.open(found.input, viewOf(this.doc.now));
-    const status = this.statuses.get(this.id);
-    if (status && this.id === found.document) this.take(status);
+    await this.openInEngine(found.input);
+  }
+
+  // Opens the document that is shown. What the engine says of it may have come already.
+  async openInEngine(input) {
+    const {id} = this, isOpen = this.engine.open(input, viewOf(this.doc.now));
+    this.isOpen = isOpen.catch(() => {}); // whoever opens it is told why it failed
+    await isOpen;
+    const status = this.statuses.get(id);
+    if (status && this.id === id) this.take(status);
+  }
+
+  // Asks for the view that the document has when the engine has opened it: until then the engine refuses to.
+  async chooseView() {
+    const {id} = this;
+    await this.isOpen;
+    if (this.id === id) await this.engine.chooseView(viewOf(this.doc.now));
+  }
+
+  async cancel() {
+    await this.isOpen;
+    await this.engine.cancel();
   }
 
   takeState(newest, input, work) {
@@ -88,10 +107,15 @@ export class OpenDocument {
     if (status.kept.changed > this.doc.changedAt && status.kept.tab !== TAB) this.adopt().catch(this.on.failed);
   }
 
+  // The engine chooses the side of a document that has none yet.
+  wantedView({view, up}) {
+    const wanted = viewOf(this.doc.now);
+    return wanted.view === "auto" ? {...wanted, view, up} : wanted;
+  }
+
   // Returns whether the model is one to show: at first only that of the view that was asked for, or none can be made.
   isWanted({busy, error, shown}) {
-    return this.model > 0 || (!busy && (error || this.doc.now.options.view === "auto" ||
-      isSameView(shown, viewOf(this.doc.now))));
+    return this.model > 0 || (!busy && (error || isSameView(shown, this.wantedView(shown))));
   }
 
   arrive(status) {
@@ -135,9 +159,14 @@ export class OpenDocument {
     await this.reopen();
   }
 
-  // Opens the document anew where the engine has it no longer.
+  // The engine has closed the document: what it said before holds no longer.
+  async closed() {
+    this.statuses.delete(this.id);
+    await this.reopen();
+  }
+
   async reopen() {
     this.model = 0;
-    await this.engine.open(this.input, viewOf(this.doc.now));
+    await this.openInEngine(this.input);
   }
 }

@@ -4,7 +4,6 @@ import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, make} from "./controls.js";
 import {FIRST, engineOptions} from "./document.js";
-import {KINDS, PLAIN, kindOf} from "./kinds.js";
 import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -15,13 +14,10 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
   up: "Upright", points: "Points from meshes", mode: "Solver"};
+const CHOICES = {round: "Round corners"}; // where a choice of the command line needs more words
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
 const PREPARING = ["up", "points", "mode"];
-const SIZE = ["diameter", "plate"]; // stand at the top
-const placeOf = (name) => [[MAKING, "#making"], [PREPARING, "#preparing"], [SIZE, "#size"]]
-  .find(([names]) => names.includes(name))?.[1] ?? "#piece";
-const PLACES = Object.fromEntries(Object.keys(LABELS).map((name) => [name, placeOf(name)]));
-const isOfPiece = (name) => ["#piece", "#size"].includes(PLACES[name]);
+const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
 const SUGGESTED = {
   base: ["plane", "dome:height=5", "wave:height=4,length=40", "fold:angle=15", "cylinder:diameter=200"],
   wrap: ["cylinder:turn=180", "cylinder:turn=360", "cylinder:diameter=60", "cone:turn=90,angle=8",
@@ -65,9 +61,14 @@ export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, say, shownWidth, redraw}) {
     Object.assign(this, {engine, doc, say, shownWidth, rows: {}});
-    for (const name of ROWS) $(PLACES[name]).append((this.rows[name] = this.row(name)).element);
+    for (const name of ROWS) $(placeOf(name)).append((this.rows[name] = this.row(name)).element);
     this.baseImage = new BaseImage({engine, doc, say, redraw});
     this.rows.base.element.after(this.baseImage.element);
+  }
+
+  // The elements by the names of their options.
+  get elements() {
+    return Object.fromEntries(ROWS.map((name) => [name, this.rows[name].element]));
   }
 
   // Returns {element, input, isNumber, unit, min, max} of an option.
@@ -76,7 +77,8 @@ export class PieceRows {
     const isList = Boolean(choices) && !SUGGESTED[name];
     const attributes = {id: name, "data-option": name, autocomplete: "off", "aria-label": LABELS[name]};
     const input = isList
-      ? make("select", attributes, ...choices.map((choice) => make("option", {value: choice}, sentence(choice))))
+      ? make("select", attributes, ...choices.map((choice) =>
+        make("option", {value: choice}, CHOICES[choice] ?? sentence(choice))))
       : make("input", {
         ...attributes, inputmode: min === undefined ? "text" : "decimal",
         placeholder: PLACEHOLDERS[name] ?? String(otherwise || "none"),
@@ -114,7 +116,7 @@ export class PieceRows {
 
   // Shows the document's values, but not in a field in which something is typed, unless it is that of option `entered`.
   show(entered = "") {
-    const {options} = this.doc.now, kind = kindOf(this.doc.now);
+    const {options} = this.doc.now;
     for (const [name, {element, input, unit}] of Object.entries(this.rows)) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
@@ -122,10 +124,9 @@ export class PieceRows {
       if (document.activeElement !== input || input.matches("select") || name === entered) input.value = shown;
       if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
         element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
-      if (isOfPiece(name) && name !== "outline")
-        element.hidden = !KINDS[kind].rows.includes(name) && value === (PLAIN[name] ?? "");
     }
-    this.baseImage.show(!this.rows.base.element.hidden);
+    this.baseImage.show();
+    for (const name of ["rim-height", "rim-bevel"]) this.rows[name].element.hidden = !options.rim;
     this.shownUnit = lengthUnit.unit;
     this.rows.finish.element.hidden = !options.tool || options.tool === "none";
   }

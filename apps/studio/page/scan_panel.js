@@ -2,25 +2,26 @@
 
 import {$, make} from "./controls.js";
 
-const FULL = [0, 0, 1, 1, 0, 1];
+export const WHOLE = [0, 0, 1, 1, 0, 1];
 // The sides that can be cut away: the place of each in a crop's numbers, which are shares from below on the left, then
 // from the viewer on. A cut of 0 takes nothing away.
 const SIDES = [["Left", 0], ["Right", 2], ["Top", 3], ["Bottom", 1], ["Front", 4], ["Back", 5]];
 const MOST_CUT = 95; // percent
 
-const numbersOf = (crop) => FULL.map((otherwise, i) => {
+export const numbersOf = (crop) => WHOLE.map((otherwise, i) => {
   const number = crop.split(",")[i]?.trim();
   return number ? Number(number) : otherwise;
 });
 
 // Returns a crop as text, or as it is a whole scan none.
-function cropText(numbers) {
+export function cropText(numbers) {
   const short = numbers.map((x) => Number(x.toFixed(3))), isDeep = short[4] !== 0 || short[5] !== 1;
-  return short.every((x, i) => x === FULL[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
+  return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
 }
 
 export class ScanPanel {
-  constructor({doc}) {
+  // Calls cropOnPicture() for a frame on the picture.
+  constructor({doc, cropOnPicture}) {
     this.doc = doc;
     this.cuts = SIDES.map(([label, at]) => {
       const input = make("input", {type: "range", min: 0, max: MOST_CUT, step: 1, "aria-label": `Cut away: ${label}`});
@@ -33,6 +34,7 @@ export class ScanPanel {
     $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));
     $("#remarks").onclick = () => this.open();
     const set = (options) => doc.change({options});
+    $("#crop-picture").onclick = cropOnPicture;
     $("#crop").onchange = (event) => set({crop: event.target.value.replaceAll(" ", "")});
     $("#crumbs").onchange = (event) => set({crumbs: event.target.checked ? "keep" : "drop"});
     $("#plane").onchange = (event) => set({plane: event.target.checked ? "keep" : "drop"});
@@ -50,7 +52,7 @@ export class ScanPanel {
 
   cut(at, share) {
     const numbers = numbersOf(this.doc.now.options.crop), other = at < 4 ? (at + 2) % 4 : 9 - at;
-    const isFar = FULL[at] === 1;
+    const isFar = WHOLE[at] === 1;
     numbers[at] = isFar ? Math.max(1 - share, numbers[other] + 0.05) : Math.min(share, numbers[other] - 0.05);
     this.doc.change({options: {crop: cropText(numbers)}});
     this.shown = null; // a cut that takes everything is refused
@@ -82,7 +84,7 @@ export class ScanPanel {
     $("#denoise-auto").checked = denoise === "auto";
     this.showNoise(denoise === "auto" ? this.facts?.noise ?? 0 : Number(denoise));
     for (const cut of this.cuts)
-      this.showCut(cut, 100 * (FULL[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
+      this.showCut(cut, 100 * (WHOLE[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
   }
 
   // Shows what was found; nothing for null.

@@ -1,6 +1,7 @@
 // The relief in the middle of the page: shows the engine's pictures, and turns, lights and cuts the relief by mouse
 // and keys.
 
+import {Comparing} from "./comparing.js";
 import {$, clamp, make} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
@@ -28,7 +29,6 @@ export class Stage {
     Object.assign(this, {engine, doc, on});
     this.element = $("#stage");
     this.picture = $("#picture");
-    this.before = $("#before");
     this.overlay = $("#overlay");
     this.camera = {...FRONT};
     this.tool = "light";
@@ -37,6 +37,7 @@ export class Stage {
     this.isReady = false;
     this.pixelsPerMm = 1;
     this.measure = new Measure(this);
+    this.comparing = new Comparing(this);
     this.turning = new Turning(this);
     this.listen();
   }
@@ -140,23 +141,14 @@ export class Stage {
     this.about = about;
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
-    if (this.isComparing || this.isHolding) await this.drawBefore(isFine, `${this.model} ${about.scene}`);
+    if (this.comparing.isShown) await this.comparing.draw(isFine);
     if (this.tool === "section") await this.cut();
     if (this.tool === "measure") this.measure.pictured();
   }
 
   // Whether the picture needs more of the engine before the next one.
   get waitsForPicture() {
-    return this.isComparing || this.isHolding || ["section", "measure"].includes(this.tool);
-  }
-
-  // Draws the model itself, unless it was drawn in the same scene before.
-  async drawBefore(isFine, scene) {
-    if (scene === this.sceneBefore) return;
-    const request = this.request({...this.pixels(isFine), fine: isFine, original: true});
-    const {image, about} = await this.engine.frame(request);
-    paint(this.before, image);
-    this.sceneBefore = `${this.model} ${about.scene}`;
+    return this.comparing.isShown || ["section", "measure"].includes(this.tool);
   }
 
   async drawTable(isFine) {
@@ -188,6 +180,7 @@ export class Stage {
     const does = {
       light: "move the light", turn: "turn the model", orbit: "orbit the relief", pan: "move the picture",
       section: "move the section", measure: "measure", place: "move the figure on its plate",
+      crop: "move the frame of the crop",
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
     if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};
@@ -199,22 +192,6 @@ export class Stage {
   setTable(isTable) {
     this.isTable = isTable;
     this.invalidate();
-  }
-
-  // Shows the model itself beside the relief (isComparing) or in its place (isHolding).
-  compare(how) {
-    Object.assign(this, how);
-    this.before.hidden = !(this.isComparing || this.isHolding);
-    this.setSplit(this.split ?? 0.5);
-    this.invalidate();
-  }
-
-  setSplit(share) {
-    this.split = share;
-    this.before.style.clipPath = this.isHolding ? "none" : `inset(0 ${(1 - share) * 100}% 0 0)`;
-    const cut = this.isComparing ? `inset(0 0 0 ${share * 100}%)` : "none";
-    this.picture.style.clipPath = this.isHolding ? "inset(100%)" : cut;
-    this.drawOverlay();
   }
 
   fit() {
@@ -247,12 +224,8 @@ export class Stage {
   }
 
   drawOverlay() {
-    const {width, height} = this.size, marks = [];
+    const {width, height} = this.size, marks = this.comparing.marks(this.size);
     this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    if (this.isComparing && !this.isHolding) {
-      const x = this.split * width;
-      marks.push(make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height}));
-    }
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
     if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());
     if (this.sun) {
@@ -268,9 +241,10 @@ export class Stage {
   listen() {
     const stage = this.element;
     stage.onpointerdown = (event) => this.press(event);
-    stage.onpointermove = (event) => (this.drag ? this.move(event) : this.hover(event));
+    const isOther = ({pointerId}) => this.drag && pointerId !== this.drag.pointerId; // a palm beside a pen
+    stage.onpointermove = (event) => (!this.drag ? this.hover(event) : isOther(event) || this.move(event));
     stage.onpointerleave = () => this.tool === "measure" && this.measure.point(null);
-    stage.onpointerup = stage.onpointercancel = () => this.release();
+    stage.onpointerup = stage.onpointercancel = (event) => isOther(event) || this.release();
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
     stage.onkeydown = (event) => takeKey(this, event);
@@ -279,13 +253,14 @@ export class Stage {
   }
 
   press(event) {
-    if (event.target.id === "split" || event.button > 1 || !event.isPrimary) return;
+    if (event.target.id === "split" || event.button > 1 || !event.isPrimary || this.drag) return;
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
     if (tool === "place" && !this.on.placing.begin(this.about.size_mm)) return this.release();
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
-    this.drag = {tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
+    const {pointerId} = event;
+    this.drag = {pointerId, tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
     if (tool === "light") this.move(event);
     if (tool === "turn") this.turning.begin();
   }

@@ -15,6 +15,7 @@ function move(stage, x, y) {
   if (tool === "orbit") stage.orbit(x * 5, -y * 5);
   if (tool === "pan") stage.shift(x * 20 / pixelsPerMm, y * 20 / pixelsPerMm);
   if (tool === "place" && on.placing.begin(stage.about.size_mm)) on.placing.move(x, y);
+  if (tool === "crop") on.cropFrame.step(x, y);
   if (tool === "section") {
     const moved = ([px, py]) => [px + x, py + y];
     stage.setLine({from: moved(stage.line.from), to: moved(stage.line.to)});

@@ -5,14 +5,13 @@ import {copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, 
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {Keeper} from "../page/keeper.js";
-import {EngineProcess, PROGRAM, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
 let engine;
 
 before(async () => {
-  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "5000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("shell", 5000, scan);
   engine = await new EngineProcess(state).ready();
 });
 

@@ -1,10 +1,9 @@
 // Numbers, keys and the reach of heights on the page, in Chromium or Firefox.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, findBrowser, removeFolder, savedFiles, temporaryFolder,
-  type} from "./support.mjs";
+import {EngineProcess, enter, findBrowser, removeFolder, savedFiles, temporaryFolder, type,
+  writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -15,8 +14,7 @@ let browser, engine, page;
 
 before(async () => {
   if (skip) return;
-  const made = spawnSync(PROGRAM, ["sample", "still_life", "-o", scan, "--points", "8000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("still_life", 8000, scan);
   browser = await found.launch();
   page = await (await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true})).newPage();
   page.setDefaultTimeout(30000);
@@ -123,6 +121,10 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   assert.ok(limited < most, `${limited} of ${most}`);
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
   await reach.getByText(/The steepest wall keeps it at [\d.]+ mm/).waitFor();
+  await page.keyboard.press("Control+e"); // the file has another height than the one that was asked for
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
+  await dialog.getByRole("button", {name: "Cancel"}).click();
   await reach.getByRole("button", {name: "Allow steeper walls"}).click();
   assert.equal(await text("Steepest wall in degrees"), "85");
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();

@@ -1,11 +1,11 @@
 // The first minute with a scan: what it may become, the tour, what was found out about the scan, and several files as
 // one scene.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
+  writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -16,16 +16,9 @@ let browser, engine, page;
 
 before(async () => {
   if (skip) return;
-  for (const [i, scan] of scans.entries()) {
-    const made = spawnSync(PROGRAM, ["sample", ["still_life", "shell"][i], "-o", scan, "--points", "6000"]);
-    assert.equal(made.status, 0, String(made.stderr));
-  }
+  for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 6000, scan);
   browser = await found.launch();
-  page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
-  page.setDefaultTimeout(30000);
-  engine = await new EngineProcess(path.join(folder, "state"), scans[0]).ready();
-  await page.goto(engine.address);
-  await untilReady();
+  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan: scans[0]}));
 });
 
 after(async () => {
@@ -33,11 +26,6 @@ after(async () => {
   await engine?.stop();
   removeFolder(folder);
 });
-
-async function untilReady() {
-  await page.getByText(/points.*height/).waitFor();
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-}
 
 const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
 const button = (name) => page.getByRole("button", {name, exact: true});
@@ -105,8 +93,47 @@ test("leads through five steps, once by itself and then from the help", {skip}, 
   await page.keyboard.press("Escape");
   await tour.waitFor({state: "hidden"});
   await page.reload();
-  await untilReady();
+  await untilReady(page);
   assert.ok(!await button("Show me").isVisible());
+});
+
+const PANELS = {
+  Plaque: ["plate", "outline", "margin", "thickness"],
+  Coin: ["diameter", "outline", "rim", "rim-height", "rim-bevel", "margin", "thickness", "form"],
+  Carving: ["plate", "outline", "corner", "margin", "thickness"],
+  Seal: ["diameter", "draft", "rim", "rim-height", "rim-bevel", "margin", "thickness", "form"],
+  Lithophane: ["thickness", "plate", "margin", "form"],
+  Bent: ["wrap", "thickness", "plate", "margin", "form"],
+};
+
+test("shows first, with each kind, the controls that matter for it", {skip}, async () => {
+  const panel = page.locator("#kind"), outline = page.locator("#outline");
+  const height = page.locator('[data-option="height"]');
+  const shown = () => panel.locator("[data-option]:visible").evaluateAll((all) =>
+    all.map((input) => input.dataset.option));
+  for (const [name, options] of Object.entries(PANELS)) {
+    await kind(name).click();
+    await panel.getByRole("heading", {name, exact: true}).waitFor();
+    assert.deepEqual(await shown(), options, name);
+    const [box, below] = [await panel.boundingBox(), await height.boundingBox()];
+    assert.ok(box.y + box.height <= below.y && below.y + below.height < 772, `${name} and the height fit the page`);
+  }
+  await kind("Coin").click();
+  await outline.selectOption("hexagon"); // a medal of another outline is one still
+  await page.waitForTimeout(300); // the engine is asked whether it can read it
+  assert.ok(await kind("Coin").isChecked());
+  const untilKind = (name) => page.getByRole("radio", {name, exact: true, checked: true}).waitFor();
+  await outline.selectOption({label: "Round corners"});
+  await untilKind("Plaque");
+  await outline.focus();
+  await outline.selectOption("circle"); // whose control moves into another panel
+  await untilKind("Coin");
+  assert.equal(await page.evaluate(() => document.activeElement.id), "outline");
+  assert.deepEqual(await shown(), PANELS.Coin);
+  const undo = button("Undo");
+  while (await undo.isEnabled()) await undo.click();
+  await untilReady(page);
+  assert.ok(await kind("Plaque").isChecked());
 });
 
 test("offers what can be done about the scan, and cuts it", {skip}, async () => {
@@ -118,7 +145,7 @@ test("offers what can be done about the scan, and cuts it", {skip}, async () => 
   assert.ok(Number(await noise.inputValue()) > 0);
   await button("Keep it").click();
   await eventually(async () => assert.equal(await noise.inputValue(), "0"));
-  await untilReady();
+  await untilReady(page);
   await button("Undo").click();
   await page.getByText(/^Removed noise of/).waitFor();
   const bottom = page.getByRole("slider", {name: "Cut away: Bottom"});
@@ -128,6 +155,54 @@ test("offers what can be done about the scan, and cuts it", {skip}, async () => 
   await button("Undo").click();
   await eventually(async () => assert.equal(await points(), before));
   assert.equal(await bottom.inputValue(), "0");
+});
+
+test("crops the scan by a frame on the picture", {skip}, async () => {
+  const points = async () => Number((await numbers().innerText()).match(/^([\d,]+) of/)[1].replaceAll(",", ""));
+  const crop = async () => (await page.locator("#crop").inputValue()).split(",").map(Number);
+  const before = await points(), frame = page.locator("#crop-frame .frame"), box = async () => frame.boundingBox();
+  await openPanel("Scan");
+  await button("Crop on the picture").click();
+  await frame.waitFor();
+  const whole = await box(), at = (x, y) => [whole.x + x * whole.width, whole.y + (1 - y) * whole.height];
+  const drag = async (from, to, end = () => page.mouse.up()) => {
+    await page.mouse.move(...at(...from));
+    await page.mouse.down();
+    await page.mouse.move(...at(...to), {steps: 4});
+    await end();
+  };
+  const untilCrop = async (...wanted) => eventually(async () => {
+    const found = await crop();
+    assert.ok(wanted.every((x, i) => Math.abs(x - found[i]) < 0.02), `${found} for ${wanted}`);
+    const {x, y, width, height} = await box(), drawn = [...at(wanted[0], wanted[3]), ...at(wanted[2], wanted[1])];
+    for (const [i, side] of [x, y, x + width, y + height].entries()) assert.ok(Math.abs(side - drawn[i]) < 8);
+  });
+  await drag([0.2, 0.2], [0.7, 0.8]); // draws a frame
+  await untilCrop(0.2, 0.2, 0.7, 0.8);
+  await drag([0.7, 0.5], [0.9, 0.5]); // takes a side
+  await untilCrop(0.2, 0.2, 0.9, 0.8);
+  await drag([0.2, 0.2], [0.1, 0.3]); // takes a corner
+  await untilCrop(0.1, 0.3, 0.9, 0.8);
+  await drag([0.5, 0.5], [0.6, 0.4]); // moves the frame
+  await untilCrop(0.2, 0.2, 1, 0.7);
+  await drag([0.5, 0.5], [0.3, 0.6], async () => {
+    await page.keyboard.press("Escape");
+    await page.mouse.up();
+  });
+  await untilCrop(0.2, 0.2, 1, 0.7);
+  await page.locator("#stage").focus();
+  await page.keyboard.press("ArrowLeft");
+  await untilCrop(0.19, 0.2, 0.99, 0.7);
+  await button("Done").click();
+  await page.locator("#crop-frame").waitFor({state: "hidden"});
+  await eventually(async () => assert.ok((await points()) < 0.85 * before, `${await points()} of ${before}`));
+  await page.getByRole("radio", {name: "Crop"}).click();
+  await button("Whole scan").click();
+  await eventually(async () => assert.equal(await points(), before));
+  assert.equal(await page.locator("#crop").inputValue(), "");
+  await button("Done").click();
+  for (let step = 0; step < 6; ++step) await button("Undo").click();
+  await untilReady(page);
 });
 
 test("colours on the piece what a tool leaves standing", {skip}, async () => {
@@ -146,12 +221,12 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
   await page.getByRole("radio", {name: "Orbit"}).click(); // which it stays in every view
   await page.locator("#stage").focus();
   for (let step = 0; step < 4; ++step) await page.keyboard.press("ArrowRight");
-  await untilReady();
+  await untilReady(page);
   assert.ok((await orange()) > marked / 2);
   await page.locator("#finish").selectOption("reachable");
   await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor();
   for (let step = 0; step < 2; ++step) await button("Undo").click();
-  await untilReady();
+  await untilReady(page);
   assert.ok((await orange()) < before + 500);
   await button("Fit").click();
 });
@@ -160,7 +235,7 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   const size = async () => (await numbers().innerText()).match(/piece ([\d.]+ × [\d.]+)/)[1], before = await size();
   const longer = async () => Number(await text("Longer side in mm")), whole = await longer();
   await page.getByRole("radio", {name: "Place"}).click();
-  await untilReady();
+  await untilReady(page);
   const {x, y, width, height} = await page.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
   await page.mouse.move(...middle);
   for (let notch = 0; notch < 5; ++notch) await page.mouse.wheel(0, 200);
@@ -168,7 +243,7 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   await page.mouse.down();
   await page.mouse.move(middle[0] + 30, middle[1] - 20, {steps: 5});
   await page.mouse.up();
-  await untilReady();
+  await untilReady(page);
   const [right, up] = (await page.locator("#shift").inputValue()).split(",").map(Number);
   assert.ok(right > 2 && up > 1, `${right},${up}`);
   assert.equal(await size(), before, "the plate stays as large as it was");
@@ -180,10 +255,10 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   await page.mouse.up();
   await page.keyboard.up("Shift");
   await page.getByText("Turned by hand").waitFor();
-  await untilReady();
+  await untilReady(page);
   const undo = button("Undo");
   while ((await undo.isEnabled()) && (await longer()) !== whole) await undo.click();
-  await untilReady();
+  await untilReady(page);
   await page.getByRole("radio", {name: "Light", exact: true}).click();
 });
 
@@ -192,7 +267,7 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   await button("Open").click();
   await (await chooser).setFiles(scans);
   await page.getByText("urn + ammonite.json", {exact: true}).waitFor();
-  await untilReady();
+  await untilReady(page);
   await page.locator("#scene li").nth(1).getByText("ammonite.ply").waitFor();
   const width = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
   const [across, up] = await width();
@@ -205,13 +280,48 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   assert.equal(await text("Height in mm"), "5.00");
   await button("Remove urn.ply").click();
   await page.getByText("ammonite.json", {exact: true}).waitFor();
-  await untilReady();
+  await untilReady(page);
   assert.equal(await page.locator("#scene li").count(), 1);
   await engine.stop(); // the scans of a scene stay as long as it does
   engine = await new EngineProcess(path.join(folder, "state")).ready();
   await page.goto(engine.address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
-  await untilReady();
+  await untilReady(page);
+});
+
+// Only the engine's answer tells the page that a document is open: until then the engine refuses to prepare a view.
+test("takes what is changed while a scan is still opening", {skip}, async () => {
+  const other = await page.context().newPage(), answers = [];
+  other.setDefaultTimeout(30000);
+  other.on("response", (response) => answers.push(response.status()));
+  await other.addInitScript(() => {
+    const {fetch} = window;
+    window.fetch = async (url, options) => {
+      if (url === "api/open") await new Promise((resolve) => (window.letOpen = resolve));
+      return fetch(url, options);
+    };
+  });
+  await other.goto(engine.address.replace(/#.*/, ""));
+  await other.waitForFunction(() => document.querySelector("#undo").onclick !== null); // it listens
+  await other.locator("#file").setInputFiles(scans[1]);
+  await other.getByText("ammonite.ply", {exact: true}).waitFor();
+  await eventually(async () => assert.ok(await other.evaluate(() => Boolean(window.letOpen))));
+  assert.ok(await other.getByRole("button", {name: "Choose view"}).isDisabled(), "there is no model yet");
+  await other.locator("#scan").evaluate((panel) => (panel.open = true));
+  await enter(other.locator("#crop"), "0,0.4,1,1");
+  await enter(other.getByRole("spinbutton", {name: "Height in mm"}), "2.5");
+  await other.waitForTimeout(300); // for what would be refused
+  await other.evaluate(() => window.letOpen());
+  await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
+  await untilReady(other);
+  assert.equal(await other.locator("#crop").inputValue(), "0,0.4,1,1");
+  const visible = async () =>
+    Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replace(",", ""));
+  const part = await visible();
+  await enter(other.locator("#crop"), "");
+  await eventually(async () => assert.ok((await visible()) > 1.2 * part, `${await visible()} after ${part}`));
+  assert.deepEqual(answers.filter((status) => status >= 400), []);
+  await other.close();
 });
 
 // Writes a ball on a tilted table, 4 x 4 of its radius, whose points scatter.
@@ -238,7 +348,7 @@ test("finds a table, and leaves it out at the press of a button", {skip}, async 
   writeBallOnTable(table);
   await page.locator("#file").setInputFiles(table);
   await page.getByText(/of 12,000 points/).waitFor();
-  await untilReady();
+  await untilReady(page);
   const before = await points();
   await openPanel("Scan");
   const note = await page.locator("#notes li", {hasText: /^Found a table, \d+ % of the visible points\./}).innerText();
@@ -249,7 +359,7 @@ test("finds a table, and leaves it out at the press of a button", {skip}, async 
     const left = (await points()) / before;
     assert.ok(Math.abs(left - (1 - share)) < 0.06, `${left} left of a table of ${share}`);
   });
-  await untilReady();
+  await untilReady(page);
   assert.ok(!await page.locator("#plane").isChecked());
   await button("Keep it").click();
   await page.getByText(/^Found a table/).waitFor();

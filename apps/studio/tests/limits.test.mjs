@@ -5,7 +5,7 @@ import {readFileSync, readdirSync, writeFileSync} from "node:fs";
 import net from "node:net";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), MIB = 2 ** 20;
 let engine;
@@ -14,8 +14,7 @@ const OPTIONS = {width: 60, height: 2, view: "front"};
 const FRAME = {options: OPTIONS, width: 200, height: 150};
 
 before(async () => {
-  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "20000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("shell", 20000, scan);
   engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
   await engine.open({path: scan});
 });

@@ -4,8 +4,8 @@ import {spawnSync} from "node:child_process";
 import {readFileSync, rmSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, areKindsDrawn, enter, eventually, findBrowser, removeFolder,
-  temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, areKindsDrawn, enter, eventually, findBrowser, removeFolder, temporaryFolder,
+  writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -16,8 +16,7 @@ let browser, engine, page, options;
 
 before(async () => {
   if (skip) return;
-  const made = spawnSync(PROGRAM, ["sample", "still_life", "-o", scan, "--points", "5000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("still_life", 5000, scan);
   browser = await found.launch();
   page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
   page.setDefaultTimeout(30000);

@@ -1,9 +1,9 @@
 // What lies over or beside the piece, on a desk and a phone: lines for people, labels of measures, numbers.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, eventually, findBrowser, removeFolder, temporaryFolder} from "./support.mjs";
+import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
+  writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -15,14 +15,10 @@ let browser, engine, page;
 
 before(async () => {
   if (skip) return;
-  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "8000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("shell", 8000, scan);
   browser = await found.launch();
-  page = await (await browser.newContext({viewport: SCREENS[0]})).newPage();
-  page.setDefaultTimeout(60000);
-  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
-  await page.goto(engine.address);
-  await untilReady();
+  ({engine, page} = await showScan(browser,
+    {state: path.join(folder, "state"), scan, screen: SCREENS[0], timeout: 60000}));
 });
 
 after(async () => {
@@ -30,11 +26,6 @@ after(async () => {
   await engine?.stop();
   removeFolder(folder);
 });
-
-async function untilReady() {
-  await page.getByText(/points.*height/).waitFor();
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-}
 
 const overlap = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
 
@@ -57,7 +48,7 @@ test("keeps the labels of measures apart", {skip}, async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
     await page.getByRole("radio", {name: "Measure"}).click();
-    await untilReady();
+    await untilReady(page);
     const labels = () => page.locator("#overlay rect.ground").evaluateAll((all) =>
       all.map((rect) => rect.getBoundingClientRect().toJSON()));
     await eventually(async () => assert.equal((await labels()).length, 5));
@@ -76,7 +67,7 @@ test("keeps the labels of measures apart", {skip}, async () => {
     }
     await page.mouse.move(0, 0);
     await page.reload();
-    await untilReady();
+    await untilReady(page);
   }
 });
 
@@ -86,8 +77,7 @@ test("draws no more pixels on a large screen than the engine makes", {skip}, asy
   const screen = await large.newPage();
   screen.setDefaultTimeout(60000);
   await screen.goto(engine.address);
-  await screen.getByText(/points.*height/).waitFor();
-  await screen.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await untilReady(screen);
   const {width, height} = await screen.locator("#picture").evaluate(({width, height}) => ({width, height}));
   assert.ok(width * height > 6e6 && width * height <= 8e6, `${width} x ${height}`);
   assert.equal(await screen.getByRole("alert").filter({hasText: /million/}).count(), 0);
@@ -97,7 +87,7 @@ test("draws no more pixels on a large screen than the engine makes", {skip}, asy
 test("shows every state without a scroll bar beside the picture", {skip}, async () => {
   for (const screen of [SCREENS[0], SCREENS[2]]) {
     await page.setViewportSize(screen);
-    const states = ["Turn", "Orbit", "Pan", "Place", "Section", "Measure", "Light"];
+    const states = ["Turn", "Orbit", "Pan", "Place", "Crop", "Section", "Measure", "Light"];
     for (const state of states) {
       await page.getByRole("radio", {name: state, exact: true}).click();
       const bars = await page.evaluate(() => ["html", "body", "main", ".studio", ".viewer", "#stage"]
@@ -105,13 +95,108 @@ test("shows every state without a scroll bar beside the picture", {skip}, async 
         .filter(([, it]) => it.offsetWidth - it.clientWidth > 2 || it.scrollHeight > it.clientHeight + 1 ||
           it.scrollWidth > it.clientWidth + 1).map(([name]) => name));
       assert.deepEqual(bars, [], `${state} at ${screen.width}`);
+      const rows = await page.locator(".tools > *").evaluateAll((all) => new Set(all
+        .map((group) => group.getBoundingClientRect()).map(({y, height}) => Math.round(y + height / 2))).size);
+      assert.equal(rows, 1, `tools at ${screen.width}`);
     }
   }
 });
 
+// Returns for each quarter of the figure by how many pixels the edges of the model are off those of the relief.
+const edgesOff = () => page.evaluate(async () => {
+  const {width, height} = document.querySelector("#picture");
+  const edges = (id) => {
+    const {data} = document.querySelector(id).getContext("2d").getImageData(0, 0, width, height);
+    return Float32Array.from({length: width * height}, (_, i) => {
+      const at = (j) => data[4 * j + 3] / 255 * data[4 * j + 1];
+      return Math.min(60, Math.hypot(at(i + 1) - at(i), at(i + width) - at(i)) || 0);
+    });
+  };
+  const [model, relief] = [edges("#before"), edges("#picture")], [low, high] = window.figure;
+  const alike = ([left, top, right, bottom], dx, dy) => {
+    let sum = 0;
+    for (let y = top; y < bottom; ++y)
+      for (let x = left; x < right; ++x) sum += relief[y * width + x] * model[(y + dy) * width + x + dx];
+    return sum;
+  };
+  const [middleX, middleY] = [0, 1].map((k) => Math.round((low[k] + high[k]) / 2));
+  const quarters = [[low[0], low[1], middleX, middleY], [middleX, low[1], high[0], middleY],
+    [low[0], middleY, middleX, high[1]], [middleX, middleY, high[0], high[1]]];
+  return quarters.map((quarter) => {
+    let best = [0, 0, 0];
+    for (let dy = -12; dy <= 12; ++dy)
+      for (let dx = -12; dx <= 12; ++dx) {
+        const sum = alike(quarter, dx, dy);
+        if (sum > best[0]) best = [sum, dx, dy];
+      }
+    return Math.max(Math.abs(best[1]), Math.abs(best[2]));
+  });
+});
+
+test("lays the model over the relief, wherever that stands on its plate, and mirrored", {skip}, async () => {
+  await page.setViewportSize(SCREENS[0]);
+  await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail: {about}}) => {
+    const {width, height, pixels_per_mm: scale, relief_mm: [[left, bottom], [right, top]]} = about;
+    window.figure = [[left, -top], [right, -bottom]]
+      .map(([x, y]) => [Math.round(width / 2 + x * scale), Math.round(height / 2 + y * scale)]);
+  }));
+  await page.getByRole("button", {name: "Compare"}).click();
+  const kinds = {relief: {"#plate": "200x150", "#shift": "30,10"}, coin: {"#diameter": "60"}, die: {}};
+  for (const [kind, fields] of Object.entries(kinds)) {
+    await page.locator(`[data-kind="${kind}"]`).click();
+    for (const [field, value] of Object.entries(fields)) await enter(page.locator(field), value);
+    await eventually(async () => {
+      await untilReady(page);
+      const off = (await edgesOff()).sort((a, b) => a - b); // one quarter may have walls that slope
+      assert.ok(off[2] <= 2 && off[3] <= 6, `${kind}: ${off}`);
+    });
+  }
+  await page.getByRole("button", {name: "Compare"}).click();
+  await page.locator('[data-kind="relief"]').click();
+});
+
+test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}, async (context) => {
+  if (found.name !== "chromium") return context.skip("only Chromium takes made-up pens");
+  const touched = await browser.newContext({viewport: SCREENS[1], hasTouch: true});
+  const tablet = await touched.newPage(), cdp = await touched.newCDPSession(tablet);
+  tablet.setDefaultTimeout(60000);
+  await tablet.goto(engine.address);
+  await untilReady(tablet);
+  await tablet.evaluate(() => ["pointerdown", "pointermove"].forEach((type) =>
+    document.querySelector("#stage").addEventListener(type, (event) => (window.pointer = event.pointerType), true)));
+  const pen = (type, x, y, rest = {}) => cdp.send("Input.dispatchMouseEvent",
+    {type, x, y, pointerType: "pen", button: "left", buttons: 1, force: 0.5, clickCount: 1, ...rest});
+  const {x, y, width, height} = await tablet.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
+  const sun = () => tablet.locator("#overlay .sun").evaluate((circle) =>
+    ["cx", "cy"].map((name) => Number(circle.getAttribute(name))));
+  await pen("mousePressed", ...middle);
+  await pen("mouseMoved", middle[0] + 60, middle[1] - 40);
+  const palm = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
+  await palm("touchStart", [{x: x + 30, y: y + 30, id: 5}]);
+  await palm("touchEnd", []);
+  await pen("mouseMoved", middle[0] + 80, middle[1] - 50);
+  assert.equal(await tablet.evaluate(() => window.pointer), "pen");
+  const [sunX, sunY] = await sun();
+  assert.ok(Math.hypot(sunX - width / 2 - 80, sunY - height / 2 + 50) < 2, `${sunX} ${sunY}`);
+  await pen("mouseReleased", middle[0] + 80, middle[1] - 50, {buttons: 0});
+  assert.equal(await tablet.locator("#overlay .sun").count(), 0);
+  await tablet.getByRole("button", {name: "Undo"}).click();
+  assert.ok(await tablet.getByRole("button", {name: "Undo"}).isDisabled(), "one stroke is one step");
+  await tablet.getByRole("radio", {name: "Crop"}).click();
+  const frame = tablet.locator("#crop-frame .frame"), whole = await frame.boundingBox();
+  await pen("mousePressed", whole.x + whole.width, whole.y + whole.height / 2);
+  await pen("mouseMoved", whole.x + whole.width / 2, whole.y + whole.height / 2);
+  await pen("mouseReleased", whole.x + whole.width / 2, whole.y + whole.height / 2, {buttons: 0});
+  await eventually(async () => assert.match(await tablet.locator("#crop").inputValue(), /^0,0,0\.(49|5)\d*,1$/));
+  await tablet.getByRole("button", {name: "Undo"}).click();
+  await untilReady(tablet);
+  await touched.close();
+});
+
 test("tells frames in a second while things move, and not at rest", {skip}, async () => {
   await page.setViewportSize(SCREENS[2]);
-  await untilReady();
+  await untilReady(page);
   const numbers = page.locator("#numbers"), {x, y, width, height} = await page.locator("#stage").boundingBox();
   await page.evaluate(() => {
     window.told = [];
@@ -126,6 +211,6 @@ test("tells frames in a second while things move, and not at rest", {skip}, asyn
     assert.ok(await page.evaluate(() => window.told.some((text) => /\d frames\/s/.test(text))));
   });
   await page.mouse.up();
-  await untilReady();
+  await untilReady(page);
   assert.doesNotMatch(await numbers.textContent(), /frames\/s/);
 });

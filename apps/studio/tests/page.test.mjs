@@ -5,7 +5,7 @@ import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {EngineProcess, PROGRAM, doubleClick, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
-  temporaryFolder, type} from "./support.mjs";
+  temporaryFolder, type, untilReady, writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -17,8 +17,7 @@ const complaints = [];
 
 before(async () => {
   if (skip) return;
-  const made = spawnSync(PROGRAM, ["sample", "still_life", "-o", scan, "--points", "30000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("still_life", 30000, scan);
   browser = await found.launch();
   page = await (await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true})).newPage();
   page.setDefaultTimeout(60000);
@@ -110,11 +109,6 @@ async function openFile(file) {
   await (await chooser).setFiles(file);
 }
 
-async function untilReady() {
-  await page.getByText(/points.*height/).waitFor();
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-}
-
 async function saveAs(trigger, file) {
   const [{bytes}] = await savedFiles(found, page, 1, trigger);
   writeFileSync(file, bytes);
@@ -126,7 +120,7 @@ async function choose(side) {
   await page.getByRole("group", {name: "Sides"}).getByRole("button", {name: side, exact: true}).click();
   await button("Use this view").click();
   await page.getByText(side, {exact: true}).first().waitFor();
-  await untilReady();
+  await untilReady(page);
 }
 
 test("opens a sample and shows its progress, and a coarse relief until the exact one is there", {skip}, async () => {
@@ -139,7 +133,7 @@ test("opens a sample and shows its progress, and a coarse relief until the exact
   }));
   await page.getByRole("list", {name: "Try a sample"}).getByRole("button", {name: /green man/i}).click();
   await page.getByRole("progressbar", {name: "Preparing"}).waitFor();
-  await untilReady();
+  await untilReady(page);
   assert.match(await numbers().innerText(), /[\d,]+ of 300,000 points/);
   assert.equal((await areExact)[0], false);
 });
@@ -149,7 +143,7 @@ test("opens a scan of the browser", {skip}, async () => {
   await page.getByText("scan.ply", {exact: true}).waitFor();
   await page.getByRole("alert").getByText(/^Your work on .* is kept/).waitFor();
   await page.getByText("of 30,000 points").waitFor();
-  await untilReady();
+  await untilReady(page);
 });
 
 test("drags the height: number and picture change", {skip}, async () => {
@@ -266,7 +260,7 @@ test("has sliders, defaults and units of the engine's options", {skip}, async ()
     assert.equal(Boolean(unit), ["MM", "DEG", "W"].includes(engineUnit), name);
     assert.ok(first[name] >= hand[0] && first[name] <= hand[1], `${name} ${first[name]}`);
     assert.equal(first[name], Number(first[name].toFixed(decimals)), name);
-    const number = page.getByRole("spinbutton", {name: new RegExp(`^${label} `)});
+    const number = page.getByRole("spinbutton", {name: new RegExp(`^${label} `), includeHidden: true});
     const range = [await number.getAttribute("aria-valuemin"), await number.getAttribute("aria-valuemax")];
     assert.deepEqual(range, [`${min}`, `${max}`], name);
   }
@@ -419,7 +413,7 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   const coarse = await picture();
   await page.mouse.up();
   await viewIs("Turned by hand");
-  await untilReady();
+  await untilReady(page);
   await becomesOther(coarse);
   const exact = await picture();
   await button("Undo").click();
@@ -448,7 +442,7 @@ test("chooses another view in the background", {skip}, async () => {
   await page.getByRole("application", {name: /^Model/}).press("ArrowRight");
   await button("Use this view").click();
   await page.getByText("Turned by hand").waitFor();
-  await untilReady();
+  await untilReady(page);
 });
 
 test("saves a project, opens it again, and makes the same bytes of it", {skip}, async () => {
@@ -463,7 +457,7 @@ test("saves a project, opens it again, and makes the same bytes of it", {skip}, 
   await choose("Front");
   await openFile(file);
   await page.getByText("Turned by hand").waitFor();
-  await untilReady();
+  await untilReady(page);
   assert.equal(await value("Height in mm"), 2.5);
   await untilHeight(2.5, 0.01);
   await becomesSame(shown);
@@ -494,7 +488,7 @@ test("tells the size of the file beforehand", {skip}, async () => {
 
 test("exports several files at once, named for their form, and can be cancelled", {skip}, async () => {
   await page.locator("#form").selectOption("mirror");
-  await untilReady();
+  await untilReady(page);
   await button("Export").click();
   const dialog = page.getByRole("dialog", {name: "Export"});
   await dialog.getByText(/triangles/).waitFor();
@@ -513,7 +507,7 @@ test("exports several files at once, named for their form, and can be cancelled"
   for (const name of ["3mf", "heightmap"])
     await page.locator(`#formats [value="${name}"]`).evaluate((box) => (box.checked = false));
   for (let step = 0; step < 2; ++step) await button("Undo").click();
-  await untilReady();
+  await untilReady(page);
 });
 
 test("can be used by the keyboard alone", {skip}, async () => {
@@ -593,7 +587,7 @@ test("goes on after a reload and after a new start of the engine", {skip}, async
   await set("Margin in mm", 7);
   const shown = await picture();
   await page.reload();
-  await untilReady();
+  await untilReady(page);
   assert.equal(await value("Margin in mm"), 7);
   await becomesSame(shown);
   await page.waitForTimeout(500);
@@ -602,7 +596,7 @@ test("goes on after a reload and after a new start of the engine", {skip}, async
   await page.getByRole("alert").getByText(/engine has stopped/).waitFor();
   await start();
   complaints.length = 0;  // of the time without an engine
-  await untilReady();
+  await untilReady(page);
   assert.equal(await value("Margin in mm"), 7);
   await becomesSame(shown);
   await button("Undo").click();
@@ -669,7 +663,7 @@ test("has no findings of axe, light and dark and in forced colours", {skip}, asy
 
 test("has everything within reach on a phone", {skip}, async () => {
   await page.setViewportSize({width: 390, height: 844});
-  await untilReady();
+  await untilReady(page);
   const beyond = () => page.evaluate(() => [...document.querySelectorAll(
     "header button, #stage, .inspector summary, dialog[open] button, dialog[open] input, #drop, .cards button")]
     .filter((element) => element.checkVisibility()).filter((element) => {

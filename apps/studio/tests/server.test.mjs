@@ -6,7 +6,7 @@ import net from "node:net";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {fileURLToPath} from "node:url";
-import {EngineProcess, PROGRAM, readStl, removeFolder, temporaryFolder} from "./support.mjs";
+import {EngineProcess, PROGRAM, readStl, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
 let engine;
@@ -15,8 +15,7 @@ const OPTIONS = {width: 60, height: 2, view: "front"};
 const FRAME = {options: OPTIONS, width: 200, height: 150};
 
 before(async () => {
-  const made = spawnSync(PROGRAM, ["sample", "shell", "-o", scan, "--points", "20000"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  writeSample("shell", 20000, scan);
   engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
   await engine.open({path: scan});
 });
@@ -254,15 +253,6 @@ test("tells the size of the piece, and cuts the piece that the file will be", as
   const wide = await engine.post("frame", {...FRAME, options: {...coin, width: most + 1}});
   assert.equal(wide.status, 422);
   assert.match(String(wide.body), /width: expected at most [\d.]+ mm, which the plate leaves/);
-});
-
-test("numbers what a picture shows besides the relief", async () => {
-  const {scene} = await frame();
-  assert.equal((await frame({options: {...OPTIONS, saturation: 0.3, height: 1, method: "paper"}})).scene, scene);
-  assert.equal((await frame({original: true})).scene, scene);
-  for (const part of [{light: [1, 0, 1]}, {width: 150}, {fine: true}, {camera: {yaw: 5}}, {material: "silver"},
-    {options: {...OPTIONS, margin: 6}}, {options: {...OPTIONS, width: 50}}])
-    assert.notEqual((await frame(part)).scene, (await frame()).scene, JSON.stringify(part));
 });
 
 test("makes a frame once", async () => {

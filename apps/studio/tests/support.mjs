@@ -1,5 +1,6 @@
 // Helpers of the studio's tests: the engine as a process, its page in Chromium or Firefox, and temporary files.
-import {spawn} from "node:child_process";
+import assert from "node:assert/strict";
+import {spawn, spawnSync} from "node:child_process";
 import {existsSync, mkdtempSync, readFileSync, readdirSync, rmSync} from "node:fs";
 import http from "node:http";
 import {tmpdir} from "node:os";
@@ -92,6 +93,28 @@ export class EngineProcess {
     this.child.kill(signal);
     return this.ended;
   }
+}
+
+// Writes a sample of so many points into a file.
+export function writeSample(sample, points, file) {
+  const made = spawnSync(PROGRAM, ["sample", sample, "-o", file, "--points", String(points)]);
+  assert.equal(made.status, 0, String(made.stderr));
+}
+
+// Waits until the relief is shown as it will be exported.
+export async function untilReady(page) {
+  await page.getByText(/points.*height/).waitFor();
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+}
+
+// Starts an engine with a scan, and shows it in a new page of the browser. Returns {engine, page}.
+export async function showScan(browser, {state, scan, screen = {width: 1280, height: 800}, timeout = 30000}) {
+  const page = await (await browser.newContext({viewport: screen})).newPage();
+  page.setDefaultTimeout(timeout);
+  const engine = await new EngineProcess(state, scan).ready();
+  await page.goto(engine.address);
+  await untilReady(page);
+  return {engine, page};
 }
 
 // Runs in the page: whether each kind of work has its picture.

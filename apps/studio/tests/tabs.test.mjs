@@ -1,11 +1,10 @@
 // Several tabs of one browser on one studio.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import {renameSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, enter, findBrowser, readStl, removeFolder, savedFiles,
-  temporaryFolder} from "./support.mjs";
+import {EngineProcess, enter, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder, untilReady,
+  writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -17,10 +16,8 @@ let browser, context, engine;
 
 before(async () => {
   if (skip) return;
-  for (const [sample, points] of [["still_life", 20000], ["shell", 6000], ["green_man", 5000]]) {
-    const made = spawnSync(PROGRAM, ["sample", sample, "-o", fileOf(sample), "--points", String(points)]);
-    assert.equal(made.status, 0, String(made.stderr));
-  }
+  for (const [sample, points] of [["still_life", 20000], ["shell", 6000], ["green_man", 5000]])
+    writeSample(sample, points, fileOf(sample));
   browser = await found.launch();
   context = await browser.newContext({viewport: {width: 1000, height: 700}, acceptDownloads: true});
   engine = await new EngineProcess(state, scan).ready();
@@ -38,11 +35,6 @@ async function newTab() {
   await tab.goto(engine.address);
   await untilReady(tab);
   return tab;
-}
-
-async function untilReady(tab) {
-  await tab.getByText(/points.*height/).waitFor();
-  await tab.locator('[role="application"][aria-busy="false"]').first().waitFor();
 }
 
 test("works in nine tabs at once, whichever has the stream of events", {skip}, async () => {

@@ -1,0 +1,83 @@
+// Compares the relief with the model: a picture of the model lies over that of the relief, as large and in the same
+// place. The engine fits each picture to its own plate, and the model's is no larger than the figure with its margin.
+
+import {$, clamp, make} from "./controls.js";
+
+const ALIKE = 1e-3; // scales that differ by less differ by less than a pixel
+const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // as the engine takes it
+
+export class Comparing {
+  constructor(stage) {
+    this.stage = stage;
+    this.canvas = $("#before");
+    this.split = 0.5;
+    this.ratio = 1; // of the zoom with which the engine draws the model to that of the relief
+  }
+
+  get isShown() {
+    return Boolean(this.isComparing || this.isHolding);
+  }
+
+  // Shows the model beside the relief (isComparing) or in its place (isHolding).
+  set(how) {
+    Object.assign(this, how);
+    this.canvas.hidden = !this.isShown;
+    this.setSplit(this.split);
+    this.stage.invalidate();
+  }
+
+  setSplit(share) {
+    const {stage, isComparing, isHolding} = this;
+    this.split = share;
+    this.canvas.style.clipPath = isHolding ? "none" : `inset(0 ${(1 - share) * 100}% 0 0)`;
+    const cut = isComparing ? `inset(0 0 0 ${share * 100}%)` : "none";
+    stage.picture.style.clipPath = isHolding ? "inset(100%)" : cut;
+    stage.drawOverlay();
+  }
+
+  marks({width, height}) {
+    const x = this.split * width;
+    return this.isComparing && !this.isHolding
+      ? [make("line", {class: "divide", x1: x, y1: 0, x2: x, y2: height})] : [];
+  }
+
+  // Returns the request for the model's picture. Its camera looks at the middle of the figure, which may stand anywhere
+  // on the plate; a figure that is mirrored is drawn from the other side, as is its light.
+  request(isFine) {
+    const {stage} = this, request = stage.request({...stage.pixels(isFine), fine: isFine, original: true});
+    const {camera, light} = request, [x, y] = stage.figureMiddle(), sign = this.isMirrored ? -1 : 1;
+    request.camera = {...camera, yaw: sign * camera.yaw, x: sign * (camera.x - x), y: camera.y - y};
+    request.light = [sign * light[0], light[1], light[2]];
+    return request;
+  }
+
+  get isMirrored() {
+    return this.stage.on.placing.isMirrored;
+  }
+
+  // Draws the model as the picture shows the relief, unless it was drawn so before.
+  async draw(isFine) {
+    const request = this.request(isFine), {stage} = this, {zoom} = request.camera, {options, ...rest} = request;
+    const {margin, thickness, form} = options, {width_mm: width} = stage.about;
+    const key = JSON.stringify([stage.model, stage.pixelsPerMm, width, margin, thickness, form, rest]);
+    if (key === this.drawn) return;
+    for (let isAgain = false; ; isAgain = true) {
+      request.camera.zoom = clamp(zoom * this.ratio, LEAST_ZOOM, MOST_ZOOM);
+      const {image, about} = await stage.engine.frame(request);
+      const wrong = stage.pixelsPerMm / (about.pixels_per_mm * stage.size.width / image.width);
+      if (isAgain || Math.abs(wrong - 1) < ALIKE) return this.paint(image, key);
+      this.ratio *= wrong;
+    }
+  }
+
+  paint(image, key) {
+    this.drawn = key;
+    const {canvas} = this, context = canvas.getContext("2d");
+    [canvas.width, canvas.height] = [image.width, image.height];
+    context.putImageData(image, 0, 0);
+    if (!this.isMirrored) return;
+    context.globalCompositeOperation = "copy";
+    context.setTransform(-1, 0, 0, 1, image.width, 0);
+    context.drawImage(canvas, 0, 0);
+  }
+}

@@ -1,0 +1,71 @@
+// The sliders on the page, with the lock of the height: shows the document's values, and changes them.
+
+import {defaultOf} from "./about.js";
+import {$, Slider, lockButton} from "./controls.js";
+import {FIRST} from "./document.js";
+import {FIELDS} from "./fields.js";
+import {lengthText, shown} from "./lengths.js";
+
+const SHAPING = ["detail", "boundary", "steepest", "steps"]; // of which a lithophane has none: depth alone makes it
+
+export class Sliders {
+  // `frame` returns the numbers of the newest picture, or null; `say` takes a line for people.
+  constructor({doc, frame, say}) {
+    Object.assign(this, {doc, frame});
+    this.lock = lockButton(() => this.toggleLock());
+    const make = ([name, field]) => new Slider(
+      {...field, extra: name === "height" ? this.lock : null, otherwise: FIRST.options[name]},
+      (value) => this.slide(name, value), () => doc.endStroke(name), say);
+    this.all = Object.fromEntries(Object.entries(FIELDS).map((field) => [field[0], make(field)]));
+    for (const [name, slider] of Object.entries(this.all)) {
+      slider.number.dataset.option = name;
+      $(FIELDS[name].place).append(slider.element);
+    }
+  }
+
+  // The elements by the names of their options.
+  get elements() {
+    return Object.fromEntries(Object.entries(this.all).map(([name, {element}]) => [name, element]));
+  }
+
+  shownWidth() {
+    return Number((this.doc.now.options.width ?? this.frame()?.width_mm ?? defaultOf("width")).toFixed(4));
+  }
+
+  // Marks the width that a plate of a given size leaves.
+  showWidth() {
+    const most = this.frame()?.most_width_mm ?? null;
+    this.all.width.show(this.shownWidth());
+    this.all.width.showMark(most, most && `The plate leaves ${lengthText(most)} ${shown.unit}`);
+  }
+
+  slide(name, value) {
+    const part = {options: {[name]: value}}, most = this.frame()?.most_width_mm ?? Infinity, {doc} = this;
+    if (name === "width" && value >= most) part.options.width = null; // as wide as the plate leaves
+    if (name === "height") part.u = null; // to be found anew
+    doc.change(part, name);
+    if (name === "width") this.showWidth();
+    else if (doc.now.options[name] !== value) this.all[name].show(doc.now.options[name]); // the drag was taken back
+  }
+
+  toggleLock() {
+    const {isHeightLocked} = this.doc.now;
+    this.doc.change({isHeightLocked: !isHeightLocked, u: isHeightLocked ? this.frame()?.u ?? null : null});
+  }
+
+  showUnit() {
+    for (const slider of Object.values(this.all)) slider.showUnit();
+  }
+
+  // Shows the document's values.
+  show() {
+    const {options, isHeightLocked} = this.doc.now, isShaped = options.form !== "lithophane";
+    for (const [name, slider] of Object.entries(this.all)) slider.show(options[name] ?? this.shownWidth());
+    this.showWidth();
+    for (const name of SHAPING) this.all[name].disabled = !isShaped;
+    this.all.saturation.disabled = !isShaped || options.tone !== "";
+    this.all.corner.element.hidden = options.outline !== "round";
+    this.all.margin.disabled = options.outline === "none";
+    this.lock.setAttribute("aria-pressed", isHeightLocked);
+  }
+}
