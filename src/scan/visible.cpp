@@ -116,8 +116,8 @@ class Visibility {
     return is_kept;
   }
 
-  // Returns whether a disc of that radius around a point covers another point, lies before it by more than its own slope explains, and
-  // not where the other point's slope leads up to.
+  // Returns whether a disc of that radius around a point covers another point, lies before it by more than its own
+  // slope explains, and not where the other point's slope leads up to.
   bool hides(Index i, Index other) const {
     const Vec3 step = cloud_.points[other] - cloud_.points[i];
     const double along = depth_along_plane(cloud_.normals[i], step.x(), step.y());
