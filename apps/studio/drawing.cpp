@@ -133,12 +133,6 @@ CachedFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
   return is_exact ? frames_.exact(wanted) : frames_.quick(wanted);
 }
 
-std::uint64_t Drawing::number_of_scene(const RenderOptions& render) {
-  if (scene_ > 0 && render == scene_options_) return scene_;
-  scene_options_ = render;
-  return ++scene_;
-}
-
 // Returns the corners of the relief's box from the middle of the piece.
 std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
                                                       const ReliefOptions& options) const {
@@ -197,7 +191,6 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   RELIEVO_TRY(request.options, plate_width_.with_width(model_->surface(), request.options));
   RenderOptions options = render_options(request);
   PictureAnswer answer;
-  answer.scene = number_of_scene(options);
   answer.width_mm = request.options.effective_width_mm();
   answer.most_width_mm = plate_width_.most_mm();
   if (request.is_original) {

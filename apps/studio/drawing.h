@@ -46,7 +46,6 @@ struct PictureAnswer {
   Picture picture;
   bool is_finished = false;  // shows the piece as export makes it, or the model itself
   bool is_plain = false;     // the piece is one that frames show, too
-  std::uint64_t scene = 0;   // number of what the picture shows besides the relief: plate, camera, light ...
   double drawing_s = 0;
   double width_mm = 0;                  // of the relief's longer side
   Vec3 size_mm = Vec3::Zero();          // of the piece
@@ -130,7 +129,6 @@ class Drawing {
   double mm_per_unit(const ReliefOptions& options) const;
   FrameOptions frame_options(const PictureRequest& request);
   CachedFrame frame(const PictureRequest& request, bool is_exact);
-  std::uint64_t number_of_scene(const RenderOptions& render);
   std::optional<std::array<Vec2, 2>> relief_in(const Solid& solid, const ReliefOptions& options) const;
   PieceOrder order_of(const PictureRequest& request, const CachedFrame& cached) const;
   Result<void> draw(const PictureRequest& request, const RenderOptions& render, const CachedFrame& cached,
@@ -146,8 +144,6 @@ class Drawing {
   SharedToneCurve tone_curve_;
   PlateWidth plate_width_;
   bool is_frozen_ = false;
-  std::uint64_t scene_ = 0;
-  RenderOptions scene_options_;  // of the scene of that number
 };
 
 }  // namespace relievo::app::studio

@@ -227,7 +227,6 @@ Json to_json(const PictureAnswer& answer) {
           {"pixels_per_mm", answer.picture.pixels_per_mm},
           {"is_finished", answer.is_finished},
           {"is_plain", answer.is_plain},
-          {"scene", answer.scene},
           {"curve", {{"share", rounded(answer.curve.share)}, {"kept", rounded(answer.curve.kept)}}},
           {"height_mm", answer.height_mm},
           {"width_mm", answer.width_mm},

@@ -43,5 +43,18 @@ TEST(SmallPatches, InFrontStay) {
   EXPECT_GT(points_at(surface, .5), 20U);
 }
 
+// A patch beside a wall, behind its edge: the gap of 3.5 spacings between them hides that they are apart, because the
+// patch is so steep that it could lead up to the wall.
+TEST(SmallPatches, BeyondAGapAreLeftOut) {
+  Cloud cloud = window(0, 0);
+  const double edge = .495, step = .01;
+  for (int i = 0; i < 49; ++i) {
+    const Vec2 at(edge + (i % 7 + 3.5) * step, (i / 7) * step);
+    test::add(cloud, {at.x(), at.y(), -.04 - 2 * (at.x() - edge - 3.5 * step)}, Vec3(2, 0, 1).normalized());
+  }
+  const Surface surface = *find_surface(cloud, View{});
+  for (const Vec3& p : surface.points) EXPECT_LT((p + surface.centre).x(), edge + 2 * step);
+}
+
 }  // namespace
 }  // namespace relievo

@@ -255,15 +255,6 @@ test("tells the size of the piece, and cuts the piece that the file will be", as
   assert.match(String(wide.body), /width: expected at most [\d.]+ mm, which the plate leaves/);
 });
 
-test("numbers what a picture shows besides the relief", async () => {
-  const {scene} = await frame();
-  assert.equal((await frame({options: {...OPTIONS, saturation: 0.3, height: 1, method: "paper"}})).scene, scene);
-  assert.equal((await frame({original: true})).scene, scene);
-  for (const part of [{light: [1, 0, 1]}, {width: 150}, {fine: true}, {camera: {yaw: 5}}, {material: "silver"},
-    {options: {...OPTIONS, margin: 6}}, {options: {...OPTIONS, width: 50}}])
-    assert.notEqual((await frame(part)).scene, (await frame()).scene, JSON.stringify(part));
-});
-
 test("makes a frame once", async () => {
   const options = {...OPTIONS, saturation: 0.7};
   assert.ok((await frame({options, fine: true})).solves >= 1);

@@ -9,6 +9,7 @@
 #include "geometry/hilbert.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
+#include "scan/outlines/notches.h"
 #include "scan/outlines/row_points.h"
 
 namespace relievo {
@@ -241,7 +242,7 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines) {
   Surface before = surface;
   const ExactOutlines exact(known_outlines, surface.rho);
-  exact.open_gaps(before);
+  exact.empty() ? open_notches(before) : exact.open_gaps(before);
   if (!drop_crumbs(before)) return;
   surface.crumbs = before.crumbs;
   const PlanePoints plane(before);

@@ -14,7 +14,10 @@ namespace {
 constexpr std::size_t least_patch = 60;
 constexpr double least_behind = .7;  // share of the jumps around it beyond which something nearer is
 
-// The jumps between points of a patch and others.
+// Edges longer than this, in rho, cross places that the scan does not show: they do not connect points.
+constexpr double connection_length = 3;
+
+// The jumps and gaps between points of a patch and others.
 struct Rim {
   std::uint32_t jumps = 0, behind = 0;
 };
@@ -36,7 +39,8 @@ std::vector<std::uint8_t> points_to_keep(const Surface& surface) {
   for (std::size_t t = 0; t < triangles.size(); ++t)
     for (std::size_t k = 0; k < 3 && surface.boundary.is_inside[t]; ++k) {
       const Index a = triangles[t][k], b = triangles[t][(k + 1) % 3];
-      if (is_occlusion(surface, a, b))
+      const double length = (surface.points[a] - surface.points[b]).head<2>().norm();
+      if (is_occlusion(surface, a, b) || length > connection_length * surface.rho)
         jumps.push_back({a, b});
       else
         patches.join(a, b);

@@ -1,0 +1,55 @@
+#include "scan/outlines/notches.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double half_opening = .1;  // slope of each lip's edge
+
+// Two lips: half cylinders of radius 0.2 along lines that meet at x = 0. The upper one lies behind.
+Cloud lips(std::size_t n) {
+  test::Random random(5);
+  Cloud cloud;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double side = random.uniform() < .5 ? 1 : -1, angle = random.uniform(0, 3.141592653589793);
+    const Vec3 along = Vec3(1, side * half_opening, 0).normalized();
+    const Vec3 up(-along.y(), along.x(), 0);
+    const Vec3 normal = std::cos(angle) * up + std::sin(angle) * Vec3::UnitZ();
+    const Vec3 axis = random.uniform(-1, 1) * along + side * .2 * up;
+    test::add(cloud, axis + .2 * normal - Vec3(0, 0, side > 0 ? .5 : 0), normal);
+  }
+  return cloud;
+}
+
+// Returns the largest x of the places between the lips, on the middle line, that lie in a triangle inside.
+double end_of_notch(const Surface& surface) {
+  double end = -1;
+  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
+    if (!surface.boundary.is_inside[t]) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = [&](std::size_t k) -> Vec3 {
+        return surface.points[surface.triangulation.triangles[t][k % 3]] + surface.centre;
+      };
+      const Vec3 a = at(i), b = at(i + 1);
+      if (a.y() * b.y() < 0) end = std::max(end, a.x() - a.y() * (b.x() - a.x()) / (b.y() - a.y()));
+    }
+  }
+  return end;
+}
+
+TEST(Notches, BetweenTwoSurfacesAreOpenAsFarAsPointsShow) {
+  for (const std::size_t n : {40000, 160000}) {
+    const Surface surface = *find_surface(lips(n), View{});
+    const double width = 2 * half_opening * end_of_notch(surface) / surface.rho;
+    EXPECT_LT(width, 3);
+    EXPECT_GT(width, 0);
+  }
+}
+
+}  // namespace
+}  // namespace relievo
