@@ -21,9 +21,6 @@ constexpr double connection_length = 3;
 // A fragment has at most the visible points divided by this, or a cloud of few points would be nothing else.
 constexpr std::size_t fragment_divisor = 8;
 constexpr double least_facing = .1;  // limits the tolerance along the view where a surface is seen edge on
-// Radius, in local spacings, of the disc with which a point hides steep ones of another surface. Larger discs
-// overhang its edge, where such points are visible; a random sample leaves exp(-pi) = 4 % of the plane uncovered.
-constexpr double hiding_radius = 1;
 // Hole fill points come from well sampled surfaces only, and are this far apart, in rho.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
@@ -66,65 +63,22 @@ class Visibility {
     buffer.splat(discs);
     std::vector<std::uint8_t> is_front(facing.size());
     parallel_for(facing.size(), [&](std::size_t j) { is_front[j] = is_in_front(facing[j], buffer); });
-    keep_marked(is_front, facing);
-    keep_marked(not_behind_others(buffer, facing), facing);
+    std::size_t kept = 0;
+    for (std::size_t j = 0; j < facing.size(); ++j)
+      if (is_front[j]) facing[kept++] = facing[j];
+    facing.resize(kept);
     return facing;
   }
 
-  static void keep_marked(const std::vector<std::uint8_t>& is_kept, std::vector<Index>& points) {
-    std::size_t kept = 0;
-    for (std::size_t j = 0; j < points.size(); ++j)
-      if (is_kept[j]) points[kept++] = points[j];
-    points.resize(kept);
-  }
-
-  // Returns how far a point lies behind the buffer. Compares depths at the centre of the point's pixel, where the
-  // buffer's depth was computed: on a slope the depth there differs from the point's own.
-  double distance_behind(Index i, const DepthBuffer& buffer) const {
+  // Compares depths at the centre of the point's pixel, where the buffer's depth was computed: on a slope the
+  // depth there differs from the point's own.
+  bool is_in_front(Index i, const DepthBuffer& buffer) const {
     const Vec3& p = cloud_.points[i];
     const Vec2 step = buffer.pixel_centre(p.x(), p.y()) - p.head<2>();
-    return static_cast<double>(buffer.depth(p.x(), p.y())) - p.z() -
-           depth_along_plane(cloud_.normals[i], step.x(), step.y());
-  }
-
-  double flat_tolerance(Index i) const { return options_.depth_tolerance * local_spacing(i); }
-
-  // The steeper a surface is, the farther it lies behind discs of its own that overhang it.
-  double tolerance(Index i) const {
-    return flat_tolerance(i) / std::max(static_cast<double>(cloud_.normals[i].z()), least_facing);
-  }
-
-  bool is_in_front(Index i, const DepthBuffer& buffer) const {
-    return distance_behind(i, buffer) <= tolerance(i);
-  }
-
-  // Returns per point in front whether no other surface hides it. The tolerance of a steep point, up to 20 spacings,
-  // would let through what lies behind another surface near its edge.
-  std::vector<std::uint8_t> not_behind_others(const DepthBuffer& buffer,
-                                              const std::vector<Index>& front) const {
-    std::vector<Vec2> places(front.size());
-    for (std::size_t j = 0; j < front.size(); ++j) places[j] = cloud_.points[front[j]].head<2>();
-    const KdTree<Vec2> tree(places);
-    std::vector<std::uint8_t> is_kept(front.size(), 1);
-    parallel_for(front.size(), [&](std::size_t j) {
-      if (distance_behind(front[j], buffer) <= flat_tolerance(front[j])) return;
-      std::vector<KdTree<Vec2>::Match> around;
-      tree.within(places[j], hiding_radius * largest_spacing * spacing_.rho, around);
-      is_kept[j] =
-          std::ranges::none_of(around, [&](const auto& m) { return hides(front[m.first], front[j]); });
-    });
-    return is_kept;
-  }
-
-  // Returns whether a disc of that radius around a point covers another point, lies before it by more than its own
-  // slope explains, and not where the other point's slope leads up to.
-  bool hides(Index i, Index other) const {
-    const Vec3 step = cloud_.points[other] - cloud_.points[i];
-    const double along = depth_along_plane(cloud_.normals[i], step.x(), step.y());
-    const double radius = hiding_radius * local_spacing(i);
-    if (step.head<2>().squaredNorm() + along * along > radius * radius) return false;
-    const double rise = depth_along_plane(cloud_.normals[other], -step.x(), -step.y());
-    return along - step.z() > tolerance(i) && -step.z() > tolerance(i) + 2 * std::max(0.0, rise);
+    const double depth = p.z() + depth_along_plane(cloud_.normals[i], step.x(), step.y());
+    const double nz = std::max(static_cast<double>(cloud_.normals[i].z()), least_facing);
+    const double tolerance = options_.depth_tolerance * local_spacing(i) / nz;
+    return depth + tolerance >= static_cast<double>(buffer.depth(p.x(), p.y()));
   }
 
   // Marks the visible points of small connected sets. Returns their number.

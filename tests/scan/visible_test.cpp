@@ -43,44 +43,6 @@ TEST(Visible, OfASphereAlmostAllThatFacesTheViewer) {
   EXPECT_EQ(behind_found, 0U);
 }
 
-// A strip of a slope of 14 whose upper edge is the line y = 0, at depth z.
-Cloud steep_strip(std::size_t n, double z) {
-  test::Random random(31);
-  Cloud cloud;
-  const Vec3 normal = Vec3(0, 14, 1).normalized();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double y = random.uniform(0, .03);
-    test::add(cloud, {random.uniform(-1, 1), y, z - 14 * y}, normal);
-  }
-  return cloud;
-}
-
-// A sheet that ends at y = 0.
-Cloud half_sheet(double z) {
-  Cloud half;
-  for (const Vec3& p : test::sheet(100000, 1, z).points)
-    if (p.y() < 0) test::add(half, p, Vec3::UnitZ());
-  return half;
-}
-
-TEST(Visible, SteepPointsBehindAnotherSurfaceAreHidden) {
-  const Cloud front = half_sheet(0);
-  const double rho = measure_spacing(front).rho;
-  Cloud strip = steep_strip(10000, -5 * rho);
-  for (Vec3& p : strip.points) p.y() -= 2.5 * rho;
-  std::size_t hidden = 0;
-  const Cloud both = test::joined(front, strip);
-  for (const Index i : visible(both)) hidden += i >= front.size() && both.points[i].y() < -.5 * rho;
-  EXPECT_LT(hidden, 5U);
-}
-
-TEST(Visible, SteepPointsBelowAnEdgeAreNotHidden) {
-  // Discs of the sheet overhang the strip down to a depth of two spacings times its slope, 28; it is allowed 20.
-  const Cloud front = half_sheet(0);
-  const Cloud both = test::joined(front, steep_strip(10000, 0));
-  EXPECT_GT(share(visible(both), front.size(), both.size()), .95);
-}
-
 // A front sheet ten times sparser on its right half still hides what is behind.
 TEST(Visible, UnevenDensityLeavesNoHoles) {
   Cloud front = test::sheet(60000, 1, .5, 21);

@@ -29,10 +29,9 @@ struct VisibleOptions {
 //
 // Every point that faces the viewer is drawn as a disc into a depth buffer, oriented by its normal and as
 // wide as the local spacing, so that there are no gaps to look through even if the density varies. A point is
-// visible if it faces the viewer, is not behind the buffer's depth by more than the tolerance, and is not covered
-// by a disc of another surface: one that the point's own slope does not lead up to. Small connected sets neither
-// show nor hide anything. This replaces the cells of 2 rho of the paper's section 3.2, through which hidden
-// points leak and which lose points on slopes.
+// visible if it faces the viewer and is not behind the buffer's depth by more than the tolerance. Small
+// connected sets neither show nor hide anything. This replaces the cells of 2 rho of the paper's section 3.2,
+// through which hidden points leak and which lose points on slopes.
 std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
                                   const VisibleOptions& options = {});
 
