@@ -30,7 +30,7 @@ struct ReliefReport {
     double share = 0;          // of the visible points that belong to it
     bool is_left_out = false;  // as the view asked for
 
-    // Returns nothing for a surface without such a plane.
+    // Returns what is known of the plane of a surface; nothing where it has none.
     static std::optional<FoundPlane> of(const Surface& surface);
   };
   std::optional<FoundPlane> plane;

@@ -32,24 +32,24 @@ struct Turntable::State {
   // Returns the scan without the plane of a surface that has one. What was made last is kept, because a model that is
   // turned asks for the same many times a second.
   std::shared_ptr<const TurningScan> without_plane(const Surface& surface) const {
-    const Rest last = rest_.with([](const Rest& r) { return r; });
+    const WithoutPlane last = last_.with([](const WithoutPlane& w) { return w; });
     if (last.scan && last.plane == *surface.plane && last.R_view_model == surface.view.R_view_model)
       return last.scan;
-    const Rest made{*surface.plane, surface.view.R_view_model,
-                    std::make_shared<const TurningScan>(scan.without_plane(surface))};
-    rest_.with([&](Rest& r) { r = made; });
+    const WithoutPlane made{*surface.plane, surface.view.R_view_model,
+                            std::make_shared<const TurningScan>(scan.without_plane(surface))};
+    last_.with([&](WithoutPlane& w) { w = made; });
     return made.scan;
   }
 
   const TurningScan scan;
 
  private:
-  struct Rest {
+  struct WithoutPlane {
     SupportPlane plane;
     Mat3 R_view_model = Mat3::Identity();
     std::shared_ptr<const TurningScan> scan;
   };
-  mutable Guarded<Rest> rest_;
+  mutable Guarded<WithoutPlane> last_;
 };
 
 Turntable::Turntable(const MeasuredCloud& measured) : state_(std::make_unique<const State>(measured)) {}
@@ -57,8 +57,9 @@ Turntable::~Turntable() = default;
 
 Result<TurnedRelief> Turntable::turn(const View& view, const ReliefModel* like, Progress* progress) const {
   const bool leaves_plane_out = like && like->surface().plane && !view.has_plane;
-  const auto rest = leaves_plane_out ? state_->without_plane(like->surface()) : nullptr;
-  RELIEVO_TRY(TurnedSurface turned, turned_surface(rest ? *rest : state_->scan, view, points, progress));
+  const auto without_plane = leaves_plane_out ? state_->without_plane(like->surface()) : nullptr;
+  RELIEVO_TRY(TurnedSurface turned,
+              turned_surface(without_plane ? *without_plane : state_->scan, view, points, progress));
   TurnedRelief relief;
   relief.detail = std::make_shared<const SurfaceDetail>(detail_of(turned));
   relief.spacing_ratio = state_->scan.rho / turned.surface.rho;

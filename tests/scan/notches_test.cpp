@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "support/shapes.h"
 
@@ -16,7 +17,7 @@ Cloud lips(std::size_t n) {
   test::Random random(5);
   Cloud cloud;
   for (std::size_t i = 0; i < n; ++i) {
-    const double side = random.uniform() < .5 ? 1 : -1, angle = random.uniform(0, 3.141592653589793);
+    const double side = random.uniform() < .5 ? 1 : -1, angle = random.uniform(0, std::numbers::pi);
     const Vec3 along = Vec3(1, side * half_opening, 0).normalized();
     const Vec3 up(-along.y(), along.x(), 0);
     const Vec3 normal = std::cos(angle) * up + std::sin(angle) * Vec3::UnitZ();

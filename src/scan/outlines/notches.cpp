@@ -10,8 +10,7 @@
 namespace relievo {
 namespace {
 
-// Radius, in rho, of a larger empty circle than sampling explains where a surface is seen edge on, as points are dense
-// there.
+// Radius in rho. Points are dense where a surface is seen edge on, so that sampling leaves no larger circle empty there.
 constexpr double widest_circle = 1.2;
 // A surface turns away if its normal leans more, as in outlines.cpp.
 constexpr double least_turned = .75;

@@ -242,7 +242,10 @@ void put_points_on_outlines(Surface& surface, PointMeasures& measures,
                             std::span<const OutlineSegment> known_outlines) {
   Surface before = surface;
   const ExactOutlines exact(known_outlines, surface.rho);
-  exact.empty() ? open_notches(before) : exact.open_gaps(before);
+  if (exact.empty())
+    open_notches(before);
+  else
+    exact.open_gaps(before);
   if (!drop_crumbs(before)) return;
   surface.crumbs = before.crumbs;
   const PlanePoints plane(before);
