@@ -31,7 +31,7 @@ before(async () => {
   fs.writeFileSync(path.join(scans, "large.ply"), waves(1500));
   fs.writeFileSync(path.join(scans, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 2\n");
   const relief = await relievo.make(shell, {heightMm: 3});
-  fs.writeFileSync(path.join(scans, "map.png"), relief.heightMapFile("png", {size: 64}));
+  fs.writeFileSync(path.join(scans, "map.png"), relief.heightMapFile("png", {size: 16}));
   const models = [{file: "shell.ply"}, {file: "urn.ply", translate: [2.5, 0, 0]}];
   fs.writeFileSync(path.join(scans, "both.json"), JSON.stringify({models}));
 });
