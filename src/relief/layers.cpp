@@ -33,7 +33,7 @@ std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<c
   const double longer_side = longer_side_of(points);
   if (!(longer_side > 0)) return layers;
   std::vector<Vec2f> kept(points.size());
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = faded_xy(normals[i]);
+  parallel_for(kept.size(), [&](std::size_t i) { kept[i] = faded_xy(normals[i]); });
   const auto blurred = [&](std::vector<Vec2f> values, double sigma) {
     SurfaceBlur(points, sigma * longer_side).apply(values);
     return values;

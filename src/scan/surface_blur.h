@@ -2,6 +2,7 @@
 // not take part although they are near in the view plane.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -11,27 +12,48 @@ namespace relievo {
 
 // A blur with a Gaussian of one width, prepared for given points. Their values are distributed to a grid of
 // cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values are
-// interpolated back. The time does not depend on the width.
+// interpolated back. Only cells around the points are kept. The time does not depend on the width.
 class SurfaceBlur {
  public:
-  // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells, or
-  // more than 2^16 and 2^12 a point.
+  // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.
   SurfaceBlur(std::span<const Vec3> points, double sigma);
 
   // Replaces each value, one per point, by the average around the point.
   void apply(std::span<Vec2f> values) const;
 
-  std::size_t number_of_cells() const { return size_[0] * size_[1] * size_[2]; }
+  std::size_t number_of_cells() const { return columns_.back().first; }
 
  private:
+  // The cells of one x and y whose z is in [low, high). Those of the next column follow in memory.
+  struct Column {
+    std::size_t first = 0;  // its cell at `low`
+    int low = 0, high = 0;
+
+    bool is_empty() const { return low == high; }
+    std::size_t size() const { return static_cast<std::size_t>(high - low); }
+    std::size_t cell(int z) const { return first + static_cast<std::size_t>(z - low); }
+    void extend(int from, int to) {
+      low = is_empty() ? from : std::min(low, from);
+      high = std::max(high, to);
+    }
+  };
+  // The cell around a point with the smallest coordinates of the eight.
   struct Place {
-    Index cell = 0;  // the one of the eight around the point with the smallest coordinates
+    Index column = 0;
+    int z = 0;
     Vec3f share = Vec3f::Zero();
   };
-  void average_cells(std::vector<Vec3f>& cells) const;
+  using Cells = std::vector<Vec3f>;
 
-  std::array<std::size_t, 3> size_{};
+  std::vector<Column> columns_around_points() const;
+  template <typename F>
+  void each_corner(const Place& place, F&& f) const;
+  void average_across(std::size_t step, const Cells& cells, Cells& averages) const;
+  void average_along(const Cells& cells, Cells& averages) const;
+
+  std::size_t width_ = 0;  // columns in a row
   std::vector<Place> places_;
+  std::vector<Column> columns_;  // and an empty one, which begins behind the last cell
 };
 
 }  // namespace relievo

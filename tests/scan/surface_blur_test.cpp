@@ -46,10 +46,11 @@ TEST(SurfaceBlur, DoesNotReachASheetBehind) {
   for (std::size_t i = 0; i < both.size(); ++i) ASSERT_NEAR(values[i].x(), both.points[i].z(), 1e-6);
 }
 
-TEST(SurfaceBlur, HasFewCellsForFewPoints) {
+// The whole grid would have 200 x 200 x 200 cells.
+TEST(SurfaceBlur, HasCellsAroundThePointsAlone) {
   const std::vector<Vec3> four = {{0, 0, 0}, {1, 0, 0}, {0, 1, 1}, {1, 1, .5}};
-  EXPECT_LE(SurfaceBlur(four, 1e-3).number_of_cells(), 1U << 16);
-  EXPECT_GT(SurfaceBlur(test::sphere(4096, 1).points, 1e-3).number_of_cells(), 1U << 23);
+  EXPECT_LE(SurfaceBlur(four, .0045).number_of_cells(), 4U * 4 * 4 * 4);
+  EXPECT_LT(SurfaceBlur(test::sheet(50000, 1, 0).points, .01).number_of_cells(), 190U * 190 * 6);
 }
 
 TEST(SurfaceBlur, TakesAnyWidthAndExtent) {
