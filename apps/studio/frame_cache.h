@@ -1,14 +1,13 @@
 // The frames behind pictures: each is made once, and with a single solve while a slider moves.
 #pragma once
 
-#include <array>
 #include <optional>
 
 #include "relievo/relief/frame.h"
 
 namespace relievo::app::studio {
 
-// A frame to draw. It is valid until the cache makes the next one but one.
+// A frame to draw. It is valid until the cache makes the next one.
 struct CachedFrame {
   const Frame* frame = nullptr;
   std::span<const float> gains = {};  // of the frame, if they are wanted, see Shown
@@ -24,9 +23,9 @@ class FrameCache {
   // Returns the frame asked for.
   CachedFrame exact(const FrameOptions& wanted);
 
-  // Returns the frame asked for or, if a height is locked, one that is made with one solve at the u that the
-  // last frame's height suggests. The stretch makes up for what that misses, at most 3 %.
-  CachedFrame quick(const FrameOptions& wanted);
+  // Returns the frame asked for or, if a height is locked, one that nearly has it, which takes one solve as a rule. The
+  // stretch makes up for what is missing, at most 3 %.
+  CachedFrame quick(FrameOptions wanted);
 
   // Returns the height of the highest relief of that shape: that without compression. Steps at depth jumps, which a locked
   // height may add, are left out.
@@ -36,18 +35,13 @@ class FrameCache {
   CachedFrame last() const { return last_; }
 
  private:
-  std::optional<FrameOptions> guess(const FrameOptions& wanted) const;
-  const Frame& newest() const { return frames_[newest_]; }
-
   FrameMaker maker_;
   bool wants_gains_;
-  std::vector<float> gains_;     // of the newest frame
-  std::array<Frame, 2> frames_;  // the newest, and the one before, which the next overwrites
-  std::size_t newest_ = 0;
+  std::vector<float> gains_;  // of the frame
+  Frame frame_;
   Frame spare_;                       // of highest()
-  std::optional<FrameOptions> made_;  // options of the newest frame; none before the first
+  std::optional<FrameOptions> made_;  // options of the frame; none before the first
   CachedFrame last_;
-  double elasticity_ = 1;  // d ln height / d ln u, estimated from the last two frames
 };
 
 }  // namespace relievo::app::studio

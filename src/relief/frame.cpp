@@ -120,8 +120,7 @@ struct FrameMaker::Packed {
 
   // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().
   void raise_to(double height, Shape shape, Frame& frame) {
-    constexpr double tolerance = 5e-4;  // half of what FrameOptions::height promises
-    const HeightSearch search(height, tolerance);
+    const HeightSearch search(height, frame.options.height_tolerance / 2);
     const auto height_at = [&](double log_u) {
       shape.compression.u = std::exp(log_u);
       raise(shape, height, frame);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/root_finding.h"
 #include "relievo/core/error.h"
@@ -38,6 +39,7 @@ class HeightSearch {
   // The result of the last search of a series.
   struct Track {
     double log_u = 0, elasticity = 1;
+    std::optional<double> log_height = {};  // at that u; none before the first search
   };
 
   // For one relief, from no guess: tries u = infinity, to see whether the height can be reached, then brackets
@@ -50,8 +52,8 @@ class HeightSearch {
     return std::abs(excess) <= tolerance_;
   }
 
-  // For a series of reliefs that change little: takes secants from where the last one was found, two calls as
-  // a rule, and brackets where six do not suffice: far jumps, and heights at or out of reach.
+  // For a series of reliefs that change little: takes secants from where the last one and its height suggest, one or two
+  // calls as a rule, and brackets where six do not suffice: far jumps, and heights at or out of reach.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;
@@ -59,6 +61,7 @@ class HeightSearch {
     constexpr double least_elasticity = .02;
     constexpr SecantStep step;
     double x = last.log_u;
+    if (last.log_height) x += step(*last.log_height - std::log(height_), last.elasticity);
     const auto excess_at = [&](double log_u) { return excess_of(height_at(x = log_u)); };
     double excess = excess_at(x);
     for (int round = 0; round < most_secants && std::abs(excess) > tolerance_; ++round) {
@@ -67,9 +70,16 @@ class HeightSearch {
       const double elasticity = (excess - excess_before) / (x - before);
       if (x != before && elasticity > least_elasticity) last.elasticity = elasticity;
     }
-    const auto height_of = [&](double log_u) { return height_at(x = log_u); };
+    const auto height_of = [&](double log_u) {
+      const double height = height_at(x = log_u);
+      excess = excess_of(height);
+      return height;
+    };
     const bool is_met = std::abs(excess) <= tolerance_ || bracket(height_of);
-    if (is_met && std::isfinite(x)) last.log_u = x;
+    if (is_met && std::isfinite(x)) {
+      last.log_u = x;
+      last.log_height = excess + std::log(height_);
+    }
     return is_met;
   }
 

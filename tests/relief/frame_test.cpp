@@ -150,6 +150,22 @@ TEST(Frame, FollowsASliderInTwoSolves) {
   EXPECT_LE(solves, 50);
 }
 
+TEST(Frame, FollowsASliderInOneSolveWhereHeightsMayDiffer) {
+  FrameMaker maker(model());
+  Frame frame;
+  FrameOptions options;
+  options.height = .025 * model().surface().diagonal;
+  options.height_tolerance = .06;
+  int solves = 0;
+  for (int step = 0; step <= 20; ++step) {
+    options.shape.gamma = .002 * step;
+    maker.make(options, frame);
+    ASSERT_NEAR(frame.height / *options.height, 1, .031);
+    solves += frame.times.solves;
+  }
+  EXPECT_LE(solves, 26);
+}
+
 TEST(Frame, TellsThatAHeightIsOutOfReach) {
   const ReliefModel smooth =
       ReliefModel::prepare(find_surface(test::sphere(30000, 1), {}).value()).value();  // without depth jumps

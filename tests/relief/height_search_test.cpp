@@ -51,6 +51,19 @@ TEST(HeightSearch, TracksSmallChangesInTwoCalls) {
   }
 }
 
+// Once it has learnt how the height grows, a change as small as the tolerance takes one call.
+TEST(HeightSearch, TracksWithinATolerance) {
+  HeightSearch::Track track;
+  int calls = 0, heights = 0;
+  for (double height = 2; height < 3; height *= 1.02, ++heights) {
+    Growth growth;
+    EXPECT_TRUE(HeightSearch(height, .03).track(track, growth));
+    EXPECT_NEAR(growth.last / height, 1, .031);
+    calls += growth.calls;
+  }
+  EXPECT_LE(calls, heights + 5);
+}
+
 TEST(HeightSearch, TracksAcrossFarJumps) {
   HeightSearch::Track track;
   for (const double height : {2.0, 1e-6, 4.9, .5}) {

@@ -15,8 +15,9 @@ namespace relievo {
 // The quantities that can change from frame to frame. None of them touches the factorisation.
 struct FrameOptions {
   Shape shape;
-  std::optional<double> height;                    // locked: u is found so that this height is met to 0.1 %
+  std::optional<double> height;                    // locked: u is found so that this height is met
   std::shared_ptr<const std::vector<float>> base;  // added to the heights, per point; null is a plane
+  double height_tolerance = 1e-3;  // share of the locked height; a larger one may save a solve
 
   bool operator==(const FrameOptions&) const = default;  // bases are equal if they are the same object
 };
