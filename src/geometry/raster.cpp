@@ -104,21 +104,33 @@ Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
 }
 
 void Rasterizer::sort_into_bands() {
-  std::vector<Rows> bands(scene_.triangles.size());
-  first_.assign(static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_) + 1, 0);
-  parallel_for(bands.size(), [&](std::size_t t) {
-    const Rows rows = rows_of(scene_.triangles[t]);
-    if (rows.begin < rows.end) bands[t] = {rows.begin / band_rows_, (rows.end - 1) / band_rows_ + 1};
+  constexpr std::size_t block = 1 << 14;  // triangles that one task sorts
+  const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
+  const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
+  std::vector<Rows> bands_of(count);
+  std::vector<std::size_t> next(blocks *
+                                bands);  // per block and band: numbers of triangles, then their places
+  parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Rows rows = rows_of(scene_.triangles[t]);
+      if (rows.begin >= rows.end) continue;
+      bands_of[t] = {rows.begin / band_rows_, (rows.end - 1) / band_rows_ + 1};
+      for (int b = bands_of[t].begin; b < bands_of[t].end; ++b)
+        ++next[begin / block * bands + static_cast<std::size_t>(b)];
+    }
   });
-  for (const Rows& range : bands)
-    for (int b = range.begin; b < range.end; ++b) ++first_[static_cast<std::size_t>(b)];
   std::size_t sum = 0;
-  for (std::size_t& at : first_) at = std::exchange(sum, sum + at);
+  for (std::size_t b = 0; b < bands; ++b) {
+    first_.push_back(sum);
+    for (std::size_t i = b; i < next.size(); i += bands) next[i] = std::exchange(sum, sum + next[i]);
+  }
+  first_.push_back(sum);
   triangles_.resize(sum);
-  std::vector<std::size_t> next(first_);
-  for (std::size_t t = 0; t < bands.size(); ++t)
-    for (int b = bands[t].begin; b < bands[t].end; ++b)
-      triangles_[next[static_cast<std::size_t>(b)]++] = static_cast<Index>(t);
+  parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (int b = bands_of[t].begin; b < bands_of[t].end; ++b)
+        triangles_[next[begin / block * bands + static_cast<std::size_t>(b)]++] = static_cast<Index>(t);
+  });
 }
 
 void Rasterizer::draw_triangle(Index t, Rows rows, RowBand& band) const {
