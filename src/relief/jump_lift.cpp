@@ -190,13 +190,16 @@ class BandFields {
  public:
   BandFields(const Band& band, std::span<const Field> heights, float screen)
       : band_(band),
-        screen_(screen),
         heights_(band.points.size() + 1, Values::Zero()),
         y_(heights_),
-        aims_(band.edges.items.size(), Values::Zero()) {
-    for (std::size_t i = 0; i < band.points.size(); ++i)
+        aims_(band.edges.items.size(), Values::Zero()),
+        pulls_(band.points.size()),
+        weights_(band.points.size(), screen) {
+    for (Index i = 0; i < band.points.size(); ++i) {
       for (std::size_t k = 0; k < heights.size(); ++k)
         heights_[i][static_cast<Eigen::Index>(k)] = heights[k][band.points[i]];
+      for (const Band::Edge& edge : band.edges[i]) weights_[i] += edge.weight;
+    }
   }
 
   std::vector<Values> find() {
@@ -211,32 +214,32 @@ class BandFields {
  private:
   // Raises the aim of each edge across a jump by what is left of its inversion.
   void raise_aims() {
-    for (Index i = 0; i < band_.points.size(); ++i)
+    for (Index i = 0; i < band_.points.size(); ++i) {
+      pulls_[i] = Values::Zero();
       for (Index e = band_.edges.begin[i]; e < band_.edges.begin[i + 1]; ++e) {
         const auto [to, side, weight] = band_.edges.items[e];
         if (side == 0 || to == band_.points.size()) continue;
         const auto sign = static_cast<float>(side);
         const Values inversion = sign * (heights_[to] + y_[to] - heights_[i] - y_[i]);
         aims_[e] = sign * (sign * aims_[e] + inversion).max(0.F);
+        pulls_[i] += weight * aims_[e];
       }
+    }
   }
 
   void relax() {
     for (Index i = 0; i < band_.points.size(); ++i) {
-      Values sum = Values::Zero();
-      float weights = screen_;
-      for (Index e = band_.edges.begin[i]; e < band_.edges.begin[i + 1]; ++e) {
-        const auto [to, side, weight] = band_.edges.items[e];
-        sum += weight * (y_[to] + aims_[e]);
-        weights += weight;
-      }
-      y_[i] += over_relaxation * (sum / weights - y_[i]);
+      Values sum = pulls_[i];
+      for (const auto& [to, side, weight] : band_.edges[i]) sum += weight * y_[to];
+      y_[i] += over_relaxation * (sum / weights_[i] - y_[i]);
     }
   }
 
   const Band& band_;
-  float screen_;
-  std::vector<Values> heights_, y_, aims_;  // heights_ and y_ have one element more, for all points outside
+  std::vector<Values> heights_, y_;  // with one element more, for all points outside
+  std::vector<Values> aims_;         // per edge
+  std::vector<Values> pulls_;        // per point: the sum of weight times aim over its edges
+  std::vector<float> weights_;       // per point: the screen and the sum over its edges
 };
 
 }  // namespace
