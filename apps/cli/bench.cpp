@@ -121,10 +121,10 @@ void print_json(const BenchResult& r) {
   if (r.views)
     json["views_ms"] = {{"first", r.views->first_ms},
                         {"first_turned", r.views->first_turned_ms},
-                        {"turned_p50", r.views->turned.percentile(.5)},
-                        {"turned_p95", r.views->turned.percentile(.95)},
-                        {"prepared_p50", r.views->prepared.percentile(.5)},
-                        {"prepared_p95", r.views->prepared.percentile(.95)}};
+                        {"turned_p50", r.views->turned.time.percentile(.5)},
+                        {"turned_p95", r.views->turned.time.percentile(.95)},
+                        {"prepared_p50", r.views->prepared.time.percentile(.5)},
+                        {"prepared_p95", r.views->prepared.time.percentile(.95)}};
   std::printf("%s\n", json.dump(2).c_str());
 }
 
@@ -148,8 +148,8 @@ void add_bench(CLI::App& program, Result<void>& result) {
       ->check(CLI::Range(5, 10000).description(""))
       ->type_name("N")
       ->capture_default_str();
-  command.add_option("--views", arguments->views, "other views timed; 0 times no views [0 to 1000]")
-      ->check(CLI::Range(0, 1000).description(""))
+  command.add_option("--views", arguments->views, "other views timed; 0 times no views [0 to 10000]")
+      ->check(CLI::Range(0, 10000).description(""))
       ->type_name("N")
       ->capture_default_str();
   command.add_flag("--json", arguments->is_json, "print JSON instead of a table");

@@ -1,8 +1,12 @@
 #include "cli/view_figures.h"
 
+#include <unistd.h>
+
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cstdio>
+#include <fstream>
+#include <limits>
 #include <numbers>
 
 #include "relievo/relief/frame.h"
@@ -54,6 +58,26 @@ Result<void> turn(Session& session, const View& view) {
   return {};
 }
 
+// Returns the memory that the process has in use; 0 where the system does not tell.
+double resident_mib() {
+  long pages = 0;
+  std::ifstream("/proc/self/statm").ignore(std::numeric_limits<std::streamsize>::max(), ' ') >> pages;
+  return static_cast<double>(pages) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
+}
+
+// Shows one view of the run after the other.
+template <typename F>
+Result<ViewSeries> measure_series(const ViewRun& run, F&& show) {
+  ViewSeries series;
+  for (int i = 1; i <= run.views; ++i) {
+    RELIEVO_TRY(const double ms, milliseconds([&] { return show(turned(run.view, i)); }));
+    series.time.ms.push_back(ms);
+    if (i == (run.views + 9) / 10) series.early_mib = resident_mib();
+  }
+  series.late_mib = resident_mib();
+  return series;
+}
+
 }  // namespace
 
 Result<ViewFigures> measure_views(const ViewRun& run) {
@@ -61,24 +85,26 @@ Result<ViewFigures> measure_views(const ViewRun& run) {
   ViewFigures figures;
   RELIEVO_TRY(figures.first_ms, milliseconds([&] { return prepare(session, run, run.view); }));
   RELIEVO_TRY(figures.first_turned_ms, milliseconds([&] { return turn(session, run.view); }));
-  for (int i = 1; i <= run.views; ++i) {
-    RELIEVO_TRY(const double ms, milliseconds([&] { return turn(session, turned(run.view, i)); }));
-    figures.turned.ms.push_back(ms);
-  }
-  for (int i = 1; i <= run.views; ++i) {
-    RELIEVO_TRY(const double ms, milliseconds([&] { return prepare(session, run, turned(run.view, i)); }));
-    figures.prepared.ms.push_back(ms);
-  }
+  RELIEVO_TRY(figures.turned, measure_series(run, [&](const View& view) { return turn(session, view); }));
+  RELIEVO_TRY(figures.prepared,
+              measure_series(run, [&](const View& view) { return prepare(session, run, view); }));
   return figures;
 }
 
 void print_views(const ViewFigures& f) {
-  const auto line = [](const char* name, const Series& series) {
-    std::printf("  %-28s %7.1f %7.1f\n", name, series.percentile(.5), series.percentile(.95));
+  const auto time = [](const char* name, const Series& series) {
+    std::printf("  %-28s %7.1f %7.1f", name, series.percentile(.5), series.percentile(.95));
   };
-  std::printf("\nviews with their first frames, milliseconds %s %7s\n", "p50", "p95");
-  line("first", {{f.first_ms}});
-  line("first while it is turned", {{f.first_turned_ms}});
+  const auto line = [&](const char* name, const ViewSeries& series) {
+    time(name, series.time);
+    std::printf(" %21.1f %7.1f\n", series.early_mib, series.late_mib);
+  };
+  std::printf("\nviews with their first frames, milliseconds %s %7s, MiB after a tenth %7s\n", "p50", "p95",
+              "all");
+  time("first", {{f.first_ms}});
+  std::printf("\n");
+  time("first while it is turned", {{f.first_turned_ms}});
+  std::printf("\n");
   line("others while it is turned", f.turned);
   line("others", f.prepared);
 }

@@ -17,11 +17,17 @@ struct ViewRun {
   int views = 5;
 };
 
+// Views of one kind, one after the other.
+struct ViewSeries {
+  Series time;
+  double early_mib = 0, late_mib = 0;  // memory in use after a tenth of the views, and after all
+};
+
 struct ViewFigures {
   double first_ms = 0;         // from points in memory to the first frame of the first view
   double first_turned_ms = 0;  // from the first view to the first frame of a coarse relief
-  Series turned;               // coarse reliefs with a frame of each
-  Series prepared;             // other views with their first frames
+  ViewSeries turned;           // coarse reliefs with a frame of each
+  ViewSeries prepared;         // other views with their first frames
 };
 
 // Opens the cloud in a session and turns it about the upright axis. Errors: those of preparations.
