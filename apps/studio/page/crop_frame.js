@@ -68,6 +68,7 @@ export class CropFrame {
 
   // Draws the scan again if its view or the page's size is another one, and the frame.
   async refresh() {
+    if (this.element.hidden) return;
     const {clientWidth: width, clientHeight: height} = this.element, directions = directionsOf(this.doc.now.options);
     if (!width || !directions) return;
     const key = JSON.stringify([directions, width, height, this.doc.now.input]);

@@ -31,6 +31,7 @@ import {Tour} from "./tour.js";
 import {ViewDialog, viewName} from "./views.js";
 
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
+const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
 
 const doc = new Document((before) => changed(before));
 const sliders = new Sliders({doc, frame: () => last, say: toast});
@@ -93,7 +94,7 @@ function chooseUnit(unit) {
 function changed(before) {
   const {now} = doc;
   opened.keep(doc.stroke !== null);
-  showDocument();
+  showDocumentSoon();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);
     chooseView();
@@ -105,6 +106,14 @@ function changed(before) {
 function stateCame() {
   showDocument();
   stage.invalidate();
+}
+
+// A drag moves its own control; the others follow when it pauses, as they cost as much as a picture.
+let showing = 0;
+function showDocumentSoon() {
+  clearTimeout(showing);
+  if (doc.stroke === null) showDocument();
+  else showing = setTimeout(showDocument, SHOW_MS);
 }
 
 function showDocument() {
