@@ -125,6 +125,9 @@ void print_json(const BenchResult& r) {
                         {"turned_p95", r.views->turned.time.percentile(.95)},
                         {"prepared_p50", r.views->prepared.time.percentile(.5)},
                         {"prepared_p95", r.views->prepared.time.percentile(.95)}};
+  if (r.views)
+    json["views_mib"] = {{"turned", {r.views->turned.early_mib, r.views->turned.late_mib}},
+                         {"prepared", {r.views->prepared.early_mib, r.views->prepared.late_mib}}};
   std::printf("%s\n", json.dump(2).c_str());
 }
 

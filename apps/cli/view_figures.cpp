@@ -58,14 +58,14 @@ Result<void> turn(Session& session, const View& view) {
   return {};
 }
 
-// Returns the memory that the process has in use; 0 where the system does not tell.
+// Returns the memory that the process has in use; 0 where it is not known.
 double resident_mib() {
   long pages = 0;
   std::ifstream("/proc/self/statm").ignore(std::numeric_limits<std::streamsize>::max(), ' ') >> pages;
   return static_cast<double>(pages) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / (1 << 20);
 }
 
-// Shows one view of the run after the other.
+// Times a call of show() for each view of the run.
 template <typename F>
 Result<ViewSeries> measure_series(const ViewRun& run, F&& show) {
   ViewSeries series;
@@ -97,10 +97,10 @@ void print_views(const ViewFigures& f) {
   };
   const auto line = [&](const char* name, const ViewSeries& series) {
     time(name, series.time);
-    std::printf(" %21.1f %7.1f\n", series.early_mib, series.late_mib);
+    std::printf(" %15.1f %7.1f\n", series.early_mib, series.late_mib);
   };
-  std::printf("\nviews with their first frames, milliseconds %s %7s, MiB after a tenth %7s\n", "p50", "p95",
-              "all");
+  std::printf("\n%-30s %15s %23s\n", "views with their first frames", "milliseconds", "MiB of the process");
+  std::printf("%-30s %7s %7s %15s %7s\n", "", "p50", "p95", "after a tenth", "all");
   time("first", {{f.first_ms}});
   std::printf("\n");
   time("first while it is turned", {{f.first_turned_ms}});

@@ -20,7 +20,7 @@ struct ViewRun {
 // Views of one kind, one after the other.
 struct ViewSeries {
   Series time;
-  double early_mib = 0, late_mib = 0;  // memory in use after a tenth of the views, and after all
+  double early_mib = 0, late_mib = 0;  // memory of the process after a tenth of the views, and after all
 };
 
 struct ViewFigures {

@@ -199,7 +199,8 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
     answer.is_finished = true;
     return answer;
   }
-  const CachedFrame cached = this->frame(request, options.is_fine);
+  // A piece is made for the height of the frame, which must be met or the largest.
+  const CachedFrame cached = this->frame(request, options.is_fine || !is_plain(request.options));
   const Frame& frame = *cached.frame;
   answer.compression = frame.options.shape.compression;
   answer.height_mm = frame.height * cached.stretch * options.mm_per_unit;

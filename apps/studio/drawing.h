@@ -103,7 +103,7 @@ class Drawing {
   // Keeps showing the last frame, whatever is asked for, until another model is drawn.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws a frame, with one solve unless the picture is to be fine. If the options ask for more than a rectangular plate,
+  // Draws a frame, whose height is nearly met unless the picture is to be fine. If the options ask for more than a rectangular plate,
   // draws a piece, see Piece::drawn(). Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 

@@ -6,8 +6,8 @@ namespace {
 // From here on weights are 1 to the last bit.
 constexpr double uncompressed_u = 1e12;
 
-// Stretching by less than half of this is not seen while things move.
-constexpr double moving_tolerance = .06;
+// Stretching by less than this is not seen while things move.
+constexpr double moving_tolerance = .03;
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The frames behind pictures: each is made once, and with a single solve while a slider moves.
+// The frames behind pictures: each is made once, and with one or two solves while a slider moves.
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class FrameCache {
   // Returns the frame asked for.
   CachedFrame exact(const FrameOptions& wanted);
 
-  // Returns the frame asked for or, if a height is locked, one that nearly has it, which takes one solve as a rule. The
+  // Returns the frame asked for or, if a height is locked, one that nearly has it, which takes one or two solves. The
   // stretch makes up for what is missing, at most 3 %.
   CachedFrame quick(FrameOptions wanted);
 

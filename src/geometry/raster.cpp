@@ -108,8 +108,8 @@ void Rasterizer::sort_into_bands() {
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
   std::vector<Rows> bands_of(count);
-  std::vector<std::size_t> next(blocks *
-                                bands);  // per block and band: numbers of triangles, then their places
+  // Per block and band: the number of triangles, then the place of the next.
+  std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {
       const Rows rows = rows_of(scene_.triangles[t]);

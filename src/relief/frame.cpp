@@ -118,9 +118,9 @@ struct FrameMaker::Packed {
     });
   }
 
-  // Finds u from where the last frame's was; two solves as a rule. See ReliefModel::make_at_height().
+  // Finds u from where the last frame's was; one or two solves as a rule. See ReliefModel::make_at_height().
   void raise_to(double height, Shape shape, Frame& frame) {
-    const HeightSearch search(height, frame.options.height_tolerance / 2);
+    const HeightSearch search(height, frame.options.height_tolerance);
     const auto height_at = [&](double log_u) {
       shape.compression.u = std::exp(log_u);
       raise(shape, height, frame);

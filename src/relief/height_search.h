@@ -39,7 +39,7 @@ class HeightSearch {
   // The result of the last search of a series.
   struct Track {
     double log_u = 0, elasticity = 1;
-    std::optional<double> log_height = {};  // at that u; none before the first search
+    std::optional<double> log_height = {};  // at that u; none until a height was met
   };
 
   // For one relief, from no guess: tries u = infinity, to see whether the height can be reached, then brackets
@@ -52,8 +52,8 @@ class HeightSearch {
     return std::abs(excess) <= tolerance_;
   }
 
-  // For a series of reliefs that change little: takes secants from where the last one and its height suggest, one or two
-  // calls as a rule, and brackets where six do not suffice: far jumps, and heights at or out of reach.
+  // For a series of reliefs that change little: starts at the u that the last height and elasticity predict and takes
+  // secants, one or two calls as a rule. It brackets where six do not suffice: far jumps, and heights at or out of reach.
   template <typename F>
   bool track(Track& last, F&& height_at) const {
     constexpr int most_secants = 6;

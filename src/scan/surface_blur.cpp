@@ -22,31 +22,29 @@ SurfaceBlur::SurfaceBlur(std::span<const Vec3> points, double sigma) : places_(p
   const auto count = [&](int axis) { return std::floor(box.size()[axis] / side) + 4; };
   while (count(0) * count(1) * count(2) > most_cells) side *= 1.1;
   width_ = static_cast<std::size_t>(count(0));
-  columns_.resize(width_ * static_cast<std::size_t>(count(1)) + 1);
   parallel_for(points.size(), [&](std::size_t i) {
-    const Vec3 at = (points[i] - box.min) / side + Vec3::Ones();  // a cell of margin for the neighbours
-    const Vec3 floor = at.array().floor();
-    const auto x = static_cast<std::size_t>(floor.x()), y = static_cast<std::size_t>(floor.y());
-    places_[i] = {static_cast<Index>(x + width_ * y), static_cast<int>(floor.z()),
-                  (at - floor).cast<float>()};
+    // A cell of margin is for the neighbours. It is added to whole numbers, which no sum can round up.
+    const Vec3 from_corner = (points[i] - box.min) / side;
+    const Vec3 cell = from_corner.array().floor() + 1, share = from_corner + Vec3::Ones() - cell;
+    const auto x = static_cast<std::size_t>(cell.x()), y = static_cast<std::size_t>(cell.y());
+    places_[i] = {static_cast<Index>(x + width_ * y), static_cast<int>(cell.z()), share.cast<float>()};
   });
-  columns_ = columns_around_points();
+  columns_ = columns_around_points(width_ * static_cast<std::size_t>(count(1)));
 }
 
-// Returns the columns of all cells from which values at the points are averaged.
-std::vector<SurfaceBlur::Column> SurfaceBlur::columns_around_points() const {
-  std::vector<Column> filled(columns_.size()), around(columns_.size());
+// Returns so many columns, with the cells from which values at the points are averaged, and an empty one behind them.
+std::vector<SurfaceBlur::Column> SurfaceBlur::columns_around_points(std::size_t count) const {
+  std::vector<Column> filled(count), around(count + 1);
   for (const Place& place : places_)
     for (const std::size_t step : {std::size_t{0}, std::size_t{1}, width_, width_ + 1})
       filled[place.column + step].extend(place.z, place.z + 2);
-  const std::size_t last = filled.size() - 1;
-  for (std::size_t c = 0; c < last; ++c) {
+  for (std::size_t c = 0; c < count; ++c) {
     if (filled[c].is_empty()) continue;
     for (const std::size_t row : {c - width_, c, c + width_})
       for (const std::size_t near : {row - 1, row, row + 1})
         around[near].extend(filled[c].low - 1, filled[c].high + 1);
   }
-  for (std::size_t c = 0; c < last; ++c) around[c + 1].first = around[c].first + around[c].size();
+  for (std::size_t c = 0; c < count; ++c) around[c + 1].first = around[c].first + around[c].size();
   return around;
 }
 
@@ -63,7 +61,8 @@ void SurfaceBlur::each_corner(const Place& place, F&& f) const {
   }
 }
 
-// Sets each cell to the sum of itself, twice, and its neighbours in the columns a step before and after.
+// Sets each cell to the sum of itself, twice, and its neighbours in the columns a step before and after. The column before
+// the first of a row is the last of another: both are margins, where averages are of no use.
 void SurfaceBlur::average_across(std::size_t step, const Cells& cells, Cells& averages) const {
   const std::size_t last = columns_.size() - 1;
   parallel_for(

@@ -12,7 +12,7 @@ namespace relievo {
 
 // A blur with a Gaussian of one width, prepared for given points. Their values are distributed to a grid of
 // cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values are
-// interpolated back. Only cells around the points are kept. The time does not depend on the width.
+// interpolated back. A column of cells extends from below the lowest point to above the highest one around it. The time does not depend on the width.
 class SurfaceBlur {
  public:
   // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.
@@ -45,7 +45,7 @@ class SurfaceBlur {
   };
   using Cells = std::vector<Vec3f>;
 
-  std::vector<Column> columns_around_points() const;
+  std::vector<Column> columns_around_points(std::size_t count) const;
   template <typename F>
   void each_corner(const Place& place, F&& f) const;
   void average_across(std::size_t step, const Cells& cells, Cells& averages) const;

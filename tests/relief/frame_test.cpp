@@ -155,7 +155,7 @@ TEST(Frame, FollowsASliderInOneSolveWhereHeightsMayDiffer) {
   Frame frame;
   FrameOptions options;
   options.height = .025 * model().surface().diagonal;
-  options.height_tolerance = .06;
+  options.height_tolerance = .03;
   int solves = 0;
   for (int step = 0; step <= 20; ++step) {
     options.shape.gamma = .002 * step;

@@ -68,7 +68,7 @@ export class CropFrame {
 
   // Draws the scan again if its view or the page's size is another one, and the frame.
   async refresh() {
-    if (this.element.hidden) return;
+    if (this.element.hidden) return; // before sizes are read, for which the browser would lay the page out
     const {clientWidth: width, clientHeight: height} = this.element, directions = directionsOf(this.doc.now.options);
     if (!width || !directions) return;
     const key = JSON.stringify([directions, width, height, this.doc.now.input]);

@@ -32,8 +32,8 @@ export const uOfAlpha = (alpha, beta) => Math.min(alpha ** -beta, MOST_U);
 const renamed = (options) => (options?.method === "ours" ? {...options, method: "layered"} : options);
 
 export class Document {
-  constructor(onChange) {
-    this.onChange = onChange;
+  constructor(onChange, onStrokeEnd = () => {}) {
+    Object.assign(this, {onChange, onStrokeEnd});
     this.steps = [FIRST];
     this.at = 0;
     this.changedAt = 0; // in milliseconds since 1970: of two states of a document the one that changed last wins
@@ -86,6 +86,7 @@ export class Document {
   endStroke(stroke = null) {
     if (stroke !== null && stroke !== (this.stroke ?? this.cancelled)) return;
     this.stroke = this.cancelled = null;
+    this.onStrokeEnd();
   }
 
   // Takes back what the running stroke has changed, and lets the rest of it change nothing. Returns whether one ran.

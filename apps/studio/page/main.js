@@ -33,7 +33,7 @@ import {ViewDialog, viewName} from "./views.js";
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
 const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
 
-const doc = new Document((before) => changed(before));
+const doc = new Document((before) => changed(before), () => showing && showDocument());
 const sliders = new Sliders({doc, frame: () => last, say: toast});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
@@ -108,7 +108,7 @@ function stateCame() {
   stage.invalidate();
 }
 
-// A drag moves its own control; the others follow when it pauses, as they cost as much as a picture.
+// A drag moves its own control; the others follow when it pauses or ends, as they cost as much as a picture.
 let showing = 0;
 function showDocumentSoon() {
   clearTimeout(showing);
@@ -117,6 +117,8 @@ function showDocumentSoon() {
 }
 
 function showDocument() {
+  clearTimeout(showing);
+  showing = 0;
   const {options, material, input} = doc.now;
   sliders.show();
   curve.show({tone: options.tone});

@@ -23,11 +23,11 @@ export class Reach {
     $("#reach").replaceChildren();
   }
 
-  // Called with each picture, and with the fine one when things rest. The reach does not depend on the height: it is
+  // Called with each picture; a fine one comes when things rest. The reach does not depend on the height: it is
   // asked for when something else changes.
   async pictured(frame, isFine) {
-    if (frame.is_height_met) $("#reach").replaceChildren();
     if (!isFine) return;
+    if (frame.is_height_met) $("#reach").replaceChildren();
     if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
     const {height, ...rest} = shownOptions(this.doc.now), key = JSON.stringify(rest);
     if (key !== this.key) {

@@ -17,7 +17,7 @@ struct FrameOptions {
   Shape shape;
   std::optional<double> height;                    // locked: u is found so that this height is met
   std::shared_ptr<const std::vector<float>> base;  // added to the heights, per point; null is a plane
-  double height_tolerance = 1e-3;  // share of the locked height; a larger one may save a solve
+  double height_tolerance = 5e-4;  // share of the locked height; a larger one may save a solve
 
   bool operator==(const FrameOptions&) const = default;  // bases are equal if they are the same object
 };
