@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -28,9 +29,14 @@ class Flipper {
   }
 
   double run() {
-    for (int pass = 0; pass < most_passes; ++pass) {
-      const std::vector<Index> thin = thin_triangles();
-      if (thin.empty() || !flip_all(thin)) break;
+    std::vector<Index> all(front_.triangles.size());
+    std::iota(all.begin(), all.end(), Index{0});
+    std::vector<Index> thin = thin_among(all);
+    for (int pass = 0; pass < most_passes && !thin.empty(); ++pass) {
+      std::set<Index> candidates = flip_all(thin);
+      if (candidates.empty()) break;
+      candidates.insert(thin.begin(), thin.end());
+      thin = thin_among(candidates);
     }
     return moved_mm_;
   }
@@ -57,9 +63,10 @@ class Flipper {
     return cross(at(b) - at(a), at(c) - at(a)) / (at(b) - at(a)).norm();
   }
 
-  std::vector<Index> thin_triangles() const {
+  template <typename Triangles>
+  std::vector<Index> thin_among(const Triangles& triangles) const {
     std::vector<Index> thin;
-    for (Index i = 0; i < front_.triangles.size(); ++i)
+    for (const Index i : triangles)
       if (width_mm(front_.triangles[i]) < thinnest_mm_) thin.push_back(i);
     return thin;
   }
@@ -67,20 +74,23 @@ class Flipper {
   // Returns the triangles to the left of those edges' other directions.
   std::map<EdgeEnds, Index> neighbours_of(const std::vector<Index>& thin) const {
     std::map<EdgeEnds, Index> neighbours;
+    std::vector<std::uint8_t> is_end(front_.points.size(), 0);
     for (const Index i : thin) {
       const auto [a, b, c] = longest_first(front_.triangles[i]);
       neighbours[{b, a}] = no_index;
+      is_end[a] = is_end[b] = 1;
     }
     for (Index i = 0; i < front_.triangles.size(); ++i) {
       const auto& [a, b, c] = front_.triangles[i];
       for (const EdgeEnds ends : {EdgeEnds{a, b}, EdgeEnds{b, c}, EdgeEnds{c, a}})
-        if (const auto found = neighbours.find(ends); found != neighbours.end()) found->second = i;
+        if (is_end[ends[0]] && is_end[ends[1]])
+          if (const auto found = neighbours.find(ends); found != neighbours.end()) found->second = i;
     }
     return neighbours;
   }
 
-  // Returns whether any edge was flipped. A triangle takes part in one flip per pass.
-  bool flip_all(const std::vector<Index>& thin) {
+  // Flips edges, and returns the triangles that have changed. A triangle takes part in one flip per pass.
+  std::set<Index> flip_all(const std::vector<Index>& thin) {
     const std::map<EdgeEnds, Index> neighbours = neighbours_of(thin);
     std::set<Index> changed;
     for (const Index i : thin) {
@@ -90,7 +100,7 @@ class Flipper {
       if (changed.contains(i) || changed.contains(found->second) || !flip(i, t, found->second)) continue;
       changed.insert({i, found->second});
     }
-    return !changed.empty();
+    return changed;
   }
 
   // Replaces the edge ab of the thin triangle abc and of its neighbour by the one from c to the neighbour's opposite
