@@ -1,7 +1,7 @@
 // Keeps documents: each state goes to the engine while things still move. What no engine has confirmed also stays in the
 // browser, so that it outlives the engine and the page. This file knows no page, so that tests can run it alone.
 
-const PAUSE_MS = 60; // between two states, so that there is time for pictures; with the answer less than the 100 ms that may be lost
+const PAUSE_MS = 25; // between two states, so that the engine has time for pictures
 
 export class Keeper {
   // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers and "older" if a
