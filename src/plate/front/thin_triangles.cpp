@@ -32,12 +32,7 @@ class Flipper {
     std::vector<Index> all(front_.triangles.size());
     std::iota(all.begin(), all.end(), Index{0});
     std::vector<Index> thin = thin_among(all);
-    for (int pass = 0; pass < most_passes && !thin.empty(); ++pass) {
-      std::set<Index> candidates = flip_all(thin);
-      if (candidates.empty()) break;
-      candidates.insert(thin.begin(), thin.end());
-      thin = thin_among(candidates);
-    }
+    for (int pass = 0; pass < most_passes && !thin.empty(); ++pass) thin = thin_among(flip_all(thin));
     return moved_mm_;
   }
 
@@ -89,7 +84,8 @@ class Flipper {
     return neighbours;
   }
 
-  // Flips edges, and returns the triangles that have changed. A triangle takes part in one flip per pass.
+  // Flips edges, and returns the triangles that may be flipped next: those that have changed, and thin ones that wait for
+  // one of them. A triangle takes part in one flip per pass.
   std::set<Index> flip_all(const std::vector<Index>& thin) {
     const std::map<EdgeEnds, Index> neighbours = neighbours_of(thin);
     std::set<Index> changed;
@@ -97,10 +93,19 @@ class Flipper {
       const Triangle t = longest_first(front_.triangles[i]);
       const auto found = neighbours.find({t[1], t[0]});
       if (found == neighbours.end() || found->second == no_index) continue;
-      if (changed.contains(i) || changed.contains(found->second) || !flip(i, t, found->second)) continue;
-      changed.insert({i, found->second});
+      const Index neighbour = found->second;
+      if (changed.contains(i) || changed.contains(neighbour) || !flip(i, t, neighbour))
+        waiting_.emplace(neighbour, i);
+      else
+        changed.insert({i, neighbour});
     }
-    return changed;
+    std::set<Index> next = changed;
+    for (const Index i : changed) {
+      const auto [first, last] = waiting_.equal_range(i);
+      for (auto each = first; each != last; ++each) next.insert(each->second);
+      waiting_.erase(first, last);
+    }
+    return next;
   }
 
   // Replaces the edge ab of the thin triangle abc and of its neighbour by the one from c to the neighbour's opposite
@@ -130,6 +135,7 @@ class Flipper {
 
   Solid& front_;
   double thinnest_mm_ = 0, moved_mm_ = 0;
+  std::multimap<Index, Index> waiting_;  // thin triangles that could not be flipped, by their neighbours
 };
 
 }  // namespace
