@@ -125,7 +125,9 @@ TEST(OptionFields, AreAllMembers) {
   const std::size_t all = option_fields().size();
   EXPECT_EQ(sizeof(NumericOptions),
             numbers * sizeof(double) + (all - numbers - texts) * sizeof(std::optional<double>));
-  EXPECT_EQ(sizeof(OptionTexts), sizeof(NumericOptions) + texts * sizeof(std::string));
+  const std::size_t unpadded = sizeof(NumericOptions) + texts * sizeof(std::string);
+  constexpr std::size_t padding = alignof(OptionTexts);
+  EXPECT_EQ(sizeof(OptionTexts), (unpadded + padding - 1) / padding * padding);
 }
 
 TEST(OptionFields, ChoicesAreWhatIsRead) {

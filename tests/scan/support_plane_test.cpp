@@ -21,11 +21,10 @@ constexpr double noise = .01;  // of planes, as standard deviation
 void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half) {
   test::Random random(11);
   const Vec3 n = normal.normalized(), side = Vec3::UnitY().cross(n).normalized(), across = n.cross(side);
-  for (std::size_t i = 0; i < points; ++i)
-    test::add(cloud,
-              random.uniform(-half, half) * side + random.uniform(-half, half) * across +
-                  noise * random.gaussian() * n,
-              n);
+  for (std::size_t i = 0; i < points; ++i) {
+    const double x = random.uniform(-half, half), y = random.uniform(-half, half);
+    test::add(cloud, x * side + y * across + noise * random.gaussian() * n, n);
+  }
 }
 
 // Returns a sphere of radius 1 that touches the plane through the origin with that normal, and 4 x 4 of the plane.

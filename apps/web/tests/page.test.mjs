@@ -27,6 +27,7 @@ before(async () => {
   scans = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-scans-"));
   const shell = await relievo.sample("shell", {points: 20000});
   fs.writeFileSync(path.join(scans, "shell.ply"), shell);
+  fs.writeFileSync(path.join(scans, "dense.ply"), await relievo.sample("shell", {points: 100000}));
   fs.writeFileSync(path.join(scans, "urn.ply"), await relievo.sample("still_life", {points: 20000}));
   fs.writeFileSync(path.join(scans, "large.ply"), waves(1500));
   fs.writeFileSync(path.join(scans, "broken.ply"), "ply\nformat ascii 1.0\nelement vertex 2\n");
@@ -239,8 +240,8 @@ test("a preparation is cancelled, and a tab closed in the middle of one loses no
   await studio.page.getByRole("button", {name: /green man/i}).click();
   await studio.button("Cancel").first().click();
   await studio.page.getByRole("list", {name: "Try a sample"}).waitFor();
-  await studio.open(scan("shell.ply"));
-  await studio.untilReady("20,000");
+  await studio.open(scan("dense.ply"));
+  await studio.untilReady("100,000");
   await studio.setHeight(1.75);
   await studio.button("Choose view").click();
   await studio.page.getByRole("group", {name: "Sides"}).getByRole("button", {name: "Back", exact: true}).click();
@@ -248,7 +249,7 @@ test("a preparation is cancelled, and a tab closed in the middle of one loses no
   await studio.page.getByRole("progressbar", {name: "Preparing"}).waitFor();
   await studio.page.close({runBeforeUnload: true});
   const again = await openPage();
-  await again.untilReady("20,000");
+  await again.untilReady("100,000");
   assert.equal(Number(await again.height.inputValue()), 1.75);
   assert.equal(await again.page.locator("#view-name").textContent(), "Back");
 });

@@ -209,14 +209,20 @@ TurningScan::TurningScan(const MeasuredCloud& measured)
 
 TurningScan TurningScan::without_plane(const Surface& surface) const {
   TurningScan rest = *this;
+  const SupportPlane& plane = *surface.plane;
+  // A few points of noise are farther from the plane than its tolerance, and would be discs of their own.
+  SupportPlane thicker = plane;
+  thicker.tolerance *= 2;
   const Mat3& R = surface.view.R_view_model;
   const Vec3 shift = centre - surface.centre;
   const Eigen::Matrix3f rotation = R.cast<float>();
-  const Vec3f normal = surface.plane->normal.cast<float>();
+  const Vec3f normal = plane.normal.cast<float>();
   std::erase_if(rest.points, [&](const FrontPoint& p) {
     const Vec3f n = rotation * p.normal;
     const bool is_reversed = do_normals_face_viewer && n.dot(normal) < 0;
-    return surface.plane->takes(R * (p.place.cast<double>() + shift), is_reversed ? Vec3f(-n) : n);
+    const Vec3 place = R * (p.place.cast<double>() + shift);
+    const Vec3f oriented = is_reversed ? Vec3f(-n) : n;
+    return plane.takes(place, oriented) || thicker.takes(place, oriented);
   });
   return rest;
 }
