@@ -118,16 +118,16 @@ void print_json(const BenchResult& r) {
                       {"frames", frames},
                       {"bytes_per_point", memory},
                       {"peak_mib", peak_memory_mib()}};
-  if (r.views)
+  if (r.views) {
     json["views_ms"] = {{"first", r.views->first_ms},
                         {"first_turned", r.views->first_turned_ms},
                         {"turned_p50", r.views->turned.time.percentile(.5)},
                         {"turned_p95", r.views->turned.time.percentile(.95)},
                         {"prepared_p50", r.views->prepared.time.percentile(.5)},
                         {"prepared_p95", r.views->prepared.time.percentile(.95)}};
-  if (r.views)
     json["views_mib"] = {{"turned", {r.views->turned.early_mib, r.views->turned.late_mib}},
                          {"prepared", {r.views->prepared.early_mib, r.views->prepared.late_mib}}};
+  }
   std::printf("%s\n", json.dump(2).c_str());
 }
 

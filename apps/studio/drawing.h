@@ -103,8 +103,8 @@ class Drawing {
   // Keeps showing the last frame, whatever is asked for, until another model is drawn.
   void freeze(bool is_frozen) { is_frozen_ = is_frozen; }
 
-  // Draws a frame, whose height is nearly met unless the picture is to be fine. If the options ask for more than a rectangular plate,
-  // draws a piece, see Piece::drawn(). Errors: those of make_relief().
+  // Draws a frame, whose height is met within 3 % unless the picture is to be fine. If the options ask for more than a
+  // rectangular plate, draws a piece, whose height is met, see Piece::drawn(). Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
   // Returns the order of the piece that the request would show; nothing if it is at hand. Errors: those of with_width().

@@ -61,8 +61,8 @@ void SurfaceBlur::each_corner(const Place& place, F&& f) const {
   }
 }
 
-// Sets each cell to the sum of itself, twice, and its neighbours in the columns a step before and after. The column before
-// the first of a row is the last of another: both are margins, where averages are of no use.
+// Sets each cell to the sum of itself, twice, and its neighbours in the columns a step before and after. Before the first
+// column of a row is the last of another row: both are margins, whose averages nobody reads.
 void SurfaceBlur::average_across(std::size_t step, const Cells& cells, Cells& averages) const {
   const std::size_t last = columns_.size() - 1;
   parallel_for(

@@ -12,7 +12,8 @@ namespace relievo {
 
 // A blur with a Gaussian of one width, prepared for given points. Their values are distributed to a grid of
 // cells about as wide as the Gaussian, the cells are averaged with their neighbours, and the values are
-// interpolated back. A column of cells extends from below the lowest point to above the highest one around it. The time does not depend on the width.
+// interpolated back. Only cells around the points are kept: in each column of the grid along z, those from the lowest to
+// the highest point around it.
 class SurfaceBlur {
  public:
   // `sigma` > 0 is the standard deviation; it is increased if the grid would have more than 2^24 cells.

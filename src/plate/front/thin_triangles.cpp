@@ -58,6 +58,7 @@ class Flipper {
     return cross(at(b) - at(a), at(c) - at(a)) / (at(b) - at(a)).norm();
   }
 
+  // Returns those of some triangles that are thin.
   template <typename Triangles>
   std::vector<Index> thin_among(const Triangles& triangles) const {
     std::vector<Index> thin;
