@@ -8,20 +8,15 @@
 
 #include "core/disjoint_sets.h"
 #include "relievo/core/parallel.h"
+#include "scan/turning/disc_band.h"
 
 namespace relievo {
 namespace {
 
 constexpr std::size_t block = 1 << 15;  // points that one task turns
 constexpr int band_rows = 32;           // rows of cells that one task draws
-// Radii of the discs that hide what is behind them, and of those whose normals are averaged, in spacings. Discs of 1.5
-// leave a thousandth of the places between scattered points uncovered.
-constexpr float hiding_radius = 2, mean_radius = 1.5F;
-constexpr float least_mean_radius = .8F;  // in cells
-constexpr float least_cell = .6F;         // in spacings: smaller cells show nothing more
-constexpr float depth_tolerance = 2;      // in spacings / n_z, as in VisibleOptions
-constexpr float least_facing = .1F;       // limits the tolerance where a surface is seen edge on
-constexpr float steepest = 20;            // slope of a disc
+constexpr float least_cell = .6F;       // in spacings: smaller cells show nothing more
+constexpr float steepest = 20;          // slope of a disc
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 struct FlatBox {
@@ -53,14 +48,6 @@ FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
   return {box.least + size.cwiseProduct(least.cast<float>()),
           box.least + size.cwiseProduct(most.cast<float>())};
 }
-
-// A point in view coordinates, in cells from the grid's corner.
-struct Disc {
-  Vec3f place;
-  Vec3f normal;
-  Vec2f slope;
-  float spacing;
-};
 
 // The points of one block that touch each band of rows.
 using Bands = std::vector<std::vector<Disc>>;
@@ -137,7 +124,7 @@ class FrontDrawing {
     cells_.corner = box_.least.head<2>() - Vec2f::Constant(1.5F * cells_.cell);
     const int columns = 3 + static_cast<int>(size.x() / cells_.cell),
               rows = 3 + static_cast<int>(size.y() / cells_.cell);
-    cells_.depth = filled_image(columns, rows, -infinity);
+    cells_.depth = filled_image(columns, rows, FrontCells::no_depth);
     cells_.normal = filled_image<Vec3f>(columns, rows, Vec3f::Zero());
     cells_.is_behind = filled_image<std::uint8_t>(columns, rows, 0);
   }
@@ -162,70 +149,20 @@ class FrontDrawing {
     if (n.z() <= 0) return behind.emplace_back(place.head<2>()), void();
     const float nz = std::max(n.z(), 1 / steepest), spacing = point.spacing / cells_.cell;
     const Disc disc{place, n, Vec2f(-n.head<2>() / nz), spacing};
-    const float reach = std::max(hiding_radius * spacing, 1.F);
+    const float reach = std::max(Disc::hiding_radius * spacing, 1.F);
     const int rows = cells_.depth.height;
     const int first = std::clamp(static_cast<int>(place.y() - reach), 0, rows - 1) / band_rows,
               last = std::clamp(static_cast<int>(place.y() + reach), 0, rows - 1) / band_rows;
     for (int b = first; b <= last; ++b) to[static_cast<std::size_t>(b)].push_back(disc);
   }
 
-  // Calls f(x, y, step) for the cells of a band whose centres lie within a distance of the disc's centre in the plane.
-  template <typename F>
-  void each_cell(const Disc& disc, float radius, int band, F&& f) const {
-    const int first = std::max(band * band_rows, static_cast<int>(std::ceil(disc.place.y() - radius - .5F))),
-              last = std::min({(band + 1) * band_rows, cells_.depth.height,
-                               static_cast<int>(std::floor(disc.place.y() + radius - .5F)) + 1});
-    const int left = std::max(0, static_cast<int>(std::ceil(disc.place.x() - radius - .5F))),
-              right = std::min(cells_.depth.width,
-                               static_cast<int>(std::floor(disc.place.x() + radius - .5F)) + 1);
-    for (int y = first; y < last; ++y)
-      for (int x = left; x < right; ++x)
-        f(x, y,
-          Vec2f(static_cast<float>(x) + .5F - disc.place.x(), static_cast<float>(y) + .5F - disc.place.y()));
-  }
-
-  void draw_band(int band) {
-    const auto b = static_cast<std::size_t>(band);
-    for (const Bands& bands : blocks_)
-      for (const Disc& disc : bands[b]) draw_depth(disc, band);
-    for (const Bands& bands : blocks_)
-      for (const Disc& disc : bands[b]) add_normal(disc, band);
-    const int last = std::min((band + 1) * band_rows, cells_.depth.height);
-    for (int y = band * band_rows; y < last; ++y)
-      for (int x = 0; x < cells_.depth.width; ++x) {
-        Vec3f& n = cells_.normal.at(x, y);
-        const float length = n.norm();
-        n = length > 0 ? Vec3f(n / length) : Vec3f::Zero();
-      }
-  }
-
-  void draw_depth(const Disc& disc, int band) {
-    const float radius = hiding_radius * disc.spacing, radius_sq = radius * radius;
-    each_cell(disc, radius, band, [&](int x, int y, const Vec2f& step) {
-      const float dz = disc.slope.dot(step);
-      if (step.squaredNorm() + dz * dz > radius_sq) return;
-      float& depth = cells_.depth.at(x, y);
-      depth = std::max(depth, disc.place.z() + dz);
-    });
-    const int x = static_cast<int>(disc.place.x()), y = static_cast<int>(disc.place.y());
-    if (y / band_rows != band) return;
-    const float dz = disc.slope.dot(Vec2f(static_cast<float>(x) + .5F, static_cast<float>(y) + .5F) -
-                                    disc.place.head<2>());
-    float& depth = cells_.depth.at(x, y);
-    depth = std::max(depth, disc.place.z() + std::clamp(dz, -1.F, 1.F));
-  }
-
-  // Adds the normal of a disc to the cells around in which it is in front.
-  void add_normal(const Disc& disc, int band) {
-    const float radius = std::max(mean_radius * disc.spacing, least_mean_radius), radius_sq = radius * radius;
-    const float tolerance =
-        depth_tolerance * std::max(disc.spacing, .5F) / std::max(disc.normal.z(), least_facing);
-    each_cell(disc, radius, band, [&](int x, int y, const Vec2f& step) {
-      const float rest = 1 - step.squaredNorm() / radius_sq, depth = cells_.depth.at(x, y);
-      if (rest <= 0 || depth == -infinity || disc.place.z() + disc.slope.dot(step) + tolerance < depth)
-        return;
-      cells_.normal.at(x, y) += rest * rest * disc.normal;
-    });
+  void draw_band(int number) {
+    const int first_row = number * band_rows;
+    DiscBand band(cells_.depth.width, first_row, std::min(band_rows, cells_.depth.height - first_row));
+    const auto b = static_cast<std::size_t>(number);
+    for (const Bands& bands : blocks_) band.draw_depths(bands[b]);
+    for (const Bands& bands : blocks_) band.add_normals(bands[b]);
+    band.write(cells_);
   }
 
   std::span<const FrontPoint> points_;
@@ -249,15 +186,20 @@ namespace {
 
 // Returns the sets of neighbouring cells that are all covered, or all not.
 DisjointSets pieces_of(const FrontCells& front) {
+  const int width = front.normal.width, height = front.normal.height;
   DisjointSets sets(front.normal.size());
-  const auto join = [&](int x, int y, int dx, int dy) {
-    if (!front.normal.contains(x + dx, y + dy)) return;
-    if (front.is_covered(x, y) != front.is_covered(x + dx, y + dy)) return;
-    sets.join(static_cast<Index>(front.normal.index(x, y)),
-              static_cast<Index>(front.normal.index(x + dx, y + dy)));
-  };
-  for (int y = 0; y < front.normal.height; ++y)
-    for (int x = 0; x < front.normal.width; ++x) join(x, y, 1, 0), join(x, y, 0, 1);
+  const auto is_covered = [&](Index cell) { return front.normal[cell].z() > 0; };
+  const auto are_alike = [&](Index a, Index b) { return is_covered(a) == is_covered(b); };
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const auto cell = static_cast<Index>(front.normal.index(x, y)),
+                 above = cell + static_cast<Index>(width);
+      const bool is_like_left = x > 0 && are_alike(cell, cell - 1);
+      if (is_like_left) sets.join(cell, cell - 1);
+      if (y + 1 == height || !are_alike(cell, above)) continue;
+      // What lies to the left of both has joined them already.
+      if (!is_like_left || !are_alike(above, above - 1)) sets.join(cell, above);
+    }
   return sets;
 }
 

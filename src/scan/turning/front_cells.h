@@ -2,6 +2,7 @@
 // reliefs are made while the model is turned. Tested by tests/scan/turning_test.cpp.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -19,9 +20,11 @@ struct FrontPoint {
 
 // Cells are in rows from below upwards.
 struct FrontCells {
+  static constexpr float no_depth = -std::numeric_limits<float>::infinity();
+
   Vec2f corner = Vec2f::Zero();  // of the first cell
   float cell = 1;                // its side
-  Image<float> depth;            // at the centre of the cell; minus infinity where no point covers it
+  Image<float> depth;            // at the centre of the cell; no_depth where no point covers it
   Image<Vec3f> normal;           // mean of the visible points around, unit length; zero where there are none
   Image8 is_behind;              // whether a point that faces away lies in the cell
   Image8 is_edge;                // whether the surface ends at a covered cell, or jumps: set by mark_edges()

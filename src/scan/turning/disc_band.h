@@ -1,0 +1,51 @@
+// Some rows of the cells of a front, in which the discs of its points are drawn. Tested by tests/scan/turning_test.cpp.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "relievo/core/types.h"
+#include "scan/turning/front_cells.h"
+
+namespace relievo {
+
+// A point in view coordinates, in cells from the grid's corner.
+struct Disc {
+  // Radius of the discs that hide what is behind them, in spacings.
+  static constexpr float hiding_radius = 2;
+
+  Vec3f place;
+  Vec3f normal;
+  Vec2f slope;
+  float spacing;
+};
+
+// Rows of one band, with room behind each row for the last vector of cells that a disc covers.
+class DiscBand {
+ public:
+  DiscBand(int columns, int first_row, int rows);
+
+  // Raises depths to those of discs. All depths are drawn before the first normal.
+  void draw_depths(std::span<const Disc> discs);
+
+  // Adds the normals of discs to the cells around, in which they are in front.
+  void add_normals(std::span<const Disc> discs);
+
+  // Writes depths and unit normals to the band's rows.
+  void write(FrontCells& cells) const;
+
+  // The first cell of a row, counted from the band's first.
+  float* depths(int row) { return depth_.data() + row * stride_; }
+  float* normals(int axis, int row) { return normal_[static_cast<std::size_t>(axis)].data() + row * stride_; }
+  int columns() const { return columns_; }
+  int first_row() const { return first_row_; }
+  int rows() const { return rows_; }
+
+ private:
+  int columns_, first_row_, rows_, stride_;
+  std::vector<float> depth_;
+  std::array<std::vector<float>, 3> normal_;  // x, y and z
+};
+
+}  // namespace relievo
