@@ -20,7 +20,7 @@ const round = (x) => Math.round(x * 1000) / 1000;
 export const format = (points) => points.map(([x, y]) => `${round(x)},${round(y)}`).join(";");
 
 export class CurveEditor {
-  // Calls onChange(tone) while a point moves, onEnd() after it.
+  // Calls onChange(tone), which returns the tone to be shown, while a point moves; onEnd() after it.
   constructor(onChange, onEnd) {
     Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
     this.svg = make("svg", {viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "group", "aria-label": "Tone curve"});
@@ -44,9 +44,7 @@ export class CurveEditor {
   }
 
   change(tone, isOver) {
-    this.tone = tone;
-    this.onChange(tone);
-    this.show();
+    this.show({tone: this.onChange(tone)});
     if (isOver) this.onEnd();
   }
 

@@ -41,7 +41,7 @@ const chooseView = () => opened.chooseView().catch(failed);
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
 const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: chooseView});
-const curve = new CurveEditor((tone) => doc.change({options: {tone}}, "tone"), () => doc.endStroke());
+const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine,
   () => ({options: finalOptions(), name: baseName(), note: heightNote()}), toast);
@@ -79,6 +79,12 @@ function changeMethod(method) {
   const isUntouched = options.boundary === defaultOf("boundary", options.method);
   const boundary = isUntouched ? defaultOf("boundary", method) : options.boundary;
   doc.change({options: {method, boundary}});
+}
+
+// Returns the tone curve of the document, which refuses another one after its drag was taken back.
+function changeTone(tone) {
+  doc.change({options: {tone}}, "tone");
+  return doc.now.options.tone;
 }
 
 function chooseUnit(unit) {

@@ -81,6 +81,30 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", {s
   assert.equal(await text("Height in mm"), "4.00");
 });
 
+test("takes back with Escape what a point of the tone curve is dragged to, and draws no refused curve", {skip}, async () => {
+  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
+  const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
+  await point.evaluate((element) => element.scrollIntoView({block: "center"}));
+  const value = () => point.getAttribute("aria-valuenow"), before = await value();
+  const box = await point.boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2;
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y - 30, {steps: 4});
+  assert.notEqual(await value(), before);
+  await page.keyboard.press("Escape");
+  assert.equal(await value(), before);
+  await page.mouse.move(x, y - 50, {steps: 4});
+  assert.equal(await value(), before);
+  await page.mouse.up();
+  assert.equal(await value(), before);
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x, y - 20, {steps: 4});
+  await page.mouse.up();
+  assert.notEqual(await value(), before, "the next drag counts again");
+  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("The paper's formula (6)");
+});
+
 test("shows and takes inches, and keeps millimetres", {skip}, async () => {
   await set("Longer side in mm", 101.6);
   await page.getByRole("combobox", {name: "Unit of lengths"}).selectOption("inch");
