@@ -75,6 +75,7 @@ std::string points_text(const CloudFile& file) {
   const bool is_mesh = !file.mesh.empty();
   std::string text = cat(is_mesh ? file.mesh.points.size() - file.dropped_points : file.cloud.size(),
                          file.dropped_points > 0 ? cat(" (and ", file.dropped_points, " not finite)") : "");
+  if (file.unmeasured_points > 0) text += cat(" (and ", file.unmeasured_points, " at 0, 0, 0)");
   if (file.missing_points > 0) text += cat(" (and ", file.missing_points, " beyond the end of the file)");
   if (file.dropped_normals > 0 && file.cloud.has_normals() && !is_mesh)
     text += cat(" (and ", file.dropped_normals, " without a normal)");

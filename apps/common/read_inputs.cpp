@@ -32,6 +32,9 @@ std::vector<std::string> remarks_on(const CloudFile& file, const std::string& pa
   if (file.dropped_points > 0)
     lines.push_back(
         cat(path, ": left out ", file.dropped_points, " points with coordinates that are not finite"));
+  if (file.unmeasured_points > 0)
+    lines.push_back(cat(path, ": left out ", file.unmeasured_points,
+                        " points at 0, 0, 0, as devices write what they have not measured"));
   // A mesh keeps its points, whatever their normals.
   if (file.dropped_normals > 0 && file.mesh.empty())
     lines.push_back(cat(path, ": left out ", file.dropped_normals,

@@ -31,7 +31,11 @@ class KdTree {
   // Writes the numbers and squared distances of the k points nearest to `query` to the arrays, nearest first.
   // Returns how many there are: k, or all points if the tree has fewer. A point of the tree finds itself.
   std::size_t nearest(const Point& query, std::size_t k, Index* indices, double* distances_sq) const {
-    return tree_ ? tree_->knnSearch(query.data(), k, indices, distances_sq) : 0;
+    if (!tree_) return 0;
+    NearestSet found(k);
+    found.init(indices, distances_sq);
+    tree_->findNeighbors(found, query.data(), nanoflann::SearchParams());
+    return found.size();
   }
 
   // Replaces `matches` with all points nearer than `radius`, in an order that is arbitrary but reproducible.
@@ -58,6 +62,14 @@ class KdTree {
   using Tree =
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor, double, Index>,
                                           Adaptor, dimension, Index>;
+
+  // Once k points lie at the query itself, nothing is nearer. nanoflann would still visit all other points that do, so that
+  // clouds with many coincident points would take quadratic time.
+  struct NearestSet : nanoflann::KNNResultSet<double, Index> {
+    using Base = nanoflann::KNNResultSet<double, Index>;
+    using Base::Base;
+    double worstDist() const { return Base::worstDist() > 0 ? Base::worstDist() : -1; }
+  };
 
   Adaptor adaptor_;
   std::unique_ptr<Tree> tree_;

@@ -44,19 +44,34 @@ void remove_points(Cloud& cloud, const IsBad& is_bad) {
   if (cloud.has_colours()) cloud.colours.resize(kept);
 }
 
-// Removes points that are not finite. Of points without a normal, these points are removed if they are the
-// minority, else all normals: losing a few points is better than losing all normals, and the reverse.
+// Depth cameras write 0, 0, 0 where they have not measured anything. Fewer such points may be a corner of the model.
+constexpr std::size_t most_zeros = 16;
+
+// Returns the number of points at 0, 0, 0 that are no places; none if there are no others, or in a mesh.
+std::size_t count_unmeasured(const CloudFile& file) {
+  if (!file.mesh.empty()) return 0;
+  const std::size_t zeros =
+      count_points(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].isZero(0); });
+  return zeros > most_zeros && zeros < file.cloud.size() ? zeros : 0;
+}
+
+// Removes points that are not finite or not measured. Of points without a normal, these points are removed if they are
+// the minority, else all normals: losing a few points is better than losing all normals, and the reverse.
 void drop_unusable(CloudFile& file) {
   Cloud& cloud = file.cloud;
+  file.unmeasured_points = count_unmeasured(file);
   const auto is_finite = [&](std::size_t i) { return cloud.points[i].allFinite(); };
+  const auto is_place = [&](std::size_t i) {
+    return is_finite(i) && (file.unmeasured_points == 0 || !cloud.points[i].isZero(0));
+  };
   const auto has_normal = [&](std::size_t i) { return !cloud.has_normals() || !cloud.normals[i].isZero(0); };
   file.dropped_points = count_points(cloud.size(), [&](std::size_t i) { return !is_finite(i); });
   file.dropped_normals =
-      count_points(cloud.size(), [&](std::size_t i) { return is_finite(i) && !has_normal(i); });
-  const std::size_t finite_points = cloud.size() - file.dropped_points;
-  if (file.dropped_normals > finite_points / 2) cloud.normals.clear();
-  if (file.dropped_points + file.dropped_normals == 0) return;
-  remove_points(cloud, [&](std::size_t i) { return !is_finite(i) || !has_normal(i); });
+      count_points(cloud.size(), [&](std::size_t i) { return is_place(i) && !has_normal(i); });
+  const std::size_t no_places = file.dropped_points + file.unmeasured_points;
+  if (file.dropped_normals > (cloud.size() - no_places) / 2) cloud.normals.clear();
+  if (no_places + file.dropped_normals == 0) return;
+  remove_points(cloud, [&](std::size_t i) { return !is_place(i) || !has_normal(i); });
 }
 
 }  // namespace
@@ -67,8 +82,10 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
       {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, beside ? &beside : nullptr};
   auto raw = read_by_format(source);
   if (!raw) return std::unexpected(std::move(raw.error()));
-  CloudFile file{std::move(raw->cloud), std::move(raw->format), 0, 0,
-                 raw->missing_points,   std::move(raw->mesh)};
+  CloudFile file{.cloud = std::move(raw->cloud),
+                 .format = std::move(raw->format),
+                 .missing_points = raw->missing_points,
+                 .mesh = std::move(raw->mesh)};
   const std::size_t points = file.cloud.size();
   drop_unusable(file);
   if (file.cloud.points.empty()) {

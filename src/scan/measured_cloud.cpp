@@ -40,6 +40,18 @@ Result<void> check_extent(const Cloud& cloud, const Box& box) {
   return {};
 }
 
+// Removes points from the order so that at most eight are left of those that coincide. Each search around them would read
+// all, so that many would take quadratic time. Points of one place follow each other.
+void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
+  constexpr std::size_t most = 8;
+  std::size_t kept = 0, same = 0;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    same = i > 0 && points[order[i]] == points[order[i - 1]] ? same + 1 : 0;
+    if (same < most) order[kept++] = order[i];
+  }
+  order.resize(kept);
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud& whole, const View& view,
@@ -62,7 +74,8 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
   measured->input_points_ = whole.size();
   measured->cloud_ = in_view(cloud, {});
   // A fixed order makes the result independent of the file's, and neighbours close in memory make all searches faster.
-  const std::vector<Index> order = space_curve_order(measured->cloud_.points);
+  std::vector<Index> order = space_curve_order(measured->cloud_.points);
+  thin_out_coincident(measured->cloud_.points, order);
   RELIEVO_CHECK(check_cancelled(progress));
   measured->cloud_ = {pick(measured->cloud_.points, order), pick(measured->cloud_.normals, order),
                       pick(measured->cloud_.colours, order), std::move(measured->cloud_.outlines)};

@@ -82,7 +82,8 @@ TEST_F(Corpus, EveryAnswerKeepsItsPromises) {
 
 // Returns the number of the file's points, of which those without coordinates or normals are left out.
 std::size_t all_points(const CloudFile& file) {
-  return file.cloud.size() + file.dropped_points + (file.cloud.has_normals() ? file.dropped_normals : 0);
+  return file.cloud.size() + file.dropped_points + file.unmeasured_points +
+         (file.cloud.has_normals() ? file.dropped_normals : 0);
 }
 
 // Returns the number after the first line that begins so; nothing if there is none.

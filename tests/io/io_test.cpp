@@ -60,6 +60,22 @@ TEST(ReadCloud, DropsAndCountsPointsThatAreNotFinite) {
   EXPECT_EQ(file.dropped_normals, 0U);
 }
 
+TEST(ReadCloud, DropsAndCountsPointsThatWereNotMeasured) {
+  std::vector<Vec3> points(17, Vec3::Zero());
+  points.insert(points.begin() + 3, {{0, 1, 2}, {0, 0, 7}});
+  const CloudFile file = through_ply({points, {}});
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{0, 1, 2}, {0, 0, 7}}));
+  EXPECT_EQ(file.unmeasured_points, 17U);
+  EXPECT_EQ(file.dropped_points, 0U);
+}
+
+TEST(ReadCloud, KeepsAFewPointsAtTheOriginAndCloudsOfNothingElse) {
+  std::vector<Vec3> points(16, Vec3::Zero());
+  points.emplace_back(1, 2, 3);
+  EXPECT_EQ(through_ply({points, {}}).cloud.size(), 17U);
+  EXPECT_EQ(through_ply({std::vector<Vec3>(40, Vec3::Zero()), {}}).cloud.size(), 40U);
+}
+
 TEST(ReadCloud, DropsAndCountsPointsWithoutNormal) {
   const Vec3f good = Vec3f::UnitY(), bad = Vec3f::Constant(std::nanf(""));
   const CloudFile file = through_ply({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {nan, 0, 0}, {4, 0, 0}},

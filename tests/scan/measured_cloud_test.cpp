@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/shapes.h"
 
 namespace relievo {
@@ -24,6 +26,23 @@ TEST(MeasuredCloud, GivesTheSurfaceOfEachView) {
     for (std::size_t i = 0; i < own.points.size(); ++i)
       ASSERT_LT((shared.points[i] - own.points[i]).norm(), 1e-9) << direction << " " << i;
   }
+}
+
+TEST(MeasuredCloud, KeepsAtMostEightPointsOfAPlace) {
+  Cloud cloud = test::sphere(2'000, 1);
+  const Vec3 many = cloud.points[7], few = cloud.points[1'000];
+  const auto repeat = [&](std::size_t i, std::size_t times) {
+    cloud.points.resize(cloud.points.size() + times, Vec3(cloud.points[i]));
+    cloud.normals.resize(cloud.points.size(), Vec3f(cloud.normals[i]));
+  };
+  repeat(7, 500);
+  repeat(1'000, 3);
+  const auto sphere = measured(cloud);
+  const std::vector<Vec3>& points = sphere->cloud().points;
+  EXPECT_EQ(points.size(), 2'000U + 7 + 3);
+  EXPECT_EQ(sphere->cloud().normals.size(), points.size());
+  EXPECT_EQ(std::ranges::count(points, many - sphere->centre()), 8);
+  EXPECT_EQ(std::ranges::count(points, few - sphere->centre()), 4);
 }
 
 TEST(MeasuredCloud, KeepsTheCurvatureOfASphere) {

@@ -30,6 +30,16 @@ TEST(Spacing, DoesNotDependOnTheOrder) {
   EXPECT_EQ(measure_spacing(cloud).rho, rho);
 }
 
+// Each search around the place would read all its points, and all of them together take minutes.
+TEST(Spacing, OfManyCoincidentPointsTakesNoQuadraticTime) {
+  Cloud cloud = test::sphere(150'000, 1);
+  const double rho = measure_spacing(cloud).rho;
+  cloud.points.resize(250'000, Vec3(0, 0, 5));
+  const Spacing spacing = measure_spacing(cloud);
+  EXPECT_EQ(spacing.local.back(), 0);
+  EXPECT_GT(spacing.rho, .5 * rho);
+}
+
 // The neighbours against brute force.
 TEST(Spacing, FindsTheNearestOtherPoints) {
   const Cloud cloud = test::sphere(300, 1);
