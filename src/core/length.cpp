@@ -39,12 +39,32 @@ std::optional<double> take_number(std::string_view& text) {
 }
 
 // Removes a number or a fraction of two.
-std::optional<double> take_term(std::string_view& text) {
+std::optional<double> take_fraction(std::string_view& text) {
   const std::optional<double> value = take_number(text);
   if (!value || !text.starts_with('/')) return value;
   text.remove_prefix(1);
   const std::optional<double> parts = take_number(text);
   return parts && *parts > 0 ? std::optional(*value / *parts) : std::nullopt;
+}
+
+// Returns how long the whole number of "1 1/8" is, with the spaces behind it; 0 where no such number begins the text.
+std::size_t whole_part(std::string_view text) {
+  constexpr std::string_view digits = "0123456789";
+  const std::size_t spaces = std::min(text.find_first_not_of(digits), text.size());
+  const std::size_t fraction = std::min(text.find_first_not_of(' ', spaces), text.size());
+  const std::size_t slash = text.find_first_not_of(digits, fraction);
+  const bool is_mixed =
+      spaces > 0 && fraction > spaces && slash > fraction && slash != std::string_view::npos;
+  return is_mixed && text[slash] == '/' ? fraction : 0;
+}
+
+// Removes a number, a fraction of two, or a whole number and a fraction.
+std::optional<double> take_term(std::string_view& text) {
+  const std::size_t whole = whole_part(text);
+  const std::optional<double> number = whole > 0 ? take_number(text) : std::optional(0.0);
+  if (whole > 0) skip_spaces(text);
+  const std::optional<double> fraction = take_fraction(text);
+  return number && fraction ? std::optional(*number + *fraction) : std::nullopt;
 }
 
 // Removes a sum, such as "-3 + 1/2 - 0.5".

@@ -7,12 +7,12 @@ namespace relievo {
 namespace {
 
 std::vector<ShapeNumber> numbers_of(BaseOptions& base, std::optional<double>& direction) {
-  const ShapeNumber height{"height", &base.height_mm}, along{"direction", &direction};
+  const ShapeNumber height{"height", &base.height_mm}, along{"direction", &direction, ShapeUnit::degrees};
   switch (base.kind) {
     case BaseKind::plane:
       return {};
     case BaseKind::fold:
-      return {height, {"angle", &base.angle_deg}, along};
+      return {height, {"angle", &base.angle_deg, ShapeUnit::degrees}, along};
     case BaseKind::wave:
       return {height, {"length", &base.length_mm}, along};
     case BaseKind::cylinder:

@@ -1,18 +1,28 @@
 #include "plate/shape_text.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 
-#include "core/number.h"
+#include "relievo/core/length.h"
 #include "relievo/core/text.h"
 
 namespace relievo {
 namespace {
 
-std::optional<double> number_in(std::string_view text) {
-  const auto [number, end, error] = parse_double(text);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(number)) return std::nullopt;
-  return number;
+std::optional<double> value_of(std::string_view text, ShapeUnit unit) {
+  const bool has_unit = text.find_first_not_of("0123456789.,+-/eE ") != std::string_view::npos;
+  if (unit == ShapeUnit::degrees && has_unit) return std::nullopt;
+  const Result<double> value = parse_length(text);
+  return value ? std::optional(*value) : std::nullopt;
+}
+
+// Returns the text up to the next comma that does not belong to a number.
+std::string_view first_entry(std::string_view text) {
+  std::size_t comma = text.find(',');
+  while (comma != std::string_view::npos && comma + 1 < text.size() &&
+         std::isdigit(static_cast<unsigned char>(text[comma + 1])))
+    comma = text.find(',', comma + 1);
+  return text.substr(0, comma);
 }
 
 std::string names_of(std::span<const ShapeNumber> numbers, std::span<const ShapeWord> words) {
@@ -20,7 +30,7 @@ std::string names_of(std::span<const ShapeNumber> numbers, std::span<const Shape
   const auto add = [&](std::string_view name, std::string_view value) {
     names += cat(names.empty() ? "" : ", ", name, value);
   };
-  for (const ShapeNumber& number : numbers) add(number.name, "=NUMBER");
+  for (const ShapeNumber& number : numbers) add(number.name, number.unit == ShapeUnit::mm ? "=MM" : "=DEG");
   for (const ShapeWord& word : words) add(word.name, "");
   return names.empty() ? "nothing" : names;
 }
@@ -36,7 +46,7 @@ bool read_entry(std::string_view entry, std::span<const ShapeNumber> numbers,
   }
   const auto number = std::ranges::find(numbers, name, &ShapeNumber::name);
   if (number == numbers.end()) return false;
-  *number->value = number_in(entry.substr(equals + 1));
+  *number->value = value_of(entry.substr(equals + 1), number->unit);
   return number->value->has_value();
 }
 
@@ -52,7 +62,7 @@ Result<void> read_shape(std::string_view text, std::string_view option, std::spa
   if (kind.size() == text.size()) return {};
   std::string_view rest = text.substr(kind.size() + 1);
   while (true) {
-    const std::string_view entry = rest.substr(0, rest.find(','));
+    const std::string_view entry = first_entry(rest);
     if (!read_entry(entry, numbers, words))
       return option_error(std::string(option), cat("expected ", names_of(numbers, words), " after '", kind,
                                                    ":', found '", entry, "'"));

@@ -10,10 +10,13 @@
 
 namespace relievo {
 
-// A parameter with a value, and where to put it.
+enum class ShapeUnit { mm, degrees };
+
+// A parameter with a value, and where to put it. A length may carry its unit: "diameter=2 1/2in".
 struct ShapeNumber {
   std::string_view name;
   std::optional<double>* value;
+  ShapeUnit unit = ShapeUnit::mm;
 };
 
 // A parameter without a value, and what to set if it is there.
@@ -26,8 +29,8 @@ struct ShapeWord {
 std::string_view shape_kind(std::string_view text);
 
 // Parses the parameters after the colon into `numbers` and `words`; those that the text does not name keep
-// their values. Errors: kind option, naming `option`, for unknown parameters, and for values that are no
-// finite numbers.
+// their values. A comma before a digit is a decimal comma, others separate parameters. Errors: kind option, naming
+// `option`, for unknown parameters, and for values that are no lengths or finite numbers.
 Result<void> read_shape(std::string_view text, std::string_view option, std::span<const ShapeNumber> numbers,
                         std::span<const ShapeWord> words);
 

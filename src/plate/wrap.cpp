@@ -63,12 +63,12 @@ Result<WrapOptions> parse_wrap(std::string_view text) {
   std::vector<ShapeNumber> numbers;
   std::vector<ShapeWord> words;
   if (wrap.kind != WrapKind::none) {
-    numbers = {{"diameter", &wrap.diameter_mm}, {"turn", &wrap.turn_deg}};
+    numbers = {{"diameter", &wrap.diameter_mm}, {"turn", &wrap.turn_deg, ShapeUnit::degrees}};
     words = {{"inside", &wrap.is_inside}};
   }
-  if (wrap.kind == WrapKind::cone) numbers.push_back({"angle", &angle});
+  if (wrap.kind == WrapKind::cone) numbers.push_back({"angle", &angle, ShapeUnit::degrees});
   if (wrap.kind == WrapKind::cone || wrap.kind == WrapKind::cylinder)
-    numbers.push_back({"direction", &direction});
+    numbers.push_back({"direction", &direction, ShapeUnit::degrees});
   RELIEVO_CHECK(read_shape(text, "wrap", numbers, words));
   wrap.direction_deg = direction.value_or(wrap.direction_deg);
   wrap.angle_deg = angle.value_or(wrap.angle_deg);

@@ -49,6 +49,16 @@ constexpr const char* shapes[] = {"fold",          "fold:angle=30,direction=20,h
                                   "dome",          "dome:diameter=200",
                                   "image:height=4"};
 
+TEST(Base, LengthsMayHaveUnitsFractionsAndDecimalCommas) {
+  const BaseOptions wave = parse_base("wave:height=1/4in,length=2,5cm,direction=22,5,hollow").value();
+  EXPECT_DOUBLE_EQ(*wave.height_mm, 6.35);
+  EXPECT_DOUBLE_EQ(*wave.length_mm, 25);
+  EXPECT_DOUBLE_EQ(wave.direction_deg, 22.5);
+  EXPECT_TRUE(wave.is_hollow);
+  EXPECT_DOUBLE_EQ(*parse_base("dome:height=2 1/2in").value().height_mm, 63.5);
+  EXPECT_TRUE(complaint("fold:angle=1in").contains("angle=DEG")) << complaint("fold:angle=1in");
+}
+
 TEST(Base, HeightsHaveTheirClosedForms) {
   EXPECT_TRUE(over("plane").is_plane());
   EXPECT_EQ(over("plane").height({31, 7}), 0);
@@ -137,8 +147,8 @@ TEST(Base, KnowsWhereARidgeIsCrossed) {
 
 TEST(Base, RefusesWhatCannotBe) {
   EXPECT_TRUE(complaint("bowl").contains("plane, fold, wave, cylinder, dome or image"));
-  EXPECT_TRUE(complaint("wave:depth=3").contains("height=NUMBER, length=NUMBER, direction=NUMBER, hollow"));
-  for (const char* text : {"plane:height=3", "wave:", "wave:height", "wave:height=", "wave:height=3mm",
+  EXPECT_TRUE(complaint("wave:depth=3").contains("height=MM, length=MM, direction=DEG, hollow"));
+  for (const char* text : {"plane:height=3", "wave:", "wave:height", "wave:height=", "wave:height=3kg",
                            "wave:height=nan", "wave:height=3,,length=4", "fold:height=-1", "fold:angle=85",
                            "fold:angle=15,height=3", "wave:height=30,length=5", "cylinder:diameter=99",
                            "dome:diameter=110", "dome:height=300", "fold:height=400", "image"})

@@ -2,9 +2,10 @@
 // tests/core/lengths.json.
 
 const MM = {mm: 1, cm: 10, in: 25.4, '"': 25.4};
-const NUMBER = "(?:\\d+(?:[.,]\\d*)?|[.,]\\d+)(?:[eE][+-]?\\d+)?", TERM = `${NUMBER}(?:/${NUMBER})?`;
-const WHOLE = new RegExp(`^ *(-?${TERM}(?: *[+-] *${TERM})*) *(mm|cm|in|")? *$`);
-const TERMS = new RegExp(`([+-]?) *(${NUMBER})(?:/(${NUMBER}))?`, "g");
+const NUMBER = "(?:\\d+(?:[.,]\\d*)?|[.,]\\d+)(?:[eE][+-]?\\d+)?", WHOLE_PART = "(?:(\\d+) +(?=\\d+/))?";
+const TERM = `${WHOLE_PART}${NUMBER}(?:/${NUMBER})?`;
+const WHOLE = new RegExp(`^ *(?<sum>-?${TERM}(?: *[+-] *${TERM})*) *(?<unit>mm|cm|in|")? *$`);
+const TERMS = new RegExp(`([+-]?) *${WHOLE_PART}(${NUMBER})(?:/(${NUMBER}))?`, "g");
 
 // Nobody can tell whether "1,234" has a decimal comma or a thousand; "0,125" has a comma.
 function number(text) {
@@ -12,14 +13,14 @@ function number(text) {
   return /^\d*[1-9]\d*,\d{3}$/.test(text) || !Number.isFinite(value) ? NaN : value;
 }
 
-// Returns the millimetres of "2,5", "4in", "1/8 in" or "3+0.5", or the number of a text that may have no unit; NaN of
-// any other text. Lengths without a unit are in units of `mm` millimetres.
+// Returns the millimetres of "2,5", "4in", "1/8 in", "1 1/8in" or "3+0.5", or the number of a text that may have no
+// unit; NaN of any other text. Lengths without a unit are in units of `mm` millimetres.
 export function parseLength(text, mayHaveUnit = true, mm = 1) {
-  const [, sum, unit] = text.match(WHOLE) ?? [];
+  const {sum, unit} = text.match(WHOLE)?.groups ?? {};
   if (!sum || (unit && !mayHaveUnit)) return NaN;
   let total = 0;
-  for (const [, sign, top, bottom = "1"] of sum.matchAll(TERMS))
-    total += Number(`${sign}1`) * number(top) / number(bottom);
+  for (const [, sign, whole = "0", top, bottom = "1"] of sum.matchAll(TERMS))
+    total += Number(`${sign}1`) * (Number(whole) + number(top) / number(bottom));
   const value = total * (MM[unit] ?? mm);
   return Number.isFinite(value) ? value : NaN;
 }
