@@ -125,9 +125,20 @@ class Preamble {
   std::size_t names_line_ = 0;
 };
 
+// Returns whether each field between tabs is a number with a decimal point or comma.
+bool is_between_tabs(std::string_view line) {
+  if (!line.contains('\t')) return false;
+  XyzLayout commas;
+  commas.has_decimal_commas = true;
+  Fields fields(line, '\t');
+  while (const auto field = fields.next())
+    if (field->ends_with(',') || !parse_field(*field, commas)) return false;
+  return true;
+}
+
 Result<char> find_separator(const Source& source, std::string_view line, std::size_t number) {
   if (line.find(';') != std::string_view::npos) return ';';
-  if (line.find(',') == std::string_view::npos) return ' ';
+  if (line.find(',') == std::string_view::npos || is_between_tabs(line)) return ' ';
   if (!has_decimal_commas(line)) return ',';
   return source.error_in_line(
       number, "expected numbers with a decimal point, separated in one way, found " + in_quotes(line));
@@ -149,7 +160,7 @@ std::optional<std::string_view> Fields::next() {
 }
 
 std::optional<double> parse_field(std::string_view field, const XyzLayout& layout) {
-  if (!layout.has_decimal_commas) return parse_number(field);
+  if (!layout.has_decimal_commas || !field.contains(',')) return parse_number(field);
   std::string word(field);
   std::ranges::replace(word, ',', '.');
   return parse_number(word);
@@ -174,8 +185,10 @@ Result<XyzLayout> find_layout(const Source& source) {
   const auto separator = find_separator(source, *line, layout.first_line);
   if (!separator) return std::unexpected(separator.error());
   layout.separator = *separator;
-  // Between semicolons a comma is no separator.
-  layout.has_decimal_commas = layout.separator == ';' && line->contains(',') && !line->contains('.');
+  // Between semicolons or tabs a comma is no separator. A later line may be the first that has one.
+  const bool has_other_separators =
+      layout.separator == ';' || (layout.separator == ' ' && line->contains('\t'));
+  layout.has_decimal_commas = has_other_separators && !line->contains('.');
   layout.columns = count_fields(*line, layout.separator);
   if (layout.columns < 3) {
     return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(*line));

@@ -193,7 +193,7 @@ TEST(Xyz, NotFiniteCoordinatesAreDroppedAndCounted) {
 TEST(Xyz, DecimalCommasAreNeverMisread) {
   const std::string message = ": expected numbers with a decimal point, separated in one way, found ";
   for (const std::string text :
-       {"1,5 2,5 3,5", "1,5\t2,5\t3,5", "1,5, 2,5, 3,5", "1,5  2,5  3,5  0,1  0,2  0,3"}) {
+       {"1,5 2,5 3,5", "1,5\t2,5\t3.5,4", "1,5, 2,5, 3,5", "1,5  2,5  3,5  0,1  0,2  0,3"}) {
     EXPECT_TRUE(message_of(text + "\n", "scan.xyz").starts_with("scan.xyz, line 1" + message)) << text;
   }
   EXPECT_EQ(message_of("1 2 3\n1,5 2,5 3,5\n", "scan.xyz"),
@@ -207,6 +207,18 @@ TEST(Xyz, SemicolonsMaySeparateNumbersWithDecimalCommas) {
   EXPECT_EQ(file.cloud.normals, xz);
   EXPECT_EQ(message_of("1.5;2,5;3\n", "scan.xyz"),
             "scan.xyz, line 1: expected a number in column 2, found '2,5'");
+}
+
+TEST(Xyz, TabsMaySeparateNumbersWithDecimalCommas) {
+  EXPECT_EQ(points_of("1,0\t2,5\t-3\n4\t5\t6,0e3\n"), two_points);
+  EXPECT_EQ(points_of("x\ty\tz\n1,0\t2,5\t-3\n4\t5\t6e3\n"), two_points);
+  EXPECT_EQ(message_of("1.5\t2,5\t3\n", "scan.xyz"),
+            "scan.xyz, line 1: expected a number in column 2, found '2,5'");
+}
+
+TEST(Xyz, ALaterLineMayHaveTheFirstDecimalComma) {
+  EXPECT_EQ(points_of("4;5;6000\n1;2,5;-3\n"), (std::vector<Vec3>{two_points[1], two_points[0]}));
+  EXPECT_EQ(points_of("4\t5\t6000\n1\t2,5\t-3\n"), (std::vector<Vec3>{two_points[1], two_points[0]}));
 }
 
 TEST(Xyz, OtherColumnsMayBeTexts) {
