@@ -41,6 +41,14 @@ std::string name_of_colours(std::uint16_t photometric) {
   switch (photometric) {
     case PHOTOMETRIC_PALETTE:
       return "a palette";
+    case PHOTOMETRIC_SEPARATED:
+      return "colours of inks (CMYK)";
+    case PHOTOMETRIC_YCBCR:
+      return "brightness and differences of colours (YCbCr)";
+    case PHOTOMETRIC_CIELAB:
+    case PHOTOMETRIC_ICCLAB:
+    case PHOTOMETRIC_ITULAB:
+      return "colours of CIELab";
     case PHOTOMETRIC_LOGL:
     case PHOTOMETRIC_LOGLUV:
       return "logarithms of brightness";
@@ -58,7 +66,8 @@ bool takes_luminance(const Layout& layout, const PictureChannels& wanted) {
 Result<void> check_samples(const Source& source, Layout& layout, const PictureChannels& wanted) {
   const bool is_grey = layout.colours <= PHOTOMETRIC_MINISBLACK || layout.colours == PHOTOMETRIC_RGB;
   if (!is_grey)
-    return source.error({}, "expected a grey picture of depths, found " + name_of_colours(layout.colours));
+    return source.error({}, cat("expected a grey picture of depths, found ", name_of_colours(layout.colours),
+                                "; save it in shades of grey"));
   if (wanted.channel > layout.channels)
     return source.error({},
                         cat("expected a channel from 1 to ", layout.channels, ", found ", wanted.channel));

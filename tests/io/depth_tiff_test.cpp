@@ -202,9 +202,11 @@ TEST(DepthTiff, NamesWhatItDoesNotRead) {
   };
   const std::string numbers =
       "d.tif: expected whole numbers of 1 to 32 or 64 bits, or fractions of 16, 32 or 64, found ";
-  EXPECT_EQ(message({8, 1, 1, 3}), "d.tif: expected a grey picture of depths, found a palette");
-  EXPECT_EQ(message({16, 2, 1, 32844}),
-            "d.tif: expected a grey picture of depths, found logarithms of brightness");
+  EXPECT_EQ(message({8, 1, 1, 3}),
+            "d.tif: expected a grey picture of depths, found a palette; save it in shades of grey");
+  EXPECT_EQ(
+      message({16, 2, 1, 32844}),
+      "d.tif: expected a grey picture of depths, found logarithms of brightness; save it in shades of grey");
   EXPECT_EQ(message({48, 1}), numbers + "48-bit whole numbers");
   EXPECT_EQ(message({24, 3}), numbers + "24-bit fractions");
   EXPECT_EQ(message({64, 6}), numbers + "64-bit complex numbers");
