@@ -45,14 +45,14 @@ void remove_points(Cloud& cloud, const IsBad& is_bad) {
 }
 
 // Depth cameras write 0, 0, 0 where they have not measured anything. Fewer such points may be a corner of the model.
-constexpr std::size_t most_zeros = 16;
+constexpr std::size_t most_at_origin = 16;
 
 // Returns the number of points at 0, 0, 0 that are no places; none if there are no others, or in a mesh.
 std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
       count_points(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].isZero(0); });
-  return zeros > most_zeros && zeros < file.cloud.size() ? zeros : 0;
+  return zeros > most_at_origin && zeros < file.cloud.size() ? zeros : 0;
 }
 
 // Removes points that are not finite or not measured. Of points without a normal, these points are removed if they are

@@ -185,9 +185,11 @@ TEST_F(Corpus, RightGltfOfTheValidatorIsRead) {
     if (report["info"].value("totalTriangleCount", 0) == 0 || !fs::exists(name)) continue;
     const auto file = read_at(name);
     const std::string why = file ? "" : file.error().expected;
-    const bool has_no_data = why.starts_with("expected a bufferView, found none") ||
-                             why.starts_with("expected as many bytes") || why.ends_with("found none");
+    const bool has_no_data = why.starts_with("expected as many bytes") || why.ends_with("found none");
     EXPECT_TRUE(file || has_no_data) << name << ": " << why;
+    if (!file || file->mesh.empty())
+      continue;  // two have only triangles with a corner twice, which are left out
+    EXPECT_EQ(file->mesh.triangles.size(), report["info"]["totalTriangleCount"].get<std::size_t>()) << name;
     ++judged;
   }
   std::printf("judged %zu right glTF files with triangles\n", judged);

@@ -112,7 +112,7 @@ Result<AccessorValues> GltfFile::accessor(std::size_t i, const std::string& at) 
   RELIEVO_TRY(const Layout layout, layout_of(*json, place));
   const Json* sparse = object_in(*json, "sparse");
   AccessorValues out{layout.components, {}};
-  if (!sparse || json->contains("bufferView")) {
+  if (json->contains("bufferView")) {
     RELIEVO_TRY(const BufferRows found, rows(*json, layout, place));
     out.numbers = decode_vectors(found, layout.type, layout.components, layout.count, layout.scale);
   } else if (layout.count <= most_zeros) {
