@@ -5,9 +5,17 @@ import {$, download, fileSize} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer} from "./messages.js";
 import {sceneFile} from "./scene_panel.js";
+import {zipOf} from "./zip.js";
 
 // Returns whether one of several files is a scan or scene that names the others.
 const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(name));
+
+// Returns one file that holds a .gltf and the files that it names.
+async function together(files) {
+  const gltf = files.find(({name}) => /\.gltf$/i.test(name));
+  if (!gltf) throw new Error("Several files at once: expected scans, or a .gltf with the files that it names.");
+  return zipOf(files, gltf.name.replace(/gltf$/i, "zip"));
+}
 
 export class Projects {
   // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way.
@@ -37,9 +45,9 @@ export class Projects {
   }
 
   async openScan(files, work = null) {
-    if (files.length > 1 && !this.engine.takesSeveral)
-      throw new Error("Expected one file: put a .gltf and the files that it names into one ZIP archive.");
-    return this.open(await this.take(this.engine.upload(files)), work);
+    const upload = files.length > 1 && !this.engine.takesSeveral
+      ? together(files).then((file) => this.engine.upload([file])) : this.engine.upload(files);
+    return this.open(await this.take(upload), work);
   }
 
   openScene(models, work = null) {

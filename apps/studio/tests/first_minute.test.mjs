@@ -366,3 +366,33 @@ test("finds a table, and leaves it out at the press of a button", {skip}, async 
   await eventually(async () => assert.equal(await points(), before));
   assert.equal(await page.locator("#notes").getByText(/fills its whole frame/).count(), 0);
 });
+
+// Writes a waving surface of 60 x 60 corners as a glTF file with its buffer beside it, and returns both files.
+function writeGltf() {
+  const n = 60, corners = [], triangles = [];
+  for (let i = 0; i < n * n; ++i) {
+    const x = i % n, y = Math.floor(i / n);
+    corners.push(x / n, y / n, 0.1 * Math.sin(x / 6) * Math.cos(y / 7));
+    if (x + 1 < n && y + 1 < n) triangles.push(i, i + 1, i + n, i + 1, i + n + 1, i + n);
+  }
+  const bytes = Buffer.concat([Buffer.from(Float32Array.from(corners).buffer),
+    Buffer.from(Uint32Array.from(triangles).buffer)]);
+  const gltf = {asset: {version: "2.0"}, scene: 0, scenes: [{nodes: [0]}], nodes: [{mesh: 0}],
+    meshes: [{primitives: [{attributes: {POSITION: 0}, indices: 1}]}],
+    buffers: [{uri: "wave.bin", byteLength: bytes.length}],
+    bufferViews: [{buffer: 0, byteLength: 4 * corners.length},
+      {buffer: 0, byteOffset: 4 * corners.length, byteLength: 4 * triangles.length}],
+    accessors: [{bufferView: 0, componentType: 5126, count: n * n, type: "VEC3"},
+      {bufferView: 1, componentType: 5125, count: triangles.length, type: "SCALAR"}]};
+  const files = [path.join(folder, "wave.gltf"), path.join(folder, "wave.bin")];
+  writeFileSync(files[0], JSON.stringify(gltf));
+  writeFileSync(files[1], bytes);
+  return files;
+}
+
+test("opens a glTF file together with the buffer that it names", {skip}, async () => {
+  await page.locator("#file").setInputFiles(writeGltf());
+  await page.getByText("wave.zip", {exact: true}).waitFor();
+  await untilReady(page);
+  assert.match(await numbers().innerText(), /^[\d,]+ of [\d,]+ points/);
+});
