@@ -4,6 +4,7 @@ import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, make} from "./controls.js";
 import {FIRST, engineOptions} from "./document.js";
+import {isUnfinished} from "./inputs.js";
 import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -91,7 +92,7 @@ export class PieceRows {
         ...SUGGESTED[name].map((value) => make("option", {value}))));
     input.onchange = () => this.take(name);
     input.onkeydown = (event) => {
-      if (event.key === "Escape") this.show(name);
+      if (event.key === "Escape") this.show();
     };
     return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
   }
@@ -101,7 +102,7 @@ export class PieceRows {
     const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
-    if (isNumber && text !== "" && value === null) return this.show(name);
+    if (isNumber && text !== "" && value === null) return this.show();
     if (PAIRS[name]) value = inMm(name, value ?? "");
     const {options} = this.doc.now;
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
@@ -111,17 +112,17 @@ export class PieceRows {
     } catch (error) {
       this.say(error.message);
     }
-    this.show(name);
+    this.show();
   }
 
-  // Shows the document's values, but not in a field in which something is typed, unless it is that of option `entered`.
-  show(entered = "") {
+  // Shows the document's values, but not in a field in which something is typed.
+  show() {
     const {options} = this.doc.now;
     for (const [name, {element, input, unit}] of Object.entries(this.rows)) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;
-      if (document.activeElement !== input || input.matches("select") || name === entered) input.value = shown;
+      if (!isUnfinished(input)) input.value = shown;
       if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
         element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
     }
