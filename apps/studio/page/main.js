@@ -268,7 +268,7 @@ function refused() {
 let reopening = 0;
 function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
-  if (error.kind === "option" && stage.drag?.tool === "place") return placing.squeeze();
+  if (placing.squeeze(error)) return stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return toast(error.message);
   clearTimeout(reopening);

@@ -43,14 +43,15 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
-// Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, until a width
-// is asked for; an outline that cannot have that size is as large as the relief needs.
-function besides(name, value, {outline, diameter, plate}, shownWidth) {
+// Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, unless a width
+// was asked for, which that of a new document was not; an outline that cannot have that size is as large as the relief
+// needs.
+function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
     const circle = name === "diameter" ? {outline: "circle", plate: ""} : {diameter: null};
     const straight = name === "plate" && outline === "circle" ? {outline: "rectangle"} : {};
-    return {width: null, ...circle, ...straight};
+    return {width: width === FIRST.options.width ? null : width, ...circle, ...straight};
   }
   const isFree = {diameter: value === "circle", plate: ["rectangle", "round", "ellipse"].includes(value)};
   if (name === "outline" && ((diameter && !isFree.diameter) || (plate && !isFree.plate)))
