@@ -183,6 +183,12 @@ export class Slider {
     this.mark.title = title;
   }
 
+  // Marks the number as one that the piece has not, with a text that says why; "" if the piece has it.
+  complain(text) {
+    this.number.title = text;
+    this.number.setAttribute("aria-invalid", text !== "");
+  }
+
   set disabled(is) {
     this.range.disabled = this.number.disabled = is;
     this.element.classList.toggle("disabled", is);

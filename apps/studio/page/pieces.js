@@ -3,7 +3,7 @@
 import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, make} from "./controls.js";
-import {FIRST, engineOptions} from "./document.js";
+import {FIRST, engineOptions, shownOptions} from "./document.js";
 import {isUnfinished} from "./inputs.js";
 import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 
@@ -108,12 +108,21 @@ export class PieceRows {
     const {options} = this.doc.now;
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
     try {
-      await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
+      await this.tryOut({...this.doc.now, options: {...options, ...part}});
       this.doc.change({options: part});
     } catch (error) {
       this.say(error.message);
     }
     this.show();
+  }
+
+  // Throws what the engine says of options that it cannot read, or of which no piece can be made, for which one of its
+  // heights is asked for. A width that does not fit is put right later, and another view is still to be prepared.
+  async tryOut(step) {
+    await this.engine.check(engineOptions(step));
+    await this.engine.profile({options: shownOptions(step), from: [0, 0], to: [0, 0]}).catch((error) => {
+      if (error.kind === "option" && !error.message.startsWith("width:")) throw error;
+    });
   }
 
   // Shows the document's values, but not in a field in which something is typed.

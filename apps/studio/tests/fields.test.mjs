@@ -81,7 +81,7 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", {s
   assert.equal(await text("Height in mm"), "4.00");
 });
 
-test("undoes what a field of the plate has taken, and keeps its own undo while something is typed", {skip}, async () => {
+test("undoes what a field of the plate has taken, but not while something is typed", {skip}, async () => {
   const plate = page.getByLabel("Plate size", {exact: true});
   const untilPlate = (text) => eventually(async () => assert.equal(await plate.inputValue(), text));
   for (const size of ["150x120", "160x120"]) {
@@ -101,7 +101,8 @@ test("undoes what a field of the plate has taken, and keeps its own undo while s
 });
 
 test("keeps the figure's size on another plate, as long as it fits", {skip}, async () => {
-  const longer = async () => Number(await text("Longer side in mm")), plate = page.getByLabel("Plate size", {exact: true});
+  const plate = page.getByLabel("Plate size", {exact: true});
+  const longer = async () => Number(await text("Longer side in mm"));
   await enter(plate, "200x150");
   await page.getByText("piece 200.00 × 150.00").waitFor();
   assert.ok((await longer()) > 120, "as large as fits");
@@ -117,6 +118,14 @@ test("keeps the figure's size on another plate, as long as it fits", {skip}, asy
   await page.getByText("piece 200.00 × 151.00").waitFor();
   assert.equal(await longer(), 64);
   while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
+});
+
+test("takes back what no piece can be made of", {skip}, async () => {
+  const wrap = page.getByLabel("Bent around", {exact: true});
+  await enter(wrap, "cylinder:diameter=1");
+  await page.getByText(/expected a diameter of at least/).waitFor();
+  assert.equal(await wrap.inputValue(), "none");
+  assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
 });
 
 test("takes back with Escape what a point of the tone curve is dragged to, and draws no refused curve", {skip}, async () => {
@@ -183,6 +192,9 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   assert.ok(limited < most, `${limited} of ${most}`);
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
   await reach.getByText(/The steepest wall keeps it at [\d.]+ mm/).waitFor();
+  assert.equal(await field("Height in mm").getAttribute("aria-invalid"), "true");
+  const reached = (await reach.innerText()).match(/[\d.]+ mm/)[0];
+  await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
   await page.keyboard.press("Control+e"); // the file has another height than the one that was asked for
   const dialog = page.getByRole("dialog", {name: "Export"});
   await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
