@@ -32,10 +32,12 @@ export const millimetresPerUnit = () => MM[shown.unit];
 // Returns the unit of an option as the page shows it.
 export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
 
+const NOISE = 1e-6; // mm, by which sums of the same lengths differ: it must not decide how 6.175 is rounded
+
 // Returns a length with so many decimals of a millimetre, and without its unit. Inches have three, or four for a length
 // that needs them.
 export function lengthText(mm, decimals = 2) {
-  if (shown.unit === "mm") return mm.toFixed(decimals);
+  if (shown.unit === "mm") return (mm + NOISE).toFixed(decimals);
   const text = (mm / MM.in).toFixed(4);
   return decimals <= 2 || text.endsWith("0") ? (mm / MM.in).toFixed(3) : text;
 }

@@ -21,7 +21,7 @@ import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
 import {Projects} from "./projects.js";
 import {Reach} from "./reach.js";
-import {paperWords, showNumbers, showSection, showToolReach} from "./readouts.js";
+import {heightOf, paperWords, showNumbers, showSection, showToolReach, sizeOf} from "./readouts.js";
 import {ScanPanel} from "./scan_panel.js";
 import {ScenePanel} from "./scene_panel.js";
 import {Sliders} from "./sliders.js";
@@ -44,7 +44,7 @@ const stage = new Stage(engine, doc,
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine,
-  () => ({options: finalOptions(), name: baseName(), note: heightNote()}), toast);
+  () => ({options: finalOptions(), name: baseName(), note: heightNote(), heightText}), toast);
 const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: toast});
 const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
@@ -153,7 +153,7 @@ addEventListener("pagehide", () => engine.leave());
 // Returns the options of the files: a height that the view does not reach is replaced by the one that it does.
 function finalOptions() {
   const options = engineOptions(doc.now);
-  if (last && !last.is_height_met) options.height = Math.floor(last.height_mm * 1000) / 1000;
+  if (last && !last.is_height_met) options.height = heightOf(last, doc.now);
   return options;
 }
 
@@ -191,13 +191,13 @@ function pictured(frame, ms, isFine) {
   if (isFine && opened.isReady) kinds.pictured(stage.model);
   if (isFine) showToolReach(frame.tool);
   sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
-  showNumbers({about: frame, ms, isFine, facts, height: shownHeight(frame)});
+  const height = heightText(heightOf(frame, doc.now)), size = sizeOf(frame, doc.now);
+  showNumbers({about: frame, ms, isFine, facts, height, size});
   stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about: frame, ms, isFine}}));
 }
 
-// Returns the height to show. A frame meets a locked height to a part in a thousand, the finished relief exactly.
-const shownHeight = ({height_mm, is_height_met}) =>
-  (doc.now.isHeightLocked && is_height_met ? doc.now.options.height : height_mm);
+// Returns a height as its field shows it.
+const heightText = (mm) => sliders.all.height.text(mm);
 
 // --------------------------------------------------------------------------------------------------- documents
 

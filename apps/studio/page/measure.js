@@ -3,6 +3,7 @@
 
 import {clamp, make} from "./controls.js";
 import {lengthText, shown} from "./lengths.js";
+import {sizeOf} from "./readouts.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
 const ROW = 22; // pixels that a label needs in height
@@ -79,7 +80,7 @@ export class Measure {
   dimensionMarks() {
     const {about, size: picture} = this.stage;
     if (!about) return [];
-    const [width, height, thickness] = about.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
+    const [width, height, thickness] = sizeOf(about, this.stage.doc.now), at = (x, y) => this.stage.toPixels([x, y]);
     const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
     const marks = [...dimension([left, bottom + GAP], [right, bottom + GAP], withUnit(width), picture),
       ...dimension([right + GAP, bottom], [right + GAP, top], withUnit(height), picture),

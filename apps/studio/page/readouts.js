@@ -7,13 +7,28 @@ const FEWEST = 6; // pictures in a second from which their number is told
 
 let times = []; // of the newest pictures
 
-// Shows the numbers that come with a picture: `height` is the one to show, `facts` those of the model.
-export function showNumbers({about, ms, isFine, height, facts}) {
+// Returns the height of a picture's relief as it is shown and as files have it. A frame meets a locked height to a part
+// in a thousand, files exactly; out of reach, they have the largest one, rounded down so that it can be reached.
+export function heightOf({height_mm, is_height_met}, {isHeightLocked, options}) {
+  if (!is_height_met) return Math.floor(height_mm * 1000) / 1000;
+  return isHeightLocked ? options.height : height_mm;
+}
+
+// Returns the size of a picture's piece: a level plate is as thick as plate and relief together.
+export function sizeOf(about, step) {
+  const {base, wrap, form, thickness, "rim-height": rim} = step.options, [x, y, z] = about.size_mm;
+  const isLevel = base === "plane" && wrap === "none" && form !== "die" && rim === null;
+  return [x, y, isLevel ? thickness + heightOf(about, step) : z];
+}
+
+// Shows the numbers that come with a picture: `height` is the text to show, `size` that of the piece, `facts` those of
+// the model.
+export function showNumbers({about, ms, isFine, height, size, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
   const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
-    `height ${lengthText(height)} ${shown.unit}`,
-    `piece ${about.size_mm.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`,
+    `height ${height} ${shown.unit}`,
+    `piece ${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`,
     times.length >= FEWEST ? `${times.length} frames/s` : "", !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
   $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;

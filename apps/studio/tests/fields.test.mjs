@@ -180,6 +180,35 @@ test("exports when Enter is pressed", {skip}, async () => {
   await dialog.waitFor({state: "hidden"});
 });
 
+// Returns the height and the thickness that the status line and the export tell.
+async function toldSizes() {
+  const dialog = page.getByRole("dialog", {name: "Export"}), numbers = /height ([\d.]+).*× ([\d.]+) mm/;
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  const shown = (await page.locator("#numbers").innerText()).match(numbers).slice(1);
+  await page.keyboard.press("Control+e");
+  await dialog.getByText(/triangles$/).waitFor();
+  const [, thick, high] = (await page.locator("#export-size").innerText()).match(/× ([\d.]+) mm, relief ([\d.]+)/);
+  await dialog.getByRole("button", {name: "Cancel"}).click();
+  return {shown, exported: [high, thick]};
+}
+
+test("tells the same height and thickness everywhere", {skip}, async () => {
+  await set("Height in mm", 3.175);
+  assert.equal(await text("Height in mm"), "3.175");
+  await page.getByText(/height 3\.175 mm/).waitFor();
+  assert.deepEqual(await toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
+  await page.getByRole("radio", {name: "Measure"}).click();
+  await page.locator("#overlay").getByText("6.18 mm thick").waitFor();
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await page.getByLabel("Outline", {exact: true}).selectOption("round");
+  await set("Height in mm", 300);
+  await page.locator("#reach").getByText(/at most|keeps it at/).waitFor();
+  const {shown, exported} = await toldSizes();
+  assert.deepEqual(shown, exported);
+  assert.ok(Math.abs(shown[1] - shown[0] - 3) < 0.006, `${shown}`);
+  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
+});
+
 test("marks the height that can be reached, and loosens what limits it", {skip}, async () => {
   const mark = page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/);
   const reach = page.locator("#reach");
