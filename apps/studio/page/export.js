@@ -4,7 +4,7 @@ import {about} from "./about.js";
 import {$, download, fileSize, make} from "./controls.js";
 import {lengthText, shown, typedNumber} from "./lengths.js";
 
-const PIXELS = {label: "Longer side in pixels", min: 16, max: 16384};
+const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 
 // Returns the bytes of the files that are made of a piece: of STL and PLY exactly, of others about.
 function sizes({triangles, points, size_mm: [x, y]}, pixels) {

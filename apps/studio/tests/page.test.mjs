@@ -494,7 +494,7 @@ test("exports several files at once, named for their form, and can be cancelled"
   await dialog.getByText(/triangles/).waitFor();
   await dialog.getByRole("checkbox", {name: /^3MF/}).check();
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
-  await type(dialog.getByLabel("Longer side in pixels"), "300");
+  await type(dialog.getByLabel("Longer side of height maps, in pixels"), "300");
   const files = await savedFiles(found, page, 3, () => dialog.getByRole("button", {name: "Export"}).click());
   assert.deepEqual(files.map(({name}) => name), ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]);
   const saved = /^Saved: scan-mirror.stl, .* mm, relief .* high, [\d,]+ triangles\.$/;
