@@ -121,8 +121,10 @@ export class ExportDialog {
       }
     });
     this.show();
-    if (!isDone || !this.dialog.open) return;
-    this.say(`Saved: ${saved.join(", ")}. ${$("#export-size").textContent}.`);
+    const told = saved.length > 0 ? `Saved: ${saved.join(", ")}.` : "Nothing was saved.";
+    if (!this.dialog.open) return this.say(`Cancelled. ${told}`);
+    if (!isDone) return;
+    this.say(`${told} ${$("#export-size").textContent}.`);
     this.dialog.close("export");
   }
 }

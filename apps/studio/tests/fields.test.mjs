@@ -180,6 +180,22 @@ test("exports when Enter is pressed", {skip}, async () => {
   await dialog.waitFor({state: "hidden"});
 });
 
+test("says what was saved of an export that is cancelled", {skip}, async () => {
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  let asked = 0;
+  await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // no file but the first comes
+  for (const [written, saved] of [["2 of 2", "Saved: scan.stl."], ["1 of 2", "Nothing was saved."]]) {
+    await page.keyboard.press("Control+e");
+    await dialog.getByText(/triangles$/).waitFor();
+    await dialog.getByRole("checkbox", {name: /^3MF/}).check();
+    await dialog.getByRole("button", {name: "Export"}).click();
+    await dialog.getByText(`Writing file ${written}`).waitFor();
+    await dialog.getByRole("button", {name: "Cancel"}).click();
+    await page.getByRole("alert").getByText(`Cancelled. ${saved}`).waitFor();
+  }
+  await page.unroute("**/api/export");
+});
+
 // Returns the height and the thickness that the status line and the export tell.
 async function toldSizes() {
   const dialog = page.getByRole("dialog", {name: "Export"}), numbers = /height ([\d.]+).*× ([\d.]+) mm/;

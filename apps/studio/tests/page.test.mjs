@@ -453,6 +453,7 @@ test("saves a project, opens it again, and makes the same bytes of it", {skip}, 
   await page.getByRole("radio", {name: /^Settings alone/}).check();
   const saved = JSON.parse(await saveAs(() => button("Save").click(), file));
   assert.equal(saved.options.height, 2.5);
+  await page.getByRole("alert").getByText("Saved: scan.relievo.").waitFor();
   await set("Height in mm", 5);
   await choose("Front");
   await openFile(file);
