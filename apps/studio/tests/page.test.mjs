@@ -608,7 +608,9 @@ test("says in plain words what is wrong with a file", {skip}, async () => {
   const wrong = path.join(folder, "wrong.ply");
   writeFileSync(wrong, "ply\nformat ascii 1.0\nelement vertex 3\n");
   await openFile(wrong);
-  await page.getByRole("alert").getByText(/wrong\.ply.*expected/).waitFor();
+  await page.getByRole("alert").getByText(/^wrong\.ply.*expected/).waitFor();
+  const kept = (await engine.json("recent")).recent.map(({input}) => input.name);
+  assert.ok(kept.includes("scan.ply") && !kept.includes("wrong.ply"), `${kept}`);
   const project = path.join(folder, "wrong.relievo");
   writeFileSync(project, "{}");
   await openFile(project);
