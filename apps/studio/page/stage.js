@@ -341,9 +341,21 @@ export class Stage {
     this.invalidate();
   }
 
+  // Takes back what the running drag has changed; the rest of it changes nothing. Returns whether there was anything.
+  takeBack() {
+    const isTurned = this.drag?.tool === "turn" || Boolean(this.drag?.angle);
+    if (isTurned) {
+      Object.assign(this.drag, {tool: "none", angle: 0});
+      this.turning.await(this.isAwaiting);
+      this.drawOverlay();
+      this.invalidate();
+    }
+    return this.doc.cancelStroke() || isTurned;
+  }
+
   // The first of two fingers moved nothing.
   giveUp() {
-    this.doc.cancelStroke();
+    this.takeBack();
     this.release();
   }
 

@@ -410,6 +410,15 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   await page.mouse.move(middle[0] + 80, middle[1] + 30, {steps: 8});
   await becomesOther(first);
   await viewIs("Front"); // until the view rests
+  await page.keyboard.press("Escape");
+  await page.mouse.move(middle[0] + 90, middle[1], {steps: 3});
+  await page.mouse.up();
+  await becomesSame(first);
+  await viewIs("Front");
+  await page.mouse.move(...middle);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 80, middle[1] + 30, {steps: 8});
+  await becomesOther(first);
   const coarse = await picture();
   await page.mouse.up();
   await viewIs("Turned by hand");
