@@ -251,6 +251,24 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   assert.ok((await reachable()) > most, `${await reachable()} of ${most}`);
 });
 
+test("can redo after a drag that was taken back", {skip}, async () => {
+  const heights = await page.evaluate(async () => {
+    const {Document, FIRST} = await import(new URL("document.js", location));
+    const doc = new Document(() => {}), seen = [], see = () => seen.push(doc.now.options.height);
+    doc.begin(FIRST);
+    for (const height of [6, 7]) doc.change({options: {height}});
+    doc.undo();
+    for (const height of [8, 9]) doc.change({options: {height}}, "height");
+    see();
+    doc.cancelStroke();
+    see();
+    doc.redo();
+    see();
+    return seen;
+  });
+  assert.deepEqual(heights, [9, 6, 7]);
+});
+
 test("ends no drag when the pause after another slider's step is over", {skip}, async () => {
   const steps = await page.evaluate(async () => {
     const {Document, FIRST} = await import(new URL("document.js", location));
