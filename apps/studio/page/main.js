@@ -216,7 +216,7 @@ function begun(former) {
   scenePanel.show([]);
   for (const part of [kinds, reach]) part.clear();
   $("#numbers").textContent = "";
-  Object.assign(stage, {isReady: false, model: 0});
+  stage.clear();
   stage.await(true);
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = true;
   showStart(false);

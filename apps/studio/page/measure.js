@@ -46,14 +46,18 @@ export class Measure {
   // `stage` turns places into pixels and back, and has the newest picture's {size_mm, relief_mm}.
   constructor(stage) {
     this.stage = stage;
-    this.line = null; // from one point to another, with their heights
-    this.pointer = null;
+    this.clear();
+  }
+
+  // The line goes from one point to another, and has their heights.
+  clear() {
+    this.line = this.pointer = this.wanted = null;
   }
 
   // ------------------------------------------------------------------------------------------------- the section
 
   middleLine() {
-    const half = (this.stage.about?.size_mm[0] ?? this.stage.doc.now.options.width) / 2;
+    const half = this.stage.about.size_mm[0] / 2;
     return {from: [-half, 0], to: [half, 0]};
   }
 

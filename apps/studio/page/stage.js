@@ -65,6 +65,13 @@ export class Stage {
     this.pump();
   }
 
+  // Another scan is shown, whose pictures are still to come: no mark of the one before stays.
+  clear() {
+    Object.assign(this, {isReady: false, model: 0, about: null, line: null});
+    this.measure.clear();
+    this.drawOverlay();
+  }
+
   // Shows that another model is being prepared, and until then a coarse relief of its view.
   await(isAwaiting) {
     this.isAwaiting = isAwaiting;
@@ -139,6 +146,7 @@ export class Stage {
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
+    if (this.tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
     if (this.comparing.isShown) await this.comparing.draw(isFine);
@@ -184,7 +192,6 @@ export class Stage {
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
     if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};
-    if (tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.invalidate();
   }
@@ -253,7 +260,8 @@ export class Stage {
   }
 
   press(event) {
-    if (event.target.id === "split" || event.button > 1 || !event.isPrimary || this.drag) return;
+    const isOther = event.target.id === "split" || event.button > 1 || !event.isPrimary;
+    if (isOther || this.drag || !this.about) return;
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
@@ -366,7 +374,7 @@ export class Stage {
 
   zoom(event) {
     event.preventDefault();
-    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
+    if (this.tool === "place") return this.about && this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
     this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
   }
 

@@ -283,6 +283,26 @@ test("can redo after a drag that was taken back", {skip}, async () => {
   assert.deepEqual(heights, [9, 6, 7]);
 });
 
+test("shows no mark of the piece before while another scan opens", {skip}, async () => {
+  const marks = () => page.locator("#overlay > *").count(), other = path.join(folder, "other.ply"), complaints = [];
+  page.on("pageerror", (error) => complaints.push(error.message));
+  writeSample("shell", 5000, other);
+  await page.getByRole("radio", {name: "Place"}).click();
+  await eventually(async () => assert.ok(await marks() > 8));
+  let open;
+  await page.route("**/api/open", (route) => (open = () => route.continue()));
+  await page.locator("#file").setInputFiles(other);
+  await page.getByText("other.ply", {exact: true}).waitFor();
+  assert.equal(await marks(), 0);
+  await page.locator("#stage").click({position: {x: 30, y: 30}}); // there is nothing to move yet
+  await page.mouse.wheel(0, 100);
+  await page.locator("#stage").press("ArrowLeft");
+  await eventually(() => open());
+  await page.getByText(/of 5,000 points/).waitFor();
+  await eventually(async () => assert.ok(await marks() > 8));
+  assert.deepEqual(complaints, []);
+});
+
 test("ends no drag when the pause after another slider's step is over", {skip}, async () => {
   const steps = await page.evaluate(async () => {
     const {Document, FIRST} = await import(new URL("document.js", location));
