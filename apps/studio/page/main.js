@@ -34,7 +34,7 @@ const PICTURE_MS = 600; // from the fine picture to the small one of the documen
 const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
 
 const doc = new Document((before) => changed(before), () => showing && showDocument());
-const sliders = new Sliders({doc, frame: () => last, say: toast});
+const sliders = new Sliders({doc, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
 const chooseView = () => opened.chooseView().catch(failed);
@@ -46,14 +46,14 @@ const views = new ViewDialog(engine, (view) => doc.change({options: view}), fail
 const exporting = new ExportDialog(engine,
   () => ({options: finalOptions(), name: baseName(), note: heightNote(), heightText}), toast);
 const modes = new Modes({stage, doc, cropFrame});
-const alphaRow = new AlphaRow({doc, say: toast});
-const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
+const alphaRow = new AlphaRow({doc, say: refuse});
+const pieces = new PieceRows({engine, doc, say: refuse, shownWidth, redraw: stateCame});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
 const kindPanel = new KindPanel({doc, elements: {...pieces.elements, ...sliders.elements}});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const tour = new Tour();
-const scenePanel = new ScenePanel({say: toast, open: (models) =>
+const scenePanel = new ScenePanel({say: refuse, open: (models) =>
   projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed)});
 
 const keeper = new Keeper({
@@ -95,10 +95,18 @@ function chooseUnit(unit) {
   if (last) stage.invalidate();
 }
 
+// Says why an entry is refused, until one is taken.
+let refusal = null;
+function refuse(text) {
+  toast(refusal = text);
+}
+
 // ----------------------------------------------------------------------------------------------- the document
 
 function changed(before) {
   const {now} = doc;
+  if (refusal && $("#toast").textContent.includes(refusal)) $("#toast").hidden = true;
+  refusal = null;
   opened.keep(doc.stroke !== null);
   showDocumentSoon();
   if (!isSameView(viewOf(before), viewOf(now))) {

@@ -125,6 +125,10 @@ test("takes back what no piece can be made of", {skip}, async () => {
   await enter(wrap, "cylinder:diameter=1");
   await page.getByText(/expected a diameter of at least/).waitFor();
   assert.equal(await wrap.inputValue(), "none");
+  assert.ok(await page.getByRole("alert").isVisible());
+  await enter(wrap, "cylinder:diameter=200");
+  await page.getByRole("alert").waitFor({state: "hidden"});
+  await page.getByRole("button", {name: "Undo"}).click();
   assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
 });
 
