@@ -120,6 +120,18 @@ test("keeps the figure's size on another plate, as long as it fits", {skip}, asy
   while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
 });
 
+test("takes letters as keys again after Enter, and goes on with Tab from the field", {skip}, async () => {
+  const focused = () => page.evaluate(() => document.activeElement.dataset.option);
+  await type(field("Height in mm"), "4");
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("m");
+  assert.ok(await page.getByRole("radio", {name: "Measure"}).isChecked());
+  await page.keyboard.press("l");
+  await page.keyboard.press("Shift+Tab");
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(), "height");
+});
+
 test("takes back what no piece can be made of", {skip}, async () => {
   const wrap = page.getByLabel("Bent around", {exact: true});
   await enter(wrap, "cylinder:diameter=1");
