@@ -9,6 +9,7 @@ const NEAR = 12; // pixels from an end of a line at which the pointer takes it
 const ROW = 22; // pixels that a label needs in height
 const GAP = 14; // pixels from the piece to its dimensions
 
+const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
@@ -40,6 +41,20 @@ function dimension(from, to, text, picture) {
   const strokes = [from, to].map(([x, y]) =>
     make("line", {class: "dimension", x1: x - ax, y1: y - ay, x2: x + ax, y2: y + ay}));
   return [...strokes, ...labelled(from, to, text, "dimension", picture)];
+}
+
+// Returns the part of a line that lies on a plate of that size; null if it passes by.
+export function onPlate({from, to}, [width, height], isRound) {
+  const scaled = ([x, y]) => [2 * x / width, 2 * y / height], a = scaled(from), d = scaled(sub(to, from));
+  let low = 0, high = 1;
+  const within = (enters, leaves) => ([low, high] = [Math.max(low, enters), Math.min(high, leaves)]);
+  if (isRound) {
+    const square = dot(d, d), nearest = -dot(a, d) / square, rest = dot(a, a) - 1;
+    const half = Math.sqrt(nearest * nearest - rest / square);
+    within(nearest - half, nearest + half);
+  } else for (const i of [0, 1]) within(...[(-1 - a[i]) / d[i], (1 - a[i]) / d[i]].sort((p, q) => p - q));
+  const at = (t) => [0, 1].map((i) => from[i] + t * (to[i] - from[i]));
+  return low < high ? {from: at(low), to: at(high)} : null;
 }
 
 export class Measure {

@@ -5,7 +5,7 @@ import {Comparing} from "./comparing.js";
 import {$, clamp, make} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
-import {Measure} from "./measure.js";
+import {Measure, onPlate} from "./measure.js";
 import {takePinches} from "./pinch.js";
 import {takeKey} from "./stage_keys.js";
 import {Turning} from "./turning.js";
@@ -214,8 +214,10 @@ export class Stage {
   }
 
   async cut() {
-    const {from, to} = this.line;
-    this.on.section(await this.heights(from, to), from, to);
+    const {outline, wrap} = this.doc.now.options;
+    const isRound = ["circle", "ellipse"].includes(outline) && wrap === "none";
+    const {from, to} = onPlate(this.line, this.about.size_mm, isRound) ?? {};
+    this.on.section(from ? await this.heights(from, to) : [], from, to);
   }
 
   // ------------------------------------------------------------------- positions

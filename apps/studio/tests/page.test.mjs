@@ -379,6 +379,10 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   });
   await page.getByText(/Section, 55\.\d mm long.* heights are drawn [\d.]+ times as large as lengths/).waitFor();
   assert.ok((await page.locator("#section-chart text").count()) > 6);
+  await page.locator("#section-chart").hover();
+  await page.getByText(/^2\d\.\d+ mm along, height -?[\d.]+ mm$/).waitFor();
+  await drag(middle, [box.x + box.width - 4, middle[1]]); // beyond the plate, which has no heights there
+  await page.getByText(/Section, 110\.0 mm long/).waitFor();
   await page.getByRole("radio", {name: "Measure"}).click();
   await overlay.getByText("110.00 mm", {exact: true}).waitFor();
   await overlay.getByText("100.00 mm", {exact: true}).waitFor();
