@@ -23,10 +23,25 @@ function freeHeight(x, y, width, picture) {
   return steps.flatMap((step) => [y - step, y + step]).find(isFree) ?? y;
 }
 
+const widthOf = (text) => 7.2 * text.length + 10; // pixels of a label
+
+// Returns the pixel where the label of a line stands above it, and covers nothing of it.
+function beside([x1, y1], [x2, y2], text) {
+  const size = Math.hypot(x2 - x1, y2 - y1) || 1, [right, up] = [(y2 - y1) / size, Math.abs(x2 - x1) / size];
+  const side = x2 < x1 ? -right : right, gap = (Math.abs(right) * widthOf(text) + up * ROW) / 2 + NEAR;
+  return [(x1 + x2) / 2 + side * gap, (y1 + y2) / 2 - up * gap];
+}
+
+// Says how the second of two heights differs from the first.
+function rise(from, to) {
+  const text = withUnit(Math.abs(to - from));
+  return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
+}
+
 // Returns a line between two pixels with a text in its middle, on a ground that keeps it readable, within the picture
 // and beside the labels before it.
 function labelled([x1, y1], [x2, y2], text, kind, picture) {
-  const width = 7.2 * text.length + 10, x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
+  const width = widthOf(text), x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
   const y = freeHeight(x, clamp((y1 + y2) / 2, ROW / 2, picture.height - ROW / 2), width, picture);
   labels.push({x, y, width});
   const label = make("text", {x, y: y + 4, "text-anchor": "middle"}, text);
@@ -124,10 +139,9 @@ export class Measure {
     const {line, pointer, stage: {size}} = this;
     if (line) {
       const [from, to] = [line.from, line.to].map((place) => this.stage.toPixels(place));
-      const rise = line.heights ? `, ${line.heights[1] >= line.heights[0] ? "+" : "−"}` +
-        withUnit(Math.abs(line.heights[1] - line.heights[0])) : "";
-      marks.push(...this.lineMarks(line), ...labelled(from, to, withUnit(length(line.from, line.to)) + rise,
-        "cut", size));
+      const text = `${withUnit(length(line.from, line.to))} apart${line.heights ? `, ${rise(...line.heights)}` : ""}`;
+      const at = beside(from, to, text);
+      marks.push(...this.lineMarks(line), ...labelled(at, at, text, "none", size));
     }
     if (pointer?.height !== undefined) {
       const [x, y] = this.stage.toPixels(pointer.place), text = `Height ${withUnit(pointer.height)}`;

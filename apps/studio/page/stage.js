@@ -376,7 +376,8 @@ export class Stage {
 
   zoom(event) {
     event.preventDefault();
-    if (this.tool === "place") return this.about && this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
+    if (this.tool === "place" && !this.about) return; // there is no figure yet
+    if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
     this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
   }
 

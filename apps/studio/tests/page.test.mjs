@@ -391,10 +391,13 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   let y = middle[1];
   await eventually(async () => { // again if the picture had the size that it has beside a section
     await drag([middle[0] - 50, y += 20], [middle[0] + 50, y]);
-    const told = await overlay.getByText(/^[\d.]+ mm, [+−][\d.]+ mm$/).textContent();
+    const told = await overlay.getByText(/^[\d.]+ mm apart, [\d.]+ mm (higher|lower)$/).textContent();
     const plate = Math.max(...await overlay.locator("line.dimension").evaluateAll((all) =>
       all.map((line) => line.getAttribute("x2") - line.getAttribute("x1")))); // pixels of 110 mm
     assert.ok(Math.abs(Number(told.match(/^[\d.]+/)[0]) - 110 * 100 / plate) < 0.6, told);
+    const line = await overlay.locator("line.cut").boundingBox();
+    const label = await overlay.getByText(told, {exact: true}).boundingBox();
+    assert.ok(label.y + label.height < line.y, JSON.stringify([label, line]));
   });
   await page.getByRole("radio", {name: "Light", exact: true}).click();
   await button("Compare").click();
