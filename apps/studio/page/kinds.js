@@ -45,11 +45,13 @@ export function kindOf({material, options: {form, wrap, rim, outline}}) {
   return material === "walnut" ? "wood" : "relief";
 }
 
-// Returns the document's changes that begin a kind of work. A coin and its die have the same diameter.
-function partOf(kind, {diameter}) {
-  const {part, material} = KINDS[kind];
+// Returns the document's changes that begin a kind of work, or go on from its last step. A coin and its die have the
+// same diameter.
+function partOf(kind, {diameter}, last) {
+  const {part, material} = KINDS[kind], first = {material, isHeightLocked: true, u: null, options: part};
+  const {material: own, isHeightLocked, u, options} = last ?? first;
   const same = part.diameter && diameter ? {diameter} : {};
-  return {material, isHeightLocked: true, u: null, options: {...FIRST.options, ...part, ...same}};
+  return {material: own, isHeightLocked, u, options: {...FIRST.options, ...options, ...same}};
 }
 
 // The options that a kind leaves as they are: how the scan is seen and shaped.
@@ -77,8 +79,10 @@ export class KindCards {
     if (kind !== kindOf(this.doc.now)) this.doc.change(this.stepOf(kind));
   }
 
+  // Returns the step with which a kind of work goes on: as it was left in this document, or as it begins.
   stepOf(kind) {
-    const {options} = this.doc.now, part = partOf(kind, options);
+    const {now: {options}, steps, at} = this.doc, isThis = (step) => kindOf(step) === kind;
+    const part = partOf(kind, options, steps.slice(0, at + 1).findLast(isThis));
     return {...this.doc.now, ...part, options: {...part.options, ...kept(options)}};
   }
 
