@@ -37,12 +37,14 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work that a document's step is.
-export function kindOf({material, options: {form, wrap, rim, outline}}) {
+// Returns the kind of work that a document's step is, whatever its material: a thick plate with round corners is a
+// carving.
+export function kindOf({options: {form, wrap, rim, outline, thickness}}) {
   if (form === "lithophane" || form === "die") return form;
   if (wrap !== "none") return "shell";
   if (outline === "circle" || (rim && !["rectangle", "round"].includes(outline))) return "coin";
-  return material === "walnut" ? "wood" : "relief";
+  const {part: wood} = KINDS.wood;
+  return outline === wood.outline && thickness >= wood.thickness ? "wood" : "relief";
 }
 
 // Returns the document's changes that begin a kind of work, or go on from its last step. A coin and its die have the

@@ -71,6 +71,15 @@ test("sets size and material with a kind, and takes all of it back at once", {sk
   assert.ok(await page.getByRole("slider", {name: "Fine detail"}).isEnabled());
 });
 
+test("names a kind by its form, whatever its material", {skip}, async () => {
+  await page.getByRole("radio", {name: "Walnut"}).click();
+  assert.ok(await kind("Plaque").isChecked());
+  await kind("Carving").click();
+  await page.getByRole("radio", {name: "Bronze"}).click();
+  assert.ok(await kind("Carving").isChecked());
+  for (let step = 0; step < 3; ++step) await button("Undo").click();
+});
+
 test("brings a kind back as it was left", {skip}, async () => {
   await kind("Coin").click();
   await enter(page.getByLabel("Diameter", {exact: true}), "30");
