@@ -29,7 +29,7 @@ export class AlphaRow {
   show(frame) {
     this.frame = frame;
     this.input.disabled = frame.alpha === null;
-    this.element.title = this.input.disabled ? "Has no effect with a tone curve or with saturation 0" : this.help;
+    this.element.title = this.input.disabled ? "Has no effect with a tone curve or with Crispness 0" : this.help;
     if (!isUnfinished(this.input) || this.input.disabled)
       this.input.value = frame.alpha === null ? "" : Number(frame.alpha.toPrecision(4));
   }

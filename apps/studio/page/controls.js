@@ -175,12 +175,11 @@ export class Slider {
     if (!isUnfinished(this.number)) this.number.value = text;
   }
 
-  // Marks a value on the slider, such as the largest that can be reached; none for null.
+  // Marks a value on the slider, such as the largest that can be reached, and says what it is; none for null.
   showMark(value, title = "") {
     this.mark.hidden = value === null || value > this.hand[1];
-    if (value === null) return;
-    this.mark.style.setProperty("--at", this.position(value) / STEPS);
-    this.mark.title = title;
+    this.range.title = value === null ? "" : title; // the mark is too thin to be pointed at
+    if (value !== null) this.mark.style.setProperty("--at", this.position(value) / STEPS);
   }
 
   // Marks the number as one that the piece has not, with a text that says why; "" if the piece has it.

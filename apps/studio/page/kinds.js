@@ -11,18 +11,19 @@ const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", sh
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
 const circle = {...PLAIN, outline: "circle", width: null, margin: 1};
+const PLATE_NOTE = "Thickness is that of the plate, without the relief.";
 const RIM = ["rim", "rim-height", "rim-bevel"], PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
 // `part` are the options that a kind sets when it is chosen, `panel` those whose controls stand first then.
 export const KINDS = {
   relief: {label: "Plaque", title: "Plaque: 100 mm long, 5 mm high", part: plaque, material: "plaster",
-    panel: PLATE},
+    panel: PLATE, note: PLATE_NOTE},
   coin: {label: "Coin", title: "Coin or medal: 40 mm across, 1.6 mm high, with a rim", material: "silver",
     part: {...circle, diameter: 40, rim: 1.5, height: 1.6, thickness: 2},
-    panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"]},
+    panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"], note: PLATE_NOTE},
   wood: {label: "Carving", title: "Carving in wood: 180 mm long, 10 mm high", material: "walnut",
     part: {...plaque, outline: "round", corner: 12, width: 180, height: 10, margin: 12, thickness: 12},
-    panel: PLATE},
+    panel: PLATE, note: PLATE_NOTE},
   die: {label: "Seal", title: "Seal or die: the negative, 30 mm across, 1.2 mm deep, with walls that come off",
     material: "bronze", part: {...circle, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
     panel: ["diameter", "draft", ...RIM, "margin", "thickness", "form"],

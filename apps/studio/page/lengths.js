@@ -49,7 +49,7 @@ export function typedNumber(text, {label, unit, min, max}, say) {
   if (value >= min && value <= max) return value;
   const [from, to] = [min, max].map((x) => Number((x / scale).toPrecision(4)));
   const range = `from ${from} to ${to}${unit ? ` ${shownUnit(unit)}` : ""}`;
-  const examples = isLength ? "12.5, 2,5, 3/8in or 3+0.5" : "0.5, 2,5, 3/8 or 3+0.5";
+  const examples = isLength ? "12.5 or 2,5 or 3/8in or 3+0.5" : "0.5 or 2,5 or 3/8 or 3+0.5";
   say(`${label}: expected a number ${range}, such as ${examples}, found '${text.trim()}'.`);
   return null;
 }

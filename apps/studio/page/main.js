@@ -15,7 +15,7 @@ import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
 import {KindCards} from "./kinds.js";
-import {PieceRows} from "./pieces.js";
+import {PieceRows, inWords} from "./pieces.js";
 import {Placing} from "./placing.js";
 import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
@@ -278,7 +278,7 @@ function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
   if (placing.squeeze(error)) return stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
-  if (error.kind !== "closed") return toast(error.message);
+  if (error.kind !== "closed") return toast(error.kind === "option" ? inWords(error.message) : error.message);
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.closed().catch(failed), 200);
 }

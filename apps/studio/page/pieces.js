@@ -4,6 +4,7 @@ import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, make} from "./controls.js";
 import {FIRST, engineOptions, shownOptions} from "./document.js";
+import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
 import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 
@@ -59,6 +60,10 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
+// Returns a message of the engine about an option, which is named in it as its field is.
+export const inWords = (message) =>
+  message.replace(/^[a-z-]+(?=:)/, (name) => LABELS[name] ?? FIELDS[name]?.label ?? name);
+
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, say, shownWidth, redraw}) {
@@ -108,18 +113,19 @@ export class PieceRows {
     const {options} = this.doc.now;
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
     try {
-      await this.tryOut({...this.doc.now, options: {...options, ...part}});
+      const step = {...this.doc.now, options: {...options, ...part}};
+      await this.engine.check(engineOptions(step));
+      if (!input.matches("select")) await this.tryOut(step);
       this.doc.change({options: part});
     } catch (error) {
-      this.say(error.message);
+      this.say(inWords(error.message));
     }
     this.show();
   }
 
-  // Throws what the engine says of options that it cannot read, or of which no piece can be made, for which one of its
-  // heights is asked for. A width that does not fit is put right later, and another view is still to be prepared.
+  // Throws what the engine says of options of which no piece can be made, by asking for one of its heights. A width that
+  // does not fit is put right later, and another view is still to be prepared.
   async tryOut(step) {
-    await this.engine.check(engineOptions(step));
     await this.engine.profile({options: shownOptions(step), from: [0, 0], to: [0, 0]}).catch((error) => {
       if (error.kind === "option" && !error.message.startsWith("width:")) throw error;
     });

@@ -32,8 +32,9 @@ export function showNumbers({about, ms, isFine, height, size, facts}) {
     times.length >= FEWEST ? `${times.length} frames/s` : "", !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
   $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
-  const spent = [`${time("heights", about.heights_ms)} in ${about.solves} solves`, time("detail", about.detail_ms),
-    time("normals", about.normals_ms), time("picture", about.drawing_ms)];
+  const solves = about.solves > 0 ? [`${time("heights", about.heights_ms)} in ${about.solves} solves`] : [];
+  const spent = [...solves, time("detail", about.detail_ms), time("normals", about.normals_ms),
+    time("picture", about.drawing_ms)];
   $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
 
