@@ -704,7 +704,21 @@ test("has everything within reach on a phone", {skip}, async () => {
     assert.deepEqual(await beyond(), [], name);
     await page.keyboard.press("Escape");
   }
+  const names = page.locator("#recent span");
+  assert.ok(await names.evaluateAll((all) => all.every((name) =>
+    getComputedStyle(name).display === "block" && getComputedStyle(name).textOverflow === "ellipsis")));
   await button("Back to the relief").click();
+  await button("Help").click();
+  assert.equal(await page.locator("#help-dialog").evaluate((dialog) => dialog.scrollTop), 0);
+  await page.keyboard.press("Escape");
+  const covered = await page.locator("#progress").evaluate((box) => {
+    box.hidden = false;
+    const stage = document.querySelector("#stage").getBoundingClientRect();
+    const {top, right, bottom} = box.getBoundingClientRect();
+    box.hidden = true;
+    return top < stage.bottom || right > innerWidth || bottom > innerHeight;
+  });
+  assert.ok(!covered, "the progress covers the picture");
   await page.setViewportSize({width: 1280, height: 800});
 });
 
