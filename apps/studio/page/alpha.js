@@ -3,6 +3,7 @@
 import {optionOf} from "./about.js";
 import {$, make} from "./controls.js";
 import {uOfAlpha} from "./document.js";
+import {isUnfinished} from "./inputs.js";
 import {typedNumber} from "./lengths.js";
 
 export class AlphaRow {
@@ -28,8 +29,8 @@ export class AlphaRow {
   show(frame) {
     this.frame = frame;
     this.input.disabled = frame.alpha === null;
-    this.element.title = this.input.disabled ? "Has no effect with a tone curve or with saturation 0" : this.help;
-    if (document.activeElement !== this.input || this.input.disabled)
+    this.element.title = this.input.disabled ? "Has no effect with a tone curve or with Crispness 0" : this.help;
+    if (!isUnfinished(this.input) || this.input.disabled)
       this.input.value = frame.alpha === null ? "" : Number(frame.alpha.toPrecision(4));
   }
 }

@@ -1,5 +1,6 @@
 // Sliders with a number beside them, and small helpers for the page's elements.
 
+import {finish, isUnfinished} from "./inputs.js";
 import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "./lengths.js";
 
 export const $ = (selector, root = document) => root.querySelector(selector);
@@ -82,10 +83,8 @@ export class Slider {
   listen() {
     this.range.oninput = () => this.moved(this.valueAt(this.range.value));
     this.range.onchange = () => this.onEnd();
-    this.number.oninput = () => this.setTyping(true);
-    this.number.onblur = () => this.setTyping(false);
     this.number.onchange = () => this.typed();
-    this.number.onkeydown = (event) => (event.key === "Escape" ? this.takeBack(event) : this.step(event, UPWARDS));
+    this.number.onkeydown = (event) => (event.key === "Escape" ? this.takeBack() : this.step(event, UPWARDS));
     const reset = (event) => {
       event.preventDefault();
       this.moved(this.otherwise);
@@ -97,15 +96,8 @@ export class Slider {
     this.range.onkeydown = (event) => this.step(event, FORWARDS);
   }
 
-  // While something is typed and not entered, Ctrl Z belongs to the field.
-  setTyping(isTyping) {
-    this.isTyping = isTyping;
-    this.number.classList.toggle("typing", isTyping);
-  }
-
   // Takes the number that was typed, with more decimals than the slider has if they were typed.
   typed() {
-    this.setTyping(false);
     const value = typedNumber(this.number.value, this, this.say);
     this.exact = value === null ? this.exact : Number(value.toFixed(4));
     if (value === null) this.show(this.value);
@@ -114,10 +106,7 @@ export class Slider {
   }
 
   // Escape: the number is again what it was before something was typed.
-  takeBack(event) {
-    if (!this.isTyping) return;
-    event.stopPropagation();
-    this.setTyping(false);
+  takeBack() {
     this.show(this.value);
     this.number.select();
   }
@@ -136,7 +125,7 @@ export class Slider {
     const direction = directions[event.key];
     if (!direction) return;
     event.preventDefault();
-    if (this.isTyping) this.typed();
+    if (isUnfinished(this.number)) finish(), this.typed();
     const scale = this.isLength ? millimetresPerUnit() : 1;
     const decimals = this.isLength && shown.unit === "in" ? 3 : this.decimals;
     const least = Math.max(10 ** -decimals, 10 ** Math.ceil(Math.log10(this.hand[1] / scale / 1000)));
@@ -183,15 +172,20 @@ export class Slider {
     this.range.style.setProperty("--filled", `${this.position() / STEPS * 100}%`);
     this.range.setAttribute("aria-valuetext", `${text} ${shownUnit(this.unitName ?? this.unit) ?? ""}`.trim());
     this.number.setAttribute("aria-valuenow", text);
-    if (!this.isTyping && this.number.value !== text) this.number.value = text; // a selection of the same text stays
+    if (!isUnfinished(this.number)) this.number.value = text;
   }
 
-  // Marks a value on the slider, such as the largest that can be reached; none for null.
+  // Marks a value on the slider, such as the largest that can be reached, and says what it is; none for null.
   showMark(value, title = "") {
     this.mark.hidden = value === null || value > this.hand[1];
-    if (value === null) return;
-    this.mark.style.setProperty("--at", this.position(value) / STEPS);
-    this.mark.title = title;
+    this.range.title = value === null ? "" : title; // the mark is too thin to be pointed at
+    if (value !== null) this.mark.style.setProperty("--at", this.position(value) / STEPS);
+  }
+
+  // Marks the number as one that the piece has not, with a text that says why; "" if the piece has it.
+  complain(text) {
+    this.number.title = text;
+    this.number.setAttribute("aria-invalid", text !== "");
   }
 
   set disabled(is) {

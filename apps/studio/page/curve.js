@@ -122,7 +122,9 @@ export class CurveEditor {
     const {points} = this, [x, y] = this.place(event);
     const isFree = points.every(([px]) => Math.abs(px - x) > NEAREST);
     if (!isFree || points.length >= about.curve.most_points) return;
-    this.change(format([...points, [clamp(x, 0, 1), clamp(y, 0, 1)]].sort(([a], [b]) => a - b)), true);
+    const added = [clamp(x, 0, 1), clamp(y, 0, 1)], all = [...points, added].sort(([a], [b]) => a - b);
+    this.change(format(all), true);
+    this.handles.children[all.indexOf(added)].focus(); // for the keys that move or delete it
   }
 
   key(event, i) {

@@ -69,6 +69,7 @@ export class Document {
     if (stroke !== null && stroke === this.stroke) {
       this.steps[this.at] = next;
     } else {
+      this.beforeStroke = {steps: this.steps, at: this.at};
       this.steps = [...this.steps.slice(Math.max(0, this.at + 2 - MOST_STEPS), this.at + 1), next];
       this.at = this.steps.length - 1;
     }
@@ -95,7 +96,7 @@ export class Document {
     const before = this.now;
     this.cancelled = this.stroke;
     this.stroke = null;
-    this.steps.splice(this.at--, 1);
+    Object.assign(this, this.beforeStroke); // with the steps that can be redone
     this.stamp();
     this.onChange(before);
     return true;

@@ -4,7 +4,7 @@ import {about} from "./about.js";
 import {$, download, fileSize, make} from "./controls.js";
 import {lengthText, shown, typedNumber} from "./lengths.js";
 
-const PIXELS = {label: "Longer side in pixels", min: 16, max: 16384};
+const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 
 // Returns the bytes of the files that are made of a piece: of STL and PLY exactly, of others about.
 function sizes({triangles, points, size_mm: [x, y]}, pixels) {
@@ -20,7 +20,8 @@ function sizes({triangles, points, size_mm: [x, y]}, pixels) {
 const nameOf = (name, {form}) => (form && form !== "relief" ? `${name}-${form}` : name);
 
 export class ExportDialog {
-  // `current` returns {options, name, note}: what is to be made, and a line about it. `say` takes a line for people.
+  // `current` returns {options, name, note, heightText}: what is to be made, a line about it, and a function that
+  // returns a height as the page shows it. `say` takes a line for people.
   constructor(engine, current, say) {
     Object.assign(this, {engine, current, say, pixels: 2048, piece: null});
     this.dialog = $("#export-dialog");
@@ -53,7 +54,8 @@ export class ExportDialog {
 
   // Makes the piece at once: then its sizes are known, and files of it are written in a moment.
   async open() {
-    const {options, name, note} = this.current();
+    const {options, name, note, heightText} = this.current();
+    this.heightText = heightText(options.height);
     this.piece = null;
     $("#export-name").value = nameOf(name, options);
     $("#export-note").textContent = "";
@@ -71,10 +73,10 @@ export class ExportDialog {
     const bytes = this.piece ? sizes(this.piece, this.pixels) : {};
     for (const {name} of about.formats)
       $(`#size-${name}`).textContent = bytes[name] ? fileSize(bytes[name]) : "";
-    const {size_mm: size, height_mm: height, triangles} = this.piece ?? {};
+    const {size_mm: size, triangles} = this.piece ?? {};
     $("#export-size").textContent = this.piece ?
       `${size.map((x) => lengthText(x)).join(" × ")} ${shown.unit}, relief ` +
-      `${lengthText(height)} ${shown.unit} high, ${triangles.toLocaleString("en-US")} triangles` : "";
+      `${this.heightText} ${shown.unit} high, ${triangles.toLocaleString("en-US")} triangles` : "";
   }
 
   // Shows the progress of the piece that the engine makes.
@@ -119,8 +121,10 @@ export class ExportDialog {
       }
     });
     this.show();
-    if (!isDone || !this.dialog.open) return;
-    this.say(`Saved: ${saved.join(", ")}. ${$("#export-size").textContent}.`);
+    const told = saved.length > 0 ? `Saved: ${saved.join(", ")}.` : "Nothing was saved.";
+    if (!this.dialog.open) return this.say(`Cancelled. ${told}`);
+    if (!isDone) return;
+    this.say(`${told} ${$("#export-size").textContent}.`);
     this.dialog.close("export");
   }
 }

@@ -37,16 +37,29 @@ export function takeDrops(veil, open) {
   });
 }
 
+// The field in which something is typed that is neither entered nor taken back. Ctrl Z belongs to it, and what is typed
+// there stays when the document changes.
+let unfinished = null;
+export const isUnfinished = (field) => field === unfinished;
+
+export const finish = () => (unfinished = null);
+
+// These run before the field's own functions, which may then show the document's value in it.
+addEventListener("input", ({target}) => (unfinished = target), true);
+for (const end of ["change", "focusout"]) addEventListener(end, finish, true);
+addEventListener("keydown", ({key}) => key === "Escape" && finish(), true);
+
+const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
+
 // Calls the function of a key: `commands` with Ctrl or Cmd; `always` and, while `isReady()`, `keys` without; and
 // `hold(true)` while B is down. No key counts while a dialog is open, nor letters while something is typed.
 export function takeKeys({commands, always, keys, isReady, hold}) {
   addEventListener("keydown", (event) => {
     if (document.querySelector("dialog[open]")) return;
-    const isTyping = event.target.matches?.("input:not([type='range'], [type='radio'], [type='checkbox']), select");
+    const isTyping = event.target.matches?.(`${TEXTS}, select`);
     if (event.ctrlKey || event.metaKey) {
       const command = commands[event.key];
-      const isUnfinished = isTyping && event.target.matches(".typing, :not([role='spinbutton'], select)");
-      if (!command || (isUnfinished && "zZy".includes(event.key))) return;
+      if (!command || (isTyping && isUnfinished(event.target) && "zZy".includes(event.key))) return;
       event.preventDefault();
       return command();
     }
@@ -56,5 +69,9 @@ export function takeKeys({commands, always, keys, isReady, hold}) {
     if (event.key === "b" && !event.repeat) return hold(true);
     keys[event.key]?.();
   });
-  addEventListener("keyup", (event) => event.key.toLowerCase() === "b" && hold(false));
+  addEventListener("keyup", ({key, target}) => {
+    if (key.toLowerCase() === "b") hold(false);
+    // What was typed is entered: letters are keys of the page again, and Tab goes on from here.
+    if (key === "Enter" && target.matches?.(`.inspector :is(${TEXTS})`)) target.blur();
+  });
 }

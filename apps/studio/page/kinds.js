@@ -11,18 +11,19 @@ const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", sh
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
 const circle = {...PLAIN, outline: "circle", width: null, margin: 1};
+const PLATE_NOTE = "Thickness is that of the plate, without the relief.";
 const RIM = ["rim", "rim-height", "rim-bevel"], PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
 // `part` are the options that a kind sets when it is chosen, `panel` those whose controls stand first then.
 export const KINDS = {
   relief: {label: "Plaque", title: "Plaque: 100 mm long, 5 mm high", part: plaque, material: "plaster",
-    panel: PLATE},
+    panel: PLATE, note: PLATE_NOTE},
   coin: {label: "Coin", title: "Coin or medal: 40 mm across, 1.6 mm high, with a rim", material: "silver",
     part: {...circle, diameter: 40, rim: 1.5, height: 1.6, thickness: 2},
-    panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"]},
+    panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"], note: PLATE_NOTE},
   wood: {label: "Carving", title: "Carving in wood: 180 mm long, 10 mm high", material: "walnut",
     part: {...plaque, outline: "round", corner: 12, width: 180, height: 10, margin: 12, thickness: 12},
-    panel: PLATE},
+    panel: PLATE, note: PLATE_NOTE},
   die: {label: "Seal", title: "Seal or die: the negative, 30 mm across, 1.2 mm deep, with walls that come off",
     material: "bronze", part: {...circle, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
     panel: ["diameter", "draft", ...RIM, "margin", "thickness", "form"],
@@ -37,19 +38,23 @@ export const KINDS = {
     camera: {yaw: -28, pitch: 18}},
 };
 
-// Returns the kind of work that a document's step is.
-export function kindOf({material, options: {form, wrap, rim, outline}}) {
+// Returns the kind of work that a document's step is, whatever its material: a thick plate with round corners is a
+// carving.
+export function kindOf({options: {form, wrap, rim, outline, thickness}}) {
   if (form === "lithophane" || form === "die") return form;
   if (wrap !== "none") return "shell";
   if (outline === "circle" || (rim && !["rectangle", "round"].includes(outline))) return "coin";
-  return material === "walnut" ? "wood" : "relief";
+  const {part: wood} = KINDS.wood;
+  return outline === wood.outline && thickness >= wood.thickness ? "wood" : "relief";
 }
 
-// Returns the document's changes that begin a kind of work. A coin and its die have the same diameter.
-function partOf(kind, {diameter}) {
-  const {part, material} = KINDS[kind];
+// Returns the document's changes that begin a kind of work, or go on from its last step. A coin and its die have the
+// same diameter.
+function partOf(kind, {diameter}, last) {
+  const {part, material} = KINDS[kind], first = {material, isHeightLocked: true, u: null, options: part};
+  const {material: own, isHeightLocked, u, options} = last ?? first;
   const same = part.diameter && diameter ? {diameter} : {};
-  return {material, isHeightLocked: true, u: null, options: {...FIRST.options, ...part, ...same}};
+  return {material: own, isHeightLocked, u, options: {...FIRST.options, ...options, ...same}};
 }
 
 // The options that a kind leaves as they are: how the scan is seen and shaped.
@@ -77,8 +82,10 @@ export class KindCards {
     if (kind !== kindOf(this.doc.now)) this.doc.change(this.stepOf(kind));
   }
 
+  // Returns the step with which a kind of work goes on: as it was left in this document, or as it begins.
   stepOf(kind) {
-    const {options} = this.doc.now, part = partOf(kind, options);
+    const {now: {options}, steps, at} = this.doc, isThis = (step) => kindOf(step) === kind;
+    const part = partOf(kind, options, steps.slice(0, at + 1).findLast(isThis));
     return {...this.doc.now, ...part, options: {...part.options, ...kept(options)}};
   }
 

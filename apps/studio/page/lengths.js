@@ -33,10 +33,12 @@ export const millimetresPerUnit = () => MM[shown.unit];
 // Returns the unit of an option as the page shows it.
 export const shownUnit = (unit) => (unit === "mm" ? shown.unit : unit);
 
+const NOISE = 1e-6; // mm, by which sums of the same lengths differ: it must not decide how 6.175 is rounded
+
 // Returns a length with so many decimals of a millimetre, and without its unit. Inches have three, or four for a length
 // that needs them.
 export function lengthText(mm, decimals = 2) {
-  if (shown.unit === "mm") return mm.toFixed(decimals);
+  if (shown.unit === "mm") return (mm + NOISE).toFixed(decimals);
   const text = (mm / MM.in).toFixed(4);
   return decimals <= 2 || text.endsWith("0") ? (mm / MM.in).toFixed(3) : text;
 }
@@ -48,7 +50,7 @@ export function typedNumber(text, {label, unit, min, max}, say) {
   if (value >= min && value <= max) return value;
   const [from, to] = [min, max].map((x) => Number((x / scale).toPrecision(4)));
   const range = `from ${from} to ${to}${unit ? ` ${shownUnit(unit)}` : ""}`;
-  const examples = isLength ? "12.5, 2,5, 3/8in or 3+0.5" : "0.5, 2,5, 3/8 or 3+0.5";
+  const examples = isLength ? "12.5 or 2,5 or 3/8in or 3+0.5" : "0.5 or 2,5 or 3/8 or 3+0.5";
   say(`${label}: expected a number ${range}, such as ${examples}, found '${text.trim()}'.`);
   return null;
 }

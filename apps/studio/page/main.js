@@ -15,13 +15,13 @@ import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
 import {KindCards} from "./kinds.js";
-import {PieceRows} from "./pieces.js";
+import {PieceRows, inWords} from "./pieces.js";
 import {Placing} from "./placing.js";
 import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
 import {Projects} from "./projects.js";
 import {Reach} from "./reach.js";
-import {paperWords, showNumbers, showSection, showToolReach} from "./readouts.js";
+import {heightOf, paperWords, showNumbers, showSection, showToolReach, sizeOf} from "./readouts.js";
 import {ScanPanel} from "./scan_panel.js";
 import {ScenePanel} from "./scene_panel.js";
 import {Sliders} from "./sliders.js";
@@ -34,7 +34,7 @@ const PICTURE_MS = 600; // from the fine picture to the small one of the documen
 const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
 
 const doc = new Document((before) => changed(before), () => showing && showDocument());
-const sliders = new Sliders({doc, frame: () => last, say: toast});
+const sliders = new Sliders({doc, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
 const chooseView = () => opened.chooseView().catch(failed);
@@ -44,16 +44,16 @@ const stage = new Stage(engine, doc,
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine,
-  () => ({options: finalOptions(), name: baseName(), note: heightNote()}), toast);
+  () => ({options: finalOptions(), name: baseName(), note: heightNote(), heightText}), toast);
 const modes = new Modes({stage, doc, cropFrame});
-const alphaRow = new AlphaRow({doc, say: toast});
-const pieces = new PieceRows({engine, doc, say: toast, shownWidth, redraw: stateCame});
+const alphaRow = new AlphaRow({doc, say: refuse});
+const pieces = new PieceRows({engine, doc, say: refuse, shownWidth, redraw: stateCame});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, isAtRest});
 const kindPanel = new KindPanel({doc, elements: {...pieces.elements, ...sliders.elements}});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const tour = new Tour();
-const scenePanel = new ScenePanel({say: toast, open: (models) =>
+const scenePanel = new ScenePanel({say: refuse, open: (models) =>
   projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed)});
 
 const keeper = new Keeper({
@@ -95,10 +95,18 @@ function chooseUnit(unit) {
   if (last) stage.invalidate();
 }
 
+// Says why an entry is refused, until one is taken.
+let refusal = null;
+function refuse(text) {
+  toast(refusal = text);
+}
+
 // ----------------------------------------------------------------------------------------------- the document
 
 function changed(before) {
   const {now} = doc;
+  if (refusal && $("#toast").textContent.includes(refusal)) $("#toast").hidden = true;
+  refusal = null;
   opened.keep(doc.stroke !== null);
   showDocumentSoon();
   if (!isSameView(viewOf(before), viewOf(now))) {
@@ -153,7 +161,7 @@ addEventListener("pagehide", () => engine.leave());
 // Returns the options of the files: a height that the view does not reach is replaced by the one that it does.
 function finalOptions() {
   const options = engineOptions(doc.now);
-  if (last && !last.is_height_met) options.height = Math.floor(last.height_mm * 1000) / 1000;
+  if (last && !last.is_height_met) options.height = heightOf(last, doc.now);
   return options;
 }
 
@@ -191,13 +199,13 @@ function pictured(frame, ms, isFine) {
   if (isFine && opened.isReady) kinds.pictured(stage.model);
   if (isFine) showToolReach(frame.tool);
   sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
-  showNumbers({about: frame, ms, isFine, facts, height: shownHeight(frame)});
+  const height = heightText(heightOf(frame, doc.now)), size = sizeOf(frame, doc.now);
+  showNumbers({about: frame, ms, isFine, facts, height, size});
   stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about: frame, ms, isFine}}));
 }
 
-// Returns the height to show. A frame meets a locked height to a part in a thousand, the finished relief exactly.
-const shownHeight = ({height_mm, is_height_met}) =>
-  (doc.now.isHeightLocked && is_height_met ? doc.now.options.height : height_mm);
+// Returns a height as its field shows it.
+const heightText = (mm) => sliders.all.height.text(mm);
 
 // --------------------------------------------------------------------------------------------------- documents
 
@@ -216,7 +224,7 @@ function begun(former) {
   scenePanel.show([]);
   for (const part of [kinds, reach]) part.clear();
   $("#numbers").textContent = "";
-  Object.assign(stage, {isReady: false, model: 0});
+  stage.clear();
   stage.await(true);
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = true;
   showStart(false);
@@ -268,9 +276,9 @@ function refused() {
 let reopening = 0;
 function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
-  if (error.kind === "option" && stage.drag?.tool === "place") return placing.squeeze();
+  if (placing.squeeze(error)) return stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
-  if (error.kind !== "closed") return toast(error.message);
+  if (error.kind !== "closed") return toast(error.kind === "option" ? inWords(error.message) : error.message);
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.closed().catch(failed), 200);
 }
@@ -354,7 +362,7 @@ const KEYS = {
   h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
   m: () => modes.setTool("measure"), x: () => modes.setTool("crop"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
-  Escape: () => cropFrame.giveUp() || doc.cancelStroke() || modes.setTable(false),
+  Escape: () => cropFrame.giveUp() || stage.takeBack() || modes.setTable(false),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
   ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),
 };

@@ -3,11 +3,13 @@
 
 import {clamp, make} from "./controls.js";
 import {lengthText, shown} from "./lengths.js";
+import {sizeOf} from "./readouts.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
 const ROW = 22; // pixels that a label needs in height
 const GAP = 14; // pixels from the piece to its dimensions
 
+const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
 const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
@@ -21,10 +23,25 @@ function freeHeight(x, y, width, picture) {
   return steps.flatMap((step) => [y - step, y + step]).find(isFree) ?? y;
 }
 
+const widthOf = (text) => 7.2 * text.length + 10; // pixels of a label
+
+// Returns the pixel where the label of a line stands above it, and covers nothing of it.
+function beside([x1, y1], [x2, y2], text) {
+  const size = Math.hypot(x2 - x1, y2 - y1) || 1, [right, up] = [(y2 - y1) / size, Math.abs(x2 - x1) / size];
+  const side = x2 < x1 ? -right : right, gap = (Math.abs(right) * widthOf(text) + up * ROW) / 2 + NEAR;
+  return [(x1 + x2) / 2 + side * gap, (y1 + y2) / 2 - up * gap];
+}
+
+// Says how the second of two heights differs from the first.
+function rise(from, to) {
+  const text = withUnit(Math.abs(to - from));
+  return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
+}
+
 // Returns a line between two pixels with a text in its middle, on a ground that keeps it readable, within the picture
 // and beside the labels before it.
 function labelled([x1, y1], [x2, y2], text, kind, picture) {
-  const width = 7.2 * text.length + 10, x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
+  const width = widthOf(text), x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
   const y = freeHeight(x, clamp((y1 + y2) / 2, ROW / 2, picture.height - ROW / 2), width, picture);
   labels.push({x, y, width});
   const label = make("text", {x, y: y + 4, "text-anchor": "middle"}, text);
@@ -41,18 +58,36 @@ function dimension(from, to, text, picture) {
   return [...strokes, ...labelled(from, to, text, "dimension", picture)];
 }
 
+// Returns the part of a line that lies on a plate of that size; null if it passes by.
+export function onPlate({from, to}, [width, height], isRound) {
+  const scaled = ([x, y]) => [2 * x / width, 2 * y / height], a = scaled(from), d = scaled(sub(to, from));
+  let low = 0, high = 1;
+  const within = (enters, leaves) => ([low, high] = [Math.max(low, enters), Math.min(high, leaves)]);
+  if (isRound) {
+    const square = dot(d, d), nearest = -dot(a, d) / square, rest = dot(a, a) - 1;
+    const half = Math.sqrt(nearest * nearest - rest / square);
+    within(nearest - half, nearest + half);
+  } else for (const i of [0, 1]) within(...[(-1 - a[i]) / d[i], (1 - a[i]) / d[i]].sort((p, q) => p - q));
+  const at = (t) => [0, 1].map((i) => from[i] + t * (to[i] - from[i]));
+  return low < high ? {from: at(low), to: at(high)} : null;
+}
+
 export class Measure {
   // `stage` turns places into pixels and back, and has the newest picture's {size_mm, relief_mm}.
   constructor(stage) {
     this.stage = stage;
-    this.line = null; // from one point to another, with their heights
-    this.pointer = null;
+    this.clear();
+  }
+
+  // The line goes from one point to another, and has their heights.
+  clear() {
+    this.line = this.pointer = this.wanted = null;
   }
 
   // ------------------------------------------------------------------------------------------------- the section
 
   middleLine() {
-    const half = (this.stage.about?.size_mm[0] ?? this.stage.doc.now.options.width) / 2;
+    const half = this.stage.about.size_mm[0] / 2;
     return {from: [-half, 0], to: [half, 0]};
   }
 
@@ -79,7 +114,7 @@ export class Measure {
   dimensionMarks() {
     const {about, size: picture} = this.stage;
     if (!about) return [];
-    const [width, height, thickness] = about.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
+    const [width, height, thickness] = sizeOf(about, this.stage.doc.now), at = (x, y) => this.stage.toPixels([x, y]);
     const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
     const marks = [...dimension([left, bottom + GAP], [right, bottom + GAP], withUnit(width), picture),
       ...dimension([right + GAP, bottom], [right + GAP, top], withUnit(height), picture),
@@ -104,10 +139,9 @@ export class Measure {
     const {line, pointer, stage: {size}} = this;
     if (line) {
       const [from, to] = [line.from, line.to].map((place) => this.stage.toPixels(place));
-      const rise = line.heights ? `, ${line.heights[1] >= line.heights[0] ? "+" : "−"}` +
-        withUnit(Math.abs(line.heights[1] - line.heights[0])) : "";
-      marks.push(...this.lineMarks(line), ...labelled(from, to, withUnit(length(line.from, line.to)) + rise,
-        "cut", size));
+      const text = `${withUnit(length(line.from, line.to))} apart${line.heights ? `, ${rise(...line.heights)}` : ""}`;
+      const at = beside(from, to, text);
+      marks.push(...this.lineMarks(line), ...labelled(at, at, text, "none", size));
     }
     if (pointer?.height !== undefined) {
       const [x, y] = this.stage.toPixels(pointer.place), text = `Height ${withUnit(pointer.height)}`;

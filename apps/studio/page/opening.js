@@ -43,7 +43,7 @@ export class OpenDocument {
     this.former = former;
     this.id = this.engine.document = found.document;
     this.takeState(newest, found.input, work);
-    if (work || newest === copy) this.keep();
+    if (work || (copy && newest === copy)) this.keep(); // a new one is kept when its scan could be read
     this.isKept = Boolean(newest);
     this.model = 0;
     this.status = {busy: true, model: 0, stage: "waiting"};
@@ -131,7 +131,8 @@ export class OpenDocument {
   }
 
   complain({error, model}) {
-    if (error.kind !== "cancelled") toast(error.text);
+    const {path, name} = this.input; // a dropped scan is read from where the engine has put it
+    if (error.kind !== "cancelled") toast(path ? error.text.replaceAll(path, name) : error.text);
     if (model > 0) return this.on.refused();
     const {former} = this;
     this.former = null;

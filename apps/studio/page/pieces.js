@@ -3,7 +3,9 @@
 import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, make} from "./controls.js";
-import {FIRST, engineOptions} from "./document.js";
+import {FIRST, engineOptions, shownOptions} from "./document.js";
+import {FIELDS} from "./fields.js";
+import {isUnfinished} from "./inputs.js";
 import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -42,20 +44,25 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
-// Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, until a width
-// is asked for; an outline that cannot have that size is as large as the relief needs.
-function besides(name, value, {outline, diameter, plate}, shownWidth) {
+// Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, unless a width
+// was asked for, which that of a new document was not; an outline that cannot have that size is as large as the relief
+// needs.
+function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
     const circle = name === "diameter" ? {outline: "circle", plate: ""} : {diameter: null};
     const straight = name === "plate" && outline === "circle" ? {outline: "rectangle"} : {};
-    return {width: null, ...circle, ...straight};
+    return {width: width === FIRST.options.width ? null : width, ...circle, ...straight};
   }
   const isFree = {diameter: value === "circle", plate: ["rectangle", "round", "ellipse"].includes(value)};
   if (name === "outline" && ((diameter && !isFree.diameter) || (plate && !isFree.plate)))
     return {diameter: null, plate: "", shift: "", width: shownWidth};
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
+
+// Returns a message of the engine about an option, which is named in it as its field is.
+export const inWords = (message) =>
+  message.replace(/^[a-z-]+(?=:)/, (name) => LABELS[name] ?? FIELDS[name]?.label ?? name);
 
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
@@ -91,7 +98,7 @@ export class PieceRows {
         ...SUGGESTED[name].map((value) => make("option", {value}))));
     input.onchange = () => this.take(name);
     input.onkeydown = (event) => {
-      if (event.key === "Escape") this.show(name);
+      if (event.key === "Escape") this.show();
     };
     return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
   }
@@ -101,27 +108,37 @@ export class PieceRows {
     const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
-    if (isNumber && text !== "" && value === null) return this.show(name);
+    if (isNumber && text !== "" && value === null) return this.show();
     if (PAIRS[name]) value = inMm(name, value ?? "");
     const {options} = this.doc.now;
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
     try {
-      await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
+      const step = {...this.doc.now, options: {...options, ...part}};
+      await this.engine.check(engineOptions(step));
+      if (!input.matches("select")) await this.tryOut(step);
       this.doc.change({options: part});
     } catch (error) {
-      this.say(error.message);
+      this.say(inWords(error.message));
     }
-    this.show(name);
+    this.show();
   }
 
-  // Shows the document's values, but not in a field in which something is typed, unless it is that of option `entered`.
-  show(entered = "") {
+  // Throws what the engine says of options of which no piece can be made, by asking for one of its heights. A width that
+  // does not fit is put right later, and another view is still to be prepared.
+  async tryOut(step) {
+    await this.engine.profile({options: shownOptions(step), from: [0, 0], to: [0, 0]}).catch((error) => {
+      if (error.kind === "option" && !error.message.startsWith("width:")) throw error;
+    });
+  }
+
+  // Shows the document's values, but not in a field in which something is typed.
+  show() {
     const {options} = this.doc.now;
     for (const [name, {element, input, unit}] of Object.entries(this.rows)) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;
-      if (document.activeElement !== input || input.matches("select") || name === entered) input.value = shown;
+      if (!isUnfinished(input)) input.value = shown;
       if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
         element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
     }

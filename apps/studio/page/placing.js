@@ -52,8 +52,13 @@ export class Placing {
     if (angle !== 0) this.doc.change({options: viewTurned(this.doc.now.options, this.isMirrored ? -angle : angle)});
   }
 
-  // No place is left for a figure of this size: it becomes as large as fits.
-  squeeze() {
-    if (this.doc.now.options.width !== null) this.doc.change({options: {width: null}}, "place");
+  // Takes the error of a picture. A figure that is too large for its plate becomes as large as fits, in the step that
+  // left it too little room. Returns whether it was that.
+  squeeze({kind, message}) {
+    const isTooLarge = kind === "option" && message.startsWith("width:") && this.doc.now.options.width !== null;
+    if (!isTooLarge) return false;
+    this.doc.note({options: {width: null}});
+    this.say("The figure was too large for its plate: now it is as large as fits.");
+    return true;
   }
 }

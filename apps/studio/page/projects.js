@@ -3,7 +3,7 @@
 import {about} from "./about.js";
 import {$, download, fileSize} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
-import {offer} from "./messages.js";
+import {offer, toast} from "./messages.js";
 import {sceneFile} from "./scene_panel.js";
 import {zipOf} from "./zip.js";
 
@@ -76,14 +76,18 @@ export class Projects {
   // Saves the document's present step, at once if there is nothing to choose.
   save(step, name) {
     const {input} = step, project = projectOf(step), text = JSON.stringify(project, null, 1) + "\n";
-    const saveText = () => download(new Blob([text], {type: "application/json"}), `${name}.relievo`);
+    const give = (blob) => {
+      download(blob, `${name}.relievo`);
+      toast(`Saved: ${name}.relievo.`);
+    };
+    const saveText = () => give(new Blob([text], {type: "application/json"}));
     if (input.sample || /\.json$/i.test(input.path)) return saveText();
     const dialog = $("#save-dialog");
     dialog.onclose = async () => {
       if (dialog.returnValue !== "save") return;
       if (!$("#with-scan").checked) return saveText();
       try {
-        download(await this.take(this.engine.packProject(project)), `${name}.relievo`);
+        give(await this.take(this.engine.packProject(project)));
       } catch (error) {
         this.failed(error);
       }

@@ -10,6 +10,7 @@ const LOOSER = [
   {limit: "the steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
   {limit: "the tone curve", action: "Drop the tone curve", part: {tone: ""}},
 ];
+const withUnit = (mm) => `${lengthText(mm)} ${shown.unit}`;
 const WORTH = 1.02; // so many times the height
 
 export class Reach {
@@ -20,12 +21,15 @@ export class Reach {
   clear() {
     this.key = "";
     this.slider().showMark(null);
+    this.slider().complain("");
     $("#reach").replaceChildren();
   }
 
   // Called with each picture; a fine one comes when things rest. The reach does not depend on the height: it is
   // asked for when something else changes.
   async pictured(frame, isFine) {
+    const isMissed = this.doc.now.isHeightLocked && !frame.is_height_met;
+    this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(frame.height_mm)} high` : "");
     if (!isFine) return;
     if (frame.is_height_met) $("#reach").replaceChildren();
     if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
@@ -42,7 +46,7 @@ export class Reach {
     }
     const most = frame.is_height_met ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
-    this.slider().showMark(most, `${name}: ${lengthText(most)} ${shown.unit}`);
+    this.slider().showMark(most, `${name}: ${withUnit(most)}`);
     if (frame.is_height_met) return;
     await this.explain(most, {...rest, height}, key);
   }
@@ -56,7 +60,7 @@ export class Reach {
       if (key !== this.key) return; // something else is shown, perhaps another document
       if (reach > this.reach * WORTH && !best) best = looser;
     }
-    const at = `${lengthText(most)} ${shown.unit}`;
+    const at = withUnit(most);
     const text = best ? `${best.limit[0].toUpperCase()}${best.limit.slice(1)} keeps it at ${at}.`
       : `This view reaches ${at} at most.`;
     const act = best ? () => this.doc.change({options: best.part}) : this.chooseView;

@@ -1,24 +1,40 @@
 // The numbers in the status line, and the chart of the section.
 
-import {$, count, make} from "./controls.js";
+import {$, clamp, count, make} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown} from "./lengths.js";
 
 const FEWEST = 6; // pictures in a second from which their number is told
 
 let times = []; // of the newest pictures
 
-// Shows the numbers that come with a picture: `height` is the one to show, `facts` those of the model.
-export function showNumbers({about, ms, isFine, height, facts}) {
+// Returns the height of a picture's relief as it is shown and as files have it. A frame meets a locked height to a part
+// in a thousand, files exactly; out of reach, they have the largest one, rounded down so that it can be reached.
+export function heightOf({height_mm, is_height_met}, {isHeightLocked, options}) {
+  if (!is_height_met) return Math.floor(height_mm * 1000) / 1000;
+  return isHeightLocked ? options.height : height_mm;
+}
+
+// Returns the size of a picture's piece: a level plate is as thick as plate and relief together.
+export function sizeOf(about, step) {
+  const {base, wrap, form, thickness, "rim-height": rim} = step.options, [x, y, z] = about.size_mm;
+  const isLevel = base === "plane" && wrap === "none" && form !== "die" && rim === null;
+  return [x, y, isLevel ? thickness + heightOf(about, step) : z];
+}
+
+// Shows the numbers that come with a picture: `height` is the text to show, `size` that of the piece, `facts` those of
+// the model.
+export function showNumbers({about, ms, isFine, height, size, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
   const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
-    `height ${lengthText(height)} ${shown.unit}`,
-    `piece ${about.size_mm.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`,
+    `height ${height} ${shown.unit}`,
+    `piece ${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`,
     times.length >= FEWEST ? `${times.length} frames/s` : "", !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
   $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
-  const spent = [`${time("heights", about.heights_ms)} in ${about.solves} solves`, time("detail", about.detail_ms),
-    time("normals", about.normals_ms), time("picture", about.drawing_ms)];
+  const solves = about.solves > 0 ? [`${time("heights", about.heights_ms)} in ${about.solves} solves`] : [];
+  const spent = [...solves, time("detail", about.detail_ms), time("normals", about.normals_ms),
+    time("picture", about.drawing_ms)];
   $("#numbers").title = `height reached ${about.height_mm.toFixed(4)} mm; ${spent.join(", ")}`;
 }
 
@@ -46,9 +62,12 @@ function ticks(low, high, count) {
 
 const LEFT = 44, BOTTOM = 18, TOP = 6, RIGHT = 12; // pixels around the chart
 
+// Shows heights along a line; none of a line that passes the piece by.
 export function showSection(heights, from, to) {
   const svg = $("#section-chart"), box = svg.getBoundingClientRect();
-  if (!box.width) return;
+  svg.replaceChildren();
+  $("#section-text").textContent = "The line passes the piece by.";
+  if (!box.width || heights.length === 0) return;
   const width = box.width - LEFT - RIGHT, height = box.height - TOP - BOTTOM, scale = millimetresPerUnit();
   const low = Math.min(0, ...heights), high = Math.max(0.01, ...heights);
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
@@ -56,7 +75,7 @@ export function showSection(heights, from, to) {
   const place = (z, i) => `${x(i / (heights.length - 1) * length).toFixed(1)} ${y(z).toFixed(1)}`;
   const points = heights.map(place).join("L");
   const across = ticks(0, length / scale, 8), upwards = ticks(low / scale, high / scale, 3), end = LEFT + width;
-  const bottom = TOP + height;
+  const bottom = TOP + height, reading = make("g");
   svg.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
   svg.replaceChildren(
     make("path", {class: "area", d: `M${LEFT} ${y(low)}L${points}L${end} ${y(low)}Z`}),
@@ -64,8 +83,23 @@ export function showSection(heights, from, to) {
       make("text", {x: LEFT - 6, y: y(z * scale) + 4, "text-anchor": "end"}, z.toFixed(upwards.decimals))]),
     ...across.all.flatMap((mm) => [make("path", {class: "ground", d: `M${x(mm * scale)} ${bottom}v4`}),
       make("text", {x: x(mm * scale), y: bottom + 15, "text-anchor": "middle"}, mm.toFixed(across.decimals))]),
-    make("path", {class: "line", d: `M${points}`}));
+    make("path", {class: "line", d: `M${points}`}), reading);
+  showReadings(svg, reading, {heights, length, x, y, bottom});
   const times = (height / (high - low)) / (width / length), text = (z) => lengthText(z);
   $("#section-text").textContent = `Section, ${lengthText(length, 1)} ${shown.unit} long, ` +
     `from ${text(low)} to ${text(high)} ${shown.unit}; heights are drawn ${times.toFixed(1)} times as large as lengths`;
+}
+
+// Shows the place and the height of the section under the pointer in an element of the chart.
+function showReadings(svg, reading, {heights, length, x, y, bottom}) {
+  svg.onpointerleave = () => reading.replaceChildren();
+  svg.onpointermove = ({clientX}) => {
+    const share = (clientX - svg.getBoundingClientRect().left - x(0)) / (x(length) - x(0));
+    const i = Math.round(clamp(share, 0, 1) * (heights.length - 1)), mm = i / (heights.length - 1) * length;
+    const text = `${lengthText(mm)} ${shown.unit} along, height ${lengthText(heights[i])} ${shown.unit}`;
+    const [gap, anchor] = share < 0.5 ? [8, "start"] : [-8, "end"];
+    reading.replaceChildren(make("path", {class: "line", d: `M${x(mm)} ${TOP}V${bottom}`}),
+      make("circle", {class: "line", cx: x(mm), cy: y(heights[i]), r: 3}),
+      make("text", {class: "reading", x: x(mm) + gap, y: TOP + 10, "text-anchor": anchor}, text));
+  };
 }

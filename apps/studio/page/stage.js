@@ -5,7 +5,7 @@ import {Comparing} from "./comparing.js";
 import {$, clamp, make} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
-import {Measure} from "./measure.js";
+import {Measure, onPlate} from "./measure.js";
 import {takePinches} from "./pinch.js";
 import {takeKey} from "./stage_keys.js";
 import {Turning} from "./turning.js";
@@ -63,6 +63,13 @@ export class Stage {
     this.unwanted?.abort(); // a picture at rest
     this.showBusy();
     this.pump();
+  }
+
+  // Another scan is shown, whose pictures are still to come: no mark of the one before stays.
+  clear() {
+    Object.assign(this, {isReady: false, model: 0, about: null, line: null});
+    this.measure.clear();
+    this.drawOverlay();
   }
 
   // Shows that another model is being prepared, and until then a coarse relief of its view.
@@ -139,6 +146,7 @@ export class Stage {
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
+    if (this.tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
     if (this.comparing.isShown) await this.comparing.draw(isFine);
@@ -184,7 +192,6 @@ export class Stage {
     };
     this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
     if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};
-    if (tool === "section") this.line ??= this.measure.middleLine();
     this.drawOverlay();
     this.invalidate();
   }
@@ -207,8 +214,10 @@ export class Stage {
   }
 
   async cut() {
-    const {from, to} = this.line;
-    this.on.section(await this.heights(from, to), from, to);
+    const {outline, wrap} = this.doc.now.options;
+    const isRound = ["circle", "ellipse"].includes(outline) && wrap === "none";
+    const {from, to} = onPlate(this.line, this.about.size_mm, isRound) ?? {};
+    this.on.section(from ? await this.heights(from, to) : [], from, to);
   }
 
   // ------------------------------------------------------------------- positions
@@ -253,7 +262,8 @@ export class Stage {
   }
 
   press(event) {
-    if (event.target.id === "split" || event.button > 1 || !event.isPrimary || this.drag) return;
+    const isOther = event.target.id === "split" || event.button > 1 || !event.isPrimary;
+    if (isOther || this.drag || !this.about) return;
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
@@ -341,9 +351,21 @@ export class Stage {
     this.invalidate();
   }
 
+  // Takes back what the running drag has changed; the rest of it changes nothing. Returns whether there was anything.
+  takeBack() {
+    const isTurned = this.drag?.tool === "turn" || Boolean(this.drag?.angle);
+    if (isTurned) {
+      Object.assign(this.drag, {tool: "none", angle: 0});
+      this.turning.await(this.isAwaiting);
+      this.drawOverlay();
+      this.invalidate();
+    }
+    return this.doc.cancelStroke() || isTurned;
+  }
+
   // The first of two fingers moved nothing.
   giveUp() {
-    this.doc.cancelStroke();
+    this.takeBack();
     this.release();
   }
 
@@ -354,6 +376,7 @@ export class Stage {
 
   zoom(event) {
     event.preventDefault();
+    if (this.tool === "place" && !this.about) return; // there is no figure yet
     if (this.tool === "place") return this.on.placing.scale(Math.exp(-event.deltaY * 0.0005), this.about.size_mm);
     this.zoomBy(Math.exp(-event.deltaY * 0.0015), event.offsetX, event.offsetY);
   }

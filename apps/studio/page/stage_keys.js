@@ -14,9 +14,9 @@ function move(stage, x, y) {
   if (tool === "turn") stage.turning.step(x, y);
   if (tool === "orbit") stage.orbit(x * 5, -y * 5);
   if (tool === "pan") stage.shift(x * 20 / pixelsPerMm, y * 20 / pixelsPerMm);
-  if (tool === "place" && on.placing.begin(stage.about.size_mm)) on.placing.move(x, y);
+  if (tool === "place" && stage.about && on.placing.begin(stage.about.size_mm)) on.placing.move(x, y);
   if (tool === "crop") on.cropFrame.step(x, y);
-  if (tool === "section") {
+  if (tool === "section" && stage.line) {
     const moved = ([px, py]) => [px + x, py + y];
     stage.setLine({from: moved(stage.line.from), to: moved(stage.line.to)});
   }

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, enter, findBrowser, removeFolder, savedFiles, temporaryFolder, type,
+import {EngineProcess, enter, eventually, findBrowser, removeFolder, savedFiles, temporaryFolder, type,
   writeSample} from "./support.mjs";
 
 const found = await findBrowser();
@@ -81,7 +81,70 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", {s
   assert.equal(await text("Height in mm"), "4.00");
 });
 
-test("takes back with Escape what a point of the tone curve is dragged to, and draws no refused curve", {skip}, async () => {
+test("undoes what a field of the plate has taken, but not while something is typed", {skip}, async () => {
+  const plate = page.getByLabel("Plate size", {exact: true});
+  const untilPlate = (text) => eventually(async () => assert.equal(await plate.inputValue(), text));
+  for (const size of ["150x120", "160x120"]) {
+    await enter(plate, size);
+    await page.getByText(`piece ${size.slice(0, 3)}.00 × 120.00`).waitFor();
+  }
+  await type(plate, "17");
+  await plate.press("Control+z");
+  await page.getByText("piece 160.00 × 120.00").waitFor();
+  await plate.press("Escape");
+  await untilPlate("160x120");
+  await plate.press("Control+z");
+  await page.getByText("piece 150.00 × 120.00").waitFor();
+  await untilPlate("150x120");
+  await plate.press("Control+z");
+  await untilPlate("");
+});
+
+test("keeps the figure's size on another plate, as long as it fits", {skip}, async () => {
+  const plate = page.getByLabel("Plate size", {exact: true});
+  const longer = async () => Number(await text("Longer side in mm"));
+  await enter(plate, "200x150");
+  await page.getByText("piece 200.00 × 150.00").waitFor();
+  assert.ok((await longer()) > 120, "as large as fits");
+  await set("Longer side in mm", 64);
+  await enter(plate, "200x151");
+  await page.getByText("piece 200.00 × 151.00").waitFor();
+  assert.equal(await longer(), 64);
+  await enter(plate, "60x50");
+  await page.getByText("The figure was too large for its plate: now it is as large as fits.").waitFor();
+  await page.getByText("piece 60.00 × 50.00").waitFor();
+  assert.ok((await longer()) < 50);
+  await page.getByRole("button", {name: "Undo"}).click();
+  await page.getByText("piece 200.00 × 151.00").waitFor();
+  assert.equal(await longer(), 64);
+  while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
+});
+
+test("takes letters as keys again after Enter, and goes on with Tab from the field", {skip}, async () => {
+  const focused = () => page.evaluate(() => document.activeElement.dataset.option);
+  await type(field("Height in mm"), "4");
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("m");
+  assert.ok(await page.getByRole("radio", {name: "Measure"}).isChecked());
+  await page.keyboard.press("l");
+  await page.keyboard.press("Shift+Tab");
+  await page.keyboard.press("Tab");
+  assert.equal(await focused(), "height");
+});
+
+test("takes back what no piece can be made of", {skip}, async () => {
+  const wrap = page.getByLabel("Bent around", {exact: true});
+  await enter(wrap, "cylinder:diameter=1");
+  await page.getByText(/^Bent around: expected a diameter of at least/).waitFor();
+  assert.equal(await wrap.inputValue(), "none");
+  assert.ok(await page.getByRole("alert").isVisible());
+  await enter(wrap, "cylinder:diameter=200");
+  await page.getByRole("alert").waitFor({state: "hidden"});
+  await page.getByRole("button", {name: "Undo"}).click();
+  assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
+});
+
+test("takes back what a point of the curve is dragged to, and draws no refused curve", {skip}, async () => {
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
   await point.evaluate((element) => element.scrollIntoView({block: "center"}));
@@ -103,6 +166,20 @@ test("takes back with Escape what a point of the tone curve is dragged to, and d
   await page.mouse.up();
   assert.notEqual(await value(), before, "the next drag counts again");
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("The paper's formula (6)");
+});
+
+test("adds a point to the tone curve by a double click, which Delete removes", {skip}, async () => {
+  const curve = page.locator("#curve svg"), count = () => curve.locator("circle").count(), before = await count();
+  await curve.scrollIntoViewIfNeeded();
+  const {x, y, width, height} = await curve.boundingBox(), at = {x: 0.4 * width, y: 0.3 * height};
+  await curve.dblclick({position: at});
+  if (found.name === "firefox") // see doubleClick()
+    await curve.dispatchEvent("dblclick", {clientX: x + at.x, clientY: y + at.y});
+  assert.equal(await count(), before + 1);
+  assert.equal(await page.evaluate(() => getSelection().toString()), "");
+  await page.keyboard.press("Delete");
+  assert.equal(await count(), before);
+  for (let step = 0; step < 2; ++step) await page.getByRole("button", {name: "Undo"}).click();
 });
 
 test("shows and takes inches, and keeps millimetres", {skip}, async () => {
@@ -133,11 +210,60 @@ test("exports when Enter is pressed", {skip}, async () => {
   await dialog.waitFor({state: "hidden"});
 });
 
+test("says what was saved of an export that is cancelled", {skip}, async () => {
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  let asked = 0;
+  await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // no file but the first comes
+  for (const [written, saved] of [["2 of 2", "Saved: scan.stl."], ["1 of 2", "Nothing was saved."]]) {
+    await page.keyboard.press("Control+e");
+    await dialog.getByText(/triangles$/).waitFor();
+    await dialog.getByRole("checkbox", {name: /^3MF/}).check();
+    await dialog.getByRole("button", {name: "Export"}).click();
+    await dialog.getByText(`Writing file ${written}`).waitFor();
+    await dialog.getByRole("button", {name: "Cancel"}).click();
+    await page.getByRole("alert").getByText(`Cancelled. ${saved}`).waitFor();
+  }
+  await page.unroute("**/api/export");
+});
+
+// Returns the height and the thickness that the status line and the export tell.
+async function toldSizes() {
+  const dialog = page.getByRole("dialog", {name: "Export"}), numbers = /height ([\d.]+).*× ([\d.]+) mm/;
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  const shown = (await page.locator("#numbers").innerText()).match(numbers).slice(1);
+  await page.keyboard.press("Control+e");
+  await dialog.getByText(/triangles$/).waitFor();
+  const [, thick, high] = (await page.locator("#export-size").innerText()).match(/× ([\d.]+) mm, relief ([\d.]+)/);
+  await dialog.getByRole("button", {name: "Cancel"}).click();
+  return {shown, exported: [high, thick]};
+}
+
+test("tells the same height and thickness everywhere", {skip}, async () => {
+  await set("Height in mm", 3.175);
+  assert.equal(await text("Height in mm"), "3.175");
+  await page.getByText(/height 3\.175 mm/).waitFor();
+  assert.deepEqual(await toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
+  await page.getByRole("radio", {name: "Measure"}).click();
+  await page.locator("#overlay").getByText("6.18 mm thick").waitFor();
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await page.getByLabel("Outline", {exact: true}).selectOption("round");
+  await set("Height in mm", 300);
+  await page.locator("#reach").getByText(/at most|keeps it at/).waitFor();
+  const {shown, exported} = await toldSizes();
+  assert.deepEqual(shown, exported);
+  assert.ok(Math.abs(shown[1] - shown[0] - 3) < 0.006, `${shown}`);
+  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
+});
+
 test("marks the height that can be reached, and loosens what limits it", {skip}, async () => {
   const mark = page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/);
   const reach = page.locator("#reach");
+  const untilMarked = async () => {
+    await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+    await mark.waitFor();
+  };
   await set("Longer side in mm", 60);
-  await mark.waitFor();
+  await untilMarked();
   const reachable = async () => Number((await mark.getAttribute("title")).match(/[\d.]+/)[0]), most = await reachable();
   await set("Steepest wall in degrees", 30);
   for (let i = 0; i < 100 && (await reachable()) >= most; ++i) await page.waitForTimeout(50);
@@ -145,6 +271,9 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   assert.ok(limited < most, `${limited} of ${most}`);
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
   await reach.getByText(/The steepest wall keeps it at [\d.]+ mm/).waitFor();
+  assert.equal(await field("Height in mm").getAttribute("aria-invalid"), "true");
+  const reached = (await reach.innerText()).match(/[\d.]+ mm/)[0];
+  await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
   await page.keyboard.press("Control+e"); // the file has another height than the one that was asked for
   const dialog = page.getByRole("dialog", {name: "Export"});
   await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
@@ -154,6 +283,44 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   for (let i = 0; i < 100 && (await reachable()) <= limited; ++i) await page.waitForTimeout(50);
   assert.ok((await reachable()) > most, `${await reachable()} of ${most}`);
+});
+
+test("can redo after a drag that was taken back", {skip}, async () => {
+  const heights = await page.evaluate(async () => {
+    const {Document, FIRST} = await import(new URL("document.js", location));
+    const doc = new Document(() => {}), seen = [], see = () => seen.push(doc.now.options.height);
+    doc.begin(FIRST);
+    for (const height of [6, 7]) doc.change({options: {height}});
+    doc.undo();
+    for (const height of [8, 9]) doc.change({options: {height}}, "height");
+    see();
+    doc.cancelStroke();
+    see();
+    doc.redo();
+    see();
+    return seen;
+  });
+  assert.deepEqual(heights, [9, 6, 7]);
+});
+
+test("shows no mark of the piece before while another scan opens", {skip}, async () => {
+  const marks = () => page.locator("#overlay > *").count(), other = path.join(folder, "other.ply"), complaints = [];
+  page.on("pageerror", (error) => complaints.push(error.message));
+  writeSample("shell", 5000, other);
+  await page.getByRole("radio", {name: "Place"}).click();
+  await eventually(async () => assert.ok(await marks() > 8));
+  let open;
+  await page.route("**/api/open", (route) => (open = () => route.continue()));
+  await page.locator("#file").setInputFiles(other);
+  await page.getByText("other.ply", {exact: true}).waitFor();
+  assert.equal(await marks(), 0);
+  await page.locator("#stage").click({position: {x: 30, y: 30}}); // there is nothing to move yet
+  await page.mouse.wheel(0, 100);
+  await page.locator("#stage").press("ArrowLeft");
+  await eventually(() => open());
+  await page.getByText(/of 5,000 points/).waitFor();
+  await eventually(async () => assert.ok(await marks() > 8));
+  assert.deepEqual(complaints, []);
 });
 
 test("ends no drag when the pause after another slider's step is over", {skip}, async () => {

@@ -71,6 +71,27 @@ test("sets size and material with a kind, and takes all of it back at once", {sk
   assert.ok(await page.getByRole("slider", {name: "Fine detail"}).isEnabled());
 });
 
+test("names a kind by its form, whatever its material", {skip}, async () => {
+  await page.getByRole("radio", {name: "Walnut"}).click();
+  assert.ok(await kind("Plaque").isChecked());
+  await kind("Carving").click();
+  await page.getByRole("radio", {name: "Bronze"}).click();
+  assert.ok(await kind("Carving").isChecked());
+  for (let step = 0; step < 3; ++step) await button("Undo").click();
+});
+
+test("brings a kind back as it was left", {skip}, async () => {
+  await kind("Coin").click();
+  await enter(page.getByLabel("Diameter", {exact: true}), "30");
+  await numbers().getByText(/piece 30\.00 × 30\.00/).waitFor();
+  await kind("Lithophane").click();
+  await numbers().getByText(/height 2\.40 mm/).waitFor();
+  await kind("Coin").click();
+  await numbers().getByText(/piece 30\.00 × 30\.00/).waitFor();
+  for (let step = 0; step < 4; ++step) await button("Undo").click();
+  assert.ok(await kind("Plaque").isChecked());
+});
+
 test("says what the eye sees, and the paper's symbol in the tip", {skip}, async () => {
   for (const [name, symbol] of [["Fine detail", "γ"], ["Crispness", "β"]])
     assert.match(await page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));

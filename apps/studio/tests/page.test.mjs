@@ -379,6 +379,10 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   });
   await page.getByText(/Section, 55\.\d mm long.* heights are drawn [\d.]+ times as large as lengths/).waitFor();
   assert.ok((await page.locator("#section-chart text").count()) > 6);
+  await page.locator("#section-chart").hover();
+  await page.getByText(/^2\d\.\d+ mm along, height -?[\d.]+ mm$/).waitFor();
+  await drag(middle, [box.x + box.width - 4, middle[1]]); // beyond the plate, which has no heights there
+  await page.getByText(/Section, 110\.0 mm long/).waitFor();
   await page.getByRole("radio", {name: "Measure"}).click();
   await overlay.getByText("110.00 mm", {exact: true}).waitFor();
   await overlay.getByText("100.00 mm", {exact: true}).waitFor();
@@ -387,10 +391,13 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   let y = middle[1];
   await eventually(async () => { // again if the picture had the size that it has beside a section
     await drag([middle[0] - 50, y += 20], [middle[0] + 50, y]);
-    const told = await overlay.getByText(/^[\d.]+ mm, [+−][\d.]+ mm$/).textContent();
+    const told = await overlay.getByText(/^[\d.]+ mm apart, [\d.]+ mm (higher|lower)$/).textContent();
     const plate = Math.max(...await overlay.locator("line.dimension").evaluateAll((all) =>
       all.map((line) => line.getAttribute("x2") - line.getAttribute("x1")))); // pixels of 110 mm
     assert.ok(Math.abs(Number(told.match(/^[\d.]+/)[0]) - 110 * 100 / plate) < 0.6, told);
+    const line = await overlay.locator("line.cut").boundingBox();
+    const label = await overlay.getByText(told, {exact: true}).boundingBox();
+    assert.ok(label.y + label.height < line.y, JSON.stringify([label, line]));
   });
   await page.getByRole("radio", {name: "Light", exact: true}).click();
   await button("Compare").click();
@@ -410,6 +417,15 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   await page.mouse.move(middle[0] + 80, middle[1] + 30, {steps: 8});
   await becomesOther(first);
   await viewIs("Front"); // until the view rests
+  await page.keyboard.press("Escape");
+  await page.mouse.move(middle[0] + 90, middle[1], {steps: 3});
+  await page.mouse.up();
+  await becomesSame(first);
+  await viewIs("Front");
+  await page.mouse.move(...middle);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 80, middle[1] + 30, {steps: 8});
+  await becomesOther(first);
   const coarse = await picture();
   await page.mouse.up();
   await viewIs("Turned by hand");
@@ -453,6 +469,7 @@ test("saves a project, opens it again, and makes the same bytes of it", {skip}, 
   await page.getByRole("radio", {name: /^Settings alone/}).check();
   const saved = JSON.parse(await saveAs(() => button("Save").click(), file));
   assert.equal(saved.options.height, 2.5);
+  await page.getByRole("alert").getByText("Saved: scan.relievo.").waitFor();
   await set("Height in mm", 5);
   await choose("Front");
   await openFile(file);
@@ -494,7 +511,7 @@ test("exports several files at once, named for their form, and can be cancelled"
   await dialog.getByText(/triangles/).waitFor();
   await dialog.getByRole("checkbox", {name: /^3MF/}).check();
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
-  await type(dialog.getByLabel("Longer side in pixels"), "300");
+  await type(dialog.getByLabel("Longer side of height maps, in pixels"), "300");
   const files = await savedFiles(found, page, 3, () => dialog.getByRole("button", {name: "Export"}).click());
   assert.deepEqual(files.map(({name}) => name), ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]);
   const saved = /^Saved: scan-mirror.stl, .* mm, relief .* high, [\d,]+ triangles\.$/;
@@ -607,7 +624,9 @@ test("says in plain words what is wrong with a file", {skip}, async () => {
   const wrong = path.join(folder, "wrong.ply");
   writeFileSync(wrong, "ply\nformat ascii 1.0\nelement vertex 3\n");
   await openFile(wrong);
-  await page.getByRole("alert").getByText(/wrong\.ply.*expected/).waitFor();
+  await page.getByRole("alert").getByText(/^wrong\.ply.*expected/).waitFor();
+  const kept = (await engine.json("recent")).recent.map(({input}) => input.name);
+  assert.ok(kept.includes("scan.ply") && !kept.includes("wrong.ply"), `${kept}`);
   const project = path.join(folder, "wrong.relievo");
   writeFileSync(project, "{}");
   await openFile(project);
@@ -685,7 +704,21 @@ test("has everything within reach on a phone", {skip}, async () => {
     assert.deepEqual(await beyond(), [], name);
     await page.keyboard.press("Escape");
   }
+  const names = page.locator("#recent span");
+  assert.ok(await names.evaluateAll((all) => all.every((name) =>
+    getComputedStyle(name).display === "block" && getComputedStyle(name).textOverflow === "ellipsis")));
   await button("Back to the relief").click();
+  await button("Help").click();
+  assert.equal(await page.locator("#help-dialog").evaluate((dialog) => dialog.scrollTop), 0);
+  await page.keyboard.press("Escape");
+  const covered = await page.locator("#progress").evaluate((box) => {
+    box.hidden = false;
+    const stage = document.querySelector("#stage").getBoundingClientRect();
+    const {top, right, bottom} = box.getBoundingClientRect();
+    box.hidden = true;
+    return top < stage.bottom || right > innerWidth || bottom > innerHeight;
+  });
+  assert.ok(!covered, "the progress covers the picture");
   await page.setViewportSize({width: 1280, height: 800});
 });
 
