@@ -100,6 +100,7 @@ function chooseUnit(unit) {
 function changed(before) {
   const {now} = doc;
   opened.keep(doc.stroke !== null);
+  tour.takeBack();
   showDocumentSoon();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);

@@ -34,13 +34,33 @@ test("covers no part of the picture with a line for people", {skip}, async () =>
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
     await page.evaluate(async (text) => (await import(new URL("messages.js", location))).toast(text, true), text);
-    const toast = page.getByRole("alert").filter({hasText: text}), box = await toast.boundingBox();
+    const toast = page.locator("#toast").filter({hasText: text}), box = await toast.boundingBox();
     for (const kept of ["#stage", ".bar", "#numbers"])
       assert.ok(!overlap(box, await page.locator(kept).boundingBox()), `${kept} at ${screen.width}`);
     assert.ok(box.x >= 0 && box.x + box.width <= screen.width && box.y + box.height <= screen.height);
-    await toast.click();
+    await page.getByRole("button", {name: "Dismiss"}).click();
     await toast.waitFor({state: "hidden"});
   }
+});
+
+test("closes by the keyboard a line that offers something, and does what it offers", {skip}, async () => {
+  const offer = () => page.evaluate(async () => {
+    const {offer, toast} = await import(new URL("messages.js", location));
+    window.takeBack = offer("A scan is not found.", "Locate it", () => toast("Located."));
+  });
+  const toast = page.locator("#toast");
+  await offer();
+  await page.getByRole("button", {name: "Locate it"}).focus();
+  await page.keyboard.press("Tab");
+  assert.equal(await page.evaluate(() => document.activeElement.ariaLabel), "Dismiss");
+  await page.keyboard.press("Enter");
+  await toast.waitFor({state: "hidden"});
+  await offer();
+  await page.getByRole("button", {name: "Locate it"}).click();
+  await page.getByRole("alert").getByText("Located.").waitFor();
+  await page.evaluate(() => window.takeBack()); // no other line goes with the offer
+  assert.ok(await toast.isVisible());
+  await page.getByRole("button", {name: "Dismiss"}).click();
 });
 
 // The line ends so that its label would lie on that of the relief's height, or of its width.
