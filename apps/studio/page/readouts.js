@@ -1,6 +1,6 @@
 // The numbers in the status line, and the chart of the section.
 
-import {$, count, make} from "./controls.js";
+import {$, count, make, scaleOfType} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown} from "./lengths.js";
 
 const FEWEST = 6; // pictures in a second from which their number is told
@@ -44,26 +44,27 @@ function ticks(low, high, count) {
   return {all, decimals: Math.max(0, -Math.floor(Math.log10(step)))};
 }
 
-const LEFT = 44, BOTTOM = 18, TOP = 6, RIGHT = 12; // pixels around the chart
+const AROUND = {left: 44, bottom: 20, top: 6, right: 14}; // pixels beside the chart, where type has its usual size
 
 export function showSection(heights, from, to) {
   const svg = $("#section-chart"), box = svg.getBoundingClientRect();
   if (!box.width) return;
-  const width = box.width - LEFT - RIGHT, height = box.height - TOP - BOTTOM, scale = millimetresPerUnit();
+  const type = scaleOfType(), [left, base, top, right] = Object.values(AROUND).map((pixels) => pixels * type);
+  const width = box.width - left - right, height = box.height - top - base, scale = millimetresPerUnit();
   const low = Math.min(0, ...heights), high = Math.max(0.01, ...heights);
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const x = (mm) => LEFT + mm / length * width, y = (z) => TOP + height * (1 - (z - low) / (high - low));
+  const x = (mm) => left + mm / length * width, y = (z) => top + height * (1 - (z - low) / (high - low));
   const place = (z, i) => `${x(i / (heights.length - 1) * length).toFixed(1)} ${y(z).toFixed(1)}`;
   const points = heights.map(place).join("L");
-  const across = ticks(0, length / scale, 8), upwards = ticks(low / scale, high / scale, 3), end = LEFT + width;
-  const bottom = TOP + height;
+  const across = ticks(0, length / scale, 8), upwards = ticks(low / scale, high / scale, 3), end = left + width;
+  const bottom = top + height;
   svg.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
   svg.replaceChildren(
-    make("path", {class: "area", d: `M${LEFT} ${y(low)}L${points}L${end} ${y(low)}Z`}),
-    ...upwards.all.flatMap((z) => [make("path", {class: "ground", d: `M${LEFT} ${y(z * scale)}H${end}`}),
-      make("text", {x: LEFT - 6, y: y(z * scale) + 4, "text-anchor": "end"}, z.toFixed(upwards.decimals))]),
+    make("path", {class: "area", d: `M${left} ${y(low)}L${points}L${end} ${y(low)}Z`}),
+    ...upwards.all.flatMap((z) => [make("path", {class: "ground", d: `M${left} ${y(z * scale)}H${end}`}),
+      make("text", {x: left - 6, y: y(z * scale) + 4 * type, "text-anchor": "end"}, z.toFixed(upwards.decimals))]),
     ...across.all.flatMap((mm) => [make("path", {class: "ground", d: `M${x(mm * scale)} ${bottom}v4`}),
-      make("text", {x: x(mm * scale), y: bottom + 15, "text-anchor": "middle"}, mm.toFixed(across.decimals))]),
+      make("text", {x: x(mm * scale), y: bottom + 15 * type, "text-anchor": "middle"}, mm.toFixed(across.decimals))]),
     make("path", {class: "line", d: `M${points}`}));
   const times = (height / (high - low)) / (width / length), text = (z) => lengthText(z);
   $("#section-text").textContent = `Section, ${lengthText(length, 1)} ${shown.unit} long, ` +
