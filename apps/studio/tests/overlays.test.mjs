@@ -104,24 +104,6 @@ test("draws no more pixels on a large screen than the engine makes", {skip}, asy
   await large.close();
 });
 
-test("shows every state without a scroll bar beside the picture", {skip}, async () => {
-  for (const screen of [SCREENS[0], SCREENS[2]]) {
-    await page.setViewportSize(screen);
-    const states = ["Turn", "Orbit", "Pan", "Place", "Crop", "Section", "Measure", "Light"];
-    for (const state of states) {
-      await page.getByRole("radio", {name: state, exact: true}).click();
-      const bars = await page.evaluate(() => ["html", "body", "main", ".studio", ".viewer", "#stage"]
-        .map((name) => [name, document.querySelector(name)]).filter(([, it]) => it)
-        .filter(([, it]) => it.offsetWidth - it.clientWidth > 2 || it.scrollHeight > it.clientHeight + 1 ||
-          it.scrollWidth > it.clientWidth + 1).map(([name]) => name));
-      assert.deepEqual(bars, [], `${state} at ${screen.width}`);
-      const rows = await page.locator(".tools > *").evaluateAll((all) => new Set(all
-        .map((group) => group.getBoundingClientRect()).map(({y, height}) => Math.round(y + height / 2))).size);
-      assert.equal(rows, 1, `tools at ${screen.width}`);
-    }
-  }
-});
-
 // Returns for each quarter of the figure by how many pixels the edges of the model are off those of the relief.
 const edgesOff = () => page.evaluate(async () => {
   const {width, height} = document.querySelector("#picture");

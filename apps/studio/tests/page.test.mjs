@@ -637,58 +637,6 @@ test("helps at the press of a key, and names all it has", {skip}, async () => {
   assert.deepEqual(nameless, []);
 });
 
-// Returns what axe finds on the page as it is, as its rules and the elements that break them.
-async function findings(axe) {
-  await page.evaluate(axe);
-  return page.evaluate(async () => (await window.axe.run(document, {resultTypes: ["violations"]})).violations
-    .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
-}
-
-test("has no findings of axe, light and dark and in forced colours", {skip}, async (context) => {
-  const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
-  if (!axe) return context.skip("axe-core is not installed (npm ci --prefix apps/studio/tests)");
-  for (const media of [{colorScheme: "dark"}, {colorScheme: "light", forcedColors: "active"},
-    {colorScheme: "light", forcedColors: "none"}]) {
-    await page.emulateMedia(media);
-    assert.deepEqual(await findings(axe), [], JSON.stringify(media));
-  }
-  for (const name of ["Choose view", "Export", "Help", "Relievo, start page"]) {
-    await button(name).click();
-    if (name === "Export") await page.getByText(/triangles$/).waitFor();
-    assert.deepEqual(await findings(axe), [], name);
-    await page.keyboard.press("Escape");
-  }
-  await button("Back to the relief").click();
-});
-
-test("has everything within reach on a phone", {skip}, async () => {
-  await page.setViewportSize({width: 390, height: 844});
-  await untilReady(page);
-  const beyond = () => page.evaluate(() => [...document.querySelectorAll(
-    "header button, #stage, .inspector summary, dialog[open] button, dialog[open] input, #drop, .cards button")]
-    .filter((element) => element.checkVisibility()).filter((element) => {
-      const {left, right} = element.getBoundingClientRect();
-      return left < 0 || right > innerWidth;
-    }).map((element) => element.outerHTML.slice(0, 80)));
-  assert.deepEqual(await beyond(), []);
-  for (const text of ["#title", ".status", "#numbers"]) {
-    const [needed, given] = await page.locator(text).evaluate((it) =>
-      [[it.scrollWidth, it.scrollHeight], [it.getBoundingClientRect().width, it.getBoundingClientRect().height]]);
-    assert.ok(needed.every((pixels, i) => pixels <= Math.ceil(given[i])), `${text} needs ${needed} and has ${given}`);
-  }
-  const stage = await page.locator("#stage").boundingBox();
-  assert.ok(stage.width === 390 && stage.height > 300, JSON.stringify(stage));
-  for (const summary of await page.locator(".inspector details:not([hidden]) > summary").all())
-    await summary.scrollIntoViewIfNeeded();
-  for (const name of ["Export", "Choose view", "Relievo, start page"]) {
-    await button(name).click();
-    assert.deepEqual(await beyond(), [], name);
-    await page.keyboard.press("Escape");
-  }
-  await button("Back to the relief").click();
-  await page.setViewportSize({width: 1280, height: 800});
-});
-
 test("takes two fingers for a closer look, which move nothing else", {skip}, async (context) => {
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
   const touched = await browser.newContext({viewport: {width: 820, height: 1180}, hasTouch: true});
