@@ -81,7 +81,7 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", {s
   assert.equal(await text("Height in mm"), "4.00");
 });
 
-test("takes back with Escape what a point of the tone curve is dragged to, and draws no refused curve", {skip}, async () => {
+test("takes back with Escape what a point of the tone curve is dragged to, and draws no refused one", {skip}, async () => {
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
   await point.evaluate((element) => element.scrollIntoView({block: "center"}));
@@ -154,6 +154,20 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   for (let i = 0; i < 100 && (await reachable()) <= limited; ++i) await page.waitForTimeout(50);
   assert.ok((await reachable()) > most, `${await reachable()} of ${most}`);
+});
+
+test("names the tone curve and the view where they limit the height, and loosens them", {skip}, async () => {
+  const reach = page.locator("#reach"), preset = page.getByRole("combobox", {name: "Tone curve preset"});
+  await preset.selectOption("Fine detail first");
+  await set("Height in mm", 2000);
+  await reach.getByText(/^The tone curve keeps it at [\d.]+ mm\./).waitFor();
+  await reach.getByRole("button", {name: "Drop the tone curve"}).click();
+  assert.equal(await preset.inputValue(), "");
+  await reach.getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
+  await reach.getByRole("button", {name: "Choose view"}).click();
+  await page.getByRole("dialog", {name: "Choose the view"}).waitFor();
+  await page.keyboard.press("Escape");
+  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
 });
 
 test("ends no drag when the pause after another slider's step is over", {skip}, async () => {
