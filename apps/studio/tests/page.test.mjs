@@ -486,7 +486,7 @@ test("tells the size of the file beforehand", {skip}, async () => {
   await dialog.getByRole("button", {name: "Cancel"}).click();
 });
 
-test("exports several files at once, named for their form, and can be cancelled", {skip}, async () => {
+test("exports several files at once, named for their form", {skip}, async () => {
   await page.locator("#form").selectOption("mirror");
   await untilReady(page);
   await button("Export").click();
@@ -500,13 +500,9 @@ test("exports several files at once, named for their form, and can be cancelled"
   const saved = /^Saved: scan-mirror.stl, .* mm, relief .* high, [\d,]+ triangles\.$/;
   await page.getByRole("alert").getByText(saved).waitFor();
   await dialog.waitFor({state: "hidden"});
-  await set("Height in mm", 2.4); // another piece, which is not made yet
-  await button("Export").click();
-  await dialog.getByRole("button", {name: "Cancel"}).click();
-  await dialog.waitFor({state: "hidden"});
   for (const name of ["3mf", "heightmap"])
     await page.locator(`#formats [value="${name}"]`).evaluate((box) => (box.checked = false));
-  for (let step = 0; step < 2; ++step) await button("Undo").click();
+  await button("Undo").click();
   await untilReady(page);
 });
 
