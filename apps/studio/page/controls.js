@@ -24,6 +24,9 @@ export function check(radio, isChecked) {
   radio.tabIndex = isChecked ? 0 : -1;
 }
 
+// Returns how many times as large type is as on screens of the usual size: drawings with texts grow as these do.
+export const scaleOfType = () => parseFloat(getComputedStyle(document.documentElement).fontSize) / 14.5;
+
 export const clamp = (x, low, high) => Math.min(high, Math.max(low, x));
 
 // Ways to spread values over a slider.

@@ -108,6 +108,7 @@ function changed(before) {
   if (refusal && $("#toast").textContent.includes(refusal)) $("#toast").hidden = true;
   refusal = null;
   opened.keep(doc.stroke !== null);
+  tour.takeBack();
   showDocumentSoon();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);

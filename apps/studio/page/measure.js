@@ -1,12 +1,12 @@
 // Measures on the picture from the front: dimensions of the piece, the height under the pointer, distances, and the
 // line of the section. Places are in mm from the middle of the piece.
 
-import {clamp, make} from "./controls.js";
+import {clamp, make, scaleOfType} from "./controls.js";
 import {lengthText, shown} from "./lengths.js";
 import {sizeOf} from "./readouts.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
-const ROW = 22; // pixels that a label needs in height
+const ROW = 22; // pixels that a label needs in height, where type has its usual size
 const GAP = 14; // pixels from the piece to its dimensions
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
@@ -16,19 +16,19 @@ const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 let labels = []; // of the marks that are being drawn: {x, y, width}, of their middles
 
 // Returns the place nearest to `y` that keeps a label clear of the others, within the picture.
-function freeHeight(x, y, width, picture) {
-  const isFree = (y) => y >= ROW / 2 && y <= picture.height - ROW / 2 && labels.every((other) =>
-    Math.abs(other.x - x) >= (other.width + width) / 2 || Math.abs(other.y - y) >= ROW);
+function freeHeight(x, y, width, row, picture) {
+  const isFree = (y) => y >= row / 2 && y <= picture.height - row / 2 && labels.every((other) =>
+    Math.abs(other.x - x) >= (other.width + width) / 2 || Math.abs(other.y - y) >= row);
   const steps = Array.from({length: Math.ceil(picture.height / 2)}, (_, i) => 2 * i);
   return steps.flatMap((step) => [y - step, y + step]).find(isFree) ?? y;
 }
 
-const widthOf = (text) => 7.2 * text.length + 10; // pixels of a label
+const widthOf = (text) => (7.2 * text.length + 10) * scaleOfType(); // pixels of a label
 
 // Returns the pixel where the label of a line stands above it, and covers nothing of it.
 function beside([x1, y1], [x2, y2], text) {
   const size = Math.hypot(x2 - x1, y2 - y1) || 1, [right, up] = [(y2 - y1) / size, Math.abs(x2 - x1) / size];
-  const side = x2 < x1 ? -right : right, gap = (Math.abs(right) * widthOf(text) + up * ROW) / 2 + NEAR;
+  const side = x2 < x1 ? -right : right, gap = (Math.abs(right) * widthOf(text) + up * ROW * scaleOfType()) / 2 + NEAR;
   return [(x1 + x2) / 2 + side * gap, (y1 + y2) / 2 - up * gap];
 }
 
@@ -41,12 +41,13 @@ function rise(from, to) {
 // Returns a line between two pixels with a text in its middle, on a ground that keeps it readable, within the picture
 // and beside the labels before it.
 function labelled([x1, y1], [x2, y2], text, kind, picture) {
-  const width = widthOf(text), x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
-  const y = freeHeight(x, clamp((y1 + y2) / 2, ROW / 2, picture.height - ROW / 2), width, picture);
+  const scale = scaleOfType(), width = widthOf(text), row = ROW * scale, height = row - 2;
+  const x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
+  const y = freeHeight(x, clamp((y1 + y2) / 2, row / 2, picture.height - row / 2), width, row, picture);
   labels.push({x, y, width});
-  const label = make("text", {x, y: y + 4, "text-anchor": "middle"}, text);
+  const label = make("text", {x, y: y + 4 * scale, "text-anchor": "middle"}, text);
   return [make("line", {class: kind, x1, y1, x2, y2}),
-    make("rect", {class: "ground", x: x - width / 2, y: y - 10, width, height: 20, rx: 5}), label];
+    make("rect", {class: "ground", x: x - width / 2, y: y - height / 2, width, height, rx: 5}), label];
 }
 
 // Returns a dimension with its two end strokes.

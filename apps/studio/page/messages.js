@@ -4,21 +4,27 @@ import {$, make} from "./controls.js";
 
 let timer = 0, isLost = false;
 
-$("#toast").onclick = hideToast;
+$("#toast .close").onclick = hideToast;
 
 // A line for people, for eight seconds or until the next.
 export function toast(text, isLasting = false) {
-  $("#toast").textContent = text;
+  const line = make("span", {}, text);
+  $("#toast p").replaceChildren(line);
   $("#toast").hidden = false;
   clearTimeout(timer);
   if (!isLasting) timer = setTimeout(hideToast, 8000);
+  return line;
 }
 
-// A line with a button that does something about it, for so long.
+// A line with a button that does something about it, for so long. Returns a function that takes the offer back.
 export function offer(text, label, action, ms = Infinity) {
-  toast(text, true);
+  const line = toast(text, true), act = () => {
+    hideToast(); // before the action, which may say something itself
+    action();
+  };
   if (ms < Infinity) timer = setTimeout(hideToast, ms);
-  $("#toast").append(" ", make("button", {onclick: action}, label));
+  line.append(" ", make("button", {onclick: act}, label));
+  return () => line.isConnected && hideToast();
 }
 
 function hideToast() {

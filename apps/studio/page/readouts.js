@@ -1,6 +1,6 @@
 // The numbers in the status line, and the chart of the section.
 
-import {$, clamp, count, make} from "./controls.js";
+import {$, clamp, count, make, scaleOfType} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown} from "./lengths.js";
 
 const FEWEST = 6; // pictures in a second from which their number is told
@@ -60,7 +60,7 @@ function ticks(low, high, count) {
   return {all, decimals: Math.max(0, -Math.floor(Math.log10(step)))};
 }
 
-const LEFT = 44, BOTTOM = 18, TOP = 6, RIGHT = 12; // pixels around the chart
+const AROUND = {left: 44, bottom: 20, top: 6, right: 14}; // pixels beside the chart, where type has its usual size
 
 // Shows heights along a line; none of a line that passes the piece by.
 export function showSection(heights, from, to) {
@@ -68,38 +68,39 @@ export function showSection(heights, from, to) {
   svg.replaceChildren();
   $("#section-text").textContent = "The line passes the piece by.";
   if (!box.width || heights.length === 0) return;
-  const width = box.width - LEFT - RIGHT, height = box.height - TOP - BOTTOM, scale = millimetresPerUnit();
+  const type = scaleOfType(), [left, base, top, right] = Object.values(AROUND).map((pixels) => pixels * type);
+  const width = box.width - left - right, height = box.height - top - base, scale = millimetresPerUnit();
   const low = Math.min(0, ...heights), high = Math.max(0.01, ...heights);
   const length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-  const x = (mm) => LEFT + mm / length * width, y = (z) => TOP + height * (1 - (z - low) / (high - low));
+  const x = (mm) => left + mm / length * width, y = (z) => top + height * (1 - (z - low) / (high - low));
   const place = (z, i) => `${x(i / (heights.length - 1) * length).toFixed(1)} ${y(z).toFixed(1)}`;
   const points = heights.map(place).join("L");
-  const across = ticks(0, length / scale, 8), upwards = ticks(low / scale, high / scale, 3), end = LEFT + width;
-  const bottom = TOP + height, reading = make("g");
+  const across = ticks(0, length / scale, 8), upwards = ticks(low / scale, high / scale, 3), end = left + width;
+  const bottom = top + height, reading = make("g");
   svg.setAttribute("viewBox", `0 0 ${box.width} ${box.height}`);
   svg.replaceChildren(
-    make("path", {class: "area", d: `M${LEFT} ${y(low)}L${points}L${end} ${y(low)}Z`}),
-    ...upwards.all.flatMap((z) => [make("path", {class: "ground", d: `M${LEFT} ${y(z * scale)}H${end}`}),
-      make("text", {x: LEFT - 6, y: y(z * scale) + 4, "text-anchor": "end"}, z.toFixed(upwards.decimals))]),
+    make("path", {class: "area", d: `M${left} ${y(low)}L${points}L${end} ${y(low)}Z`}),
+    ...upwards.all.flatMap((z) => [make("path", {class: "ground", d: `M${left} ${y(z * scale)}H${end}`}),
+      make("text", {x: left - 6, y: y(z * scale) + 4 * type, "text-anchor": "end"}, z.toFixed(upwards.decimals))]),
     ...across.all.flatMap((mm) => [make("path", {class: "ground", d: `M${x(mm * scale)} ${bottom}v4`}),
-      make("text", {x: x(mm * scale), y: bottom + 15, "text-anchor": "middle"}, mm.toFixed(across.decimals))]),
+      make("text", {x: x(mm * scale), y: bottom + 15 * type, "text-anchor": "middle"}, mm.toFixed(across.decimals))]),
     make("path", {class: "line", d: `M${points}`}), reading);
-  showReadings(svg, reading, {heights, length, x, y, bottom});
+  showReadings(svg, reading, {heights, length, x, y, top, bottom});
   const times = (height / (high - low)) / (width / length), text = (z) => lengthText(z);
   $("#section-text").textContent = `Section, ${lengthText(length, 1)} ${shown.unit} long, ` +
     `from ${text(low)} to ${text(high)} ${shown.unit}; heights are drawn ${times.toFixed(1)} times as large as lengths`;
 }
 
 // Shows the place and the height of the section under the pointer in an element of the chart.
-function showReadings(svg, reading, {heights, length, x, y, bottom}) {
+function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {
   svg.onpointerleave = () => reading.replaceChildren();
   svg.onpointermove = ({clientX}) => {
     const share = (clientX - svg.getBoundingClientRect().left - x(0)) / (x(length) - x(0));
     const i = Math.round(clamp(share, 0, 1) * (heights.length - 1)), mm = i / (heights.length - 1) * length;
     const text = `${lengthText(mm)} ${shown.unit} along, height ${lengthText(heights[i])} ${shown.unit}`;
     const [gap, anchor] = share < 0.5 ? [8, "start"] : [-8, "end"];
-    reading.replaceChildren(make("path", {class: "line", d: `M${x(mm)} ${TOP}V${bottom}`}),
+    reading.replaceChildren(make("path", {class: "line", d: `M${x(mm)} ${top}V${bottom}`}),
       make("circle", {class: "line", cx: x(mm), cy: y(heights[i]), r: 3}),
-      make("text", {class: "reading", x: x(mm) + gap, y: TOP + 10, "text-anchor": anchor}, text));
+      make("text", {class: "reading", x: x(mm) + gap, y: top + 10, "text-anchor": anchor}, text));
   };
 }

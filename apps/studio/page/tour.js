@@ -24,15 +24,16 @@ export class Tour {
       event.stopPropagation();
       if (event.key === "Escape") this.end();
     };
+    this.takeBack = () => {};
     document.body.append(this.element);
     addEventListener("resize", () => !this.element.hidden && this.place());
   }
 
-  // Offers itself once in a browser, when the first scan is there.
+  // Offers itself once in a browser, when the first scan is there. Whoever begins to work does not want it: takeBack().
   offer() {
     if (localStorage.getItem("toured")) return;
     localStorage.setItem("toured", "yes");
-    offer("New here? Five steps show what is where.", "Show me", () => this.start(), OFFER_MS);
+    this.takeBack = offer("New here? Five steps show what is where.", "Show me", () => this.start(), OFFER_MS);
   }
 
   start() {

@@ -144,7 +144,7 @@ test("takes back what no piece can be made of", {skip}, async () => {
   assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
 });
 
-test("takes back what a point of the curve is dragged to, and draws no refused curve", {skip}, async () => {
+test("takes back with Escape what a point of the tone curve is dragged to, and draws no refused one", {skip}, async () => {
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
   await point.evaluate((element) => element.scrollIntoView({block: "center"}));
@@ -321,6 +321,20 @@ test("shows no mark of the piece before while another scan opens", {skip}, async
   await page.getByText(/of 5,000 points/).waitFor();
   await eventually(async () => assert.ok(await marks() > 8));
   assert.deepEqual(complaints, []);
+});
+
+test("names the tone curve and the view where they limit the height, and loosens them", {skip}, async () => {
+  const reach = page.locator("#reach"), preset = page.getByRole("combobox", {name: "Tone curve preset"});
+  await preset.selectOption("Fine detail first");
+  await set("Height in mm", 2000);
+  await reach.getByText(/^The tone curve keeps it at [\d.]+ mm\./).waitFor();
+  await reach.getByRole("button", {name: "Drop the tone curve"}).click();
+  assert.equal(await preset.inputValue(), "");
+  await reach.getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
+  await reach.getByRole("button", {name: "Choose view"}).click();
+  await page.getByRole("dialog", {name: "Choose the view"}).waitFor();
+  await page.keyboard.press("Escape");
+  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
 });
 
 test("ends no drag when the pause after another slider's step is over", {skip}, async () => {

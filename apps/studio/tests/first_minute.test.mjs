@@ -45,6 +45,39 @@ const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.ma
   return {shown, sum};
 }));
 
+test("leads through five steps, once by itself and then from the help", {skip}, async () => {
+  await page.getByRole("alert").getByRole("button", {name: "Show me"}).click();
+  const tour = page.getByRole("dialog", {name: "Tour"});
+  for (let step = 1; step <= 5; ++step) {
+    await tour.getByText(`${step} of 5`).waitFor();
+    const box = await tour.boundingBox();
+    assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= 1280 && box.y + box.height <= 800, JSON.stringify(box));
+    await tour.getByRole("button", {name: step < 5 ? "Next" : "Done"}).click();
+  }
+  await tour.waitFor({state: "hidden"});
+  await button("Help").click();
+  await button("Take the tour").click();
+  await tour.getByText("1 of 5").waitFor();
+  await page.keyboard.press("Escape");
+  await tour.waitFor({state: "hidden"});
+  await page.reload();
+  await untilReady(page);
+  assert.ok(!await button("Show me").isVisible());
+});
+
+test("offers the tour no longer to whoever begins to work", {skip}, async () => {
+  const other = await (await browser.newContext()).newPage();
+  await other.goto(engine.address);
+  const offered = other.getByRole("button", {name: "Show me"});
+  await offered.waitFor();
+  await untilReady(other);
+  assert.ok(await offered.isVisible());
+  await other.getByRole("radio", {name: "Bronze"}).click();
+  await offered.waitFor({state: "hidden", timeout: 5000});
+  await other.getByRole("button", {name: "Undo"}).click();
+  await other.close();
+});
+
 test("shows this scan as each kind of work", {skip}, async () => {
   const first = await eventually(async () => {
     const all = await pictures();
@@ -96,26 +129,6 @@ test("says what the eye sees, and the paper's symbol in the tip", {skip}, async 
   for (const [name, symbol] of [["Fine detail", "γ"], ["Crispness", "β"]])
     assert.match(await page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));
   assert.match(await page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
-});
-
-test("leads through five steps, once by itself and then from the help", {skip}, async () => {
-  await page.getByRole("alert").getByRole("button", {name: "Show me"}).click();
-  const tour = page.getByRole("dialog", {name: "Tour"});
-  for (let step = 1; step <= 5; ++step) {
-    await tour.getByText(`${step} of 5`).waitFor();
-    const box = await tour.boundingBox();
-    assert.ok(box.x >= 0 && box.y >= 0 && box.x + box.width <= 1280 && box.y + box.height <= 800, JSON.stringify(box));
-    await tour.getByRole("button", {name: step < 5 ? "Next" : "Done"}).click();
-  }
-  await tour.waitFor({state: "hidden"});
-  await button("Help").click();
-  await button("Take the tour").click();
-  await tour.getByText("1 of 5").waitFor();
-  await page.keyboard.press("Escape");
-  await tour.waitFor({state: "hidden"});
-  await page.reload();
-  await untilReady(page);
-  assert.ok(!await button("Show me").isVisible());
 });
 
 const PANELS = {

@@ -503,7 +503,7 @@ test("tells the size of the file beforehand", {skip}, async () => {
   await dialog.getByRole("button", {name: "Cancel"}).click();
 });
 
-test("exports several files at once, named for their form, and can be cancelled", {skip}, async () => {
+test("exports several files at once, named for their form", {skip}, async () => {
   await page.locator("#form").selectOption("mirror");
   await untilReady(page);
   await button("Export").click();
@@ -517,13 +517,9 @@ test("exports several files at once, named for their form, and can be cancelled"
   const saved = /^Saved: scan-mirror.stl, .* mm, relief .* high, [\d,]+ triangles\.$/;
   await page.getByRole("alert").getByText(saved).waitFor();
   await dialog.waitFor({state: "hidden"});
-  await set("Height in mm", 2.4); // another piece, which is not made yet
-  await button("Export").click();
-  await dialog.getByRole("button", {name: "Cancel"}).click();
-  await dialog.waitFor({state: "hidden"});
   for (const name of ["3mf", "heightmap"])
     await page.locator(`#formats [value="${name}"]`).evaluate((box) => (box.checked = false));
-  for (let step = 0; step < 2; ++step) await button("Undo").click();
+  await button("Undo").click();
   await untilReady(page);
 });
 
@@ -656,54 +652,10 @@ test("helps at the press of a key, and names all it has", {skip}, async () => {
   assert.deepEqual(nameless, []);
 });
 
-// Returns what axe finds on the page as it is, as its rules and the elements that break them.
-async function findings(axe) {
-  await page.evaluate(axe);
-  return page.evaluate(async () => (await window.axe.run(document, {resultTypes: ["violations"]})).violations
-    .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
-}
-
-test("has no findings of axe, light and dark and in forced colours", {skip}, async (context) => {
-  const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
-  if (!axe) return context.skip("axe-core is not installed (npm ci --prefix apps/studio/tests)");
-  for (const media of [{colorScheme: "dark"}, {colorScheme: "light", forcedColors: "active"},
-    {colorScheme: "light", forcedColors: "none"}]) {
-    await page.emulateMedia(media);
-    assert.deepEqual(await findings(axe), [], JSON.stringify(media));
-  }
-  for (const name of ["Choose view", "Export", "Help", "Relievo, start page"]) {
-    await button(name).click();
-    if (name === "Export") await page.getByText(/triangles$/).waitFor();
-    assert.deepEqual(await findings(axe), [], name);
-    await page.keyboard.press("Escape");
-  }
-  await button("Back to the relief").click();
-});
-
-test("has everything within reach on a phone", {skip}, async () => {
+test("shows whole names, the top of the help and the whole first picture on a phone", {skip}, async () => {
   await page.setViewportSize({width: 390, height: 844});
   await untilReady(page);
-  const beyond = () => page.evaluate(() => [...document.querySelectorAll(
-    "header button, #stage, .inspector summary, dialog[open] button, dialog[open] input, #drop, .cards button")]
-    .filter((element) => element.checkVisibility()).filter((element) => {
-      const {left, right} = element.getBoundingClientRect();
-      return left < 0 || right > innerWidth;
-    }).map((element) => element.outerHTML.slice(0, 80)));
-  assert.deepEqual(await beyond(), []);
-  for (const text of ["#title", ".status", "#numbers"]) {
-    const [needed, given] = await page.locator(text).evaluate((it) =>
-      [[it.scrollWidth, it.scrollHeight], [it.getBoundingClientRect().width, it.getBoundingClientRect().height]]);
-    assert.ok(needed.every((pixels, i) => pixels <= Math.ceil(given[i])), `${text} needs ${needed} and has ${given}`);
-  }
-  const stage = await page.locator("#stage").boundingBox();
-  assert.ok(stage.width === 390 && stage.height > 300, JSON.stringify(stage));
-  for (const summary of await page.locator(".inspector details:not([hidden]) > summary").all())
-    await summary.scrollIntoViewIfNeeded();
-  for (const name of ["Export", "Choose view", "Relievo, start page"]) {
-    await button(name).click();
-    assert.deepEqual(await beyond(), [], name);
-    await page.keyboard.press("Escape");
-  }
+  await button("Relievo, start page").click();
   const names = page.locator("#recent span");
   assert.ok(await names.evaluateAll((all) => all.every((name) =>
     getComputedStyle(name).display === "block" && getComputedStyle(name).textOverflow === "ellipsis")));

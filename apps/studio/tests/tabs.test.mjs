@@ -1,6 +1,6 @@
 // Several tabs of one browser on one studio.
 import assert from "node:assert/strict";
-import {renameSync} from "node:fs";
+import {renameSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {EngineProcess, enter, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder, untilReady,
@@ -164,6 +164,26 @@ test("shows what another page kept later, and says so", {skip}, async () => {
   await engine.post("state", {document, state: {...kept, changed: Date.now() + 20000}, tab: "another"});
   await untilHeight(tab, "6.50");
   await tab.close();
+});
+
+test("opens a project that was saved with its scan in another studio, where the scan is not", {skip}, async () => {
+  const tab = await newTab(), moved = path.join(folder, "moved.ply"), project = path.join(folder, "work.relievo");
+  await tab.getByRole("button", {name: "Save project"}).click();
+  await tab.getByRole("radio", {name: /^With the scan/}).check();
+  const [{bytes}] = await savedFiles(found, tab, 1, () => tab.getByRole("button", {name: "Save", exact: true}).click());
+  writeFileSync(project, bytes);
+  renameSync(scan, moved);
+  const elsewhere = await new EngineProcess(path.join(folder, "elsewhere")).ready();
+  await tab.goto(elsewhere.address);
+  await tab.locator("#samples button").first().waitFor();
+  await tab.locator("#file").setInputFiles(project);
+  await tab.getByText("of 20,000 points").waitFor();
+  await untilReady(tab);
+  assert.deepEqual([await title(tab).innerText(), await height(tab).inputValue()], ["scan.ply", "6.50"]);
+  assert.ok(Math.abs((await exported(tab)).height - 9.5) < 0.01);
+  await tab.close();
+  await elsewhere.stop();
+  renameSync(moved, scan);
 });
 
 test("asks for a scan that has moved, and goes on with it", {skip}, async () => {

@@ -1,0 +1,73 @@
+// How far an export has come, and that nothing of it goes on once it is cancelled, in Chromium or Firefox.
+import assert from "node:assert/strict";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
+  writeSample} from "./support.mjs";
+
+const found = await findBrowser();
+const skip = found.missing ? `${found.missing}: the page is not tested` : false;
+if (skip) console.log(`SKIPPED: ${skip}`);
+
+const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
+let browser, engine, page;
+
+before(async () => {
+  if (skip) return;
+  writeSample("still_life", 8000, scan);
+  browser = await found.launch();
+  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan, timeout: 60000}));
+  engine.document = new URL(page.url()).hash.slice(1);
+  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await page.getByRole("button", {name: "Light table"}).click(); // which shows no finished piece: only exports make one
+  await enter(page.locator("#resolution"), "0.07"); // takes seconds
+  await untilReady(page);
+  await page.evaluate(() => {
+    window.seen = [];
+    window.saved = [];
+    const {createObjectURL} = URL;
+    URL.createObjectURL = (file) => window.saved.push(file.size) && createObjectURL(file);
+    const bar = document.querySelector("#export-progress");
+    new MutationObserver(() => bar.hasAttribute("value") && window.seen.push(bar.value))
+      .observe(bar, {attributeFilter: ["value"]});
+  });
+});
+
+after(async () => {
+  await browser?.close();
+  await engine?.stop();
+  removeFolder(folder);
+});
+
+const dialog = () => page.getByRole("dialog", {name: "Export"});
+const making = async () => (await engine.json("status")).making.stage;
+const open = () => page.locator("#export").click();
+
+async function cancel() {
+  await dialog().getByRole("button", {name: "Cancel"}).click();
+  await dialog().waitFor({state: "hidden"});
+  await eventually(async () => assert.equal(await making(), ""));
+}
+
+test("shows how far a piece has come", {skip}, async () => {
+  await open();
+  await dialog().getByText(/triangles/).waitFor();
+  const seen = await page.evaluate(() => window.seen);
+  assert.ok(seen.length > 0 && seen.every((value, i) => value > (seen[i - 1] ?? 0) && value <= 1), `${seen}`);
+  await page.keyboard.press("Escape");
+});
+
+test("ends the engine's work when it is cancelled, and saves no file of it", {skip}, async () => {
+  await enter(page.getByRole("spinbutton", {name: "Height in mm"}), "4"); // another piece, which is not made yet
+  await untilReady(page);
+  await open();
+  await eventually(async () => assert.notEqual(await making(), ""));
+  await cancel();
+  await open();
+  await dialog().getByText(/triangles/).waitFor();
+  await dialog().getByRole("button", {name: "Export"}).click(); // which writes the file
+  await cancel();
+  await page.waitForTimeout(2000); // in which it would arrive
+  assert.deepEqual(await page.evaluate(() => window.saved), []);
+  assert.equal(await page.getByRole("alert").getByText(/^Saved/).count(), 0);
+});

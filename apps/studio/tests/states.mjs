@@ -1,0 +1,76 @@
+// The states of the studio's page, for tests and pictures of each. A state is entered from the plain relief, which
+// shows one scan of a file with all panels open, and left for it again.
+import {enter, untilReady} from "./support.mjs";
+
+const button = (page, name) => page.getByRole("button", {name, exact: true});
+const press = (name) => (page) => button(page, name).click();
+const escape = (page) => page.keyboard.press("Escape");
+const nothing = () => {};
+
+const choose = async (page, name) => {
+  await page.getByRole("radio", {name, exact: true}).click();
+  await untilReady(page);
+};
+const tool = (name) => ({enter: (page) => choose(page, name), leave: (page) => choose(page, "Light")});
+
+// The work that a kind sets is taken back at once.
+const undo = async (page) => {
+  await button(page, "Undo").click();
+  await untilReady(page);
+};
+const kind = (name) => ({enter: (page) => choose(page, name), leave: undo});
+
+// More than steps at depth jumps can make up for.
+const highest = async (page) => {
+  await enter(page.getByRole("spinbutton", {name: "Steepest wall in degrees"}), "30");
+  await enter(page.getByRole("spinbutton", {name: "Height in mm"}), "300");
+  await page.locator("#reach button").waitFor();
+};
+
+const exporting = async (page) => {
+  await button(page, "Export").click();
+  const dialog = page.getByRole("dialog", {name: "Export"});
+  await dialog.getByText(/triangles/).waitFor();
+  await dialog.getByRole("checkbox", {name: /^Height map/}).check();
+};
+
+// Each step of the tour is entered from the plain relief.
+const tourStep = (step) => ({
+  part: ".tour", leave: escape, enter: async (page) => {
+    await button(page, "Help").click();
+    await button(page, "Take the tour").click();
+    for (let i = 1; i < step; ++i) await button(page, "Next").click();
+  },
+});
+
+const message = (page) => page.evaluate(async () => {
+  const {offer} = await import(new URL("messages.js", location));
+  offer("A scan of a long name.ply is not found at /home/somebody/models/a scan of a long name.ply.", "Locate it");
+});
+
+export const STATES = {
+  "the relief": {enter: nothing, leave: nothing},
+  ...Object.fromEntries(["Turn", "Orbit", "Pan", "Place", "Crop", "Section", "Measure"].map((name) =>
+    [`tool ${name}`, tool(name)])),
+  ...Object.fromEntries(["Coin", "Carving", "Seal", "Lithophane", "Bent"].map((name) => [`kind ${name}`, kind(name)])),
+  "a height out of reach": {enter: highest, leave: async (page) => (await undo(page), undo(page))},
+  comparison: {enter: press("Compare"), leave: press("Compare")},
+  "light table": {enter: press("Light table"), leave: press("Light table")},
+  "choosing the view": {part: "#view-dialog", enter: press("Choose view"), leave: escape},
+  export: {part: "#export-dialog", enter: exporting, leave: escape},
+  saving: {part: "#save-dialog", enter: press("Save project"), leave: escape},
+  help: {part: "#help-dialog", enter: press("Help"), leave: escape},
+  ...Object.fromEntries([1, 2, 3, 4, 5].map((step) => [`tour, step ${step}`, tourStep(step)])),
+  "a message": {part: "#toast", enter: message, leave: press("Dismiss")},
+  "the start page": {enter: press("Relievo, start page"), leave: press("Back to the relief")},
+};
+
+export const openPanels = (page) => page.locator(".inspector details").evaluateAll((all) =>
+  all.forEach((panel) => (panel.open = true)));
+
+// Opens several scans as a scene, which is its own document.
+export async function showScene(page, scans) {
+  await page.locator("#file").setInputFiles(scans);
+  await page.locator("#scene").waitFor();
+  await untilReady(page);
+}

@@ -1,0 +1,175 @@
+// Each state of the page fits each screen, has all its controls within reach, and no findings of axe.
+import assert from "node:assert/strict";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {STATES, openPanels, showScene} from "./states.mjs";
+import {EngineProcess, findBrowser, removeFolder, temporaryFolder, untilReady, writeSample} from "./support.mjs";
+
+const found = await findBrowser();
+const skip = found.missing ? `${found.missing}: the page is not tested` : false;
+if (skip) console.log(`SKIPPED: ${skip}`);
+
+const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
+if (!axe) console.log("axe-core is not installed (npm ci --prefix apps/studio/tests): it finds nothing");
+
+const folder = temporaryFolder(), scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
+const DESK = {width: 1280, height: 800}, PHONE = {width: 390, height: 844};
+const SCREENS = [DESK, PHONE, {width: 820, height: 1180}, {width: 3840, height: 2160}];
+let browser, engine, page;
+
+before(async () => {
+  if (skip) return;
+  for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 6000, scan);
+  browser = await found.launch();
+  page = await (await browser.newContext({viewport: DESK})).newPage();
+  page.setDefaultTimeout(30000);
+  engine = await new EngineProcess(path.join(folder, "state")).ready();
+  await page.goto(engine.address);
+  await page.locator("#samples button").first().waitFor();
+});
+
+after(async () => {
+  await browser?.close();
+  await engine?.stop();
+  removeFolder(folder);
+});
+
+// Runs in the page: the parts that scroll though they must not, which is upwards those around the picture and on a desk
+// dialogs and the start page, and sideways all but the row of tools on a phone.
+function scrolling() {
+  const name = (it) => it.id || it.className || it.localName, all = [...document.querySelectorAll("*")];
+  const around = "html, body, main, .studio, .work, #stage, #table, .status";
+  const fixed = new Set(document.querySelectorAll(innerWidth < 1280 ? around : `${around}, dialog, .start`));
+  const scrolls = (side) => ["auto", "scroll"].includes(side);
+  const upwards = all.filter((it) => it.scrollHeight > it.clientHeight + 1 && fixed.has(it));
+  const sideways = all.filter((it) => it.scrollWidth > it.clientWidth + 1 &&
+    (fixed.has(it) || (scrolls(getComputedStyle(it).overflowX) && !it.matches(".tools"))));
+  return [...upwards, ...sideways].map(name);
+}
+
+// Runs in the page: what lies beyond the screen on the left or the right, but in the row of tools, which scrolls.
+function beyond() {
+  return [...document.querySelectorAll("body *")].filter((it) => it.checkVisibility() && !it.closest(".tools, defs"))
+    .filter((it) => {
+      const {left, right, width} = it.getBoundingClientRect();
+      return width > 0 && (left < -1 || right > innerWidth + 1);
+    }).map((it) => it.outerHTML.slice(0, 90));
+}
+
+// Runs in the page: the controls of a part that a hand does not reach. Only what scrolls is scrolled for that.
+function unreached(part) {
+  const problem = (it) => {
+    it.scrollIntoView({block: "nearest", inline: "nearest"});
+    const {left, top, right, bottom, width, height} = it.getBoundingClientRect();
+    if (left < -1 || top < -1 || right > innerWidth + 1 || bottom > innerHeight + 1) return "beyond the screen";
+    for (let parent = it.parentElement; parent; parent = parent.parentElement)
+      if (getComputedStyle(parent).overflowY === "hidden" && (parent.scrollTop || parent.scrollLeft))
+        return `only where ${parent.className || parent.localName} is scrolled`;
+    const [x, y] = [left + width / 2, top + height / 2], label = it.closest("label");
+    const over = [[x, y], [left + 3, y], [right - 3, y], [x, top + 3], [x, bottom - 3]]
+      .map((place) => document.elementFromPoint(...place)).find((top) => !it.contains(top) && !label?.contains(top));
+    return over === undefined ? "" : `below ${over?.outerHTML.slice(0, 60)}`;
+  };
+  const controls = document.querySelector(part).querySelectorAll("button, input, select, summary, [role=slider]");
+  return [...controls].filter((it) => it.checkVisibility()).map((it) => [problem(it), it.outerHTML.slice(0, 90)])
+    .filter(([what]) => what);
+}
+
+// Runs in the page: texts that are cut. The title of a scan may be, where it stands beside the buttons.
+function cut() {
+  const title = innerWidth < 800 ? "#title, " : "";
+  return [...document.querySelectorAll(`${title}button, legend, h2, #numbers, .labels span, .pair > span`)]
+    .filter((it) => it.checkVisibility() && !it.matches(".hidden") && getComputedStyle(it).display !== "inline")
+    .filter((it) => it.scrollWidth > it.clientWidth + 1 && !it.matches(".base-image .quiet"))
+    .map((it) => it.outerHTML.slice(0, 90));
+}
+
+// Runs in the page: texts of less than 12.5 pixels, or what that is where all type is larger. Drawings with texts
+// are as many units wide as they have pixels, once they are drawn anew after a change of their size.
+function small() {
+  const least = 12.5 / 14.5 * parseFloat(getComputedStyle(document.documentElement).fontSize);
+  const hasText = (it) => it.matches("input, select") || [...it.childNodes].some((node) =>
+    node.nodeType === Node.TEXT_NODE && node.data.trim() !== "");
+  const size = (it) => parseFloat(getComputedStyle(it).fontSize);
+  return [...document.querySelectorAll("body *")].filter((it) => it.checkVisibility() && hasText(it))
+    .filter((it) => !it.matches(".mark") && size(it) < least).map((it) => [size(it), it.outerHTML.slice(0, 90)]);
+}
+
+// Runs in the page: the tools where they stand in several rows, though a desk and a phone have one.
+function wrapped() {
+  const boxes = [...document.querySelectorAll(".tools button")].map((it) => it.getBoundingClientRect());
+  const middles = new Set(boxes.map(({top, height}) => Math.round(top + height / 2)));
+  return innerWidth === 820 || middles.size === 1 ? [] : [...middles];
+}
+
+// Returns what is wrong on a screen, by kind.
+async function misfits(screen, part) {
+  await page.setViewportSize(screen);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  const all = [];
+  for (const check of [scrolling, beyond, wrapped, small, cut, unreached])
+    all.push({width: screen.width, kind: check.name, found: await page.evaluate(check, part)});
+  return all.filter(({found}) => found.length > 0);
+}
+
+// How the page may be shown: axe looks at each.
+const MEDIA = [{screen: PHONE}, {colorScheme: "dark"}, {forcedColors: "active"}, {}];
+
+async function assertFits(part = "body") {
+  const all = [];
+  for (const screen of SCREENS) all.push(...await misfits(screen, part));
+  assert.deepEqual(all, []);
+}
+
+// Returns what axe finds on the page as it is, as its rules and the elements that break them; nothing without axe.
+async function findings() {
+  if (!axe) return [];
+  if (!await page.evaluate(() => "axe" in window)) await page.evaluate(axe);
+  return page.evaluate(async () => (await window.axe.run(document, {resultTypes: ["violations"]})).violations
+    .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
+}
+
+async function assertHasNoFindings() {
+  for (const {screen = DESK, colorScheme = "light", forcedColors = "none"} of MEDIA) {
+    await page.setViewportSize(screen);
+    await page.emulateMedia({colorScheme, forcedColors});
+    assert.deepEqual(await findings(), [], JSON.stringify({screen, colorScheme, forcedColors}));
+  }
+}
+
+test("fits every screen before the first scan", {skip}, async () => {
+  await assertFits();
+  await assertHasNoFindings();
+  await page.locator("#file").setInputFiles(scans[0]);
+  await untilReady(page);
+  await openPanels(page);
+  await page.locator("#toast").waitFor(); // the offer of the tour
+  await page.getByRole("button", {name: "Dismiss"}).click();
+});
+
+test("leaves the picture room on a phone", {skip}, async () => {
+  await page.setViewportSize(PHONE);
+  const {width, height} = await page.locator("#stage").boundingBox();
+  assert.ok(width === PHONE.width && height > 300, `${width} x ${height}`);
+  await page.setViewportSize(DESK);
+});
+
+for (const [name, {enter, leave, part}] of Object.entries(STATES))
+  test(`fits every screen: ${name}`, {skip}, async () => {
+    try {
+      await enter(page);
+      await assertFits(part);
+      await assertHasNoFindings();
+    } finally {
+      await page.emulateMedia({colorScheme: "light", forcedColors: "none"});
+      await page.setViewportSize(DESK);
+      await leave(page);
+    }
+  });
+
+test("fits every screen: a scene", {skip}, async () => {
+  await showScene(page, scans);
+  await page.getByRole("button", {name: "Dismiss"}).click(); // that work is kept
+  await assertFits();
+  await assertHasNoFindings();
+});
