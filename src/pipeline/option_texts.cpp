@@ -190,7 +190,7 @@ std::vector<ReliefField> plate_rows() {
                    .otherwise = "0,0"},
                   &OptionTexts::shift},
       ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5}, &OptionTexts::margin_mm},
-      ReliefField{{"thickness", "MM", "smallest thickness of the plate", .01, 1e5},
+      ReliefField{{"thickness", "MM", "smallest thickness of the plate, without the relief", .01, 1e5},
                   &OptionTexts::thickness_mm},
       ReliefField{{"rim", "MM",
                    "width of a raised edge along the outline, as coins have; in a die, of the groove that "

@@ -1,0 +1,40 @@
+// Takes a picture of each state of the studio's page on a desk and a phone, light and dark, to be looked at:
+// node apps/studio/bench/states.mjs FOLDER
+import path from "node:path";
+import {STATES, openPanels, showScene} from "../tests/states.mjs";
+import {EngineProcess, findBrowser, removeFolder, temporaryFolder, untilReady, writeSample} from "../tests/support.mjs";
+
+const SCREENS = [{width: 1280, height: 800}, {width: 390, height: 844}];
+const [into] = process.argv.slice(2), found = await findBrowser();
+if (!into || found.missing) throw new Error(found.missing ?? "expected a folder for the pictures");
+const browser = await found.launch(), folder = temporaryFolder();
+const scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
+for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 30000, scan);
+const engine = await new EngineProcess(path.join(folder, "state"), scans[0]).ready();
+const page = await (await browser.newContext({viewport: SCREENS[0]})).newPage();
+
+async function take(name) {
+  for (const screen of SCREENS)
+    for (const colorScheme of ["light", "dark"]) {
+      await page.setViewportSize(screen);
+      await page.emulateMedia({colorScheme});
+      await page.waitForTimeout(900); // until what is drawn fits its new size
+      await page.screenshot({path: path.join(into, `${name.replace(/\W+/g, "-")}-${screen.width}-${colorScheme}.png`)});
+    }
+  await page.setViewportSize(SCREENS[0]);
+}
+
+await page.addInitScript(() => localStorage.setItem("toured", "yes"));
+await page.goto(engine.address);
+await untilReady(page);
+await openPanels(page);
+for (const [name, {enter, leave}] of Object.entries(STATES)) {
+  await enter(page);
+  await take(name);
+  await leave(page);
+}
+await showScene(page, scans);
+await take("a scene");
+await browser.close();
+await engine.stop();
+removeFolder(folder);
