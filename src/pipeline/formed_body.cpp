@@ -14,6 +14,7 @@ constexpr double close_enough = .98;  // of the triangles asked for
 
 Result<FormedBody> make(FormedFront full, const ReliefOptions& options, Progress* progress) {
   RELIEVO_TRY(FormedFront formed, simplified_front(std::move(full), options, progress));
+  RELIEVO_CHECK(check_cancelled(progress));
   RELIEVO_TRY(Body body, make_body(formed.front, formed.height_mm, options));
   return FormedBody{std::move(formed), std::move(body)};
 }

@@ -84,8 +84,10 @@ Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& a
   RELIEVO_TRY(const ReliefOptions options, with_width(surface, asked));
   RELIEVO_CHECK(begin_stage(progress, "relief", .85));
   RELIEVO_TRY(const Relief relief, relief_of_height(model, options, progress));
+  RELIEVO_CHECK(begin_stage(progress, "solid", .9));
+  FormedFront full = full_front(surface, relief, options);
   RELIEVO_CHECK(begin_stage(progress, "solid", .95));
-  RELIEVO_TRY(FormedBody made, make_formed_body(full_front(surface, relief, options), options, progress));
+  RELIEVO_TRY(FormedBody made, make_formed_body(std::move(full), options, progress));
   auto& [formed, body] = made;
   ReliefReport report = report_on({surface, relief, formed, body, options});
   return MadeRelief{std::move(body.solid), std::move(report), std::move(body.flat)};
