@@ -6,13 +6,15 @@ import {lengthText, shown, typedNumber} from "./lengths.js";
 
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 
-// Returns the bytes of the files that are made of a piece: of STL and PLY exactly, of others about.
+// Returns how large the files of a piece become, as text: exactly where triangles and points decide it, about where
+// they are compressed or written as text, and at most where a height map is compressed.
 function sizes({triangles, points, size_mm: [x, y]}, pixels) {
-  const share = Math.min(x, y) / Math.max(x, y);
+  const share = Math.min(x, y) / Math.max(x, y), area = pixels * pixels * share;
+  const around = (bytes) => `about ${fileSize(bytes)}`, atMost = (bytes) => `at most ${fileSize(bytes)}`;
   return {
-    stl: 84 + 50 * triangles, "3mf": 13 * triangles, ply: 230 + 12 * points + 13 * triangles,
-    obj: 31 * points + 23 * triangles, heightmap: pixels * pixels * share * 0.9, tiff: pixels * pixels * share * 4,
-    preview: 600000,
+    stl: fileSize(84 + 50 * triangles), ply: fileSize(230 + 12 * points + 13 * triangles),
+    "3mf": around(13 * triangles), obj: around(33 * points + 23 * triangles),
+    heightmap: atMost(2 * area), tiff: atMost(4 * area), preview: around(1e6),
   };
 }
 
@@ -70,9 +72,8 @@ export class ExportDialog {
     const pixelsWanted = this.formats.some(({name}) => ["heightmap", "tiff"].includes(name));
     $("#pixels-row").hidden = !pixelsWanted;
     $("#export-go").disabled = this.isBusy || this.formats.length === 0;
-    const bytes = this.piece ? sizes(this.piece, this.pixels) : {};
-    for (const {name} of about.formats)
-      $(`#size-${name}`).textContent = bytes[name] ? fileSize(bytes[name]) : "";
+    const texts = this.piece ? sizes(this.piece, this.pixels) : {};
+    for (const {name} of about.formats) $(`#size-${name}`).textContent = texts[name] ?? "";
     const {size_mm: size, triangles} = this.piece ?? {};
     $("#export-size").textContent = this.piece ?
       `${size.map((x) => lengthText(x)).join(" × ")} ${shown.unit}, relief ` +

@@ -1,5 +1,5 @@
-// Keeps documents: each state goes to the engine while things still move. What no engine has confirmed also stays in the
-// browser, so that it outlives the engine and the page. This file knows no page, so that tests can run it alone.
+// Keeps documents: each state goes to the engine while things still move. What no engine has confirmed also stays in
+// the browser, so that it outlives the engine and the page. This file knows no page, so that tests can run it alone.
 
 const PAUSE_MS = 25; // between two states, so that the engine has time for pictures
 

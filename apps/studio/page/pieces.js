@@ -123,8 +123,8 @@ export class PieceRows {
     this.show();
   }
 
-  // Throws what the engine says of options of which no piece can be made, by asking for one of its heights. A width that
-  // does not fit is put right later, and another view is still to be prepared.
+  // Throws what the engine says of options of which no piece can be made, by asking for one of its heights. A width
+  // that does not fit is put right later, and another view is still to be prepared.
   async tryOut(step) {
     await this.engine.profile({options: shownOptions(step), from: [0, 0], to: [0, 0]}).catch((error) => {
       if (error.kind === "option" && !error.message.startsWith("width:")) throw error;

@@ -144,7 +144,7 @@ test("takes back what no piece can be made of", {skip}, async () => {
   assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
 });
 
-test("takes back with Escape what a point of the tone curve is dragged to, and draws no refused one", {skip}, async () => {
+test("takes back with Escape what a point of the curve is dragged to, and draws no refused curve", {skip}, async () => {
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
   await point.evaluate((element) => element.scrollIntoView({block: "center"}));

@@ -21,7 +21,7 @@ struct Steps {
   Float8 distance_sq, rise;
 };
 
-RELIEVO_INLINE Steps steps_from(const Disc& disc, int x, float dy) {
+RELIEVO_INLINE Steps steps_from(const FrontDisc& disc, int x, float dy) {
   constexpr Float8 lane{0, 1, 2, 3, 4, 5, 6, 7};
   const Float8 dx = static_cast<float>(x) + lane + .5F - disc.place.x();
   return {dx * dx + dy * dy, disc.slope.x() * dx + disc.slope.y() * dy};
@@ -30,7 +30,7 @@ RELIEVO_INLINE Steps steps_from(const Disc& disc, int x, float dy) {
 // Calls f(x, row, dy) for runs of eight cells of a band that contain those whose centres lie within a distance of the
 // disc's centre in the plane. `dy` is the row's distance from that centre.
 template <typename F>
-RELIEVO_INLINE void each_run(const DiscBand& band, const Disc& disc, float radius, F&& f) {
+RELIEVO_INLINE void each_run(const DiscBand& band, const FrontDisc& disc, float radius, F&& f) {
   const float y = disc.place.y() - static_cast<float>(band.first_row());
   const int first = std::max(0, static_cast<int>(std::ceil(y - radius - .5F))),
             last = std::min(band.rows(), static_cast<int>(std::floor(y + radius - .5F)) + 1);
@@ -43,7 +43,7 @@ RELIEVO_INLINE void each_run(const DiscBand& band, const Disc& disc, float radiu
 }
 
 // Raises the cell in which the disc's centre lies: small discs cover the centre of no cell.
-RELIEVO_INLINE void raise_own_cell(DiscBand& band, const Disc& disc) {
+RELIEVO_INLINE void raise_own_cell(DiscBand& band, const FrontDisc& disc) {
   const int x = static_cast<int>(disc.place.x()), y = static_cast<int>(disc.place.y());
   if (y < band.first_row() || y >= band.first_row() + band.rows()) return;
   const float rise =
@@ -52,9 +52,9 @@ RELIEVO_INLINE void raise_own_cell(DiscBand& band, const Disc& disc) {
   depth = std::max(depth, disc.place.z() + std::clamp(rise, -1.F, 1.F));
 }
 
-RELIEVO_INLINE void draw(DiscBand& band, std::span<const Disc> discs) {
-  for (const Disc& disc : discs) {
-    const float radius = Disc::hiding_radius * disc.spacing, radius_sq = radius * radius;
+RELIEVO_INLINE void draw(DiscBand& band, std::span<const FrontDisc> discs) {
+  for (const FrontDisc& disc : discs) {
+    const float radius = FrontDisc::hiding_radius * disc.spacing, radius_sq = radius * radius;
     each_run(band, disc, radius, [&](int x, int row, float dy) {
       const Steps steps = steps_from(disc, x, dy);
       Float8& depth = *reinterpret_cast<Float8*>(band.depths(row) + x);
@@ -66,8 +66,8 @@ RELIEVO_INLINE void draw(DiscBand& band, std::span<const Disc> discs) {
   }
 }
 
-RELIEVO_INLINE void add(DiscBand& band, std::span<const Disc> discs) {
-  for (const Disc& disc : discs) {
+RELIEVO_INLINE void add(DiscBand& band, std::span<const FrontDisc> discs) {
+  for (const FrontDisc& disc : discs) {
     const float radius = std::max(mean_radius * disc.spacing, least_mean_radius), radius_sq = radius * radius;
     const float tolerance =
         depth_tolerance * std::max(disc.spacing, .5F) / std::max(disc.normal.z(), least_facing);
@@ -84,16 +84,16 @@ RELIEVO_INLINE void add(DiscBand& band, std::span<const Disc> discs) {
   }
 }
 
-RELIEVO_AVX2 void draw_avx2(DiscBand& band, std::span<const Disc> discs) {
+RELIEVO_AVX2 void draw_avx2(DiscBand& band, std::span<const FrontDisc> discs) {
   draw(band, discs);
 }
-void draw_plain(DiscBand& band, std::span<const Disc> discs) {
+void draw_plain(DiscBand& band, std::span<const FrontDisc> discs) {
   draw(band, discs);
 }
-RELIEVO_AVX2 void add_avx2(DiscBand& band, std::span<const Disc> discs) {
+RELIEVO_AVX2 void add_avx2(DiscBand& band, std::span<const FrontDisc> discs) {
   add(band, discs);
 }
-void add_plain(DiscBand& band, std::span<const Disc> discs) {
+void add_plain(DiscBand& band, std::span<const FrontDisc> discs) {
   add(band, discs);
 }
 
@@ -106,11 +106,11 @@ DiscBand::DiscBand(int columns, int first_row, int rows)
   for (std::vector<float>& axis : normal_) axis.assign(cells, 0.F);
 }
 
-void DiscBand::draw_depths(std::span<const Disc> discs) {
+void DiscBand::draw_depths(std::span<const FrontDisc> discs) {
   (uses_avx2() ? draw_avx2 : draw_plain)(*this, discs);
 }
 
-void DiscBand::add_normals(std::span<const Disc> discs) {
+void DiscBand::add_normals(std::span<const FrontDisc> discs) {
   (uses_avx2() ? add_avx2 : add_plain)(*this, discs);
 }
 

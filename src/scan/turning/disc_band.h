@@ -11,7 +11,7 @@
 namespace relievo {
 
 // A point in view coordinates, in cells from the grid's corner.
-struct Disc {
+struct FrontDisc {
   // Radius of the discs that hide what is behind them, in spacings.
   static constexpr float hiding_radius = 2;
 
@@ -27,10 +27,10 @@ class DiscBand {
   DiscBand(int columns, int first_row, int rows);
 
   // Raises depths to those of discs. All depths are drawn before the first normal.
-  void draw_depths(std::span<const Disc> discs);
+  void draw_depths(std::span<const FrontDisc> discs);
 
   // Adds the normals of discs to the cells around, in which they are in front.
-  void add_normals(std::span<const Disc> discs);
+  void add_normals(std::span<const FrontDisc> discs);
 
   // Writes depths and unit normals to the band's rows.
   void write(FrontCells& cells) const;

@@ -50,7 +50,7 @@ FlatBox cropped_box(const FlatBox& box, const Crop& crop) {
 }
 
 // The points of one block that touch each band of rows.
-using Bands = std::vector<std::vector<Disc>>;
+using Bands = std::vector<std::vector<FrontDisc>>;
 
 class FrontDrawing {
  public:
@@ -148,8 +148,8 @@ class FrontDrawing {
     place.head<2>() -= cells_.corner / cells_.cell;
     if (n.z() <= 0) return behind.emplace_back(place.head<2>()), void();
     const float nz = std::max(n.z(), 1 / steepest), spacing = point.spacing / cells_.cell;
-    const Disc disc{place, n, Vec2f(-n.head<2>() / nz), spacing};
-    const float reach = std::max(Disc::hiding_radius * spacing, 1.F);
+    const FrontDisc disc{place, n, Vec2f(-n.head<2>() / nz), spacing};
+    const float reach = std::max(FrontDisc::hiding_radius * spacing, 1.F);
     const int rows = cells_.depth.height;
     const int first = std::clamp(static_cast<int>(place.y() - reach), 0, rows - 1) / band_rows,
               last = std::clamp(static_cast<int>(place.y() + reach), 0, rows - 1) / band_rows;
