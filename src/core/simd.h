@@ -1,5 +1,5 @@
 // Vectors of a fixed width, the same on every processor, and the choice of instructions at run time.
-// Tested by tests/solver/cholesky_test.cpp, HasTheSameBitsWithAndWithoutWideVectors.
+// Tested by tests/solver/cholesky_test.cpp and tests/scan/turning_test.cpp, HasTheSameBitsWithAndWithoutWideVectors.
 #pragma once
 
 #include <cstring>

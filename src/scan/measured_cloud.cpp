@@ -40,8 +40,8 @@ Result<void> check_extent(const Cloud& cloud, const Box& box) {
   return {};
 }
 
-// Removes points from the order so that at most eight are left of those that coincide. Each search around them would read
-// all, so that many would take quadratic time. Points of one place follow each other.
+// Removes points from the order so that at most eight are left of those that coincide, which follow each other. Each
+// search around them would read all, so that many would take quadratic time. Which eight depends on the file's order.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
   std::size_t kept = 0, same = 0;

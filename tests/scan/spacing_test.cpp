@@ -30,8 +30,8 @@ TEST(Spacing, DoesNotDependOnTheOrder) {
   EXPECT_EQ(measure_spacing(cloud).rho, rho);
 }
 
-// Each search around the place would read all its points, and all of them together take minutes.
-TEST(Spacing, OfManyCoincidentPointsTakesNoQuadraticTime) {
+// Searches that read all points of the place would take minutes together, longer than a test may run.
+TEST(Spacing, IsFoundAmongManyCoincidentPoints) {
   Cloud cloud = test::sphere(150'000, 1);
   const double rho = measure_spacing(cloud).rho;
   cloud.points.resize(250'000, Vec3(0, 0, 5));

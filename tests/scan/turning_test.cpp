@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/simd.h"
 #include "scan/measured_cloud.h"
 #include "scan/turning/turned_surface.h"
 #include "support/shapes.h"
@@ -40,6 +41,16 @@ TEST(FrontCells, ShowsWhatIsInFront) {
       EXPECT_NEAR(front.depth.at(x, y), reach < .5F ? .35F : -.35F, 1e-4F);
     }
   EXPECT_NEAR(area, 4, .15);
+}
+
+TEST(FrontCells, HasTheSameBitsWithAndWithoutWideVectors) {
+  const Cloud cloud = test::torus(30'000, 1, .4);
+  allow_avx2(false);
+  const TurnedSurface plain = turned(cloud, parse_view("1,2,3").value());
+  allow_avx2(true);
+  const TurnedSurface wide = turned(cloud, parse_view("1,2,3").value());
+  EXPECT_EQ(plain.front.depth.pixels, wide.front.depth.pixels);
+  EXPECT_EQ(plain.front.normal.pixels, wide.front.normal.pixels);
 }
 
 TEST(FrontCells, MarksTheEdgesOfAJump) {

@@ -53,7 +53,7 @@ export function kindOf({options: {form, wrap, rim, outline, thickness}}) {
 function partOf(kind, {diameter}, last) {
   const {part, material} = KINDS[kind], first = {material, isHeightLocked: true, u: null, options: part};
   const {material: own, isHeightLocked, u, options} = last ?? first;
-  const same = part.diameter && diameter ? {diameter} : {};
+  const same = options.diameter && diameter ? {diameter} : {};
   return {material: own, isHeightLocked, u, options: {...FIRST.options, ...options, ...same}};
 }
 

@@ -96,17 +96,16 @@ function chooseUnit(unit) {
 }
 
 // Says why an entry is refused, until one is taken.
-let refusal = null;
+let takeRefusalBack = () => {};
 function refuse(text) {
-  toast(refusal = text);
+  takeRefusalBack = toast(text);
 }
 
 // ----------------------------------------------------------------------------------------------- the document
 
 function changed(before) {
   const {now} = doc;
-  if (refusal && $("#toast").textContent.includes(refusal)) $("#toast").hidden = true;
-  refusal = null;
+  takeRefusalBack();
   opened.keep(doc.stroke !== null);
   tour.takeBack();
   showDocumentSoon();

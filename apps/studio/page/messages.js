@@ -6,25 +6,25 @@ let timer = 0, isLost = false;
 
 $("#toast .close").onclick = hideToast;
 
-// A line for people, for eight seconds or until the next.
+// A line for people, for eight seconds or until the next. Returns a function that takes it back.
 export function toast(text, isLasting = false) {
   const line = make("span", {}, text);
   $("#toast p").replaceChildren(line);
   $("#toast").hidden = false;
   clearTimeout(timer);
   if (!isLasting) timer = setTimeout(hideToast, 8000);
-  return line;
+  return () => line.isConnected && hideToast();
 }
 
-// A line with a button that does something about it, for so long. Returns a function that takes the offer back.
+// A line with a button that does something about it, for so long. Returns a function that takes it back.
 export function offer(text, label, action, ms = Infinity) {
-  const line = toast(text, true), act = () => {
-    hideToast(); // before the action, which may say something itself
+  const takeBack = toast(text, true), act = () => {
+    takeBack(); // before the action, which may say something itself
     action();
   };
   if (ms < Infinity) timer = setTimeout(hideToast, ms);
-  line.append(" ", make("button", {onclick: act}, label));
-  return () => line.isConnected && hideToast();
+  $("#toast p span").append(" ", make("button", {onclick: act}, label));
+  return takeBack;
 }
 
 function hideToast() {

@@ -132,7 +132,7 @@ export class OpenDocument {
 
   complain({error, model}) {
     const {path, name} = this.input; // a dropped scan is read from where the engine has put it
-    if (error.kind !== "cancelled") toast(path ? error.text.replaceAll(path, name) : error.text);
+    if (error.kind !== "cancelled") toast(path ? error.text.replaceAll(path, () => name) : error.text);
     if (model > 0) return this.on.refused();
     const {former} = this;
     this.former = null;

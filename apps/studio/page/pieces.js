@@ -6,6 +6,7 @@ import {$, make} from "./controls.js";
 import {FIRST, engineOptions, shownOptions} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
+import {KINDS} from "./kinds.js";
 import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -44,15 +45,18 @@ const inMm = (name, text) =>
   pairText(name, text, (side) => Number(parseLength(side, true, millimetresPerUnit()).toFixed(4)));
 const asShown = (name, text) => pairText(name, text, (side) => Number(shortLength(Number(side))));
 
+// Returns whether somebody chose a width, and no new document or kind of work.
+const isChosen = (width) =>
+  width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
+
 // Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, unless a width
-// was asked for, which that of a new document was not; an outline that cannot have that size is as large as the relief
-// needs.
+// was chosen; an outline that cannot have that size is as large as the relief needs.
 function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
     const circle = name === "diameter" ? {outline: "circle", plate: ""} : {diameter: null};
     const straight = name === "plate" && outline === "circle" ? {outline: "rectangle"} : {};
-    return {width: width === FIRST.options.width ? null : width, ...circle, ...straight};
+    return {width: isChosen(width) ? width : null, ...circle, ...straight};
   }
   const isFree = {diameter: value === "circle", plate: ["rectangle", "round", "ellipse"].includes(value)};
   if (name === "outline" && ((diameter && !isFree.diameter) || (plate && !isFree.plate)))

@@ -55,8 +55,9 @@ export class Placing {
   // Takes the error of a picture. A figure that is too large for its plate becomes as large as fits, in the step that
   // left it too little room. Returns whether it was that.
   squeeze({kind, message}) {
-    const isTooLarge = kind === "option" && message.startsWith("width:") && this.doc.now.options.width !== null;
-    if (!isTooLarge) return false;
+    const {width} = this.doc.now.options, [, found] = message.match(/^width:.* found ([\d.e+-]+) mm$/) ?? [];
+    const isThis = kind === "option" && width !== null && Math.abs(found / width - 1) < 1e-4; // the step may be another
+    if (!isThis) return false;
     this.doc.note({options: {width: null}});
     this.say("The figure was too large for its plate: now it is as large as fits.");
     return true;

@@ -16,8 +16,9 @@ export function heightOf({height_mm, is_height_met}, {isHeightLocked, options}) 
 
 // Returns the size of a picture's piece: a level plate is as thick as plate and relief together.
 export function sizeOf(about, step) {
-  const {base, wrap, form, thickness, "rim-height": rim} = step.options, [x, y, z] = about.size_mm;
-  const isLevel = base === "plane" && wrap === "none" && form !== "die" && rim === null;
+  const {base, wrap, form, thickness, outline, finish, "rim-height": rim} = step.options, [x, y, z] = about.size_mm;
+  const isLevel = base === "plane" && wrap === "none" && form !== "die" && rim === null &&
+    outline !== "none" && finish === "full";
   return [x, y, isLevel ? thickness + heightOf(about, step) : z];
 }
 

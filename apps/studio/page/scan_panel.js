@@ -1,6 +1,7 @@
 // The panel shows the findings about a scan, each with its remedy, and sets where the scan is cut and its noise.
 
 import {$, make} from "./controls.js";
+import {isUnfinished} from "./inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
 // The sides that can be cut away: the place of each in a crop's numbers, which are shares from below on the left, then
@@ -35,6 +36,7 @@ export class ScanPanel {
     $("#remarks").onclick = () => this.open();
     const set = (options) => doc.change({options});
     $("#crop-picture").onclick = cropOnPicture;
+    $("#crop").onkeydown = ({key, target}) => key === "Escape" && (target.value = doc.now.options.crop);
     $("#crop").onchange = (event) => set({crop: event.target.value.replaceAll(" ", "")});
     $("#crumbs").onchange = (event) => set({crumbs: event.target.checked ? "keep" : "drop"});
     $("#plane").onchange = (event) => set({plane: event.target.checked ? "keep" : "drop"});
@@ -78,7 +80,7 @@ export class ScanPanel {
     if (key === this.shown) return; // this runs for each event of a drag
     this.shown = key;
     const numbers = numbersOf(crop);
-    $("#crop").value = crop;
+    if (!isUnfinished($("#crop"))) $("#crop").value = crop;
     $("#crumbs").checked = crumbs === "keep";
     $("#plane").checked = plane === "keep";
     $("#denoise-auto").checked = denoise === "auto";

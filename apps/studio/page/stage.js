@@ -150,7 +150,8 @@ export class Stage {
     this.drawOverlay();
     this.on.picture(about, performance.now() - changedAt, isFine);
     if (this.comparing.isShown) await this.comparing.draw(isFine);
-    if (this.tool === "section") await this.cut();
+    // The tool and the document may have changed meanwhile; the next picture shows that.
+    if (this.tool === "section" && this.line && this.about) await this.cut();
     if (this.tool === "measure") this.measure.pictured();
   }
 
