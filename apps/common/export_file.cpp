@@ -26,8 +26,7 @@ std::vector<std::byte> as_3mf(const Solid& solid) {
 constexpr std::array<FileFormat, 7> formats{
     {{"stl", ".stl", "model/stl", "STL", "printing and milling, in millimetres", write_stl},
      {"3mf", ".3mf", "model/3mf", "3MF", "printing, with units", as_3mf},
-     {"ply", ".ply", "application/octet-stream", "PLY", "smaller than STL, as triangles share corners",
-      write_ply},
+     {"ply", ".ply", "application/octet-stream", "PLY", "smaller than STL: corners are shared", write_ply},
      {"obj", ".obj", "model/obj", "OBJ", "as text, for 3D programs", write_obj},
      {"heightmap", "-heights.png", "image/png", "Height map", "16-bit PNG for CNC and engraving"},
      {"tiff", "-heights.tif", "image/tiff", "Heights in mm", "32-bit TIFF"},

@@ -285,6 +285,20 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   assert.ok((await reachable()) > most, `${await reachable()} of ${most}`);
 });
 
+test("names the tone curve and the view where they limit the height, and loosens them", {skip}, async () => {
+  const reach = page.locator("#reach"), preset = page.getByRole("combobox", {name: "Tone curve preset"});
+  await preset.selectOption("Fine detail first");
+  await set("Height in mm", 2000);
+  await reach.getByText(/^The tone curve keeps it at [\d.]+ mm\./).waitFor();
+  await reach.getByRole("button", {name: "Drop the tone curve"}).click();
+  assert.equal(await preset.inputValue(), "");
+  await reach.getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
+  await reach.getByRole("button", {name: "Choose view"}).click();
+  await page.getByRole("dialog", {name: "Choose the view"}).waitFor();
+  await page.keyboard.press("Escape");
+  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
+});
+
 test("can redo after a drag that was taken back", {skip}, async () => {
   const heights = await page.evaluate(async () => {
     const {Document, FIRST} = await import(new URL("document.js", location));
@@ -321,20 +335,6 @@ test("shows no mark of the piece before while another scan opens", {skip}, async
   await page.getByText(/of 5,000 points/).waitFor();
   await eventually(async () => assert.ok(await marks() > 8));
   assert.deepEqual(complaints, []);
-});
-
-test("names the tone curve and the view where they limit the height, and loosens them", {skip}, async () => {
-  const reach = page.locator("#reach"), preset = page.getByRole("combobox", {name: "Tone curve preset"});
-  await preset.selectOption("Fine detail first");
-  await set("Height in mm", 2000);
-  await reach.getByText(/^The tone curve keeps it at [\d.]+ mm\./).waitFor();
-  await reach.getByRole("button", {name: "Drop the tone curve"}).click();
-  assert.equal(await preset.inputValue(), "");
-  await reach.getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
-  await reach.getByRole("button", {name: "Choose view"}).click();
-  await page.getByRole("dialog", {name: "Choose the view"}).waitFor();
-  await page.keyboard.press("Escape");
-  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
 });
 
 test("ends no drag when the pause after another slider's step is over", {skip}, async () => {

@@ -121,7 +121,14 @@ test("brings a kind back as it was left", {skip}, async () => {
   await numbers().getByText(/height 2\.40 mm/).waitFor();
   await kind("Coin").click();
   await numbers().getByText(/piece 30\.00 × 30\.00/).waitFor();
-  for (let step = 0; step < 4; ++step) await button("Undo").click();
+  await page.locator("#outline").selectOption("ellipse"); // which no diameter fits
+  await numbers().getByText(/piece (?!30\.00 × 30\.00)/).waitFor();
+  await kind("Seal").click();
+  await numbers().getByText(/piece 30\.\d\d × 30/).waitFor();
+  await kind("Coin").click();
+  await numbers().getByText(/piece (?!30\.\d\d × 30)/).waitFor();
+  assert.equal(await page.locator("#outline").inputValue(), "ellipse");
+  for (let step = 0; step < 7; ++step) await button("Undo").click();
   assert.ok(await kind("Plaque").isChecked());
 });
 
