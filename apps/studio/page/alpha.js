@@ -14,7 +14,9 @@ export class AlphaRow {
     this.input = make("input", {id: "alpha", "data-option": "alpha", autocomplete: "off", inputmode: "decimal",
       "aria-label": "Height coefficient"});
     this.input.onchange = () => this.take();
-    this.input.onkeydown = ({key}) => key === "Escape" && this.show(this.frame);
+    this.input.onkeydown = ({key}) => {
+      if (key === "Escape") this.show(this.frame);
+    };
     this.help = help[0].toUpperCase() + help.slice(1);
     this.element = make("label", {class: "pair"}, make("span", {}, "Height coefficient"), this.input);
     $("#tuning").before(this.element);

@@ -36,7 +36,9 @@ export class ScanPanel {
     $("#remarks").onclick = () => this.open();
     const set = (options) => doc.change({options});
     $("#crop-picture").onclick = cropOnPicture;
-    $("#crop").onkeydown = ({key, target}) => key === "Escape" && (target.value = doc.now.options.crop);
+    $("#crop").onkeydown = ({key, target}) => {
+      if (key === "Escape") target.value = doc.now.options.crop;
+    };
     $("#crop").onchange = (event) => set({crop: event.target.value.replaceAll(" ", "")});
     $("#crumbs").onchange = (event) => set({crumbs: event.target.checked ? "keep" : "drop"});
     $("#plane").onchange = (event) => set({plane: event.target.checked ? "keep" : "drop"});

@@ -32,7 +32,9 @@ export class ScenePanel {
       const input = make("input", {
         value, inputmode: "decimal", autocomplete: "off", "aria-label": `${label} of ${name}`,
       });
-      input.onkeydown = ({key}) => key === "Escape" && (input.value = value);
+      input.onkeydown = ({key}) => {
+        if (key === "Escape") input.value = value;
+      };
       input.onchange = () => {
         const number = typedNumber(input.value, range, this.say);
         if (number === null) input.value = value;
