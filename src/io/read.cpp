@@ -52,9 +52,10 @@ std::size_t count_unmeasured(const CloudFile& file) {
   if (!file.mesh.empty()) return 0;
   const std::size_t zeros =
       count_points(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].isZero(0); });
+  if (zeros <= most_at_origin) return 0;
   const std::size_t finite =
       count_points(file.cloud.size(), [&](std::size_t i) { return file.cloud.points[i].allFinite(); });
-  return zeros > most_at_origin && zeros < finite ? zeros : 0;
+  return zeros < finite ? zeros : 0;
 }
 
 // Removes points that are not finite or not measured. Of points without a normal, these points are removed if they are

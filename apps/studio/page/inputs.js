@@ -71,7 +71,8 @@ export function takeKeys({commands, always, keys, isReady, hold}) {
   });
   addEventListener("keyup", ({key, target}) => {
     if (key.toLowerCase() === "b") hold(false);
-    // What was typed is entered: letters are keys of the page again, and Tab goes on from here.
+    // A field that has taken its text gives up the focus, so that letters are keys of the page again. Tab goes on from
+    // its place.
     if (key === "Enter" && target.matches?.(`.inspector :is(${TEXTS})`)) target.blur();
   });
 }

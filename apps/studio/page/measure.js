@@ -8,6 +8,7 @@ import {sizeOf} from "./readouts.js";
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
 const ROW = 22; // pixels that a label needs in height, where type has its usual size
 const GAP = 14; // pixels from the piece to its dimensions
+const STROKE = 5; // pixels by which the end strokes of a dimension stand out on either side
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -50,10 +51,13 @@ function labelled([x1, y1], [x2, y2], text, kind, picture) {
     make("rect", {class: "ground", x: x - width / 2, y: y - height / 2, width, height, rx: 5}), label];
 }
 
+// Returns where the dimension of a piece stands that ends at a pixel. It stays in a picture that shows the end.
+const besideEnd = (end, size) => (end <= size ? Math.min(end + GAP, size - STROKE - 1) : end + GAP);
+
 // Returns a dimension with its two end strokes.
 function dimension(from, to, text, picture) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]], size = Math.hypot(dx, dy) || 1;
-  const [ax, ay] = [-dy / size * 5, dx / size * 5];
+  const [ax, ay] = [-dy / size * STROKE, dx / size * STROKE];
   const strokes = [from, to].map(([x, y]) =>
     make("line", {class: "dimension", x1: x - ax, y1: y - ay, x2: x + ax, y2: y + ay}));
   return [...strokes, ...labelled(from, to, text, "dimension", picture)];
@@ -117,8 +121,9 @@ export class Measure {
     if (!about) return [];
     const [width, height, thickness] = sizeOf(about, this.stage.doc.now), at = (x, y) => this.stage.toPixels([x, y]);
     const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
-    const marks = [...dimension([left, bottom + GAP], [right, bottom + GAP], withUnit(width), picture),
-      ...dimension([right + GAP, bottom], [right + GAP, top], withUnit(height), picture),
+    const below = besideEnd(bottom, picture.height), aside = besideEnd(right, picture.width);
+    const marks = [...dimension([left, below], [right, below], withUnit(width), picture),
+      ...dimension([aside, bottom], [aside, top], withUnit(height), picture),
       ...labelled([left + 60, top - GAP], [left + 60, top - GAP], `${withUnit(thickness)} thick`, "none", picture)];
     if (!about.relief_mm) return marks;
     const [low, high] = about.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);

@@ -14,6 +14,9 @@ const refersToOthers = (files) => files.some(({name}) => /\.(gltf|json)$/i.test(
 async function together(files) {
   const gltf = files.find(({name}) => /\.gltf$/i.test(name));
   if (!gltf) throw new Error("Several files at once: expected scans, or a .gltf with the files that it names.");
+  const size = files.reduce((sum, file) => sum + file.size, 0), most = about.most_upload;
+  if (size > most)
+    throw new Error(`${gltf.name} and its files have ${fileSize(size)}: expected at most ${fileSize(most)}.`);
   return zipOf(files, gltf.name.replace(/gltf$/i, "zip"));
 }
 

@@ -29,7 +29,8 @@ export class Tour {
     addEventListener("resize", () => !this.element.hidden && this.place());
   }
 
-  // Offers itself once in a browser, when the first scan is there. Whoever begins to work does not want it: takeBack().
+  // Offers itself once in a browser, when the first scan is there. takeBack() ends the offer, because who begins to
+  // work does not want it.
   offer() {
     if (localStorage.getItem("toured")) return;
     localStorage.setItem("toured", "yes");

@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, enter, eventually, findBrowser, removeFolder, savedFiles, temporaryFolder, type,
+import {enter, eventually, findBrowser, removeFolder, savedFiles, showScan, temporaryFolder, type,
   writeSample} from "./support.mjs";
 
 const found = await findBrowser();
@@ -16,11 +16,7 @@ before(async () => {
   if (skip) return;
   writeSample("still_life", 8000, scan);
   browser = await found.launch();
-  page = await (await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true})).newPage();
-  page.setDefaultTimeout(30000);
-  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
-  await page.goto(engine.address);
-  await page.getByText(/points.*height/).waitFor();
+  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan}));
   await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
 });
 

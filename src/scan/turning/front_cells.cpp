@@ -197,7 +197,7 @@ DisjointSets pieces_of(const FrontCells& front) {
       const bool is_like_left = x > 0 && are_alike(cell, cell - 1);
       if (is_like_left) sets.join(cell, cell - 1);
       if (y + 1 == height || !are_alike(cell, above)) continue;
-      // What lies to the left of both has joined them already.
+      // Where the cells to the left of both are like them, these two are in one set already.
       if (!is_like_left || !are_alike(above, above - 1)) sets.join(cell, above);
     }
   return sets;
