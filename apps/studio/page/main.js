@@ -118,9 +118,13 @@ function changed(before) {
 
 // Shows a state that another tab or another engine has kept.
 function stateCame() {
+  if (shownView) awaitView();
   showDocument();
   stage.invalidate();
 }
+
+// Until the model has the document's view: one that was asked for before may arrive while the engine is told of it.
+const awaitView = () => stage.await(!isSameView(shownView, viewOf(doc.now)));
 
 // A drag moves its own control; the others follow when it pauses or ends, as they cost as much as a picture.
 let showing = 0;
@@ -235,7 +239,7 @@ function begun(former) {
 // The first view is still being prepared: a coarse relief stands for it.
 function measured({shown}) {
   if (stage.isReady || !engine.drawsMeanwhile) return;
-  doc.note({options: shown});
+  doc.note({options: opened.wantedView(shown)});
   showDocument();
   $("#choose-view").disabled = false;
   stage.isReady = true;
@@ -253,11 +257,11 @@ async function arrived(status) {
     return failed(error);
   }
   shownView = status.shown;
-  if (!isSameView(shownView, viewOf(doc.now))) doc.note({options: shownView}); // another page has chosen it
+  doc.note({options: opened.wantedView(shownView)});
   showDocument();
   stage.isReady = true;
   stage.model = status.model;
-  stage.await(false);
+  awaitView();
   stage.share = 1;
   scanPanel.tell(facts);
   cropFrame.refresh();

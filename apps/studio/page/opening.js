@@ -107,7 +107,7 @@ export class OpenDocument {
     if (status.kept.changed > this.doc.changedAt && status.kept.tab !== TAB) this.adopt().catch(this.on.failed);
   }
 
-  // The engine chooses the side of a document that has none yet.
+  // Returns the document's view, with the side that the engine chose if the document has none yet.
   wantedView({view, up}) {
     const wanted = viewOf(this.doc.now);
     return wanted.view === "auto" ? {...wanted, view, up} : wanted;
