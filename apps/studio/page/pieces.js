@@ -8,6 +8,7 @@ import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
 import {KINDS} from "./kinds.js";
 import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
+import {SHAPES, ShapeRow} from "./shapes.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
@@ -21,12 +22,6 @@ const CHOICES = {round: "Round corners"}; // where a choice of the command line 
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
 const PREPARING = ["up", "points", "mode"];
 const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
-const SUGGESTED = {
-  base: ["plane", "dome:height=5", "wave:height=4,length=40", "fold:angle=15", "cylinder:diameter=200"],
-  wrap: ["cylinder:turn=180", "cylinder:turn=360", "cylinder:diameter=60", "cone:turn=90,angle=8",
-    "sphere:diameter=80"],
-  tool: ["ball:3", "ball:1", "flat:3", "v:60", "v:30:0.5"],
-};
 const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "by itself"};
 const UNITS = {MM: "mm", DEG: "°"};
@@ -72,7 +67,10 @@ export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, say, shownWidth, redraw}) {
     Object.assign(this, {engine, doc, say, shownWidth, rows: {}});
-    for (const name of ROWS) $(placeOf(name)).append((this.rows[name] = this.row(name)).element);
+    for (const name of ROWS) {
+      this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
+      $(placeOf(name)).append(this.rows[name].element);
+    }
     this.baseImage = new BaseImage({engine, doc, say, redraw});
     this.rows.base.element.after(this.baseImage.element);
   }
@@ -82,24 +80,24 @@ export class PieceRows {
     return Object.fromEntries(ROWS.map((name) => [name, this.rows[name].element]));
   }
 
+  shapeRow(option) {
+    return new ShapeRow({option, label: LABELS[option], title: sentence(optionOf(option).help), say: this.say,
+      take: (text) => this.set(option, text)});
+  }
+
   // Returns {element, input, isNumber, unit, min, max} of an option.
   row(name) {
     const {choices, help, min, max, unit, default: otherwise} = optionOf(name);
-    const isList = Boolean(choices) && !SUGGESTED[name];
     const attributes = {id: name, "data-option": name, autocomplete: "off", "aria-label": LABELS[name]};
-    const input = isList
+    const input = choices
       ? make("select", attributes, ...choices.map((choice) =>
         make("option", {value: choice}, CHOICES[choice] ?? sentence(choice))))
       : make("input", {
         ...attributes, inputmode: min === undefined ? "text" : "decimal",
         placeholder: PLACEHOLDERS[name] ?? String(otherwise || "none"),
-        list: SUGGESTED[name] && `${name}-list`,
       });
     const label = UNITS[unit] === "°" ? `${LABELS[name]} (°)` : LABELS[name];
     const element = make("label", {class: "pair", title: sentence(help)}, make("span", {}, label), input);
-    if (SUGGESTED[name])
-      element.append(make("datalist", {id: `${name}-list`},
-        ...SUGGESTED[name].map((value) => make("option", {value}))));
     input.onchange = () => this.take(name);
     input.onkeydown = (event) => {
       if (event.key === "Escape") this.show();
@@ -107,19 +105,23 @@ export class PieceRows {
     return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
   }
 
-  // Takes what was chosen or typed, unless the engine cannot read it.
-  async take(name) {
+  // Takes what was chosen or typed, unless it is no number where one is wanted.
+  take(name) {
     const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
     if (isNumber && text !== "" && value === null) return this.show();
-    if (PAIRS[name]) value = inMm(name, value ?? "");
+    return this.set(name, PAIRS[name] ? inMm(name, value ?? "") : value);
+  }
+
+  // Changes an option, unless the engine cannot read it or make a piece of it.
+  async set(name, value) {
     const {options} = this.doc.now;
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
     try {
       const step = {...this.doc.now, options: {...options, ...part}};
       await this.engine.check(engineOptions(step));
-      if (!input.matches("select")) await this.tryOut(step);
+      if (SHAPES[name] || !this.rows[name].input.matches("select")) await this.tryOut(step);
       this.doc.change({options: part});
     } catch (error) {
       this.say(inWords(error.message));
@@ -138,7 +140,8 @@ export class PieceRows {
   // Shows the document's values, but not in a field in which something is typed.
   show() {
     const {options} = this.doc.now;
-    for (const [name, {element, input, unit}] of Object.entries(this.rows)) {
+    for (const name of Object.keys(SHAPES)) this.rows[name].show(options[name]);
+    for (const [name, {element, input, unit}] of Object.entries(this.rows).filter(([name]) => !SHAPES[name])) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;

@@ -27,11 +27,11 @@ export function sizeOf(about, step) {
 export function showNumbers({about, ms, isFine, height, size, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
-  const parts = [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`,
-    `height ${height} ${shown.unit}`,
+  const points = facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points   ·   `;
+  const parts = [`height ${height} ${shown.unit}`,
     `piece ${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`,
     times.length >= FEWEST ? `${times.length} frames/s` : "", !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
-  $("#numbers").textContent = parts.filter(Boolean).join("   ·   ");
+  $("#numbers").replaceChildren(make("span", {class: "points"}, points ?? ""), parts.filter(Boolean).join("   ·   "));
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
   const solves = about.solves > 0 ? [`${time("heights", about.heights_ms)} in ${about.solves} solves`] : [];
   const spent = [...solves, time("detail", about.detail_ms), time("normals", about.normals_ms),

@@ -60,9 +60,23 @@ const CASES = {
 
 const control = (name) => page.locator(`[data-option="${name}"]`);
 
+// Sets a shape and its parameters by the menu and the fields below it.
+async function setShape(option, text) {
+  const {name, values, labels} = await page.evaluate(async ([option, text]) => {
+    const {SHAPES, parseShape} = await import("./shapes.js"), {name, values} = parseShape(option, text);
+    const labels = [...SHAPES[option][name].parameters].map(([parameter, {label}]) => [parameter, label]);
+    return {name, values: [...values], labels: Object.fromEntries(labels)};
+  }, [option, text]);
+  await control(option).selectOption(name);
+  await reaches(({options}) => options[option]?.startsWith(name));
+  const row = page.locator(".shape").filter({has: control(option)});
+  for (const [parameter, value] of values) await enter(row.getByLabel(labels[parameter]), value);
+}
+
 // Sets an option by its control, as a hand would.
 async function set(name, value) {
   const it = control(name);
+  if (["base", "wrap", "tool"].includes(name)) return setShape(name, value);
   if (name === "view") {
     await it.click();
     await page.locator(`#sides [data-side="${value}"]`).click();
@@ -114,6 +128,47 @@ for (const [name, {value, first = {}, kind}] of cases)
       await page.locator('[role="application"][aria-busy="false"]').first().waitFor({timeout: 2000});
     });
   });
+
+test("has a field for each parameter of each shape that the engine takes", {skip}, async () => {
+  for (const option of ["base", "wrap"]) {
+    const shapes = await page.evaluate(async (option) => Object.entries((await import("./shapes.js")).SHAPES[option])
+      .map(([name, {parameters}]) => [name, [...parameters.keys()]]), option);
+    for (const [name, parameters] of shapes) {
+      const {error} = await engine.json("check", {options: {[option]: `${name}:?`}});
+      const [, expected] = error.text.match(/expected (.*) after/);
+      const names = expected.replace(/=(MM|DEG)/g, "").split(", ").sort();
+      assert.deepEqual(parameters.length ? parameters.sort() : ["nothing"], names, `${option} ${name}`);
+    }
+  }
+});
+
+test("shows the parameters of shapes as they were typed, in the unit of the page", {skip}, async () => {
+  const field = (label) => page.getByRole("textbox", {name: label, exact: true});
+  await control("tool").selectOption({label: "V bit"});
+  assert.equal(await field("Tool: Angle").inputValue(), "60");
+  await enter(field("Tool: Tip"), "0.5");
+  await reaches(({options}) => options.tool === "v:60:0.5");
+  await enter(field("Tool: Angle"), ""); // which a bit cannot do without
+  await eventually(async () => assert.equal(await field("Tool: Angle").inputValue(), "60"));
+  await control("tool").selectOption({label: "Ball end"});
+  await enter(field("Tool: Diameter"), "1/8in");
+  await reaches(({options}) => options.tool === "ball:3.175");
+  await enter(field("Tool: Diameter"), "wide");
+  await page.getByText(/^Diameter: expected a number from/).waitFor();
+  assert.equal(await field("Tool: Diameter").inputValue(), "3.175");
+  await page.locator("#unit").selectOption("inch");
+  await eventually(async () => assert.equal(await field("Tool: Diameter").inputValue(), "0.125"));
+  await page.locator("#unit").selectOption("mm");
+  await page.locator('[data-kind="shell"]').click();
+  assert.equal(await field("Bent around: Around by").inputValue(), "180");
+  await enter(field("Bent around: Diameter"), "200"); // in place of the angle
+  await reaches(({options}) => options.wrap === "cylinder:diameter=200");
+  await page.getByLabel("Bent around: On the inside").check();
+  await reaches(({options}) => options.wrap === "cylinder:diameter=200,inside");
+  const undo = page.getByRole("button", {name: "Undo"});
+  while (await undo.isEnabled()) await undo.click();
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+});
 
 const baseImage = () => page.locator("label, div").filter({has: control("base-image")}).last();
 
