@@ -1,7 +1,8 @@
 // Keeps documents: each state goes to the engine while things still move. What no engine has confirmed also stays in
 // the browser, so that it outlives the engine and the page. This file knows no page, so that tests can run it alone.
 
-const PAUSE_MS = 25; // between two states, so that the engine has time for pictures
+// From state to state and after an answer, at least, so that the page and the engine have time for pictures.
+const PERIOD_MS = 60, PAUSE_MS = 25;
 
 export class Keeper {
   // Calls send(document, state, isMoving), which throws an error of kind "lost" if no engine answers and "older" if a
@@ -38,6 +39,7 @@ export class Keeper {
   async pump() {
     if (this.isSending || this.waiting.size === 0) return;
     this.isSending = true;
+    const next = performance.now() + PERIOD_MS;
     const [document, {state, isMoving}] = this.waiting.entries().next().value, text = JSON.stringify(state);
     this.waiting.delete(document);
     this.copy(document, text);
@@ -54,7 +56,8 @@ export class Keeper {
         this.onOlder(document);
       } else if (!mustWait) this.onFailed(error);
     }
-    await new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
+    const pause = mustWait ? PAUSE_MS : Math.max(PAUSE_MS, next - performance.now());
+    await new Promise((resolve) => setTimeout(resolve, pause));
     this.isSending = false;
     if (!mustWait) return this.pump();
     // The next change or the engine's return tries again; until then the newest state stays in the browser.
