@@ -1,7 +1,8 @@
 // Documents: kept by scan, by the engine and by the page, through crashes; and projects that hold their scans.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, statSync, writeFileSync} from "node:fs";
+import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, readdirSync, rmSync, statSync,
+  writeFileSync, writeSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {Keeper} from "../page/keeper.js";
@@ -149,7 +150,7 @@ async function killAtRandom(place, times) {
     assert.ok(kept.changed >= confirmed, `${kept.changed} of ${confirmed}`);
     const firstLost = Math.max(begun, page.times[kept.changed] ?? killedAt); // what came before had no engine
     if (kept.changed < known) most = Math.max(most, killedAt - firstLost);
-    await sleep(40);
+    await sleep(100); // by then the newest has been sent, or stays in the browser
     const copy = JSON.parse(storage.getItem(document) ?? "{}");
     assert.equal(Math.max(copy.changed ?? 0, kept.changed), page.changed); // with the page nothing is lost
   }
@@ -283,4 +284,48 @@ test("shows several documents at once, each with its own scan, settings and file
   const closed = await frame(ids[0]);
   assert.equal(closed.status, 409);
   assert.equal(JSON.parse(closed.body).error.kind, "closed");
+});
+
+// Fills the disk of a folder, and returns the file that does it.
+function fill(disk) {
+  const file = path.join(disk, "full"), to = openSync(file, "w");
+  assert.throws(() => {
+    for (;;) writeSync(to, Buffer.alloc(1024));
+  }, {code: "ENOSPC"});
+  closeSync(to);
+  return file;
+}
+
+test("keeps what it has while the disk is full, and says so", async (t) => {
+  const disk = path.join(folder, "disk"), states = path.join(disk, "state"), input = {path: scan};
+  mkdirSync(disk);
+  if (spawnSync("mount", ["-t", "tmpfs", "-o", "size=512k", "none", disk]).status !== 0)
+    return t.skip("a disk that can be filled needs root and tmpfs");
+  let other = await new EngineProcess(states).ready();
+  try {
+    await other.open(input);
+    const {document} = other, heightKept = async () =>
+      (await other.json("document", {input})).kept.steps[0].options.height;
+    assert.equal((await keep(other, document, stateOf(input, 1, 1))).status, 200);
+    const files = readdirSync(states).sort(), filler = fill(disk), noRoom = /expected room to write the file/;
+    const large = stateOf(input, 2, 2);
+    large.steps[0].note = "x".repeat(100000);
+    const refused = [await keep(other, document, large),
+      await other.request(`${other.url.pathname}api/upload?name=a.ply`, {method: "POST", body: readFileSync(scan)})];
+    for (const {status, body} of refused) {
+      assert.equal(status, 500);
+      assert.match(String(body), noRoom);
+    }
+    assert.deepEqual(readdirSync(states).sort(), files, "nothing is left of what was refused");
+    assert.equal(await heightKept(), 1);
+    await other.stop("SIGKILL");
+    other = await new EngineProcess(states).ready();
+    assert.equal(await heightKept(), 1);
+    rmSync(filler);
+    assert.equal((await keep(other, document, large)).status, 200);
+    assert.equal(await heightKept(), 2);
+  } finally {
+    await other.stop();
+    spawnSync("umount", [disk]);
+  }
 });

@@ -137,6 +137,22 @@ test("answers while hundreds of others send slowly", async () => {
   slow.forEach((socket) => socket.destroy());
 });
 
+test("answers while hundreds of others do not read their answers", {timeout: 120000}, async () => {
+  const {pathname, host} = engine.url, body = JSON.stringify({...FRAME, document: engine.document, width: 1600,
+    height: 1200}); // 7 MB, more than a connection holds by itself
+  const deaf = Array.from({length: 200}, (_, i) => {
+    const socket = connect();
+    socket.pause();
+    socket.write(i % 2 ? `GET ${pathname}api/events HTTP/1.1\r\nHost: ${host}\r\n\r\n`
+      : `POST ${pathname}api/frame HTTP/1.1\r\nHost: ${host}\r\nContent-Length: ${body.length}\r\n\r\n${body}`);
+    return socket;
+  });
+  await sleep(1000);
+  for (let i = 0; i < 10; ++i) await stillWorks();
+  deaf.forEach((socket) => socket.destroy());
+  await stillWorks();
+});
+
 test("keeps many requests on one connection, and two that are sent at once", async () => {
   const socket = connect(), {pathname, host} = engine.url;
   const get = `GET ${pathname}icon.svg HTTP/1.1\r\nHost: ${host}\r\n\r\n`;
