@@ -45,7 +45,7 @@ Vec3f mix(const Vec3f& a, const Vec3f& b, float t) {
 
 // The room that metal and varnish mirror: a soft box around the lamp, a reflector on the other side, lower and dimmer,
 // walls that are bright above and dark below, and the dark of the room beside the plate. A soft box opens at the first
-// cosine and is full at the second. All were chosen by eye against photographs of medals.
+// cosine and is full at the second. All were chosen by eye; silver was compared with a photograph of coins.
 constexpr float box_edge = .42F, box_full = .97F, box_light = 1.F;
 constexpr float reflector_edge = .72F, reflector_full = .99F, reflector_light = .42F;
 constexpr float dark_wall = .05F, bright_wall = .36F, darkest_side = .35F;
