@@ -2,35 +2,13 @@
 #include "common/archive.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include "common/read_inputs.h"
 #include "support/format_samples.h"
+#include "support/zip_encoder.h"
 
 namespace relievo::app {
 namespace {
-
-using Files = std::vector<std::pair<std::string, std::string>>;  // names and contents
-
-// An archive of files that are not compressed.
-std::string archive_of(const Files& files) {
-  std::string all, directory;
-  for (const auto& [name, content] : files) {
-    const auto checksum = static_cast<std::uint32_t>(
-        crc32(0, reinterpret_cast<const Bytef*>(content.data()), static_cast<uInt>(content.size())));
-    const auto size = static_cast<std::uint32_t>(content.size());
-    const std::string facts = raw(std::uint16_t{20}) + std::string(8, '\0') + raw(checksum) + raw(size) +
-                              raw(size) + raw(static_cast<std::uint16_t>(name.size())) +
-                              raw(std::uint16_t{0});
-    directory += "PK\x01\x02" + raw(std::uint16_t{20}) + facts + std::string(10, '\0') +
-                 raw(static_cast<std::uint32_t>(all.size())) + name;
-    all += "PK\x03\x04" + facts + name + content;
-  }
-  const auto count = static_cast<std::uint16_t>(files.size());
-  return all + directory + "PK\x05\x06" + std::string(4, '\0') + raw(count) + raw(count) +
-         raw(static_cast<std::uint32_t>(directory.size())) + raw(static_cast<std::uint32_t>(all.size())) +
-         raw(std::uint16_t{0});
-}
 
 Result<CloudFile> read(const std::string& archive) {
   return read_cloud_at(std::as_bytes(std::span(archive)), "a.zip");

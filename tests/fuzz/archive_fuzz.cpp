@@ -1,0 +1,36 @@
+// Fuzz target of archives and project files. If the first byte is odd, the rest is a glTF file and, after a zero byte, the
+// buffer beside it, which are put into an archive; otherwise the rest is the archive or project file itself.
+#include <cstdlib>
+#include <string>
+
+#include "common/project_file.h"
+#include "common/read_inputs.h"
+#include "fuzz/fuzz_program.h"
+#include "support/zip_encoder.h"
+
+namespace {
+
+using namespace relievo;
+
+template <typename T>
+void require_answer(const Result<T>& answer) {
+  if (!answer && (answer.error().kind != ErrorKind::input || answer.error().expected.empty())) std::abort();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  std::string content(reinterpret_cast<const char*>(data + 1), size - 1);
+  if (data[0] % 2 == 1) {
+    const std::size_t end = std::min(content.find('\0'), content.size());
+    content = archive_of({{"m/scene.bin", content.substr(std::min(end + 1, content.size()))},
+                          {"m/scene.gltf", content.substr(0, end)}});
+  }
+  const auto bytes = std::as_bytes(std::span(content));
+  require_answer(app::unpack_project(bytes, "a.relievo"));
+  if (app::is_archive(bytes)) require_answer(app::read_cloud_at(bytes, "a.zip"));
+  return 0;
+}
+
+RELIEVO_RUN_FILES
