@@ -1,7 +1,8 @@
 // Keeps documents: each state goes to the engine while things still move. What no engine has confirmed also stays in
 // the browser, so that it outlives the engine and the page. This file knows no page, so that tests can run it alone.
 
-// From state to state and after an answer, at least, so that the page and the engine have time for pictures.
+// A state follows the one before after the period, and its answer after the pause, at the earliest: the page and the
+// engine need time for pictures.
 const PERIOD_MS = 60, PAUSE_MS = 25;
 
 export class Keeper {

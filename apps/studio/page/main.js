@@ -37,7 +37,10 @@ const doc = new Document((before) => changed(before), () => showing && showDocum
 const sliders = new Sliders({doc, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
-const chooseView = () => opened.chooseView().catch(failed);
+const chooseView = () => opened.chooseView().catch((error) => {
+  failed(error);
+  if (error.kind === "option") refused();
+});
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
 const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: chooseView});
@@ -69,7 +72,8 @@ const opened = new OpenDocument({engine, doc, keeper, on: {
 const reach = new Reach({engine, doc, slider: () => sliders.all.height, chooseView: () => views.show(doc.now.options)});
 const projects = new Projects({engine, open: openInput, take, failed});
 
-let facts = null, shownView = null; // of the model that is shown
+let facts = null; // of the model that is shown
+let shownView = null; // the newest view that a model was shown of when nothing else was asked for
 let last = null; // numbers of the newest picture
 let isKept = !about.notice;
 
@@ -118,13 +122,12 @@ function changed(before) {
 
 // Shows a state that another tab or another engine has kept.
 function stateCame() {
-  if (shownView) awaitView();
   showDocument();
   stage.invalidate();
+  if (!shownView || isSameView(shownView, opened.wantedView(shownView))) return;
+  stage.await(true);
+  opened.ensureView().catch(failed);
 }
-
-// Until the model has the document's view: one that was asked for before may arrive while the engine is told of it.
-const awaitView = () => stage.await(!isSameView(shownView, viewOf(doc.now)));
 
 // A drag moves its own control; the others follow when it pauses or ends, as they cost as much as a picture.
 let showing = 0;
@@ -216,6 +219,19 @@ const heightText = (mm) => sliders.all.height.text(mm);
 function progress(status) {
   showProgress(status, last === null);
   exporting.progress(status);
+  if (stage.isReady && stage.model === status.model) settle(status);
+}
+
+// Ends the wait for a view when the model has the one that was asked for last, by this page or by another one.
+function settle({busy, error, shown}) {
+  if (busy || error || opened.asked) return;
+  const isNew = !isSameView(shown, viewOf(doc.now));
+  shownView = shown;
+  if (isNew) {
+    doc.note({options: shown});
+    showDocument();
+  }
+  if (stage.isAwaiting) stage.await(false);
 }
 
 // Another document is shown, whose model is not ready yet: no picture of the one before stays under its name.
@@ -256,12 +272,10 @@ async function arrived(status) {
   } catch (error) {
     return failed(error);
   }
-  shownView = status.shown;
-  doc.note({options: opened.wantedView(shownView)});
-  showDocument();
   stage.isReady = true;
   stage.model = status.model;
-  awaitView();
+  settle(opened.status);
+  showDocument();
   stage.share = 1;
   scanPanel.tell(facts);
   cropFrame.refresh();

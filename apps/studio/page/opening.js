@@ -10,6 +10,8 @@ export const viewOf = ({options: {view, up, crop, crumbs, plane, denoise, mode, 
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 
+const withSide = (wanted, {view, up}) => (wanted.view === "auto" ? {...wanted, view, up} : wanted);
+
 const withInput = ({steps, at}, input) => ({version: 1, changed: 0, steps: steps.map((step) => ({...step, input})),
   at});
 
@@ -21,6 +23,7 @@ export class OpenDocument {
   // to show.
   constructor({engine, doc, keeper, on}) {
     Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
+    this.asked = null; // the view that this page asked for last, until the engine names it
     this.statuses = new Map(); // of all documents that are open
   }
 
@@ -46,6 +49,7 @@ export class OpenDocument {
     if (work || (copy && newest === copy)) this.keep(); // a new one is kept when its scan could be read
     this.isKept = Boolean(newest);
     this.model = 0;
+    this.asked = null;
     this.status = {busy: true, model: 0, stage: "waiting"};
     history.replaceState(null, "", `#${this.id}`);
     this.on.begun(former);
@@ -64,8 +68,20 @@ export class OpenDocument {
   // Asks for the view that the document has when the engine has opened it: until then the engine refuses to.
   async chooseView() {
     const {id} = this;
+    this.asked = viewOf(this.doc.now);
     await this.isOpen;
-    if (this.id === id) await this.engine.chooseView(viewOf(this.doc.now));
+    if (this.id !== id) return;
+    const view = (this.asked = viewOf(this.doc.now));
+    await this.engine.chooseView(view).catch((error) => {
+      if (this.asked === view) this.asked = null;
+      throw error;
+    });
+  }
+
+  // Asks for the document's view unless the engine was asked for it already.
+  async ensureView() {
+    this.asked = viewOf(this.doc.now);
+    await this.openInEngine(this.input);
   }
 
   async cancel() {
@@ -100,6 +116,7 @@ export class OpenDocument {
   take(status) {
     const before = this.status;
     this.status = status;
+    if (this.asked && isSameView(withSide(this.asked, status.shown), status.shown)) this.asked = null;
     this.on.progress(status);
     if (!this.isReady && status.busy && status.can_turn && status.shown.view !== "auto") this.on.measured(status);
     if (status.model > 0 && status.model !== this.model && this.isWanted(status)) this.arrive(status);
@@ -108,9 +125,8 @@ export class OpenDocument {
   }
 
   // Returns the document's view, with the side that the engine chose if the document has none yet.
-  wantedView({view, up}) {
-    const wanted = viewOf(this.doc.now);
-    return wanted.view === "auto" ? {...wanted, view, up} : wanted;
+  wantedView(shown) {
+    return withSide(viewOf(this.doc.now), shown);
   }
 
   // Returns whether the model is one to show: at first only that of the view that was asked for, or none can be made.

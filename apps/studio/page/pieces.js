@@ -66,7 +66,7 @@ export const inWords = (message) =>
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, say, shownWidth, redraw}) {
-    Object.assign(this, {engine, doc, say, shownWidth, rows: {}});
+    Object.assign(this, {engine, doc, say, shownWidth, rows: {}, tried: Promise.resolve()});
     for (const name of ROWS) {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
       $(placeOf(name)).append(this.rows[name].element);
@@ -82,7 +82,7 @@ export class PieceRows {
 
   shapeRow(option) {
     return new ShapeRow({option, label: LABELS[option], title: sentence(optionOf(option).help), say: this.say,
-      take: (text) => this.set(option, text)});
+      take: (change) => this.set(option, change)});
   }
 
   // Returns {element, input, isNumber, unit, min, max} of an option.
@@ -111,18 +111,26 @@ export class PieceRows {
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
     if (isNumber && text !== "" && value === null) return this.show();
-    return this.set(name, PAIRS[name] ? inMm(name, value ?? "") : value);
+    return this.set(name, () => (PAIRS[name] ? inMm(name, value ?? "") : value));
   }
 
-  // Changes an option, unless the engine cannot read it or make a piece of it.
-  async set(name, value) {
-    const {options} = this.doc.now;
+  // Changes an option when all changes before have been tried; `change` makes its new value of the present one.
+  set(name, change) {
+    const {document} = this.engine;
+    this.tried = this.tried.then(() => this.tryChange(name, change, document));
+    return this.tried;
+  }
+
+  // Takes a value, unless the engine cannot read it or make a piece of it, or another document is shown by then.
+  async tryChange(name, change, document) {
+    if (document !== this.engine.document) return;
+    const {options} = this.doc.now, value = change(options[name]);
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
     try {
       const step = {...this.doc.now, options: {...options, ...part}};
       await this.engine.check(engineOptions(step));
       if (SHAPES[name] || !this.rows[name].input.matches("select")) await this.tryOut(step);
-      this.doc.change({options: part});
+      if (document === this.engine.document) this.doc.change({options: part});
     } catch (error) {
       this.say(inWords(error.message));
     }
@@ -152,7 +160,7 @@ export class PieceRows {
     this.baseImage.show();
     for (const name of ["rim-height", "rim-bevel"]) this.rows[name].element.hidden = !options.rim;
     this.shownUnit = lengthUnit.unit;
-    this.rows.finish.element.hidden = !options.tool || options.tool === "none";
+    this.rows.finish.element.hidden = !options.tool;
   }
 }
 

@@ -11,7 +11,7 @@ const turn = ["turn", {label: "Around by", ...degrees}], angle = ["angle", {labe
 const direction = ["direction", {label: "Direction", ...degrees}];
 const wavelength = ["length", {label: "Wavelength", ...mm}];
 const hollow = ["hollow", {label: "Hollow", ...word}], inside = ["inside", {label: "On the inside", ...word}];
-const tip = ["tip", {label: "Tip", ...mm}];
+const tip = ["tip", {label: "Tip", ...mm, otherwise: "sharp"}];
 
 const shape = (label, ...parameters) => ({label, parameters: new Map(parameters)});
 
@@ -27,37 +27,40 @@ export const SHAPES = {
     none: shape("Nothing"), cylinder: shape("Cylinder", turn, diameter, direction, inside),
     cone: shape("Cone", turn, diameter, angle, direction, inside), sphere: shape("Sphere", turn, diameter, inside),
   },
-  tool: {none: shape("None"), ball: shape("Ball end", diameter), flat: shape("Flat end", diameter),
+  tool: {"": shape("None"), ball: shape("Ball end", diameter), flat: shape("Flat end", diameter),
     v: shape("V bit", angle, tip)},
 };
-const CHOSEN = {ball: "ball:3", flat: "flat:3", v: "v:60"}; // shapes that are none without their sizes
+export const CHOSEN = {ball: "ball:3", flat: "flat:3", v: "v:60"}; // shapes that are none without their sizes
 const OF_IMAGES = "image"; // which another row chooses
-const EXCLUDED = {turn: "diameter", diameter: "turn"}; // of which a shape has one, where it has both
+// The parameters that another one takes the place of.
+const EXCLUDED = {turn: ["diameter"], diameter: ["turn", "height"], height: ["diameter", "angle"], angle: ["height"]};
+
+// A shape that this page does not know has none.
+const parametersOf = (option, name) => SHAPES[option][name]?.parameters ?? new Map();
 
 // Returns the text's shape and its values as texts, by parameter. A word that is there is "". A comma before a digit is
 // a decimal comma.
 export function parseShape(option, text) {
-  const [name] = (text || Object.keys(SHAPES[option])[0]).split(":", 1), rest = text.slice(name.length + 1);
-  const {parameters} = SHAPES[option][name];
-  const entries = option === "tool" ? rest.split(":").map((value, i) => [[...parameters.keys()][i], value])
+  const [name] = text.split(":", 1), rest = text.slice(name.length + 1), names = [...parametersOf(option, name).keys()];
+  const entries = option === "tool" ? rest.split(":").map((value, i) => [names[i], value])
     : rest.split(/,(?!\d)/).map((entry) => [...entry.split("="), ""].slice(0, 2));
   return {name, values: new Map(rest === "" ? [] : entries)};
 }
 
 function shapeText(option, {name, values}) {
-  const named = [...SHAPES[option][name].parameters.keys()].filter((parameter) => values.has(parameter));
+  const named = [...parametersOf(option, name).keys()].filter((parameter) => values.has(parameter));
   if (option === "tool") return [name, ...named.map((parameter) => values.get(parameter))].join(":");
   const entries = named.map((parameter) => parameter + (values.get(parameter) && `=${values.get(parameter)}`));
   return entries.length ? `${name}:${entries.join()}` : name;
 }
 
 export class ShapeRow {
-  // Calls take(text) with the text of what was chosen, and say(text) with a line for people. `input` is the menu.
+  // Calls take(change) with what makes the option's new text of its present one, and say(text) with a line for people.
   constructor({option, label, title, take, say}) {
     Object.assign(this, {option, label, take, say, fields: []});
     this.input = make("select", {id: option, "data-option": option, "aria-label": label},
       ...Object.entries(SHAPES[option]).map(([name, {label}]) => make("option", {value: name}, label)));
-    this.input.onchange = ({target: {value}}) => take(CHOSEN[value] ?? value);
+    this.input.onchange = ({target: {value}}) => take(() => CHOSEN[value] ?? value);
     this.element = make("div", {class: "shape", title}, make("label", {class: "pair"}, make("span", {}, label),
       this.input));
   }
@@ -74,13 +77,13 @@ export class ShapeRow {
 
   showFields() {
     for (const {input} of this.fields) input.closest("label").remove();
-    this.fields = [...SHAPES[this.option][this.shown.name].parameters].map(([name, about]) => this.field(name, about));
+    this.fields = [...parametersOf(this.option, this.shown.name)].map(([name, about]) => this.field(name, about));
   }
 
   field(name, about) {
     const attributes = {"aria-label": `${this.label}: ${about.label}`, autocomplete: "off"};
     const input = make("input", about.isWord ? {...attributes, type: "checkbox"}
-      : {...attributes, inputmode: "decimal", placeholder: "by itself"});
+      : {...attributes, inputmode: "decimal", placeholder: about.otherwise ?? "by itself"});
     input.onchange = () => this.changed(name, about, input);
     input.onkeydown = ({key}) => {
       if (key === "Escape") this.show(this.shown.text);
@@ -90,17 +93,25 @@ export class ShapeRow {
     return {name, about, input};
   }
 
-  // Takes what was chosen or typed, unless it is no value. One that the shape needs comes back if it is removed.
+  // Takes what was chosen or typed, unless it is no value or another shape was chosen meanwhile.
   changed(name, about, input) {
-    const {name: shape, values: before, text: shownText} = this.shown, values = new Map(before);
-    const needed = parseShape(this.option, CHOSEN[shape] ?? shape).values.get(name), text = input.value.trim();
-    const value = about.isWord || text === "" ? "" : typedNumber(text, about, this.say);
-    if (value === null) return this.show(shownText);
-    if (about.isWord ? input.checked : text !== "") values.set(name, String(value)).delete(EXCLUDED[name]);
-    else if (needed) values.set(name, needed);
-    else values.delete(name);
-    this.take(shapeText(this.option, {name: shape, values}));
+    const {name: shape, text: shown} = this.shown, typed = input.value.trim(), {checked} = input;
+    const value = about.isWord || typed === "" ? "" : typedNumber(typed, about, this.say);
+    if (value === null) return this.show(shown);
+    const isThere = about.isWord ? checked : typed !== "";
+    this.take((text) => (parseShape(this.option, text).name !== shape ? text
+      : withParameter(this.option, text, name, isThere ? String(value) : null)));
   }
+}
+
+// Returns a text with a parameter, or without it if the value is null; one that the shape needs gets its first value.
+function withParameter(option, text, parameter, value) {
+  const {name, values} = parseShape(option, text);
+  const needed = parseShape(option, CHOSEN[name] ?? name).values.get(parameter);
+  if (value !== null) for (const other of EXCLUDED[parameter] ?? []) values.delete(other);
+  values.delete(parameter);
+  if (value !== null || needed) values.set(parameter, value ?? needed);
+  return shapeText(option, {name, values});
 }
 
 function showValue({about, input}, text) {

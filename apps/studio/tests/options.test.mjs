@@ -62,13 +62,13 @@ const control = (name) => page.locator(`[data-option="${name}"]`);
 
 // Sets a shape and its parameters by the menu and the fields below it.
 async function setShape(option, text) {
-  const {name, values, labels} = await page.evaluate(async ([option, text]) => {
-    const {SHAPES, parseShape} = await import("./shapes.js"), {name, values} = parseShape(option, text);
+  const {name, first, values, labels} = await page.evaluate(async ([option, text]) => {
+    const {CHOSEN, SHAPES, parseShape} = await import("./shapes.js"), {name, values} = parseShape(option, text);
     const labels = [...SHAPES[option][name].parameters].map(([parameter, {label}]) => [parameter, label]);
-    return {name, values: [...values], labels: Object.fromEntries(labels)};
+    return {name, first: CHOSEN[name] ?? name, values: [...values], labels: Object.fromEntries(labels)};
   }, [option, text]);
   await control(option).selectOption(name);
-  await reaches(({options}) => options[option]?.startsWith(name));
+  await reaches(({options}) => options[option] === first);
   const row = page.locator(".shape").filter({has: control(option)});
   for (const [parameter, value] of values) await enter(row.getByLabel(labels[parameter]), value);
 }
@@ -133,6 +133,8 @@ test("has a field for each parameter of each shape that the engine takes", {skip
   for (const option of ["base", "wrap"]) {
     const shapes = await page.evaluate(async (option) => Object.entries((await import("./shapes.js")).SHAPES[option])
       .map(([name, {parameters}]) => [name, [...parameters.keys()]]), option);
+    const {choices} = options.find(({name}) => name === option);
+    assert.deepEqual(shapes.map(([name]) => name).sort(), [...choices].sort());
     for (const [name, parameters] of shapes) {
       const {error} = await engine.json("check", {options: {[option]: `${name}:?`}});
       const [, expected] = error.text.match(/expected (.*) after/);
@@ -156,6 +158,9 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await enter(field("Tool: Diameter"), "wide");
   await page.getByText(/^Diameter: expected a number from/).waitFor();
   assert.equal(await field("Tool: Diameter").inputValue(), "3.175");
+  await control("tool").selectOption({label: "None"});
+  await reaches(({options}) => !("tool" in options));
+  await page.getByRole("button", {name: "Undo"}).click();
   await page.locator("#unit").selectOption("inch");
   await eventually(async () => assert.equal(await field("Tool: Diameter").inputValue(), "0.125"));
   await page.locator("#unit").selectOption("mm");
@@ -165,6 +170,23 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await reaches(({options}) => options.wrap === "cylinder:diameter=200");
   await page.getByLabel("Bent around: On the inside").check();
   await reaches(({options}) => options.wrap === "cylinder:diameter=200,inside");
+  await page.locator('[data-kind="relief"]').click();
+  await control("base").selectOption({label: "Wave"});
+  await reaches(({options}) => options.base === "wave");
+  await page.locator(".shape").filter({has: control("base")}).evaluate((row) => { // both at once
+    for (const [i, value] of ["3", "40"].entries()) {
+      const [, input] = [...row.querySelectorAll(".parameter")][i].children;
+      input.value = value;
+      input.dispatchEvent(new Event("change"));
+    }
+  });
+  await reaches(({options}) => options.base === "wave:height=3,length=40");
+  await control("base").selectOption({label: "Dome"});
+  await reaches(({options}) => options.base === "dome");
+  await enter(field("Base: Diameter"), "300");
+  await reaches(({options}) => options.base === "dome:diameter=300");
+  await enter(field("Base: Height"), "4"); // in place of the diameter
+  await reaches(({options}) => options.base === "dome:height=4");
   const undo = page.getByRole("button", {name: "Undo"});
   while (await undo.isEnabled()) await undo.click();
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();

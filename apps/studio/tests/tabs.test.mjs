@@ -46,7 +46,10 @@ test("works in nine tabs at once, whichever has the stream of events", {skip}, a
   await engine.post("view", {view: "left"});
   await engine.untilIdle();
   const {visible_points: points} = await engine.json("facts");
-  for (const tab of left) await tab.getByText(`${points.toLocaleString("en-US")} of 20,000 points`).waitFor();
+  for (const tab of left) {
+    await tab.getByText(`${points.toLocaleString("en-US")} of 20,000 points`).waitFor();
+    await untilReady(tab);
+  }
   for (const tab of left) await tab.close();
 });
 
@@ -187,6 +190,8 @@ test("opens a project saved with its scan in another studio, where the scan is n
 });
 
 test("asks for a scan that has moved, and goes on with it", {skip}, async () => {
+  await engine.stop(); // it may have ended by itself, as no page was there for a while
+  engine = await new EngineProcess(state, scan).ready();
   const tab = await newTab(), moved = path.join(folder, "elsewhere.ply");
   await openScan(tab, "shell");
   renameSync(scan, moved);
