@@ -10,8 +10,10 @@ get_target_property(small_sources relievo SOURCES)
 list(FILTER small_sources EXCLUDE REGEX "/src/(core|geometry|scan|solver|relief|relief/membrane|picture)/[^/]*$")
 get_target_property(fast_sources relievo SOURCES)
 set(brief_sources ${fast_sources})
-list(FILTER brief_sources INCLUDE REGEX
-     "/(core/(choice|json_place|length)|relief/(method|nearest_draft)|scan/(support_plane|view|view_ranking))[.]cpp$")
+set(brief "core/(choice|json_place|length)" "picture/(height_map|preview)" "relief/(method|nearest_draft)"
+    "scan/(depth_cloud|depth_image|support_plane|view|view_ranking)")
+list(JOIN brief "|" brief)
+list(FILTER brief_sources INCLUDE REGEX "/(${brief})[.]cpp$")
 list(APPEND small_sources ${brief_sources})
 list(REMOVE_ITEM fast_sources ${small_sources})
 set_target_properties(relievo PROPERTIES SOURCES "${fast_sources}")

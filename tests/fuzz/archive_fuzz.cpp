@@ -1,8 +1,10 @@
 // Fuzz target of archives and project files. If the first byte is odd, the rest is a glTF file and, after a zero byte, the
 // buffer beside it, which are put into an archive; otherwise the rest is the archive or project file itself.
+#include <algorithm>
 #include <cstdlib>
 #include <string>
 
+#include "common/archive.h"
 #include "common/project_file.h"
 #include "common/read_inputs.h"
 #include "fuzz/fuzz_program.h"
