@@ -39,7 +39,7 @@ const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
 const chooseView = () => opened.chooseView().catch((error) => {
   failed(error);
-  if (error.kind === "option") refused();
+  if (error.kind === "option" && !opened.asked) refused();
 });
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
 const stage = new Stage(engine, doc,
@@ -124,8 +124,8 @@ function changed(before) {
 function stateCame() {
   showDocument();
   stage.invalidate();
-  if (!shownView || isSameView(shownView, opened.wantedView(shownView))) return;
-  stage.await(true);
+  if (!shownView || (!stage.isAwaiting && isSameView(shownView, opened.wantedView(shownView)))) return;
+  stage.await(true); // also for a view whose model is shown: another one may have been asked for meanwhile
   opened.ensureView().catch(failed);
 }
 
@@ -274,7 +274,9 @@ async function arrived(status) {
   }
   stage.isReady = true;
   stage.model = status.model;
+  if (!status.busy && !status.error) shownView ??= status.shown;
   settle(opened.status);
+  if (opened.status.error && !opened.status.busy) refused();
   showDocument();
   stage.share = 1;
   scanPanel.tell(facts);
@@ -287,8 +289,9 @@ async function arrived(status) {
 
 // A view was cancelled or could not be prepared: the one before stays.
 function refused() {
+  const former = shownView ?? opened.status.shown;
   stage.await(false);
-  if (shownView && !isSameView(shownView, viewOf(doc.now))) doc.change({options: shownView});
+  if (former?.view && !isSameView(former, viewOf(doc.now))) doc.change({options: former});
 }
 
 let reopening = 0;

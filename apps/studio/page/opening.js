@@ -149,6 +149,7 @@ export class OpenDocument {
   complain({error, model}) {
     const {path, name} = this.input; // a dropped scan is read from where the engine has put it
     if (error.kind !== "cancelled") toast(path ? error.text.replaceAll(path, () => name) : error.text);
+    if (model > 0 && this.asked && error.kind !== "cancelled") return; // another view is on its way already
     if (model > 0) return this.on.refused();
     const {former} = this;
     this.former = null;

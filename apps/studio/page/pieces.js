@@ -121,7 +121,8 @@ export class PieceRows {
     return this.tried;
   }
 
-  // Takes a value, unless the engine cannot read it or make a piece of it, or another document is shown by then.
+  // Takes a value, unless the engine cannot read it or make a piece of it, or the document or its value is another one
+  // by then.
   async tryChange(name, change, document) {
     if (document !== this.engine.document) return;
     const {options} = this.doc.now, value = change(options[name]);
@@ -130,7 +131,8 @@ export class PieceRows {
       const step = {...this.doc.now, options: {...options, ...part}};
       await this.engine.check(engineOptions(step));
       if (SHAPES[name] || !this.rows[name].input.matches("select")) await this.tryOut(step);
-      if (document === this.engine.document) this.doc.change({options: part});
+      const isStill = document === this.engine.document && this.doc.now.options[name] === options[name];
+      if (isStill) this.doc.change({options: part});
     } catch (error) {
       this.say(inWords(error.message));
     }

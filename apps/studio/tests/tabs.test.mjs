@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import {renameSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, enter, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder, untilReady,
+import {EngineProcess, enter, eventually, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder, untilReady,
   writeSample} from "./support.mjs";
 
 const found = await findBrowser();
@@ -126,6 +126,17 @@ test("is one document in two tabs", {skip}, async () => {
   await untilHeight(tab, before);
   await tab.getByRole("button", {name: "Redo"}).click();
   await untilHeight(other, "4.50");
+  const crop = (of) => of.locator("#crop"), crops = async () => [await crop(tab).inputValue(),
+    await crop(other).inputValue()];
+  await tab.locator("#scan").evaluate((panel) => (panel.open = true));
+  for (const [typed, taken] of [["0,0.3,1,1", "0,0.3,1,1"], ["abc", "0,0.3,1,1"], ["", ""]]) { // one is refused
+    await enter(crop(tab), typed);
+    if (typed !== taken) await tab.getByText(/expected shares X0,Y0,X1,Y1/).waitFor();
+    await eventually(async () => {
+      for (const of of [tab, other]) await untilReady(of);
+      assert.deepEqual(await crops(), [taken, taken]);
+    });
+  }
   for (const each of [tab, other]) await each.close();
 });
 

@@ -6,9 +6,11 @@ import { fileOf } from "./blob_file.js";
 const BEGINS_WORK = new Set(["open", "view"]);
 
 let engine, timer;
+let isDue = false; // work that was asked for and has not begun
 
 // Prepares what was asked for. Messages that wait come first, so that the newest view is the one that is prepared.
 function work() {
+  isDue = false;
   try {
     engine.call("work");
   } catch (error) {
@@ -42,8 +44,9 @@ function answer({ id, call, request, files = [] }) {
   } catch (error) {
     fail(id, error);
   }
+  isDue ||= BEGINS_WORK.has(call);
   clearTimeout(timer);
-  if (BEGINS_WORK.has(call)) timer = setTimeout(work);
+  if (isDue) timer = setTimeout(work);
 }
 
 const started = new Promise((resolve) => {
