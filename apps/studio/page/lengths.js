@@ -43,6 +43,9 @@ export function lengthText(mm, decimals = 2) {
   return decimals <= 2 || text.endsWith("0") ? (mm / MM.in).toFixed(3) : text;
 }
 
+// Returns a length as the text of a field has it, without zeros at its end.
+export const shortLength = (mm) => String(Number(lengthText(mm, 4)));
+
 // Returns the number that was typed into a field; null if there is none in its range, after saying what was expected.
 export function typedNumber(text, {label, unit, min, max}, say) {
   const isLength = unit === "mm", scale = isLength ? millimetresPerUnit() : 1, value = parseLength(text, isLength,

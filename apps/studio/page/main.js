@@ -24,6 +24,7 @@ import {Reach} from "./reach.js";
 import {heightOf, paperWords, showNumbers, showSection, showToolReach, sizeOf} from "./readouts.js";
 import {ScanPanel} from "./scan_panel.js";
 import {ScenePanel} from "./scene_panel.js";
+import {ShownView} from "./shown_view.js";
 import {Sliders} from "./sliders.js";
 import {Stage} from "./stage.js";
 import {nameOf, showRecent, showSamples, smallPicture} from "./start.js";
@@ -37,13 +38,9 @@ const doc = new Document((before) => changed(before), () => showing && showDocum
 const sliders = new Sliders({doc, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
 const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
-const chooseView = () => opened.chooseView().catch((error) => {
-  failed(error);
-  if (error.kind === "option" && !opened.asked) refused();
-});
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
 const stage = new Stage(engine, doc,
-  {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: chooseView});
+  {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: () => shownView.choose()});
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine,
@@ -66,14 +63,14 @@ const keeper = new Keeper({
   onFailed: notKept, onKept: () => (isKept = true),
 });
 const opened = new OpenDocument({engine, doc, keeper, on: {
-  begun, measured, arrived, failed, refused, changed: stateCame, progress,
+  begun, measured, arrived, failed, refused: () => shownView.restore(), changed: stateCame, progress,
   missing: (input, work) => projects.askFor(input, work), closed: () => showStart(true),
 }});
+const shownView = new ShownView({doc, stage, opened, showDocument, failed});
 const reach = new Reach({engine, doc, slider: () => sliders.all.height, chooseView: () => views.show(doc.now.options)});
 const projects = new Projects({engine, open: openInput, take, failed});
 
 let facts = null; // of the model that is shown
-let shownView = null; // the newest view that a model was shown of when nothing else was asked for
 let last = null; // numbers of the newest picture
 let isKept = !about.notice;
 
@@ -115,7 +112,7 @@ function changed(before) {
   showDocumentSoon();
   if (!isSameView(viewOf(before), viewOf(now))) {
     stage.await(true);
-    chooseView();
+    shownView.choose();
   }
   stage.invalidate();
 }
@@ -124,9 +121,7 @@ function changed(before) {
 function stateCame() {
   showDocument();
   stage.invalidate();
-  if (!shownView || (!stage.isAwaiting && isSameView(shownView, opened.wantedView(shownView)))) return;
-  stage.await(true); // also for a view whose model is shown: another one may have been asked for meanwhile
-  opened.ensureView().catch(failed);
+  shownView.adopt();
 }
 
 // A drag moves its own control; the others follow when it pauses or ends, as they cost as much as a picture.
@@ -219,26 +214,15 @@ const heightText = (mm) => sliders.all.height.text(mm);
 function progress(status) {
   showProgress(status, last === null);
   exporting.progress(status);
-  if (stage.isReady && stage.model === status.model) settle(status);
-}
-
-// Ends the wait for a view when the model has the one that was asked for last, by this page or by another one.
-function settle({busy, error, shown}) {
-  if (busy || error || opened.asked) return;
-  const isNew = !isSameView(shown, viewOf(doc.now));
-  shownView = shown;
-  if (isNew) {
-    doc.note({options: shown});
-    showDocument();
-  }
-  if (stage.isAwaiting) stage.await(false);
+  if (stage.isReady && stage.model === status.model) shownView.settle(status);
 }
 
 // Another document is shown, whose model is not ready yet: no picture of the one before stays under its name.
 function begun(former) {
   if (former) toast(`Your work on ${former.name} is kept: the start page lists it.`);
   $(".inspector").scrollTop = 0;
-  facts = shownView = last = null;
+  facts = last = null;
+  shownView.clear();
   $("#picture").width = $("#before").width = 1;
   scanPanel.tell(null);
   scenePanel.show([]);
@@ -274,9 +258,7 @@ async function arrived(status) {
   }
   stage.isReady = true;
   stage.model = status.model;
-  if (!status.busy && !status.error) shownView ??= status.shown;
-  settle(opened.status);
-  if (opened.status.error && !opened.status.busy) refused();
+  shownView.arrived(status);
   showDocument();
   stage.share = 1;
   scanPanel.tell(facts);
@@ -285,13 +267,6 @@ async function arrived(status) {
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();
-}
-
-// A view was cancelled or could not be prepared: the one before stays.
-function refused() {
-  const former = shownView ?? opened.status.shown;
-  stage.await(false);
-  if (former?.view && !isSameView(former, viewOf(doc.now))) doc.change({options: former});
 }
 
 let reopening = 0;

@@ -7,7 +7,7 @@ import {FIRST, engineOptions, shownOptions} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
 import {KINDS} from "./kinds.js";
-import {lengthText, millimetresPerUnit, parseLength, shown as lengthUnit, typedNumber} from "./lengths.js";
+import {millimetresPerUnit, parseLength, shortLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 import {SHAPES, ShapeRow} from "./shapes.js";
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);
@@ -24,6 +24,9 @@ const PREPARING = ["up", "points", "mode"];
 const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
 const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "by itself"};
+// What rows of shapes are for; the help of their options tells how their texts are written.
+const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
+  tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
 export const ROWS = Object.keys(LABELS);
 
@@ -81,7 +84,7 @@ export class PieceRows {
   }
 
   shapeRow(option) {
-    return new ShapeRow({option, label: LABELS[option], title: sentence(optionOf(option).help), say: this.say,
+    return new ShapeRow({option, label: LABELS[option], title: TIPS[option], say: this.say,
       take: (change) => this.set(option, change)});
   }
 
@@ -165,5 +168,3 @@ export class PieceRows {
     this.rows.finish.element.hidden = !options.tool;
   }
 }
-
-const shortLength = (mm) => String(Number(lengthText(mm, 4)));

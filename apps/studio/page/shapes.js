@@ -3,7 +3,7 @@
 
 import {make} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
-import {lengthText, parseLength, shown, shownUnit, typedNumber} from "./lengths.js";
+import {parseLength, shortLength, shown, shownUnit, typedNumber} from "./lengths.js";
 
 const mm = {unit: "mm", min: 0, max: 1e6}, degrees = {unit: "°", min: -360, max: 360}, word = {isWord: true};
 const height = ["height", {label: "Height", ...mm}], diameter = ["diameter", {label: "Diameter", ...mm}];
@@ -30,10 +30,11 @@ export const SHAPES = {
   tool: {"": shape("None"), ball: shape("Ball end", diameter), flat: shape("Flat end", diameter),
     v: shape("V bit", angle, tip)},
 };
-export const CHOSEN = {ball: "ball:3", flat: "flat:3", v: "v:60"}; // shapes that are none without their sizes
-const OF_IMAGES = "image"; // which another row chooses
-// The parameters that another one takes the place of.
-const EXCLUDED = {turn: ["diameter"], diameter: ["turn", "height"], height: ["diameter", "angle"], angle: ["height"]};
+// The texts of shapes that need a size, when they are chosen.
+export const FIRST_TEXTS = {ball: "ball:3", flat: "flat:3", v: "v:60"};
+const IMAGE = "image"; // the shape that the row of the base image chooses
+// The parameters that each one replaces, as a shape has only one of them.
+const REPLACED = {turn: ["diameter"], diameter: ["turn", "height"], height: ["diameter", "angle"], angle: ["height"]};
 
 // A shape that this page does not know has none.
 const parametersOf = (option, name) => SHAPES[option][name]?.parameters ?? new Map();
@@ -60,7 +61,7 @@ export class ShapeRow {
     Object.assign(this, {option, label, take, say, fields: []});
     this.input = make("select", {id: option, "data-option": option, "aria-label": label},
       ...Object.entries(SHAPES[option]).map(([name, {label}]) => make("option", {value: name}, label)));
-    this.input.onchange = ({target: {value}}) => take(() => CHOSEN[value] ?? value);
+    this.input.onchange = ({target: {value}}) => take(() => FIRST_TEXTS[value] ?? value);
     this.element = make("div", {class: "shape", title}, make("label", {class: "pair"}, make("span", {}, label),
       this.input));
   }
@@ -71,7 +72,7 @@ export class ShapeRow {
     this.shown = {text, unit: shown.unit, name, values};
     if (before?.name !== name || before.unit !== shown.unit) this.showFields();
     this.input.value = name;
-    for (const choice of this.input.options) choice.hidden = choice.value === OF_IMAGES && name !== OF_IMAGES;
+    for (const choice of this.input.options) choice.hidden = choice.value === IMAGE && name !== IMAGE;
     for (const field of this.fields) showValue(field, values.get(field.name));
   }
 
@@ -107,8 +108,8 @@ export class ShapeRow {
 // Returns a text with a parameter, or without it if the value is null; one that the shape needs gets its first value.
 function withParameter(option, text, parameter, value) {
   const {name, values} = parseShape(option, text);
-  const needed = parseShape(option, CHOSEN[name] ?? name).values.get(parameter);
-  if (value !== null) for (const other of EXCLUDED[parameter] ?? []) values.delete(other);
+  const needed = parseShape(option, FIRST_TEXTS[name] ?? name).values.get(parameter);
+  if (value !== null) for (const other of REPLACED[parameter] ?? []) values.delete(other);
   values.delete(parameter);
   if (value !== null || needed) values.set(parameter, value ?? needed);
   return shapeText(option, {name, values});
@@ -121,4 +122,4 @@ function showValue({about, input}, text) {
 
 // Returns a value of an option's text as its field shows it: a length in the page's unit.
 const valueText = ({unit}, text) =>
-  String(Number(unit === "mm" ? lengthText(parseLength(text), 4) : parseLength(text, false)));
+  (unit === "mm" ? shortLength(parseLength(text)) : String(parseLength(text, false)));

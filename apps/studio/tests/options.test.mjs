@@ -63,9 +63,9 @@ const control = (name) => page.locator(`[data-option="${name}"]`);
 // Sets a shape and its parameters by the menu and the fields below it.
 async function setShape(option, text) {
   const {name, first, values, labels} = await page.evaluate(async ([option, text]) => {
-    const {CHOSEN, SHAPES, parseShape} = await import("./shapes.js"), {name, values} = parseShape(option, text);
+    const {FIRST_TEXTS, SHAPES, parseShape} = await import("./shapes.js"), {name, values} = parseShape(option, text);
     const labels = [...SHAPES[option][name].parameters].map(([parameter, {label}]) => [parameter, label]);
-    return {name, first: CHOSEN[name] ?? name, values: [...values], labels: Object.fromEntries(labels)};
+    return {name, first: FIRST_TEXTS[name] ?? name, values: [...values], labels: Object.fromEntries(labels)};
   }, [option, text]);
   await control(option).selectOption(name);
   await reaches(({options}) => options[option] === first);

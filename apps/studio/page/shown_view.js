@@ -1,0 +1,60 @@
+// The view whose model is shown, and the wait for another one. When nothing is asked for any more, the views of the
+// document, the engine and the picture are the same, whichever page asked, and whatever was cancelled or refused.
+
+import {isSameView, viewOf} from "./opening.js";
+
+export class ShownView {
+  // Calls showDocument() when it has changed the document, and failed(error).
+  constructor({doc, stage, opened, showDocument, failed}) {
+    Object.assign(this, {doc, stage, opened, showDocument, failed});
+    this.clear();
+  }
+
+  // Another document is shown, of which there is no model yet.
+  clear() {
+    this.view = null; // the newest one that a model was shown of when nothing else was asked for
+  }
+
+  // Asks the engine for the document's view.
+  choose() {
+    return this.opened.chooseView().catch((error) => {
+      this.failed(error);
+      if (error.kind === "option" && !this.opened.asked) this.restore();
+    });
+  }
+
+  // Waits for the view of a state that another page has kept, also if its model is shown: another view may have been
+  // asked for meanwhile.
+  adopt() {
+    const {view, stage, opened} = this;
+    if (!view || (!stage.isAwaiting && isSameView(view, opened.wantedView(view)))) return;
+    stage.await(true);
+    opened.ensureView().catch(this.failed);
+  }
+
+  // A model is shown, whose status may have been followed by others.
+  arrived(status) {
+    const newest = this.opened.status;
+    if (!status.busy && !status.error) this.view ??= status.shown;
+    this.settle(newest);
+    if (newest.error && !newest.busy) this.restore();
+  }
+
+  // Ends the wait when the model has the view that was asked for last, by this page or by another one.
+  settle({busy, error, shown}) {
+    if (busy || error || this.opened.asked) return;
+    this.view = shown;
+    if (!isSameView(shown, viewOf(this.doc.now))) {
+      this.doc.note({options: shown});
+      this.showDocument();
+    }
+    if (this.stage.isAwaiting) this.stage.await(false);
+  }
+
+  // A view was cancelled or could not be prepared: the one before stays.
+  restore() {
+    const former = this.view ?? this.opened.status.shown;
+    this.stage.await(false);
+    if (former?.view && !isSameView(former, viewOf(this.doc.now))) this.doc.change({options: former});
+  }
+}
