@@ -9,7 +9,7 @@ const mm = {unit: "mm", min: 0, max: 1e6}, degrees = {unit: "°", min: -360, max
 const height = ["height", {label: "Height", ...mm}], diameter = ["diameter", {label: "Diameter", ...mm}];
 const turn = ["turn", {label: "Around by", ...degrees}], angle = ["angle", {label: "Angle", ...degrees}];
 const direction = ["direction", {label: "Direction", ...degrees}];
-const wavelength = ["length", {label: "Wavelength", ...mm}];
+const length = ["length", {label: "Length", ...mm}];
 const hollow = ["hollow", {label: "Hollow", ...word}], inside = ["inside", {label: "On the inside", ...word}];
 const tip = ["tip", {label: "Tip", ...mm, otherwise: "sharp"}];
 
@@ -19,7 +19,7 @@ const shape = (label, ...parameters) => ({label, parameters: new Map(parameters)
 export const SHAPES = {
   base: {
     plane: shape("Plane"), fold: shape("Fold", height, angle, direction, hollow),
-    wave: shape("Wave", height, wavelength, direction, hollow),
+    wave: shape("Wave", height, length, direction, hollow),
     cylinder: shape("Cylinder", diameter, height, direction, hollow), dome: shape("Dome", diameter, height, hollow),
     image: shape("Image", height, hollow),
   },
