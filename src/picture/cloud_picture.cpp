@@ -15,6 +15,9 @@ constexpr float nothing = -std::numeric_limits<float>::infinity();
 // More from the viewer's side than for reliefs: a whole body turns much of itself away from the light.
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
+// Radius of a point's disc in sampling distances: random points leave hardly a gap.
+constexpr double disc_radius = 2;
+
 // A point in the picture: pixels, depth in pixels, normal in view coordinates.
 struct Dot {
   Vec3f place, normal;
@@ -25,17 +28,25 @@ struct Canvas {
   Image<Vec3f> normals;  // sums
 };
 
-// Calls f(pixel, depth there) for the pixels of rows [first, last) that the dot's square covers.
+// Calls f(pixel, depth there, weight) for the pixels of rows [first, last) whose centres the dot covers: a disc on the
+// surface, seen from where the viewer is. The weight falls from 1 to 0 at its edge.
 template <typename F>
 void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&& f) {
+  constexpr float least_z = .2F;  // discs that are seen more from the side would leave gaps
+  const Vec2f slope = Vec2f(-dot.normal.x(), dot.normal.y()) / std::max(dot.normal.z(), least_z);
   const int top = std::max(first, static_cast<int>(std::floor(dot.place.y() - radius + .5F)));
   const int bottom = std::min(last, static_cast<int>(std::floor(dot.place.y() + radius + .5F)));
   const int left = std::max(0, static_cast<int>(std::floor(dot.place.x() - radius + .5F)));
   const int right = std::min(width, static_cast<int>(std::floor(dot.place.x() + radius + .5F)));
   for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x)
-      f(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
-        dot.place.z());
+    for (int x = left; x < right; ++x) {
+      const Vec2f away(static_cast<float>(x) + .5F - dot.place.x(),
+                       static_cast<float>(y) + .5F - dot.place.y());
+      const float rise = slope.dot(away), weight = 1 - (away.squaredNorm() + rise * rise) / (radius * radius);
+      if (weight > 0)
+        f(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
+          dot.place.z() + rise, weight);
+    }
 }
 
 // Two passes, as surface splatting has it: the front first, then the mean normal of all that lies on it.
@@ -49,13 +60,13 @@ void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
     };
     for (const Dot& dot : dots)
       if (is_near(dot))
-        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z) {
+        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z, float) {
           canvas.depth.pixels[at] = std::max(canvas.depth.pixels[at], z);
         });
     for (const Dot& dot : dots)
       if (is_near(dot))
-        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z) {
-          if (z > canvas.depth.pixels[at] - 2.5F * radius) canvas.normals.pixels[at] += dot.normal;
+        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z, float weight) {
+          if (z > canvas.depth.pixels[at] - 2.5F * radius) canvas.normals.pixels[at] += weight * dot.normal;
         });
   };
   parallel_for(static_cast<std::size_t>((height + rows - 1) / rows), band, 1);
@@ -112,7 +123,7 @@ void CloudRenderer::render(const View& view, int width, int height, Picture& pic
     if (!has_signed_normals_ && normal.z() < 0) normal = -normal;
     dots[i] = {Vec3(width / 2.0 + p.x(), height / 2.0 - p.y(), p.z()).cast<float>(), normal};
   });
-  splat(dots, std::clamp(static_cast<float>(1.3 * scale * spacing_), .8F, 12.F), canvas);
+  splat(dots, std::clamp(static_cast<float>(disc_radius * scale * spacing_), .8F, 20.F), canvas);
   paint(canvas, picture.image);
 }
 

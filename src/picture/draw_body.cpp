@@ -220,9 +220,11 @@ void draw_body(const DrawnBody& body, const ScreenTransform& transform, const Dr
                DrawCache& cache, Image8& picture) {
   picture.resize(transform.width, transform.height, 4);
   const Vec3f to_lamp = direction_of(params.light);
-  const LightMap light(front_heights(body, light_map_px(transform, params.is_fine),
-                                     params.is_fine ? cache.fine_light : cache.quick_light),
-                       params.has_shadows ? to_lamp : Vec3f(Vec3f::UnitZ()));
+  const LightMap light(params.has_shadows
+                           ? front_heights(body, light_map_px(transform, params.is_fine),
+                                           params.is_fine ? cache.fine_light : cache.quick_light)
+                           : HeightField{},
+                       to_lamp);
   const int n = params.is_fine ? fine_samples : 1;
   const ScreenTransform samples = transform.finer(n);
   const Painter painter(body, samples, light, params);

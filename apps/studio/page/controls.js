@@ -18,6 +18,9 @@ export function make(tag, attributes = {}, ...children) {
   return element;
 }
 
+// Returns a text within which no line ends, such as a size.
+export const unbroken = (text) => make("span", {class: "unbroken"}, text);
+
 // Checks a radio button, and lets only the checked one of its group be reached with the Tab key.
 export function check(radio, isChecked) {
   radio.setAttribute("aria-checked", isChecked);

@@ -1,8 +1,8 @@
 // The dialog that exports files of the finished piece, as downloads of the browser.
 
 import {about} from "./about.js";
-import {$, download, fileSize, make} from "./controls.js";
-import {lengthText, shown, typedNumber} from "./lengths.js";
+import {$, download, fileSize, make, unbroken} from "./controls.js";
+import {shown, sizeText, typedNumber} from "./lengths.js";
 
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 
@@ -75,9 +75,9 @@ export class ExportDialog {
     const texts = this.piece ? sizes(this.piece, this.pixels) : {};
     for (const {name} of about.formats) $(`#size-${name}`).textContent = texts[name] ?? "";
     const {size_mm: size, triangles} = this.piece ?? {};
-    $("#export-size").textContent = this.piece ?
-      `${size.map((x) => lengthText(x)).join(" × ")} ${shown.unit}, relief ` +
-      `${this.heightText} ${shown.unit} high, ${triangles.toLocaleString("en-US")} triangles` : "";
+    const facts = this.piece ? [`${sizeText(size)}, `, `relief ${this.heightText} ${shown.unit} high, `,
+      `${triangles.toLocaleString("en-US")} triangles`] : [];
+    $("#export-size").replaceChildren(...facts.map(unbroken));
   }
 
   // Shows the progress of the piece that the engine makes.

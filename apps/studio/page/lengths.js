@@ -43,6 +43,11 @@ export function lengthText(mm, decimals = 2) {
   return decimals <= 2 || text.endsWith("0") ? (mm / MM.in).toFixed(3) : text;
 }
 
+export const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
+
+// Returns the size of a piece.
+export const sizeText = (size) => `${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`;
+
 // Returns a length as the text of a field has it, without zeros at its end.
 export const shortLength = (mm) => String(Number(lengthText(mm, 4)));
 

@@ -10,7 +10,7 @@ import {ExportDialog} from "./export.js";
 import {FIELDS} from "./fields.js";
 import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 import {Keeper} from "./keeper.js";
-import {lengthText, shown} from "./lengths.js";
+import {shown, withUnit} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
@@ -170,7 +170,7 @@ function finalOptions() {
 function heightNote() {
   const {isHeightLocked, options} = doc.now;
   return last && !last.is_height_met && isHeightLocked
-    ? `A height of ${lengthText(options.height)} ${shown.unit} is out of reach here.` : "";
+    ? `A height of ${withUnit(options.height)} is out of reach here.` : "";
 }
 
 const baseName = () => (doc.now.input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");

@@ -2,7 +2,7 @@
 // line of the section. Places are in mm from the middle of the piece.
 
 import {clamp, make, scaleOfType} from "./controls.js";
-import {lengthText, shown} from "./lengths.js";
+import {withUnit} from "./lengths.js";
 import {sizeOf} from "./readouts.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
@@ -12,7 +12,6 @@ const STROKE = 5; // pixels by which the end strokes of a dimension stand out on
 
 const sub = (a, b) => [a[0] - b[0], a[1] - b[1]], dot = (a, b) => a[0] * b[0] + a[1] * b[1];
 const length = (a, b) => Math.hypot(b[0] - a[0], b[1] - a[1]);
-const withUnit = (mm, decimals) => `${lengthText(mm, decimals)} ${shown.unit}`;
 
 let labels = []; // of the marks that are being drawn: {x, y, width}, of their middles
 
@@ -24,7 +23,7 @@ function freeHeight(x, y, width, row, picture) {
   return steps.flatMap((step) => [y - step, y + step]).find(isFree) ?? y;
 }
 
-const widthOf = (text) => (7.2 * text.length + 10) * scaleOfType(); // pixels of a label
+const widthOf = (text) => (7.6 * text.length + 12) * scaleOfType(); // pixels of a label
 
 // Returns the pixel where the label of a line stands above it, and covers nothing of it.
 function beside([x1, y1], [x2, y2], text) {

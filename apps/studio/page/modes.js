@@ -31,6 +31,7 @@ export class Modes {
 
   setTool(tool) {
     for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
+    $(`#tools [data-tool=${tool}]`).scrollIntoView({block: "nearest", inline: "nearest"}); // a phone has room for some
     $("#section").hidden = tool !== "section";
     this.cropFrame.show(tool === "crop");
     if (tool !== "light") this.setTable(false);

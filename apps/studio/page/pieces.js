@@ -22,8 +22,8 @@ const CHOICES = {round: "Round corners"}; // where a choice of the command line 
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
 const PREPARING = ["up", "points", "mode"];
 const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
-const PLACEHOLDERS = {up: "by itself", diameter: "as needed", plate: "as needed", shift: "0,0",
-  "rim-height": "as the relief", "rim-bevel": "by itself"};
+const PLACEHOLDERS = {up: "automatic", diameter: "as needed", plate: "as needed", shift: "0,0",
+  "rim-height": "as the relief", "rim-bevel": "automatic"};
 // What rows of shapes are for; the help of their options tells how their texts are written.
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};

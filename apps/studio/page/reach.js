@@ -1,16 +1,15 @@
 // The largest height that can be reached: marks it on the slider, and names what limits it where a height is out of
 // reach, with a button that loosens it.
 
-import {$, make} from "./controls.js";
+import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
-import {lengthText, shown} from "./lengths.js";
+import {withUnit} from "./lengths.js";
 
 // Changes that may let a relief be higher, with the words for what limits it, the mildest first.
 const LOOSER = [
-  {limit: "the steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
-  {limit: "the tone curve", action: "Drop the tone curve", part: {tone: ""}},
+  {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
+  {limit: "The tone curve", action: "Drop the tone curve", part: {tone: ""}},
 ];
-const withUnit = (mm) => `${lengthText(mm)} ${shown.unit}`;
 const WORTH = 1.02; // so many times the height
 
 export class Reach {
@@ -60,11 +59,10 @@ export class Reach {
       if (key !== this.key) return; // something else is shown, perhaps another document
       if (reach > this.reach * WORTH && !best) best = looser;
     }
-    const at = withUnit(most);
-    const text = best ? `${best.limit[0].toUpperCase()}${best.limit.slice(1)} keeps it at ${at}.`
-      : `This view reaches ${at} at most.`;
+    const at = unbroken(withUnit(most));
+    const text = best ? [`${best.limit} keeps the height at `, at, "."] : ["This view reaches ", at, " at most."];
     const act = best ? () => this.doc.change({options: best.part}) : this.chooseView;
     const button = make("button", {class: "quiet", onclick: act}, best?.action ?? "Choose view");
-    $("#reach").replaceChildren(text, " ", button);
+    $("#reach").replaceChildren(...text, " ", button);
   }
 }

@@ -1,7 +1,7 @@
 // The numbers in the status line, and the chart of the section.
 
-import {$, clamp, count, make, scaleOfType} from "./controls.js";
-import {lengthText, millimetresPerUnit, shown} from "./lengths.js";
+import {$, clamp, count, make, scaleOfType, unbroken} from "./controls.js";
+import {lengthText, millimetresPerUnit, shown, sizeText, withUnit} from "./lengths.js";
 
 const FEWEST = 6; // pictures in a second from which their number is told
 
@@ -28,10 +28,10 @@ export function showNumbers({about, ms, isFine, height, size, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
   const points = facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points   ·   `;
-  const parts = [`height ${height} ${shown.unit}`,
-    `piece ${size.map((mm) => lengthText(mm)).join(" × ")} ${shown.unit}`,
+  const parts = [`height ${height} ${shown.unit}`, `piece ${sizeText(size)}`,
     times.length >= FEWEST ? `${times.length} frames/s` : "", !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
-  $("#numbers").replaceChildren(make("span", {class: "points"}, points ?? ""), parts.filter(Boolean).join("   ·   "));
+  $("#numbers").replaceChildren(make("span", {class: "points"}, points ?? ""),
+    ...parts.filter(Boolean).flatMap((part, i) => (i > 0 ? ["   ·   ", unbroken(part)] : [unbroken(part)])));
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
   const solves = about.solves > 0 ? [`${time("heights", about.heights_ms)} in ${about.solves} solves`] : [];
   const spent = [...solves, time("detail", about.detail_ms), time("normals", about.normals_ms),
@@ -50,7 +50,7 @@ export function paperWords({alpha, beta, u}, gamma) {
 export function showToolReach(tool) {
   $("#tool-reach").textContent = !tool ? "" :
     `The tool reaches ${(100 * tool.share).toFixed(1)} % of the front, and leaves up to ` +
-    `${lengthText(tool.left_mm)} ${shown.unit}: orange to red on the piece.`;
+    `${withUnit(tool.left_mm)}: orange to red on the piece.`;
 }
 
 // Returns round values between two, about so many.
@@ -98,7 +98,7 @@ function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {
   svg.onpointermove = ({clientX}) => {
     const share = (clientX - svg.getBoundingClientRect().left - x(0)) / (x(length) - x(0));
     const i = Math.round(clamp(share, 0, 1) * (heights.length - 1)), mm = i / (heights.length - 1) * length;
-    const text = `${lengthText(mm)} ${shown.unit} along, height ${lengthText(heights[i])} ${shown.unit}`;
+    const text = `${withUnit(mm)} along, height ${withUnit(heights[i])}`;
     const [gap, anchor] = share < 0.5 ? [8, "start"] : [-8, "end"];
     reading.replaceChildren(make("path", {class: "line", d: `M${x(mm)} ${top}V${bottom}`}),
       make("circle", {class: "line", cx: x(mm), cy: y(heights[i]), r: 3}),

@@ -84,7 +84,7 @@ export class ShapeRow {
   field(name, about) {
     const attributes = {"aria-label": `${this.label}: ${about.label}`, autocomplete: "off"};
     const input = make("input", about.isWord ? {...attributes, type: "checkbox"}
-      : {...attributes, inputmode: "decimal", placeholder: about.otherwise ?? "by itself"});
+      : {...attributes, inputmode: "decimal", placeholder: about.otherwise ?? "automatic"});
     input.onchange = () => this.changed(name, about, input);
     input.onkeydown = ({key}) => {
       if (key === "Escape") this.show(this.shown.text);

@@ -1,10 +1,10 @@
 // The sliders on the page, with the lock of the height: shows the document's values, and changes them.
 
 import {defaultOf} from "./about.js";
-import {$, Slider, lockButton} from "./controls.js";
+import {$, Slider, lockButton, make} from "./controls.js";
 import {FIRST} from "./document.js";
 import {FIELDS} from "./fields.js";
-import {lengthText, shown} from "./lengths.js";
+import {withUnit} from "./lengths.js";
 
 const SHAPING = ["detail", "boundary", "steepest", "steps"]; // of which a lithophane has none: depth alone makes it
 
@@ -13,14 +13,15 @@ export class Sliders {
   constructor({doc, frame, say}) {
     Object.assign(this, {doc, frame});
     this.lock = lockButton(() => this.toggleLock());
-    const make = ([name, field]) => new Slider(
+    const sliderOf = ([name, field]) => new Slider(
       {...field, extra: name === "height" ? this.lock : null, otherwise: FIRST.options[name]},
       (value) => this.slide(name, value), () => doc.endStroke(name), say);
-    this.all = Object.fromEntries(Object.entries(FIELDS).map((field) => [field[0], make(field)]));
+    this.all = Object.fromEntries(Object.entries(FIELDS).map((field) => [field[0], sliderOf(field)]));
     for (const [name, slider] of Object.entries(this.all)) {
       slider.number.dataset.option = name;
       $(FIELDS[name].place).append(slider.element);
     }
+    this.all.height.element.append(make("p", {id: "reach", class: "note", role: "status"}));
   }
 
   // The elements by the names of their options.
@@ -36,7 +37,7 @@ export class Sliders {
   showWidth() {
     const most = this.frame()?.most_width_mm ?? null;
     this.all.width.show(this.shownWidth());
-    this.all.width.showMark(most, most && `The plate leaves ${lengthText(most)} ${shown.unit}`);
+    this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
   }
 
   slide(name, value) {

@@ -19,7 +19,7 @@ export class Tour {
     this.next = make("button", {class: "primary", onclick: () => this.show(this.step + 1)}, "Next");
     this.element = make("div", {class: "tour", role: "dialog", "aria-label": "Tour", hidden: true}, this.text,
       make("div", {class: "buttons"}, this.next,
-        make("button", {class: "quiet", onclick: () => this.end()}, "Close")));
+        this.close = make("button", {class: "quiet", onclick: () => this.end()}, "Close")));
     this.element.onkeydown = (event) => {
       event.stopPropagation();
       if (event.key === "Escape") this.end();
@@ -46,23 +46,24 @@ export class Tour {
     if (step === STEPS.length) return this.end();
     this.step = step;
     this.text.replaceChildren(make("b", {}, `${step + 1} of ${STEPS.length}`), make("br"), STEPS[step].text);
-    this.next.textContent = step + 1 < STEPS.length ? "Next" : "Done";
+    this.close.hidden = step + 1 === STEPS.length;
+    this.next.textContent = this.close.hidden ? "Done" : "Next";
     document.querySelector(".toured")?.classList.remove("toured");
     const part = $(STEPS[step].at);
     part.closest("details")?.setAttribute("open", "");
     part.classList.add("toured");
-    part.scrollIntoView({block: "nearest"});
     this.element.hidden = false;
     this.place();
     this.next.focus();
   }
 
-  // Beside the part where there is room, else over its middle.
+  // Beside the part where there is room, else over its lower end.
   place() {
+    $(STEPS[this.step].at).scrollIntoView({block: "nearest"});
     const part = $(STEPS[this.step].at).getBoundingClientRect(), own = this.element.getBoundingClientRect();
     const within = (x, most) => Math.max(EDGE, Math.min(x, most - EDGE));
     const isLeft = part.left > own.width + 2 * GAP, isAbove = part.top > own.height + 2 * GAP;
-    let left = part.left + (part.width - own.width) / 2, top = part.top + (part.height - own.height) / 2;
+    let left = part.left + (part.width - own.width) / 2, top = part.bottom - own.height - GAP;
     if (isLeft && part.height > own.height) left = part.left - own.width - GAP;
     else if (isAbove) top = part.top - own.height - GAP;
     else if (part.bottom + own.height + GAP < innerHeight) top = part.bottom + GAP;

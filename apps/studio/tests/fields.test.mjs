@@ -246,7 +246,7 @@ test("tells the same height and thickness everywhere", {skip}, async () => {
   await page.getByRole("radio", {name: "Light", exact: true}).click();
   await page.getByLabel("Outline", {exact: true}).selectOption("round");
   await set("Height in mm", 300);
-  await page.locator("#reach").getByText(/at most|keeps it at/).waitFor();
+  await page.locator("#reach").getByText(/at most|keeps the height at/).waitFor();
   const {shown, exported} = await toldSizes();
   assert.deepEqual(shown, exported);
   assert.ok(Math.abs(shown[1] - shown[0] - 3) < 0.006, `${shown}`);
@@ -268,7 +268,7 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   const limited = await reachable();
   assert.ok(limited < most, `${limited} of ${most}`);
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
-  await reach.getByText(/The steepest wall keeps it at [\d.]+ mm/).waitFor();
+  await reach.getByText(/The steepest wall keeps the height at [\d.]+ mm/).waitFor();
   assert.equal(await field("Height in mm").getAttribute("aria-invalid"), "true");
   const reached = (await reach.innerText()).match(/[\d.]+ mm/)[0];
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
@@ -287,7 +287,7 @@ test("names the tone curve and the view where they limit the height, and loosens
   const reach = page.locator("#reach"), preset = page.getByRole("combobox", {name: "Tone curve preset"});
   await preset.selectOption("Fine detail first");
   await set("Height in mm", 2000);
-  await reach.getByText(/^The tone curve keeps it at [\d.]+ mm\./).waitFor();
+  await reach.getByText(/^The tone curve keeps the height at [\d.]+ mm\./).waitFor();
   await reach.getByRole("button", {name: "Drop the tone curve"}).click();
   assert.equal(await preset.inputValue(), "");
   await reach.getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();

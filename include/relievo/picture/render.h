@@ -38,7 +38,7 @@ struct RenderOptions {
   Camera camera;
   Material material = Material::plaster;
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate; not zero
-  bool has_shadows = true;        // cast by the relief on itself
+  bool has_shadows = true;        // cast by the relief on itself, and darker hollows
   bool is_fine = false;           // nine samples per pixel and finer shadows, for about five times the time
 
   bool operator==(const RenderOptions&) const = default;
