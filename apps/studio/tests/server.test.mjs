@@ -314,6 +314,49 @@ test("keeps a document as it is while the opening of another is cancelled", asyn
   await engine.untilIdle();
 });
 
+// Copies a generated scan with all vectors turned about x, from y upright to z upright, as many scanners have it.
+function writeUpright(scan, file) {
+  const bytes = readFileSync(scan);
+  const start = bytes.indexOf("end_header\n") + "end_header\n".length;
+  for (let at = start; at < bytes.length; at += 12) { // places and normals alike: three floats
+    const [y, z] = [bytes.readFloatLE(at + 4), bytes.readFloatLE(at + 8)];
+    bytes.writeFloatLE(-z, at + 4);
+    bytes.writeFloatLE(y, at + 8);
+  }
+  writeFileSync(file, bytes);
+}
+
+test("finds the face of a scan, and sets it upright, whichever way the scanner held it", async () => {
+  const face = path.join(folder, "face.ply"), turned = path.join(folder, "turned_face.ply"), found = [];
+  writeSample("green_man", 20000, face);
+  writeUpright(face, turned);
+  for (const scan of [face, turned]) {
+    const {document} = await engine.json("open", {input: {path: scan}, view: "auto"});
+    engine.document = document;
+    found.push({view: (await engine.untilIdle()).shown.view, ...await facts()});
+  }
+  assert.equal(found[0].view, "front");
+  assert.equal(found[1].view, "bottom");
+  assert.deepEqual(found[1].rotation.map(Math.abs), [1, 0, 0, 0, 0, 1, 0, 1, 0]);
+  assert.equal(found[1].rotation[5], 1); // what was upwards in the scan is so on the relief
+  for (const i of [0, 1]) assert.ok(Math.abs(found[1].size[i] / found[0].size[i] - 1) < 0.01, `${found[1].size}`);
+  await engine.open({path: scan});
+});
+
+test("stops at the stage at which it is cancelled", async () => {
+  const large = path.join(folder, "large.ply");
+  writeSample("shell", 300000, large);
+  for (const stage of ["spacing", "curvature", "factorisation"]) {
+    const {document} = await engine.json("open", {input: {path: large}, view: "left"});
+    let now;
+    do now = await engine.json("status", {document}); while (now.busy && now.stage !== stage);
+    await engine.post("cancel", {document});
+    do now = await engine.json("status", {document}); while (now.busy);
+    assert.deepEqual([now.stage, now.error?.kind, now.model], [stage, "cancelled", 0]);
+  }
+  await stillWorks();
+});
+
 test("opens scenes, and exports what make makes of them", async () => {
   const scene = path.join(folder, "scene.json"), out = path.join(folder, "scene.stl");
   writeFileSync(scene, JSON.stringify({models: [
