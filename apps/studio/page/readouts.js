@@ -1,6 +1,6 @@
 // The numbers in the status line, and the chart of the section.
 
-import {$, clamp, count, make, scaleOfType, unbroken} from "./controls.js";
+import {$, clamp, count, make, scaleOfType} from "./controls.js";
 import {lengthText, millimetresPerUnit, shown, sizeText, withUnit} from "./lengths.js";
 
 const FEWEST = 6; // pictures in a second from which their number is told
@@ -27,11 +27,13 @@ export function sizeOf(about, step) {
 export function showNumbers({about, ms, isFine, height, size, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
-  const points = facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points   ·   `;
-  const parts = [`height ${height} ${shown.unit}`, `piece ${sizeText(size)}`,
-    times.length >= FEWEST ? `${times.length} frames/s` : "", !isFine && ms ? `${ms.toFixed(0)} ms` : ""];
-  $("#numbers").replaceChildren(make("span", {class: "points"}, points ?? ""),
-    ...parts.filter(Boolean).flatMap((part, i) => (i > 0 ? ["   ·   ", unbroken(part)] : [unbroken(part)])));
+  const parts = [
+    [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`, "minor"],
+    [`height ${height} ${shown.unit}`], [`piece ${sizeText(size)}`],
+    [times.length >= FEWEST && `${times.length} frames/s`, "minor"],
+    [!isFine && ms && `${ms.toFixed(0)} ms`, "minor"]];
+  $("#numbers").replaceChildren(...parts.filter(([text]) => text).map(([text, kind]) =>
+    make("span", {class: kind}, text)));
   const time = (name, spent) => `${name} ${spent.toFixed(1)} ms`;
   const solves = about.solves > 0 ? [`${time("heights", about.heights_ms)} in ${about.solves} solves`] : [];
   const spent = [...solves, time("detail", about.detail_ms), time("normals", about.normals_ms),
