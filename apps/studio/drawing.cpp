@@ -195,6 +195,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   answer.most_width_mm = plate_width_.most_mm();
   if (request.is_original) {
     options.has_shadows = false;  // the model's own depth would bury the ground in them
+    options.material = Material::plaster;  // whatever the piece is made of
     renderer_.render(renderer_.original(), options, answer.picture);
     answer.is_finished = true;
     return answer;

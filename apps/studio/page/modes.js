@@ -31,7 +31,8 @@ export class Modes {
 
   setTool(tool) {
     for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
-    $(`#tools [data-tool=${tool}]`).scrollIntoView({block: "nearest", inline: "nearest"}); // a phone has room for some
+    const row = $(".tools"); // of which a phone shows a part
+    if (row.scrollWidth > row.clientWidth) $(`#tools [data-tool=${tool}]`).scrollIntoView({inline: "nearest"});
     $("#section").hidden = tool !== "section";
     this.cropFrame.show(tool === "crop");
     if (tool !== "light") this.setTable(false);
