@@ -75,9 +75,9 @@ export class ExportDialog {
     const texts = this.piece ? sizes(this.piece, this.pixels) : {};
     for (const {name} of about.formats) $(`#size-${name}`).textContent = texts[name] ?? "";
     const {size_mm: size, triangles} = this.piece ?? {};
-    const facts = this.piece ? [`${sizeText(size)}, `, `relief ${this.heightText} ${shown.unit} high, `,
+    const facts = this.piece ? [`${sizeText(size)},`, `relief ${this.heightText} ${shown.unit} high,`,
       `${triangles.toLocaleString("en-US")} triangles`] : [];
-    $("#export-size").replaceChildren(...facts.map(unbroken));
+    $("#export-size").replaceChildren(...facts.flatMap((text) => [unbroken(text), " "]));
   }
 
   // Shows the progress of the piece that the engine makes.
