@@ -32,7 +32,7 @@ struct NumericOptions {
   double margin_mm = 5;                  // least flat ground around the relief
   double thickness_mm = 3;               // smallest thickness of the plate
   std::optional<double> rim_mm;          // width of a raised edge along the outline; none
-  std::optional<double> rim_height_mm;   // above the ground; the relief's height, at most the rim's width
+  std::optional<double> rim_height_mm;   // above the ground; the relief's height, as far as the bevel fits
   std::optional<double> rim_bevel_mm;    // width of its slanting inner side; 0.3 of its height
   double points = 3e5;                   // visible points to take from what is no cloud
   std::optional<double> resolution_mm;   // step of the solid's samples; width / 700 or rho if that is less

@@ -43,9 +43,9 @@ BaseOptions formed_base(const ReliefOptions& options) {
 RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
-  const double width = *options.rim_mm, highest = std::min({width, width / lean, relief_mm}),
-               height = options.rim_height_mm.value_or(highest),
-               bevel = std::min(width, options.rim_bevel_mm.value_or(lean * height));
+  const double width = *options.rim_mm, most = width / lean,  // at which the bevel takes all of the width
+      height = options.rim_height_mm.value_or(options.rim_bevel_mm ? relief_mm : std::min(most, relief_mm)),
+               bevel = std::min(width, options.rim_bevel_mm.value_or(height < most ? lean * height : width));
   return {width, options.form == Form::die ? -height : height, bevel};
 }
 

@@ -198,7 +198,7 @@ std::vector<ReliefField> plate_rows() {
                    .01, 1e5, "none"},
                   &OptionTexts::rim_mm},
       ReliefField{{"rim-height", "MM", "height of the rim above the ground", .001, 1e5,
-                   "the relief's height, at most the rim's width"},
+                   "the relief's height, as far as the rim is wide enough for its bevel"},
                   &OptionTexts::rim_height_mm},
       ReliefField{
           {"rim-bevel", "MM", "width of the rim's slanting inner side", .001, 1e5, "0.3 of the rim's height"},

@@ -44,12 +44,19 @@ double rim_height(const MadeRelief& relief) {
   return highest - 3 - relief.report.below_ground_mm;
 }
 
-TEST(MakePlates, ARimIsAsHighAsTheReliefButNoHigherThanWide) {
+TEST(MakePlates, ARimIsAsHighAsTheReliefIfItsBevelFits) {
   ReliefOptions options = coin_options();
-  EXPECT_NEAR(rim_height(made(options)), .8, 1e-3);
-  options.rim_mm = .5;
+  for (const double width : {2., .5}) {
+    options.rim_mm = width;
+    EXPECT_NEAR(rim_height(made(options)), .8, 1e-3) << width;
+  }
+  options.rim_mm = .15;  // its bevel is .3 of its height
   EXPECT_NEAR(rim_height(made(options)), .5, 1e-12);
+  options.rim_bevel_mm = .1;
+  EXPECT_NEAR(rim_height(made(options)), .8, 1e-3);
+  options.rim_bevel_mm = {};
   options.rim_height_mm = 1.5;
+  options.rim_mm = .5;
   EXPECT_NEAR(rim_height(made(options)), 1.5, 1e-12);
 }
 
