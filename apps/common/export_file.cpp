@@ -66,11 +66,11 @@ nlohmann::json format_list() {
   return list;
 }
 
-ExportedFile export_file(const MadeRelief& made, const FileFormat& format, int heightmap_px) {
+ExportedFile export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order) {
   const auto bytes = [&] {
     if (format.write_solid) return format.write_solid(made.solid);
-    if (format.name == "preview") return write_png(render_preview(made.solid, {}));
-    return height_map_file(made, {heightmap_px, format.name == "tiff"});
+    if (format.name == "preview") return write_png(render_preview(made.solid, {.material = order.material}));
+    return height_map_file(made, {order.heightmap_px, format.name == "tiff"});
   };
   return {text_of(bytes()), std::string(format.type)};
 }

@@ -9,6 +9,7 @@
 
 #include "relievo/core/length.h"
 #include "relievo/make_relief.h"
+#include "relievo/picture/material.h"
 
 namespace relievo::app {
 
@@ -39,9 +40,13 @@ struct ExportedFile {
   std::string bytes, type;
 };
 
-// Returns the relief as a file of that format, the bytes that `relievo make` writes. `heightmap_px` is the
-// longer side of a height map.
-ExportedFile export_file(const MadeRelief& made, const FileFormat& format, int heightmap_px);
+struct ExportOrder {
+  int heightmap_px = 2048;                // the longer side of a height map
+  Material material = Material::plaster;  // of the picture
+};
+
+// Returns the relief as a file of that format, the bytes that `relievo make` writes if the material is plaster.
+ExportedFile export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order);
 
 struct HeightMapOrder {
   int longer_side_px = 1024;

@@ -347,7 +347,7 @@ Result<ExportedFile> Engine::make_file(const FileRequest& request) {
     return not_one_of("format", names, request.format);
   }
   RELIEVO_TRY(const auto made, piece(request.options, request.key));
-  return export_file(*made, *known, request.heightmap_px);
+  return export_file(*made, *known, request.order);
 }
 
 Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, const std::string& key,

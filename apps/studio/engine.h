@@ -43,7 +43,7 @@ struct FileRequest {
   ReliefOptions options;
   std::string key;     // the options as text: equal for equal options
   std::string format;  // one of file_formats()
-  int heightmap_px = 2048;
+  ExportOrder order;
 };
 
 // Every method may be called from any thread. Those that draw wait for each other.

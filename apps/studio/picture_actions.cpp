@@ -161,12 +161,12 @@ void Actions::cancel_piece(const Json& json, Answer& to) {
 void Actions::make_file(const Json& json, Answer& to) {
   const Result<ReliefOptions> wanted = options_from_json(json.value("options", Json()), "options");
   if (!wanted) return answer(to, wanted.error());
-  const Result<int> pixels = pixels_from(json);
-  if (!pixels) return answer(to, pixels.error());
+  const Result<ExportOrder> order = export_order_from(json);
+  if (!order) return answer(to, order.error());
   const auto engine = engine_of(json, to);
   if (!engine) return;
   Result<ExportedFile> file =
-      engine->make_file({*wanted, json["options"].dump(), json.value("format", ""), *pixels});
+      engine->make_file({*wanted, json["options"].dump(), json.value("format", ""), *order});
   if (!file) return answer(to, file.error());
   to = {200, std::move(file->type), std::move(file->bytes)};
 }

@@ -70,6 +70,15 @@ Result<Camera> camera_from(const Json& json) {
   return Camera{*yaw, *pitch, *zoom, {*x, *y}};
 }
 
+Result<Material> material_from(const Json& json) {
+  const Json material = json.value("material", Json("plaster"));
+  const std::string name = material.is_string() ? material.get<std::string>() : "";
+  const auto known = std::ranges::find(materials, std::string_view(name), &MaterialName::id);
+  if (known == materials.end())
+    return wrong("material", cat("expected a known material, found '", name, "'"));
+  return static_cast<Material>(known - materials.begin());
+}
+
 Result<RenderOptions> render_from(const Json& json) {
   const auto width = number(json, "width", {1, 8192, 800}), height = number(json, "height", {1, 8192, 600});
   if (!width || !height || *width * *height > most_pixels)
@@ -81,13 +90,7 @@ Result<RenderOptions> render_from(const Json& json) {
   const auto light = direction(json, "light");
   if (!light && json.contains("light")) return wrong("light", "expected three numbers, not all of them 0");
   if (light) render.light = light->cast<float>();
-  const std::string material = json.value("material", Json("plaster")).is_string()
-                                   ? json.value("material", Json("plaster")).get<std::string>()
-                                   : "";
-  const auto known = std::ranges::find(materials, std::string_view(material), &MaterialName::id);
-  if (known == materials.end())
-    return wrong("material", cat("expected a known material, found '", material, "'"));
-  render.material = static_cast<Material>(known - materials.begin());
+  RELIEVO_TRY(render.material, material_from(json));
   const Result<Camera> camera = camera_from(json.value("camera", Json::object()));
   if (!camera) return std::unexpected(camera.error());
   render.camera = *camera;
@@ -171,9 +174,11 @@ PreparationTexts preparation_texts(const Json& json) {
           number(json, "points", {1000, 1e7, none.points}).value_or(none.points)};
 }
 
-Result<int> pixels_from(const Json& json) {
-  if (const auto pixels = number(json, "pixels", {16, 16384, 2048})) return static_cast<int>(*pixels);
-  return wrong("pixels", "expected a number from 16 to 16384");
+Result<ExportOrder> export_order_from(const Json& json) {
+  const auto pixels = number(json, "pixels", {16, 16384, 2048});
+  if (!pixels) return wrong("pixels", "expected a number from 16 to 16384");
+  RELIEVO_TRY(const Material material, material_from(json));
+  return ExportOrder{static_cast<int>(*pixels), material};
 }
 
 static Json to_json(const PreparationTexts& texts) {

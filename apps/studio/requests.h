@@ -16,8 +16,8 @@ Result<PictureRequest> picture_request(const nlohmann::json& json);
 Result<Vec2> place_from(const nlohmann::json& json, const char* key);
 Result<View> view_from(const nlohmann::json& json);
 
-// Returns the longer side of a height map.
-Result<int> pixels_from(const nlohmann::json& json);
+// Returns the longer side of a height map, and the material of a picture.
+Result<ExportOrder> export_order_from(const nlohmann::json& json);
 
 // Returns the texts of a view as the page sends them; those that are missing have their defaults.
 PreparationTexts preparation_texts(const nlohmann::json& json);

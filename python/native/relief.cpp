@@ -84,7 +84,8 @@ py::bytes to_bytes(const SharedRelief& relief, const std::string& format, int he
     for (const app::FileFormat& each : app::file_formats()) names.push_back(each.name);
     raise(not_one_of("format", names, format).error());
   }
-  return bytes_of(unlocked([&] { return app::export_file(relief->made, *known, heightmap_px); }).bytes);
+  return bytes_of(
+      unlocked([&] { return app::export_file(relief->made, *known, {.heightmap_px = heightmap_px}); }).bytes);
 }
 
 py::array preview(const SharedRelief& relief, int size, const std::string& material) {

@@ -102,7 +102,7 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
 
   const auto made = make_relief(*model(), options);
   ASSERT_TRUE(made) << made.error().message();
-  const std::string bytes = app::export_file(*made, *app::find_format("stl"), 100).bytes;
+  const std::string bytes = app::export_file(*made, *app::find_format("stl"), {}).bytes;
   const auto solid =
       std::make_shared<const Solid>(solid_of(test::solid_in_stl(bytes), made->solid.ground_mm));
   Picture file;

@@ -22,8 +22,8 @@ function sizes({triangles, points, size_mm: [x, y]}, pixels) {
 const nameOf = (name, {form}) => (form && form !== "relief" ? `${name}-${form}` : name);
 
 export class ExportDialog {
-  // `current` returns {options, name, note, heightText}: what is to be made, a line about it, and a function that
-  // returns a height as the page shows it. `say` takes a line for people.
+  // `current` returns {options, name, material, note, heightText}: what is to be made, a line about it, and a function
+  // that returns a height as the page shows it. `say` takes a line for people.
   constructor(engine, current, say) {
     Object.assign(this, {engine, current, say, pixels: 2048, piece: null});
     this.dialog = $("#export-dialog");
@@ -77,7 +77,7 @@ export class ExportDialog {
     const {size_mm: size, triangles} = this.piece ?? {};
     const facts = this.piece ? [`${sizeText(size)},`, `relief ${this.heightText} ${shown.unit} high,`,
       `${triangles.toLocaleString("en-US")} triangles`] : [];
-    $("#export-size").replaceChildren(...facts.flatMap((text) => [unbroken(text), " "]));
+    $("#export-size").replaceChildren(...facts.flatMap((text) => [" ", unbroken(text)]).slice(1));
   }
 
   // Shows the progress of the piece that the engine makes.
@@ -109,13 +109,13 @@ export class ExportDialog {
 
   async go() {
     if (this.isBusy || !this.choosePixels()) return;
-    const {options, name} = this.current(), {formats} = this, typed = $("#export-name").value.replace(/[/\\]/g,
-      " ").trim();
+    const {options, name, material} = this.current(), {formats} = this;
+    const typed = $("#export-name").value.replace(/[/\\]/g, " ").trim();
     const saved = [];
     const isDone = await this.run("Writing the files …", async () => {
       for (const [i, {name: format, ending}] of formats.entries()) {
         $("#export-note").textContent = `Writing file ${i + 1} of ${formats.length} …`;
-        const file = await this.engine.exportFile({options, format, pixels: this.pixels});
+        const file = await this.engine.exportFile({options, format, pixels: this.pixels, material});
         if (!this.dialog.open) return;
         saved.push((typed || nameOf(name, options)) + ending);
         download(file, saved.at(-1));
