@@ -86,7 +86,8 @@ float smooth_noise(float x, float y, int period = 0) {
 }
 
 // Patches of patina, in [-0.75, 0.75]: noise of 3 mm and of half a millimetre, repeating after 64 mm. Their grids stand
-// slantwise, as the eye finds grids that are level. A table, because the noise itself would take half of a picture's time.
+// slantwise, as the eye finds grids that are level. A table, because the noise itself would take half of a picture's
+// time.
 class Patches {
  public:
   Patches() : values_(static_cast<std::size_t>(side) * side) {
@@ -99,7 +100,7 @@ class Patches {
   }
 
   float at(float x_mm, float y_mm) const {
-    constexpr float before = 1 << 16;  // makes it positive: to round it down would take a call
+    constexpr float before = 1 << 16;  // makes it positive within 8 m: to round it down would take a call
     const float x = x_mm * per_mm + before, y = y_mm * per_mm + before;
     const int i = static_cast<int>(x), j = static_cast<int>(y);
     const float s = x - static_cast<float>(i), t = y - static_cast<float>(j);

@@ -75,10 +75,10 @@ TEST(Shading, NothingIsClippedOnLevelGround) {
 // The patches of patina repeat after 64 mm, on both sides of the middle.
 TEST(Shading, PatinaHasNoSeamInTheMiddle) {
   Lit place = level_at(0, 0), again = place;
-  for (const float x : {-1.F, 0.F, 5.5F}) {
+  for (const float x : {-1.F, 0.F, 5.5F, -.95F, 5.47F}) {
     place.place = {x, 2, 0};
     again.place = {x - 64, 2 + 64, 0};
-    EXPECT_EQ(brightness(Material::bronze, place), brightness(Material::bronze, again));
+    EXPECT_NEAR(brightness(Material::bronze, place), brightness(Material::bronze, again), 1e-4);
   }
 }
 

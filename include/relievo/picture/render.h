@@ -93,7 +93,7 @@ class FrameRenderer {
   std::unique_ptr<State> state_;
 };
 
-// Draws a cloud from any side, for choosing a view: its points as squares, somewhat wider than they lie apart.
+// Draws a cloud from any side, for choosing a view: its points as discs that overlap.
 class CloudRenderer {
  public:
   // Copies at most `most_points` of the cloud's points; estimates normals if there are none.
