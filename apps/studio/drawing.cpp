@@ -78,9 +78,11 @@ Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const Relie
                                   options.shift_mm.y()};
   if (sizes != sizes_ || !most_mm_) {
     sized.width_mm.reset();
-    RELIEVO_TRY(const ReliefOptions largest, relievo::with_width(surface, sized));
+    const auto largest = relievo::with_width(surface, sized);
+    if (!largest)
+      return relievo::with_width(surface, options);  // whose error names the width that was asked for
     sizes_ = sizes;
-    most_mm_ = largest.width_mm;
+    most_mm_ = largest->width_mm;
   }
   sized.width_mm = options.width_mm.value_or(*most_mm_);
   if (*sized.width_mm > *most_mm_)
@@ -194,7 +196,7 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   answer.width_mm = request.options.effective_width_mm();
   answer.most_width_mm = plate_width_.most_mm();
   if (request.is_original) {
-    options.has_shadows = false;  // the model's own depth would bury the ground in them
+    options.has_shadows = false;           // the model's own depth would bury the ground in them
     options.material = Material::plaster;  // whatever the piece is made of
     renderer_.render(renderer_.original(), options, answer.picture);
     answer.is_finished = true;

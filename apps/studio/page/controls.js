@@ -53,7 +53,8 @@ export function nextValue(value, direction, isFine, least) {
 
 // A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
 // spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets `otherwise`. Calls
-// onInput(value) while the slider moves, onEnd() when a movement is over, and say(text) if a number is refused.
+// onInput(value, isTyped) while the slider moves, onEnd() when a movement is over, and say(text) if a number is
+// refused.
 export class Slider {
   constructor(field, onInput, onEnd, say) {
     Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd, say});
@@ -107,7 +108,7 @@ export class Slider {
     const value = typedNumber(this.number.value, this, this.say);
     this.exact = value === null ? this.exact : Number(value.toFixed(4));
     if (value === null) this.show(this.value);
-    else this.moved(this.exact);
+    else this.moved(this.exact, true);
     this.onEnd();
   }
 
@@ -153,9 +154,9 @@ export class Slider {
     return Math.round(this.spread.to(clamp(value, ...this.hand), ...this.hand) * STEPS);
   }
 
-  moved(value) {
+  moved(value, isTyped = false) {
     this.show(value);
-    this.onInput(value === this.exact ? value : this.rounded(value));
+    this.onInput(value === this.exact ? value : this.rounded(value), isTyped);
   }
 
   // Returns the value that the shown number stands for.

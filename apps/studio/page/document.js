@@ -188,7 +188,7 @@ const usualHeight = ({form, width}) => (form === "lithophane" ? 2.4 : 0.05 * (wi
 export function stepOfProject({input, options: {alpha, ...options} = {}, studio = {}}) {
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
   const rules = Object.fromEntries(BY_METHOD.map((name) => [name, defaultOf(name, method)]));
-  const usual = {...FIRST.options, ...rules, method, height: usualHeight(options)};
+  const usual = {...FIRST.options, ...rules, method, width: null, height: usualHeight(options)};
   const step = {...FIRST, input, options: {...usual, ...options}};
   if (options.height === undefined && method === "paper") {
     step.isHeightLocked = false;

@@ -44,7 +44,8 @@ const stage = new Stage(engine, doc,
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const exporting = new ExportDialog(engine,
-  () => ({options: finalOptions(), name: baseName(), note: heightNote(), heightText}), toast);
+  () => ({options: finalOptions(), name: baseName(), material: doc.now.material, note: heightNote(), heightText}),
+  toast);
 const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: refuse});
 const pieces = new PieceRows({engine, doc, say: refuse, shownWidth, redraw: stateCame});
@@ -52,7 +53,10 @@ const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished ==
 const kinds = new KindCards({engine, doc, isAtRest});
 const kindPanel = new KindPanel({doc, elements: {...pieces.elements, ...sliders.elements}});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
-const tour = new Tour();
+const tour = new Tour(() => {
+  if (facts && !$("#start").hidden) showStart(false);
+  return facts !== null;
+});
 const scenePanel = new ScenePanel({say: refuse, open: (models) =>
   projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed)});
 
@@ -197,7 +201,7 @@ function pictured(frame, ms, isFine) {
   clearTimeout(pictureTimer);
   if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
-  if (opened.isReady) reach.pictured(frame, isFine);
+  if (opened.isReady) reach.pictured(frame, isFine, stage.model);
   if (isFine && opened.isReady) kinds.pictured(stage.model);
   if (isFine) showToolReach(frame.tool);
   sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
@@ -272,7 +276,7 @@ async function arrived(status) {
 let reopening = 0;
 function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
-  if (placing.squeeze(error)) return stateCame();
+  if (placing.fit(error, last)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return toast(error.kind === "option" ? inWords(error.message) : error.message);
   clearTimeout(reopening);
@@ -331,7 +335,7 @@ function wire() {
   click("#export", () => exporting.open());
   click("#help", () => help.showModal());
   const help = $("#help-dialog");
-  help.onclose = () => help.returnValue === "tour" && facts && tour.start();
+  tour.follow(help);
   click("#home", () => showStart(true));
   click("#back", () => showStart(false));
   click("#cancel", () => opened.cancel().catch(failed));

@@ -49,15 +49,25 @@ export class Placing {
   // Turns the figure by degrees, to the left for positive ones, as seen.
   turn(degrees) {
     const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
-    if (angle !== 0) this.doc.change({options: viewTurned(this.doc.now.options, this.isMirrored ? -angle : angle)});
+    if (angle === 0) return;
+    const {options} = this.doc.now;
+    if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
+    this.doc.change({options: viewTurned(options, this.isMirrored ? -angle : angle)});
   }
 
-  // Takes the error of a picture. A figure that is too large for its plate becomes as large as fits, in the step that
-  // left it too little room. Returns whether it was that.
-  squeeze({kind, message}) {
-    const {width} = this.doc.now.options, [, found] = message.match(/^width:.* found ([\d.e+-]+) mm$/) ?? [];
-    const isThis = kind === "option" && width !== null && Math.abs(found / width - 1) < 1e-4; // the step may be another
-    if (!isThis) return false;
+  // Takes the error of the newest picture, and the numbers of the one that is shown. A figure that was moved too far
+  // stays where it is shown; one that is too large for its plate becomes as large as fits, in the step that left it too
+  // little room. Returns whether it was that.
+  fit({kind, message}, shown) {
+    if (kind !== "option" || !message.startsWith("width:")) return false;
+    const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;
+    const isMoved = before?.width === width && before.shift !== shift;
+    if (isMoved && shown && shown.shift !== shift) {
+      this.doc.note({options: {shift: shown.shift}});
+      if (this.doc.stroke === null) this.say("The plate has no room for the figure there: it stays where it is.");
+      return true;
+    }
+    if (width === null) return false;
     this.doc.note({options: {width: null}});
     this.say("The figure was too large for its plate: now it is as large as fits.");
     return true;

@@ -24,15 +24,15 @@ export class Reach {
     $("#reach").replaceChildren();
   }
 
-  // Called with each picture; a fine one comes when things rest. The reach does not depend on the height: it is
-  // asked for when something else changes.
-  async pictured(frame, isFine) {
+  // Called with each picture of a model; a fine one comes when things rest. The reach does not depend on the height: it
+  // is asked for when something else changes.
+  async pictured(frame, isFine, model) {
     const isMissed = this.doc.now.isHeightLocked && !frame.is_height_met;
     this.slider().complain(isMissed ? `Out of reach: the relief is ${withUnit(frame.height_mm)} high` : "");
     if (!isFine) return;
     if (frame.is_height_met) $("#reach").replaceChildren();
     if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
-    const {height, ...rest} = shownOptions(this.doc.now), key = JSON.stringify(rest);
+    const {height, ...rest} = shownOptions(this.doc.now), key = `${model} ${JSON.stringify(rest)}`;
     if (key !== this.key) {
       this.key = key;
       try {

@@ -90,7 +90,7 @@ export function showSection(heights, from, to) {
     make("path", {class: "line", d: `M${points}`}), reading);
   showReadings(svg, reading, {heights, length, x, y, top, bottom});
   const times = (height / (high - low)) / (width / length), text = (z) => lengthText(z);
-  $("#section-text").textContent = `Section, ${lengthText(length, 1)} ${shown.unit} long, ` +
+  $("#section-text").textContent = `Section, ${withUnit(length, 1)} long, ` +
     `from ${text(low)} to ${text(high)} ${shown.unit}; heights are drawn ${times.toFixed(1)} times as large as lengths`;
 }
 

@@ -109,7 +109,7 @@ export class ScanPanel {
       if (crumbs > 0 && /small piece/.test(text)) notes.push([about, "Keep them", {crumbs: "keep"}]);
       else if (plane && /with plane/.test(text))
         notes.push(plane.is_left_out ? [about, "Keep it", {plane: "keep"}] : [about, "Leave it out", {plane: "drop"}]);
-      else if (noise > 0 && /^Removed noise/.test(text)) notes.push([about, "Keep it", {denoise: "0"}]);
+      else if (noise > 0 && /^Removed noise/.test(text)) notes.push([about, "Keep the noise", {denoise: "0"}]);
       else notes.push([text]);
     }
     if (options.crumbs === "keep") notes.push(["Small pieces are kept.", "Leave them out", {crumbs: "drop"}]);

@@ -11,17 +11,17 @@ const SHAPING = ["detail", "boundary", "steepest", "steps"]; // of which a litho
 export class Sliders {
   // `frame` returns the numbers of the newest picture, or null; `say` takes a line for people.
   constructor({doc, frame, say}) {
-    Object.assign(this, {doc, frame});
+    Object.assign(this, {doc, frame, say});
     this.lock = lockButton(() => this.toggleLock());
     const sliderOf = ([name, field]) => new Slider(
       {...field, extra: name === "height" ? this.lock : null, otherwise: FIRST.options[name]},
-      (value) => this.slide(name, value), () => doc.endStroke(name), say);
+      (...moved) => this.slide(name, ...moved), () => doc.endStroke(name), say);
     this.all = Object.fromEntries(Object.entries(FIELDS).map((field) => [field[0], sliderOf(field)]));
     for (const [name, slider] of Object.entries(this.all)) {
       slider.number.dataset.option = name;
       $(FIELDS[name].place).append(slider.element);
     }
-    this.all.height.element.append(make("p", {id: "reach", class: "note", role: "status"}));
+    this.all.height.element.after(make("p", {id: "reach", class: "note", role: "status"}));
   }
 
   // The elements by the names of their options.
@@ -40,11 +40,13 @@ export class Sliders {
     this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
   }
 
-  slide(name, value) {
+  slide(name, value, isTyped = false) {
     const part = {options: {[name]: value}}, most = this.frame()?.most_width_mm ?? Infinity, {doc} = this;
     if (name === "width" && value >= most) part.options.width = null; // as wide as the plate leaves
     if (name === "height") part.u = null; // to be found anew
     doc.change(part, name);
+    if (name === "width" && value > most && isTyped)
+      this.say(`The plate leaves ${withUnit(most)} for the longer side: the figure is as large as that.`);
     if (name === "width") this.showWidth();
     else if (doc.now.options[name] !== value) this.all[name].show(doc.now.options[name]); // the drag was taken back
   }

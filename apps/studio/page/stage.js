@@ -110,7 +110,7 @@ export class Stage {
     } catch (error) {
       if (error.kind !== "cancelled" && error.name !== "AbortError") {
         this.shown = this.fine = this.finished = number;
-        this.on.failed(error);
+        if (number === this.wanted) this.on.failed(error); // the newest state may have no such fault
       }
     }
     this.isBusy = false;
@@ -133,8 +133,14 @@ export class Stage {
   // Asks for the picture of the newest state. The last picture of a state shows the piece as it will be exported.
   ask(isFine, isLast) {
     const request = this.request({...this.pixels(isFine), fine: isFine, finished: isLast});
-    const frame = this.isTable ? null : this.engine.frame(request, {signal: this.unwanted?.signal});
+    const frame = this.isTable ? null : this.frame(request, this.unwanted?.signal);
     return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
+  }
+
+  // Returns a picture of the newest state, with the place of its figure among its numbers.
+  async frame(request, signal) {
+    const {shift} = this.doc.now.options, {image, about} = await this.engine.frame(request, {signal});
+    return {image, about: {...about, shift}};
   }
 
   // While things move, the engine makes the next picture when this one is shown.
@@ -165,7 +171,7 @@ export class Stage {
     const {width, height} = this.pixels(isFine), {model} = this;
     for (const [i, {light}] of TABLE_LIGHTS.entries()) {
       const cell = $(`#table [data-cell="${i}"] canvas`);
-      const {image, about} = await this.engine.frame(
+      const {image, about} = await this.frame(
         this.request({width: half(width), height: half(height), fine: isFine, light}));
       if (!this.isReady || model !== this.model) return;
       paint(cell, image);

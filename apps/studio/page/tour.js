@@ -1,7 +1,7 @@
 // The tour: five steps that show what is where. It covers nothing but what lies beside the part that it tells of.
 
 import {$, make} from "./controls.js";
-import {offer} from "./messages.js";
+import {offer, toast} from "./messages.js";
 
 const STEPS = [
   {at: "#kinds", text: "Begin with what it is to become. Each picture is of your scan, and sets size and material."},
@@ -14,7 +14,9 @@ const OFFER_MS = 30000;
 const GAP = 24, EDGE = 10;
 
 export class Tour {
-  constructor() {
+  // enter() shows the relief that the tour leads through, and returns whether there is one.
+  constructor(enter) {
+    this.enter = enter;
     this.text = make("p", {"aria-live": "polite"});
     this.next = make("button", {class: "primary", onclick: () => this.show(this.step + 1)}, "Next");
     this.element = make("div", {class: "tour", role: "dialog", "aria-label": "Tour", hidden: true}, this.text,
@@ -37,7 +39,16 @@ export class Tour {
     this.takeBack = offer("New here? Five steps show what is where.", "Show me", () => this.start(), OFFER_MS);
   }
 
+  // Starts whenever a dialog is left by the value "tour".
+  follow(dialog) {
+    dialog.onclose = () => {
+      if (dialog.returnValue === "tour") this.start();
+      dialog.returnValue = ""; // which Escape leaves as it is
+    };
+  }
+
   start() {
+    if (!this.enter()) return toast("The tour leads through a relief: open a scan or a sample first.");
     this.before = document.activeElement;
     this.show(0);
   }

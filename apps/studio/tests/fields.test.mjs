@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {enter, eventually, findBrowser, removeFolder, savedFiles, showScan, temporaryFolder, type,
-  writeSample} from "./support.mjs";
+  untilReady, writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -281,6 +281,54 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
   for (let i = 0; i < 100 && (await reachable()) <= limited; ++i) await page.waitForTimeout(50);
   assert.ok((await reachable()) > most, `${await reachable()} of ${most}`);
+});
+
+test("marks the height that the view reaches which is shown", {skip}, async () => {
+  const mark = page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/);
+  const marked = async () => (await mark.getAttribute("title")).match(/[\d.]+ mm/)[0];
+  await set("Height in mm", 3); // well within reach
+  await untilReady(page);
+  const front = await marked();
+  for (const view of ["Left", "Front"]) {
+    await page.getByRole("button", {name: "Choose view"}).first().click();
+    const dialog = page.getByRole("dialog", {name: "Choose the view"});
+    await dialog.getByRole("button", {name: view, exact: true}).click();
+    await dialog.getByRole("button", {name: "Use this view"}).click();
+    await page.locator("#view-name").getByText(view).waitFor();
+    await eventually(async () => {
+      await untilReady(page);
+      assert.equal((await marked()) === front, view === "Front");
+    });
+  }
+});
+
+test("says what a plate leaves to who types a longer side than that", {skip}, async () => {
+  const plate = page.getByLabel("Plate size", {exact: true});
+  await enter(plate, "60x50");
+  await page.getByText("piece 60.00 × 50.00").waitFor();
+  await set("Longer side in mm", 30);
+  await set("Longer side in mm", 90);
+  await page.getByText(/^The plate leaves [\d.]+ mm for the longer side: the figure is as large as that\.$/).waitFor();
+  assert.ok(Number(await text("Longer side in mm")) < 50);
+  while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
+});
+
+test("opens a project without a width as one whose plate rules it", {skip}, async () => {
+  const step = (options) => page.evaluate(async (options) =>
+    (await import(new URL("document.js", location))).stepOfProject({options}).options.width, options);
+  assert.equal(await step({diameter: 40}), null);
+  assert.equal(await step({diameter: 40, width: 30}), 30);
+});
+
+test("says nothing over the field that it is about", {skip}, async () => {
+  for (const name of ["Height in mm", "Crispness value"]) {
+    const it = field(name);
+    await it.scrollIntoViewIfNeeded();
+    await set(name, -5);
+    const toast = await page.locator("#toast").boundingBox(), own = await it.boundingBox();
+    assert.ok(toast.y > own.y + own.height || toast.y + toast.height < own.y, `${name}: ${toast.y}, ${own.y}`);
+    await page.getByRole("button", {name: "Dismiss"}).click();
+  }
 });
 
 test("names the tone curve and the view where they limit the height, and loosens them", {skip}, async () => {

@@ -65,6 +65,24 @@ test("leads through five steps, once by itself and then from the help", {skip}, 
   assert.ok(!await button("Show me").isVisible());
 });
 
+test("leads back to the relief for the tour, and says that it needs one", {skip}, async () => {
+  const tour = page.getByRole("dialog", {name: "Tour"});
+  await button("Relievo, start page").click();
+  await button("Help").click();
+  await button("Take the tour").click();
+  await tour.getByText("1 of 5").waitFor();
+  await page.locator("#kinds.toured").waitFor();
+  await page.keyboard.press("Escape");
+  const empty = await new EngineProcess(path.join(folder, "empty")).ready();
+  const other = await (await browser.newContext()).newPage();
+  await other.goto(empty.address);
+  await other.getByRole("button", {name: "Help"}).click();
+  await other.getByRole("button", {name: "Take the tour"}).click();
+  await other.getByText("The tour leads through a relief: open a scan or a sample first.").waitFor();
+  await other.close();
+  await empty.stop();
+});
+
 test("offers the tour no longer to whoever begins to work", {skip}, async () => {
   const other = await (await browser.newContext()).newPage();
   await other.goto(engine.address);
@@ -184,7 +202,7 @@ test("offers what can be done about the scan, and cuts it", {skip}, async () => 
   await page.getByText(/^Removed noise of [\d.]+ sampling distances\./).waitFor();
   const noise = page.locator("#denoise");
   assert.ok(Number(await noise.inputValue()) > 0);
-  await button("Keep it").click();
+  await button("Keep the noise").click();
   await eventually(async () => assert.equal(await noise.inputValue(), "0"));
   await untilReady(page);
   await button("Undo").click();
@@ -289,6 +307,15 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   const [right, up] = (await page.locator("#shift").inputValue()).split(",").map(Number);
   assert.ok(right > 2 && up > 1, `${right},${up}`);
   assert.equal(await size(), before, "the plate stays as large as it was");
+  const kept = await longer(); // too far for it: it stays on the plate, as large as it is
+  await page.mouse.move(middle[0] + 30, middle[1] - 20);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 400, middle[1] - 20, {steps: 20});
+  await page.mouse.up();
+  await untilReady(page);
+  assert.equal(await longer(), kept);
+  const farthest = Number((await page.locator("#shift").inputValue()).split(",")[0]);
+  assert.ok(farthest >= right && farthest + kept / 2 <= parseFloat(before) / 2, `${farthest} on ${before}`);
   await page.keyboard.down("Shift");
   await page.mouse.move(middle[0] + 120, middle[1]);
   await page.mouse.down();
