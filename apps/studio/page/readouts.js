@@ -94,11 +94,13 @@ export function showSection(heights, from, to) {
     `from ${text(low)} to ${text(high)} ${shown.unit}; heights are drawn ${times.toFixed(1)} times as large as lengths`;
 }
 
+let pointed = null; // where the pointer is over the chart, which is drawn anew while it rests there
+
 // Shows the place and the height of the section under the pointer in an element of the chart.
 function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {
-  svg.onpointerleave = () => reading.replaceChildren();
-  svg.onpointermove = ({clientX}) => {
-    const share = (clientX - svg.getBoundingClientRect().left - x(0)) / (x(length) - x(0));
+  const show = () => {
+    if (pointed === null) return reading.replaceChildren();
+    const share = (pointed - svg.getBoundingClientRect().left - x(0)) / (x(length) - x(0));
     const i = Math.round(clamp(share, 0, 1) * (heights.length - 1)), mm = i / (heights.length - 1) * length;
     const text = `${withUnit(mm)} along, height ${withUnit(heights[i])}`;
     const [gap, anchor] = share < 0.5 ? [8, "start"] : [-8, "end"];
@@ -106,4 +108,11 @@ function showReadings(svg, reading, {heights, length, x, y, top, bottom}) {
       make("circle", {class: "line", cx: x(mm), cy: y(heights[i]), r: 3}),
       make("text", {class: "reading", x: x(mm) + gap, y: top + 10, "text-anchor": anchor}, text));
   };
+  const point = (to) => {
+    pointed = to;
+    show();
+  };
+  svg.onpointermove = ({clientX}) => point(clientX);
+  svg.onpointerleave = () => point(null);
+  show();
 }
