@@ -56,20 +56,25 @@ export class Placing {
   }
 
   // Takes the error of the newest picture, and the numbers of the one that is shown. A figure that was moved too far
-  // stays where it is shown; one that is too large for its plate becomes as large as fits, in the step that left it too
-  // little room. Returns whether it was that.
+  // stays where it is shown; one that is too large for its plate becomes as large as fits, or goes to the middle where
+  // nothing fits, in the step that left it too little room. Returns whether it was that.
   fit({kind, message}, shown) {
     if (kind !== "option" || !message.startsWith("width:")) return false;
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;
-    const isMoved = before?.width === width && before.shift !== shift;
-    if (isMoved && shown && shown.shift !== shift) {
-      this.doc.note({options: {shift: shown.shift}});
-      if (this.doc.stroke === null) this.say("The plate has no room for the figure there: it stays where it is.");
-      return true;
-    }
-    if (width === null) return false;
-    this.doc.note({options: {width: null}});
-    this.say("The figure was too large for its plate: now it is as large as fits.");
+    const isMoved = before && before.shift !== shift && (width === null || before.width === width);
+    const hasNoRoom = shift && message.startsWith("width: expected at most 0 mm");
+    if (isMoved && shown && shown.shift !== shift)
+      this.correct({shift: shown.shift}, "The plate has no room for the figure there: it stays where it is.");
+    else if (hasNoRoom)
+      this.correct({shift: ""}, "The plate has no room for the figure there: it is in the middle again.");
+    else if (width !== null)
+      this.correct({width: null}, "The figure was too large for its plate: now it is as large as fits.");
+    else return false;
     return true;
+  }
+
+  correct(options, text) {
+    this.doc.note({options});
+    this.say(text);
   }
 }

@@ -110,7 +110,10 @@ test("keeps the figure's size on another plate, as long as it fits", {skip}, asy
   await page.getByText("The figure was too large for its plate: now it is as large as fits.").waitFor();
   await page.getByText("piece 60.00 × 50.00").waitFor();
   assert.ok((await longer()) < 50);
-  await page.getByRole("button", {name: "Undo"}).click();
+  await enter(page.locator("#shift"), "45,0"); // farther than half of the plate
+  await page.getByText("The plate has no room for the figure there: it stays where it is.").waitFor();
+  assert.equal(await page.locator("#shift").inputValue(), "");
+  for (let i = 0; i < 2; ++i) await page.getByRole("button", {name: "Undo"}).click();
   await page.getByText("piece 200.00 × 151.00").waitFor();
   assert.equal(await longer(), 64);
   while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
@@ -311,13 +314,6 @@ test("says what a plate leaves to who types a longer side than that", {skip}, as
   await page.getByText(/^The plate leaves [\d.]+ mm for the longer side: the figure is as large as that\.$/).waitFor();
   assert.ok(Number(await text("Longer side in mm")) < 50);
   while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
-});
-
-test("opens a project without a width as one whose plate rules it", {skip}, async () => {
-  const step = (options) => page.evaluate(async (options) =>
-    (await import(new URL("document.js", location))).stepOfProject({options}).options.width, options);
-  assert.equal(await step({diameter: 40}), null);
-  assert.equal(await step({diameter: 40, width: 30}), 30);
 });
 
 test("says nothing over the field that it is about", {skip}, async () => {

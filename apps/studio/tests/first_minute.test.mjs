@@ -307,6 +307,7 @@ test("moves, scales and turns the figure on its plate by hand", {skip}, async ()
   const [right, up] = (await page.locator("#shift").inputValue()).split(",").map(Number);
   assert.ok(right > 2 && up > 1, `${right},${up}`);
   assert.equal(await size(), before, "the plate stays as large as it was");
+  assert.equal(await page.locator("#toast").getByText(/expected/).count(), 0);
   const kept = await longer(); // too far for it: it stays on the plate, as large as it is
   await page.mouse.move(middle[0] + 30, middle[1] - 20);
   await page.mouse.down();

@@ -240,6 +240,13 @@ test("opens a project with the paper's height coefficient", {skip}, async () => 
   assert.deepEqual([step.isHeightLocked, step.u, "alpha" in step.options], [false, 0.5, false]);
 });
 
+test("opens a project without a width as one whose plate rules it", {skip}, async () => {
+  const step = (options) => page.evaluate(async (options) =>
+    (await import(new URL("document.js", location))).stepOfProject({options}).options.width, options);
+  assert.equal(await step({diameter: 40}), null);
+  assert.equal(await step({diameter: 40, width: 30}), 30);
+});
+
 test("shows a relief without its base image when that is gone, says so, and takes another", {skip}, async () => {
   const image = path.join(folder, "image.png");
   spawnSync(PROGRAM, ["make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", image, "--heightmap-size", "64"]);
