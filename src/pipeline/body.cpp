@@ -43,9 +43,12 @@ BaseOptions formed_base(const ReliefOptions& options) {
 RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   if (!options.rim_mm) return {};
   const double lean = options.draft_deg ? std::max(rim_bevel, least_bevel(1, *options.draft_deg)) : rim_bevel;
-  const double width = *options.rim_mm, most = width / lean,  // at which the bevel takes all of the width
-      height = options.rim_height_mm.value_or(options.rim_bevel_mm ? relief_mm : std::min(most, relief_mm)),
-               bevel = std::min(width, options.rim_bevel_mm.value_or(height < most ? lean * height : width));
+  const double width = *options.rim_mm;
+  const double most = width / lean;  // height at which the usual bevel takes all of the width
+  const double usual_height = options.rim_bevel_mm ? relief_mm : std::min(most, relief_mm);
+  const double height = options.rim_height_mm.value_or(usual_height);
+  const double usual_bevel = height < most ? lean * height : width;
+  const double bevel = std::min(width, options.rim_bevel_mm.value_or(usual_bevel));
   return {width, options.form == Form::die ? -height : height, bevel};
 }
 
