@@ -115,7 +115,10 @@ test("keeps the figure's size on another plate, as long as it fits", {skip}, asy
   assert.equal(await page.locator("#shift").inputValue(), "");
   for (let i = 0; i < 2; ++i) await page.getByRole("button", {name: "Undo"}).click();
   await page.getByText("piece 200.00 × 151.00").waitFor();
-  assert.equal(await longer(), 64);
+  await enter(page.locator("#shift"), "60,0");
+  await enter(plate, "100x80"); // whose edge is nearer than that
+  await page.getByText("The plate has no room for the figure there: it is in the middle again.").waitFor();
+  assert.deepEqual([await page.locator("#shift").inputValue(), await longer()], ["", 64]);
   while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
 });
 
