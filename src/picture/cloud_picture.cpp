@@ -16,7 +16,7 @@ constexpr float nothing = -std::numeric_limits<float>::infinity();
 const Vec3f scan_lamp(-1, 1, 1.4F);
 
 // Radius of a point's disc in sampling distances: random points leave hardly a gap.
-constexpr double disc_radius = 2;
+constexpr double disc_radius = 1.7;
 
 // A point in the picture: pixels, depth in pixels, normal in view coordinates.
 struct Dot {
@@ -34,6 +34,7 @@ template <typename F>
 void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&& f) {
   constexpr float least_z = .2F;  // discs that are seen more from the side would leave gaps
   const Vec2f slope = Vec2f(-dot.normal.x(), dot.normal.y()) / std::max(dot.normal.z(), least_z);
+  const float per_square = 1 / (radius * radius);
   const int top = std::max(first, static_cast<int>(std::floor(dot.place.y() - radius + .5F)));
   const int bottom = std::min(last, static_cast<int>(std::floor(dot.place.y() + radius + .5F)));
   const int left = std::max(0, static_cast<int>(std::floor(dot.place.x() - radius + .5F)));
@@ -42,7 +43,7 @@ void each_pixel(const Dot& dot, float radius, int width, int first, int last, F&
     for (int x = left; x < right; ++x) {
       const Vec2f away(static_cast<float>(x) + .5F - dot.place.x(),
                        static_cast<float>(y) + .5F - dot.place.y());
-      const float rise = slope.dot(away), weight = 1 - (away.squaredNorm() + rise * rise) / (radius * radius);
+      const float rise = slope.dot(away), weight = 1 - per_square * (away.squaredNorm() + rise * rise);
       if (weight > 0)
         f(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x),
           dot.place.z() + rise, weight);
