@@ -55,20 +55,18 @@ void splat(const std::vector<Dot>& dots, float radius, Canvas& canvas) {
   const int rows = 32, width = canvas.depth.width, height = canvas.depth.height;
   const auto band = [&](std::size_t b) {
     const int first = static_cast<int>(b) * rows, last = std::min(height, first + rows);
-    const auto is_near = [&](const Dot& dot) {
-      return dot.normal.z() > 0 && dot.place.y() > static_cast<float>(first) - radius - 1 &&
-             dot.place.y() < static_cast<float>(last) + radius + 1;
-    };
+    const float above = static_cast<float>(first) - radius - 1, below = static_cast<float>(last) + radius + 1;
+    std::vector<const Dot*> near;
     for (const Dot& dot : dots)
-      if (is_near(dot))
-        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z, float) {
-          canvas.depth.pixels[at] = std::max(canvas.depth.pixels[at], z);
-        });
-    for (const Dot& dot : dots)
-      if (is_near(dot))
-        each_pixel(dot, radius, width, first, last, [&](std::size_t at, float z, float weight) {
-          if (z > canvas.depth.pixels[at] - 2.5F * radius) canvas.normals.pixels[at] += weight * dot.normal;
-        });
+      if (dot.normal.z() > 0 && dot.place.y() > above && dot.place.y() < below) near.push_back(&dot);
+    for (const Dot* dot : near)
+      each_pixel(*dot, radius, width, first, last, [&](std::size_t at, float z, float) {
+        canvas.depth.pixels[at] = std::max(canvas.depth.pixels[at], z);
+      });
+    for (const Dot* dot : near)
+      each_pixel(*dot, radius, width, first, last, [&](std::size_t at, float z, float weight) {
+        if (z > canvas.depth.pixels[at] - 2.5F * radius) canvas.normals.pixels[at] += weight * dot->normal;
+      });
   };
   parallel_for(static_cast<std::size_t>((height + rows - 1) / rows), band, 1);
 }
