@@ -1,12 +1,10 @@
 #include "solver/bisection.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "core/quantile.h"
-#include "relievo/core/parallel.h"
 
 namespace relievo::solver {
 namespace {
@@ -20,8 +18,6 @@ struct Sweep {
   Eigen::Vector2f direction = {1, 0};
   std::vector<float> value;
   float low = 0, high = 0;
-  // Sampled number of band vertices that have neighbours below it: an estimate of the separator's size.
-  Index width = 0;
 };
 
 bool is_in_band(const Sweep& sweep, Index v) {
@@ -41,26 +37,35 @@ void find_band(Sweep& sweep) {
   sweep.high = quantile(1 - core_share);
 }
 
-bool touches_below(const Graph& graph, const Sweep& sweep, Index v) {
-  const auto nearby = graph.neighbours(v);
-  return std::any_of(nearby.begin(), nearby.end(), [&](Index u) { return sweep.value[u] < sweep.low; });
-}
-
-Sweep make_sweep(const Graph& graph, std::vector<float> value, Eigen::Vector2f direction) {
-  Sweep sweep;
-  sweep.direction = direction;
-  sweep.value = std::move(value);
+Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
+  Sweep sweep{direction, std::move(value)};
   find_band(sweep);
-  const Index step = graph.size() / 4096 + 1;
-  for (Index v = 0; v < graph.size(); v += step)
-    if (is_in_band(sweep, v) && touches_below(graph, sweep, v)) ++sweep.width;
   return sweep;
 }
 
-std::vector<float> along(std::span<const Eigen::Vector2f> positions, Eigen::Vector2f direction) {
+// Returns the direction in which the positions spread most: the principal axis of their covariance. Separators across it
+// are short. It is found by square roots alone, which have the same bits on every machine.
+Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const Eigen::Vector2f& p : positions) mean += p.cast<double>() / static_cast<double>(positions.size());
+  double xx = 0, xy = 0, yy = 0;
+  for (const Eigen::Vector2f& p : positions) {
+    const Eigen::Vector2d d = p.cast<double>() - mean;
+    xx += d.x() * d.x(), xy += d.x() * d.y(), yy += d.y() * d.y();
+  }
+  const double difference = xx - yy,
+               longer = std::abs(difference) + std::sqrt(difference * difference + 4 * xy * xy);
+  if (!(longer > 0)) return {1, 0};
+  const Eigen::Vector2d axis =
+      difference >= 0 ? Eigen::Vector2d(longer, 2 * xy) : Eigen::Vector2d(2 * xy, longer);
+  return axis.normalized().cast<float>();
+}
+
+Sweep widest_sweep(std::span<const Eigen::Vector2f> positions) {
+  const Eigen::Vector2f direction = widest_direction(positions);
   std::vector<float> value(positions.size());
   for (std::size_t i = 0; i < value.size(); ++i) value[i] = positions[i].dot(direction);
-  return value;
+  return make_sweep(std::move(value), direction);
 }
 
 SeparatorBand make_band(const Graph& graph, std::span<const Eigen::Vector2f> positions, const Sweep& sweep,
@@ -132,18 +137,9 @@ Bisection cut_along(const Graph& graph, std::span<const Eigen::Vector2f> positio
     if (is_in_band(sweep, v)) vertices.push_back(v);
   const MinimumSeparators cuts = minimum_separators(make_band(graph, positions, sweep, vertices));
   Bisection a = with_band(sweep, vertices, cuts.near_first), b = with_band(sweep, vertices, cuts.near_second);
-  return cost(a) <= cost(b) ? std::move(a) : std::move(b);
-}
-
-Bisection best_of(const Graph& graph, std::span<const Eigen::Vector2f> positions,
-                  std::span<const Sweep> sweeps) {
-  std::vector<Bisection> cuts(sweeps.size());
-  parallel_for(
-      sweeps.size(), [&](std::size_t i) { cuts[i] = cut_along(graph, positions, sweeps[i]); }, 1);
-  const auto best = std::min_element(
-      cuts.begin(), cuts.end(), [](const Bisection& a, const Bisection& b) { return cost(a) < cost(b); });
-  close_gaps(graph, *best);
-  return std::move(*best);
+  Bisection& better = cost(a) <= cost(b) ? a : b;
+  close_gaps(graph, better);
+  return std::move(better);
 }
 
 // Returns the vertices in breadth-first order from `start`, one connected component after the other.
@@ -171,23 +167,13 @@ Bisection cut_by_distance(const Graph& graph, std::span<const Eigen::Vector2f> p
   const std::vector<Index> order = wave(graph, wave(graph, 0).back());
   std::vector<float> value(graph.size());
   for (std::size_t i = 0; i < order.size(); ++i) value[order[i]] = static_cast<float>(i);
-  const Sweep sweep = make_sweep(graph, std::move(value), {1, 0});
-  return best_of(graph, positions, {&sweep, 1});
+  return cut_along(graph, positions, make_sweep(std::move(value), {1, 0}));
 }
 
 }  // namespace
 
 Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions) {
-  const std::array<Eigen::Vector2f, 4> directions{{{1, 0}, {0, 1}, {.7F, .7F}, {.7F, -.7F}}};
-  std::vector<Sweep> sweeps(directions.size());
-  parallel_for(
-      sweeps.size(),
-      [&](std::size_t i) { sweeps[i] = make_sweep(graph, along(positions, directions[i]), directions[i]); },
-      1);
-  // The flow is the expensive part: it runs only in the two directions with the shortest band edges.
-  std::stable_sort(sweeps.begin(), sweeps.end(),
-                   [](const Sweep& a, const Sweep& b) { return a.width < b.width; });
-  Bisection cut = best_of(graph, positions, {sweeps.data(), 2});
+  Bisection cut = cut_along(graph, positions, widest_sweep(positions));
   // A planar graph has a separator of about sqrt(n) vertices (Lipton and Tarjan 1979). One of four times that
   // size tells that the positions do not fit the graph.
   if (cut.separator > 4 * std::sqrt(static_cast<double>(graph.size())) || cut.first == 0 || cut.second == 0) {

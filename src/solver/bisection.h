@@ -13,8 +13,8 @@ struct Bisection {
 };
 
 // Returns a bisection with few vertices in the separator and sides of similar size. `positions`, one per
-// vertex, only guide the search: it tries straight bands across several directions and finds the shortest
-// separator within each. If they are of no use (coincident points, positions unrelated to the graph),
+// vertex, only guide the search: the shortest separator is found in a straight band across the direction in
+// which they spread most. If they are of no use (coincident points, positions unrelated to the graph),
 // distances in the graph replace them. A side may be empty if nothing better was found.
 Bisection bisect(const Graph& graph, std::span<const Eigen::Vector2f> positions);
 
