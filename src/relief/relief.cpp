@@ -11,6 +11,7 @@
 #include "relief/membrane/membrane_tuning.h"
 #include "relief/step_heights.h"
 #include "relief/style.h"
+#include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/relief/heights.h"
 #include "relievo/relief/subspace.h"
@@ -96,10 +97,12 @@ struct Parts {
 
 Result<Parts> prepare_parts(const Surface& surface, Progress* progress) {
   if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
-  std::vector<PointLayers> layers = normal_layers(surface.points, surface.normals);
-  if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
   const std::vector<float> weights = jump_weights(surface);
-  RELIEVO_CHECK(check_cancelled(progress));
+  std::vector<PointLayers> layers;
+  std::optional<HeightCorrection> correction;
+  parallel_both([&] { layers = normal_layers(surface.points, surface.normals); },
+                [&] { correction.emplace(surface, weights); });
+  if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
   Result<HeightSystem> system =
       HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights);
   if (!system) return std::unexpected(system.error());
@@ -108,7 +111,7 @@ Result<Parts> prepare_parts(const Surface& surface, Progress* progress) {
   JumpLift jump_lift = JumpLift::find({surface, layers, *system});
   if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
   return Parts{std::move(layers), std::move(*system), std::move(steps), std::move(jump_lift),
-               HeightCorrection(surface, weights)};
+               std::move(*correction)};
 }
 
 }  // namespace

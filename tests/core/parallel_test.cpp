@@ -58,6 +58,21 @@ TEST_P(Parallel, NestedCallsComplete) {
   EXPECT_EQ(std::accumulate(visits.begin(), visits.end(), 0), 64 * 64);
 }
 
+TEST_P(Parallel, BothCallsComplete) {
+  std::vector<int> first(5000, 0), second(5000, 0);
+  parallel_both(
+      [&] {
+        parallel_for(
+            first.size(), [&](std::size_t i) { ++first[i]; }, 64);
+      },
+      [&] {
+        parallel_for(
+            second.size(), [&](std::size_t i) { ++second[i]; }, 64);
+      });
+  EXPECT_EQ(first, std::vector<int>(5000, 1));
+  EXPECT_EQ(second, std::vector<int>(5000, 1));
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 4), testing::PrintToStringParamName());
 
 }  // namespace

@@ -58,6 +58,13 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = default_grain) {
   });
 }
 
+// Calls both, concurrently. A parallel call in one of them runs on its thread alone.
+template <typename First, typename Second>
+void parallel_both(First&& first, Second&& second) {
+  parallel_for(
+      2, [&](std::size_t i) { i == 0 ? first() : second(); }, 1);
+}
+
 // Returns merge(...merge(merge(start, map(range 0)), map(range 1))...). Ranges are mapped concurrently and
 // merged in order, so that sums of floating-point numbers do not depend on the number of threads.
 template <typename T, typename Map, typename Merge>

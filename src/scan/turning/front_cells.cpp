@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "core/disjoint_sets.h"
 #include "relievo/core/parallel.h"
 #include "scan/turning/disc_band.h"
 
@@ -180,106 +178,6 @@ FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std:
   FrontCells cells = FrontDrawing(points, view).draw(wanted);
   for (float& depth : cells.depth.pixels) depth *= cells.cell;
   return cells;
-}
-
-namespace {
-
-// Returns the sets of neighbouring cells that are all covered, or all not.
-DisjointSets pieces_of(const FrontCells& front) {
-  const int width = front.normal.width, height = front.normal.height;
-  DisjointSets sets(front.normal.size());
-  const auto is_covered = [&](Index cell) { return front.normal[cell].z() > 0; };
-  const auto are_alike = [&](Index a, Index b) { return is_covered(a) == is_covered(b); };
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const auto cell = static_cast<Index>(front.normal.index(x, y)),
-                 above = cell + static_cast<Index>(width);
-      const bool is_like_left = x > 0 && are_alike(cell, cell - 1);
-      if (is_like_left) sets.join(cell, cell - 1);
-      if (y + 1 == height || !are_alike(cell, above)) continue;
-      // Where the cells to the left of both are like them, these two are in one set already.
-      if (!is_like_left || !are_alike(above, above - 1)) sets.join(cell, above);
-    }
-  return sets;
-}
-
-struct Filling {
-  Index cell;
-  float depth;
-  Vec3f normal;
-};
-
-// Returns what the cell would be filled with; nothing without a covered neighbour.
-std::optional<Filling> filling_of(const FrontCells& front, Index cell) {
-  const int x = static_cast<int>(cell) % front.normal.width, y = static_cast<int>(cell) / front.normal.width;
-  Filling filling{cell, 0, Vec3f::Zero()};
-  float count = 0;
-  for (int j = y - 1; j <= y + 1; ++j)
-    for (int i = x - 1; i <= x + 1; ++i) {
-      if (!front.is_covered(i, j)) continue;
-      filling.depth += front.depth.at(i, j);
-      filling.normal += front.normal.at(i, j);
-      ++count;
-    }
-  if (count == 0) return std::nullopt;
-  filling.depth /= count;
-  filling.normal.normalize();
-  return filling;
-}
-
-}  // namespace
-
-void clear_small_pieces(FrontCells& front, std::size_t least) {
-  DisjointSets pieces = pieces_of(front);
-  for (Index i = 0; i < front.normal.size(); ++i) {
-    if (front.normal[i].z() <= 0 || pieces.size_of(i) >= least) continue;
-    front.normal[i] = Vec3f::Zero();
-    --front.covered;
-  }
-}
-
-void fill_small_holes(FrontCells& front, std::size_t most) {
-  DisjointSets pieces = pieces_of(front);
-  std::vector<Index> empty;
-  for (Index i = 0; i < front.normal.size(); ++i)
-    if (front.normal[i].z() <= 0 && pieces.size_of(i) <= most) empty.push_back(i);
-  while (!empty.empty()) {
-    std::vector<Filling> found;
-    for (const Index cell : empty)
-      if (const auto filling = filling_of(front, cell)) found.push_back(*filling);
-    for (const Filling& f : found) front.depth[f.cell] = f.depth, front.normal[f.cell] = f.normal;
-    front.covered += found.size();
-    std::erase_if(empty, [&](Index cell) { return front.normal[cell].z() > 0; });
-    if (found.empty()) return;
-  }
-}
-
-namespace {
-
-// Returns whether no surface spans two neighbouring cells, see is_jump().
-bool is_edge_between(const FrontCells& front, int x, int y, int dx, int dy) {
-  if (!front.is_covered(x + dx, y + dy)) return true;
-  const Vec2f step = front.cell * Vec2f(static_cast<float>(dx), static_cast<float>(dy));
-  const auto rise = [&](const Vec3f& n) { return std::abs(n.head<2>().dot(step)) / std::max(n.z(), .1F); };
-  const float rises = std::max(rise(front.normal.at(x, y)), rise(front.normal.at(x + dx, y + dy)));
-  return std::abs(front.depth.at(x, y) - front.depth.at(x + dx, y + dy)) > 2 * rises + 3 * front.cell;
-}
-
-}  // namespace
-
-void mark_edges(FrontCells& front) {
-  front.is_edge.resize(front.normal.width, front.normal.height);
-  parallel_for(
-      static_cast<std::size_t>(front.normal.height),
-      [&](std::size_t row) {
-        const int y = static_cast<int>(row);
-        for (int x = 0; x < front.normal.width; ++x)
-          front.is_edge.at(x, y) =
-              front.is_covered(x, y) &&
-              (is_edge_between(front, x, y, 1, 0) || is_edge_between(front, x, y, -1, 0) ||
-               is_edge_between(front, x, y, 0, 1) || is_edge_between(front, x, y, 0, -1));
-      },
-      16);
 }
 
 }  // namespace relievo

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t most_drawn = 600'000;
 // Limits of the local spacing, in rho: see visible.cpp.
 constexpr double least_spacing = .25, largest_spacing = 4;
-constexpr std::size_t cells_per_point = 9;
+constexpr std::size_t cells_per_point = 12;
 constexpr double largest_hole = 5;       // radius in spacings of holes that are closed: see BoundaryOptions
 constexpr std::size_t least_cells = 16;  // fewer show nothing
 // Smaller pieces are crumbs, as in find_surface(): share of the covered cells.
@@ -31,13 +31,15 @@ class CellChoice {
   CellChoice(const FrontCells& front, std::size_t points, float spacing)
       : front_(front), hole_reach_(static_cast<int>(std::ceil(hole_fill_distance * spacing / front.cell))) {
     const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
-    step_ = std::max(1, static_cast<int>(std::lround(std::sqrt(cells))));
-    is_quincunx_ = step_ == 1 && cells > std::numbers::sqrt2;
+    // In rows of equilateral triangles.
+    columns_ = std::max(1, static_cast<int>(std::lround(std::sqrt(cells / (std::numbers::sqrt3 / 2)))));
+    rows_ = std::max(1, static_cast<int>(std::lround(cells / columns_)));
+    is_quincunx_ = columns_ * rows_ == 1 && cells > std::numbers::sqrt2;
   }
 
   // Returns the distance between points, in cells, and the same rounded up.
-  double spacing() const { return is_quincunx_ ? std::numbers::sqrt2 : step_; }
-  int reach() const { return is_quincunx_ ? 2 : step_; }
+  double spacing() const { return is_quincunx_ ? std::numbers::sqrt2 : std::sqrt(columns_ * rows_); }
+  int reach() const { return is_quincunx_ ? 2 : rows_; }
 
   // Returns the numbers of the cells, row by row.
   std::vector<Index> chosen() const {
@@ -57,10 +59,10 @@ class CellChoice {
   }
 
  private:
-  // Rows of a step's width are shifted by half a step, so that triangles are about equilateral.
+  // Every second row is shifted by half a triangle.
   bool is_regular(int x, int y) const {
     if (is_quincunx_) return (x + y) % 2 == 0;
-    return y % step_ == 0 && (x + y / step_ % 2 * (step_ / 2)) % step_ == 0;
+    return y % rows_ == 0 && (x + y / rows_ % 2 * (columns_ / 2)) % columns_ == 0;
   }
   bool is_chosen(int x, int y) const {
     if (front_.is_covered(x, y)) return is_regular(x, y) || ((x + y) % 2 == 0 && front_.is_edge.at(x, y));
@@ -74,7 +76,7 @@ class CellChoice {
   }
 
   const FrontCells& front_;
-  int step_ = 1, hole_reach_;
+  int columns_ = 1, rows_ = 1, hole_reach_;
   bool is_quincunx_ = false;  // every second cell, like the black fields of a chessboard
 };
 

@@ -1,4 +1,4 @@
-// Surfaces of some 20,000 points, for reliefs that follow while the model is turned. Tested by
+// Surfaces of some 18,000 points, for reliefs that follow while the model is turned. Tested by
 // tests/scan/turning_test.cpp.
 #pragma once
 
