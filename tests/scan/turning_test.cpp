@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "core/simd.h"
 #include "scan/measured_cloud.h"
@@ -66,6 +67,72 @@ TEST(FrontCells, MarksTheEdgesOfAJump) {
       ++edges;
     }
   EXPECT_GT(edges, static_cast<std::size_t>(4 / front.cell));
+}
+
+// Random cells, half of them covered, at depth 0.
+FrontCells random_front(unsigned seed) {
+  constexpr int width = 50, height = 40;
+  FrontCells front;
+  front.depth = filled_image(width, height, 0.F);
+  front.normal = filled_image<Vec3f>(width, height, Vec3f::Zero());
+  std::mt19937 random(seed);
+  for (Vec3f& normal : front.normal.pixels)
+    if (random() % 2 == 0) normal = Vec3f::UnitZ(), ++front.covered;
+  return front;
+}
+
+// Returns for each cell how many cells are connected to it that are covered as it is, or not, by walking from cell to
+// cell.
+std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
+  const Image<Vec3f>& normal = front.normal;
+  std::vector<std::size_t> sizes;
+  for (std::size_t start = 0; start < normal.size(); ++start) {
+    std::vector<bool> is_seen(normal.size());
+    std::vector<std::size_t> piece{start};
+    is_seen[start] = true;
+    for (std::size_t next = 0; next < piece.size(); ++next) {
+      const int x = static_cast<int>(piece[next]) % normal.width,
+                y = static_cast<int>(piece[next]) / normal.width;
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        if (!normal.contains(x + dx, y + dy)) continue;
+        const std::size_t other = normal.index(x + dx, y + dy);
+        if (is_seen[other] || normal[other] != normal[start]) continue;
+        is_seen[other] = true;
+        piece.push_back(other);
+      }
+    }
+    sizes.push_back(piece.size());
+  }
+  return sizes;
+}
+
+TEST(FrontCells, LoseSmallPieces) {
+  const FrontCells before = random_front(1);
+  FrontCells after = before;
+  clear_small_pieces(after, 6);
+  const std::vector<std::size_t> sizes = sizes_of_pieces(before);
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    EXPECT_EQ(after.normal[i].z() > 0, before.normal[i].z() > 0 && sizes[i] >= 6) << i;
+    covered += after.normal[i].z() > 0;
+  }
+  EXPECT_EQ(after.covered, covered);
+  EXPECT_LT(covered, before.covered);
+}
+
+TEST(FrontCells, CloseSmallHoles) {
+  const FrontCells before = random_front(2);
+  FrontCells after = before;
+  fill_small_holes(after, 6);
+  const std::vector<std::size_t> sizes = sizes_of_pieces(before);
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < sizes.size(); ++i) {
+    EXPECT_EQ(after.normal[i].z() > 0, before.normal[i].z() > 0 || sizes[i] <= 6) << i;
+    EXPECT_EQ(after.depth[i], 0) << i;
+    covered += after.normal[i].z() > 0;
+  }
+  EXPECT_EQ(after.covered, covered);
+  EXPECT_GT(covered, before.covered);
 }
 
 }  // namespace
