@@ -1,6 +1,7 @@
 #include "relievo/core/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <system_error>
@@ -27,7 +28,11 @@ struct Job {
   }
 };
 
-// The worker threads, which sleep between jobs. One job runs at a time; a second caller waits for its end.
+// How long a caller waits for the end of another one's job before it does its own alone: a picture must not wait for a
+// job that takes half a second.
+constexpr std::chrono::milliseconds patience{2};
+
+// The worker threads, which sleep between jobs. They do one job at a time.
 class Pool {
  public:
   static Pool& instance() {
@@ -40,7 +45,6 @@ class Pool {
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
   void resize(int threads) {
-    const std::lock_guard turn(turn_);
     const int most = 256;
     if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     threads = std::min(threads, most);
@@ -51,19 +55,14 @@ class Pool {
 
   // The caller works, too. It returns only when every worker has left the job, which lives on its stack.
   void run(std::size_t blocks, detail::BlockFunction f, void* context) {
-    const std::lock_guard turn(turn_);
     Job job{f, context, blocks};
-    {
-      const std::lock_guard lock(mutex_);
-      job_ = &job;
-      busy_ = workers_.size();
-      ++generation_;
-    }
+    if (!is_given_to_workers(job)) return job.work();
     wake_.notify_all();
     job.work();
     std::unique_lock lock(mutex_);
     done_.wait(lock, [&] { return busy_ == 0; });
     job_ = nullptr;
+    free_.notify_one();
   }
 
  private:
@@ -77,6 +76,15 @@ class Pool {
       for (int i = 0; i < workers; ++i) workers_.emplace_back([this, seen = generation_] { loop(seen); });
     } catch (const std::system_error&) {
     }
+  }
+
+  bool is_given_to_workers(Job& job) {
+    std::unique_lock lock(mutex_);
+    if (!free_.wait_for(lock, patience, [&] { return job_ == nullptr; })) return false;
+    job_ = &job;
+    busy_ = workers_.size();
+    ++generation_;
+    return true;
   }
 
   void stop() {
@@ -104,9 +112,8 @@ class Pool {
     }
   }
 
-  std::mutex turn_;   // held by the caller whose job runs
-  std::mutex mutex_;  // guards what follows
-  std::condition_variable wake_, done_;
+  std::mutex mutex_;                            // guards what follows
+  std::condition_variable wake_, done_, free_;  // a job is there; no worker is busy with it; it is done
   std::vector<std::thread> workers_;
   Job* job_ = nullptr;
   std::size_t busy_ = 0, generation_ = 0;

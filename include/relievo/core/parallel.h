@@ -28,7 +28,8 @@ void set_thread_count(int threads);
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
 // Runs f(context, b) once for each b in [0, blocks), on all threads, and returns when all are done. Blocks
-// are started in ascending order. A nested call runs on the calling thread alone.
+// are started in ascending order. A nested call runs on the calling thread alone, and so does one that would have to wait
+// for that of another thread for long.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
