@@ -1,7 +1,6 @@
 #include "relievo/core/parallel.h"
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <system_error>
@@ -22,17 +21,23 @@ struct Job {
 
   // An exception that left the caller's block would leave the others working on what no longer exists.
   void work() noexcept {
+    while (work_on_next()) {
+    }
+  }
+
+  // Returns false if no block was left.
+  bool work_on_next() noexcept {
+    const std::size_t b = next++;
+    if (b >= blocks) return false;
     is_inside_parallel_call = true;
-    for (std::size_t b = next++; b < blocks; b = next++) f(context, b);
+    f(context, b);
     is_inside_parallel_call = false;
+    return true;
   }
 };
 
-// How long a caller waits for the end of another one's job before it does its own alone: a picture must not wait for a
-// job that takes half a second.
-constexpr std::chrono::milliseconds patience{2};
-
-// The worker threads, which sleep between jobs. They do one job at a time.
+// The worker threads, which sleep between jobs. They do one job at a time. Whoever has another one meanwhile begins it
+// alone: a picture must not wait for a job that takes half a second.
 class Pool {
  public:
   static Pool& instance() {
@@ -45,6 +50,7 @@ class Pool {
   int size() const { return static_cast<int>(workers_.size()) + 1; }
 
   void resize(int threads) {
+    const std::lock_guard lock(resizing_);
     const int most = 256;
     if (threads <= 0) threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
     threads = std::min(threads, most);
@@ -56,13 +62,13 @@ class Pool {
   // The caller works, too. It returns only when every worker has left the job, which lives on its stack.
   void run(std::size_t blocks, detail::BlockFunction f, void* context) {
     Job job{f, context, blocks};
-    if (!is_given_to_workers(job)) return job.work();
+    while (!try_give(job))
+      if (!job.work_on_next()) return;
     wake_.notify_all();
     job.work();
     std::unique_lock lock(mutex_);
     done_.wait(lock, [&] { return busy_ == 0; });
     job_ = nullptr;
-    free_.notify_one();
   }
 
  private:
@@ -78,9 +84,10 @@ class Pool {
     }
   }
 
-  bool is_given_to_workers(Job& job) {
-    std::unique_lock lock(mutex_);
-    if (!free_.wait_for(lock, patience, [&] { return job_ == nullptr; })) return false;
+  // Gives the job to the workers, unless they have another one.
+  bool try_give(Job& job) {
+    const std::lock_guard lock(mutex_);
+    if (job_) return false;
     job_ = &job;
     busy_ = workers_.size();
     ++generation_;
@@ -112,9 +119,10 @@ class Pool {
     }
   }
 
-  std::mutex mutex_;                            // guards what follows
-  std::condition_variable wake_, done_, free_;  // a job is there; no worker is busy with it; it is done
-  std::vector<std::thread> workers_;
+  std::mutex resizing_;
+  std::vector<std::thread> workers_;  // changes only while no parallel call runs
+  std::mutex mutex_;                  // guards what follows
+  std::condition_variable wake_, done_;
   Job* job_ = nullptr;
   std::size_t busy_ = 0, generation_ = 0;
   bool is_stopping_ = false;

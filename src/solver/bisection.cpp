@@ -44,10 +44,12 @@ Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
 }
 
 // Returns the direction in which the positions spread most: the principal axis of their covariance. Separators across it
-// are short. It is found by square roots alone, which have the same bits on every machine.
+// are mostly short. Where all directions are alike, rounding decides, but as sums, quotients and square roots have the same
+// bits everywhere, so has the direction.
 Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const Eigen::Vector2f& p : positions) mean += p.cast<double>() / static_cast<double>(positions.size());
+  for (const Eigen::Vector2f& p : positions) mean += p.cast<double>();
+  mean /= static_cast<double>(positions.size());
   double xx = 0, xy = 0, yy = 0;
   for (const Eigen::Vector2f& p : positions) {
     const Eigen::Vector2d d = p.cast<double>() - mean;

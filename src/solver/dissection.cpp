@@ -47,7 +47,7 @@ class Dissection {
   Dissection(const Graph& graph, std::vector<Index>& order)
       : graph_(graph), order_(order), slots_(graph.size(), no_index) {}
 
-  // Bisects level by level while parts are large, so that each bisection can use all threads, and orders the
+  // Bisects level by level while parts are large, so that the parts of a level are cut concurrently, and orders the
   // many small parts concurrently afterwards. Which way a part goes depends on sizes alone, so that the
   // result does not depend on the number of threads.
   void run(Part whole) {

@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <numeric>
-#include <thread>
 
 namespace relievo {
 namespace {
@@ -74,29 +72,6 @@ TEST_P(Parallel, BothCallsComplete) {
   EXPECT_EQ(first, std::vector<int>(5000, 1));
   EXPECT_EQ(second, std::vector<int>(5000, 1));
 }
-
-#if !defined(__wasi__)
-// A loop that waited for the other one would wait for ever: that one ends after it.
-TEST_P(Parallel, ALoopDoesNotWaitForTheEndOfALongOne) {
-  std::atomic<bool> has_begun = false, may_end = false;
-  std::thread other([&] {
-    parallel_for(
-        4,
-        [&](std::size_t) {
-          has_begun = true;
-          while (!may_end) std::this_thread::yield();
-        },
-        1);
-  });
-  while (!has_begun) std::this_thread::yield();
-  std::vector<int> visits(100, 0);
-  parallel_for(
-      visits.size(), [&](std::size_t i) { ++visits[i]; }, 1);
-  may_end = true;
-  other.join();
-  EXPECT_EQ(visits, std::vector<int>(100, 1));
-}
-#endif
 
 INSTANTIATE_TEST_SUITE_P(Threads, Parallel, testing::Values(1, 2, 4), testing::PrintToStringParamName());
 

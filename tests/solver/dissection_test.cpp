@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <Eigen/OrderingMethods>
 #include <algorithm>
+#include <numbers>
 #include <numeric>
 
 #include "geometry/plane_order.h"
@@ -96,11 +98,16 @@ TEST(Dissection, IsTheSameForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
-TEST(Bisection, ParsesAGridAcrossItsShortSide) {
+TEST(Bisection, PartsAGridAcrossItsShortSide) {
   const PlanarSystem system = jittered_grid(90, 30);
-  const Bisection cut = bisect(test::graph_of(system.A), in_unit_square(system.positions));
-  EXPECT_EQ(cut.separator, 30U);
-  EXPECT_GT(std::min(cut.first, cut.second), 900U);
+  for (const double degrees : {0, 30, 60, 90, 135}) {
+    const Eigen::Rotation2Dd turn(degrees * std::numbers::pi / 180);
+    std::vector<Vec2> turned;
+    for (const Vec2& p : system.positions) turned.push_back(turn * p);
+    const Bisection cut = bisect(test::graph_of(system.A), in_unit_square(turned));
+    EXPECT_EQ(cut.separator, 30U) << degrees;
+    EXPECT_GT(std::min(cut.first, cut.second), 900U) << degrees;
+  }
 }
 
 TEST(Bisection, LeavesNoEdgeBetweenTheSides) {

@@ -28,8 +28,8 @@ void set_thread_count(int threads);
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
 // Runs f(context, b) once for each b in [0, blocks), on all threads, and returns when all are done. Blocks
-// are started in ascending order. A nested call runs on the calling thread alone, and so does one that would have to wait
-// for that of another thread for long.
+// are started in ascending order. While the threads work for another call, the calling thread works alone; so it does
+// in a nested call.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
@@ -59,7 +59,8 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = default_grain) {
   });
 }
 
-// Calls both, concurrently. A parallel call in one of them runs on its thread alone.
+// Calls both, concurrently or one after the other, so neither may wait for the other, nor throw. A parallel call in one
+// of them runs on its thread alone.
 template <typename First, typename Second>
 void parallel_both(First&& first, Second&& second) {
   parallel_for(

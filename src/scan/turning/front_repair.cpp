@@ -15,7 +15,7 @@ namespace {
 struct Run {
   Index begin, end;  // their numbers
   bool is_covered;
-  std::size_t piece = 0;  // number of cells in the piece that they belong to
+  std::size_t piece_size = 0;  // cells of the piece that they belong to
 };
 
 std::vector<Run> runs_of_row(const FrontCells& front, int y) {
@@ -60,7 +60,7 @@ std::vector<Run> pieces_of(const FrontCells& front) {
   DisjointSets sets = joined(runs, static_cast<Index>(front.normal.width));
   std::vector<std::size_t> cells(runs.size());
   for (Index i = 0; i < runs.size(); ++i) cells[sets.find(i)] += runs[i].end - runs[i].begin;
-  for (Index i = 0; i < runs.size(); ++i) runs[i].piece = cells[sets.find(i)];
+  for (Index i = 0; i < runs.size(); ++i) runs[i].piece_size = cells[sets.find(i)];
   return runs;
 }
 
@@ -92,7 +92,7 @@ std::optional<Filling> filling_of(const FrontCells& front, Index cell) {
 
 void clear_small_pieces(FrontCells& front, std::size_t least) {
   for (const Run& run : pieces_of(front)) {
-    if (!run.is_covered || run.piece >= least) continue;
+    if (!run.is_covered || run.piece_size >= least) continue;
     std::fill(front.normal.pixels.begin() + run.begin, front.normal.pixels.begin() + run.end, Vec3f::Zero());
     front.covered -= run.end - run.begin;
   }
@@ -101,7 +101,7 @@ void clear_small_pieces(FrontCells& front, std::size_t least) {
 void fill_small_holes(FrontCells& front, std::size_t most) {
   std::vector<Index> empty;
   for (const Run& run : pieces_of(front)) {
-    if (run.is_covered || run.piece > most) continue;
+    if (run.is_covered || run.piece_size > most) continue;
     for (Index cell = run.begin; cell < run.end; ++cell) empty.push_back(cell);
   }
   while (!empty.empty()) {

@@ -31,15 +31,16 @@ class CellChoice {
   CellChoice(const FrontCells& front, std::size_t points, float spacing)
       : front_(front), hole_reach_(static_cast<int>(std::ceil(hole_fill_distance * spacing / front.cell))) {
     const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
-    // In rows of equilateral triangles.
-    columns_ = std::max(1, static_cast<int>(std::lround(std::sqrt(cells / (std::numbers::sqrt3 / 2)))));
-    rows_ = std::max(1, static_cast<int>(std::lround(cells / columns_)));
-    is_quincunx_ = columns_ * rows_ == 1 && cells > std::numbers::sqrt2;
+    // Points in such rows are corners of about equilateral triangles. Two columns and one row are the black fields of a
+    // chessboard.
+    const int least = cells > std::numbers::sqrt2 ? 2 : 1;
+    columns_ = std::max(least, static_cast<int>(std::lround(std::sqrt(cells / (std::numbers::sqrt3 / 2)))));
+    rows_ = std::clamp(static_cast<int>(std::lround(cells / columns_)), 1, columns_);
   }
 
-  // Returns the distance between points, in cells, and the same rounded up.
-  double spacing() const { return is_quincunx_ ? std::numbers::sqrt2 : std::sqrt(columns_ * rows_); }
-  int reach() const { return is_quincunx_ ? 2 : rows_; }
+  // Returns the distance between points, in cells; and about the same in whole cells, at least 2 where cells are left out.
+  double spacing() const { return std::sqrt(columns_ * rows_); }
+  int reach() const { return std::max(rows_, std::min(columns_, 2)); }
 
   // Returns the numbers of the cells, row by row.
   std::vector<Index> chosen() const {
@@ -59,9 +60,8 @@ class CellChoice {
   }
 
  private:
-  // Every second row is shifted by half a triangle.
+  // Every second row is shifted by half a side of a triangle.
   bool is_regular(int x, int y) const {
-    if (is_quincunx_) return (x + y) % 2 == 0;
     return y % rows_ == 0 && (x + y / rows_ % 2 * (columns_ / 2)) % columns_ == 0;
   }
   bool is_chosen(int x, int y) const {
@@ -77,10 +77,9 @@ class CellChoice {
 
   const FrontCells& front_;
   int columns_ = 1, rows_ = 1, hole_reach_;
-  bool is_quincunx_ = false;  // every second cell, like the black fields of a chessboard
 };
 
-// Measures the front around the centres of cells, over as many cells as a point of the surface stands for.
+// Measures the front around the centres of cells, over about as many cells as a point of the surface stands for.
 class CellMeasures {
  public:
   CellMeasures(const FrontCells& front, int step) : front_(front), step_(step), reach_(step / 2) {}
