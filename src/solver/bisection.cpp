@@ -43,9 +43,9 @@ Sweep make_sweep(std::vector<float> value, const Eigen::Vector2f& direction) {
   return sweep;
 }
 
-// Returns the direction in which the positions spread most: the principal axis of their covariance. Separators across it
-// are mostly short. Where all directions are alike, rounding decides, but as sums, quotients and square roots have the same
-// bits everywhere, so has the direction.
+// Returns the direction in which the positions spread most: the principal axis of their covariance. Separators across
+// it are mostly short. Where all directions are alike, rounding decides, but as sums, quotients and square roots have
+// the same bits everywhere, so has the direction.
 Eigen::Vector2f widest_direction(std::span<const Eigen::Vector2f> positions) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Eigen::Vector2f& p : positions) mean += p.cast<double>();

@@ -38,7 +38,8 @@ class CellChoice {
     rows_ = std::clamp(static_cast<int>(std::lround(cells / columns_)), 1, columns_);
   }
 
-  // Returns the distance between points, in cells; and about the same in whole cells, at least 2 where cells are left out.
+  // Returns the distance between points, in cells; and about the same in whole cells, at least 2 where cells are left
+  // out.
   double spacing() const { return std::sqrt(columns_ * rows_); }
   int reach() const { return std::max(rows_, std::min(columns_, 2)); }
 
