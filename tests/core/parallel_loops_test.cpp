@@ -33,5 +33,23 @@ TEST(ParallelLoops, DoNotWaitForTheEndOfALongOne) {
   EXPECT_EQ(visits, std::vector<int>(100, 1));
 }
 
+TEST(ParallelLoops, OfSeveralThreadsVisitEveryElementOnce) {
+  set_thread_count(2);
+  std::atomic<int> wrong = 0;
+  std::vector<std::thread> threads;
+  for (const std::size_t grain : {1, 2, 3, 4})
+    threads.emplace_back([&wrong, grain] {
+      for (std::size_t size = 0; size < 500; ++size) {
+        std::vector<int> visits(size, 0);
+        parallel_for(
+            size, [&](std::size_t i) { ++visits[i]; }, grain);
+        wrong += visits != std::vector<int>(size, 1);
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  set_thread_count(0);
+  EXPECT_EQ(wrong, 0);
+}
+
 }  // namespace
 }  // namespace relievo
