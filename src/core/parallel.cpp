@@ -9,7 +9,8 @@
 namespace relievo {
 namespace {
 
-// Set while a thread works on a block: a nested parallel call would otherwise wait for the job it is part of.
+// Set while a thread works on a block: a nested parallel call then works alone at once, as the other threads have blocks
+// of their own.
 thread_local bool is_inside_parallel_call = false;
 
 // The blocks of one parallel call. Threads take the next block from a shared counter until none is left.
@@ -36,8 +37,8 @@ struct Job {
   }
 };
 
-// The worker threads, which sleep between jobs. They do one job at a time. Whoever has another one meanwhile begins it
-// alone: a picture must not wait for a job that takes half a second.
+// The worker threads, which sleep between jobs. They do one job at a time. A caller that comes meanwhile works on its own
+// alone until they are free: a picture must not wait for a job that takes half a second.
 class Pool {
  public:
   static Pool& instance() {

@@ -106,33 +106,34 @@ std::vector<std::size_t> sizes_of_pieces(const FrontCells& front) {
   return sizes;
 }
 
+// Expects that the cells are covered for whose numbers that holds, and that they are counted.
+template <typename F>
+void expect_covered(const FrontCells& front, F&& is_covered) {
+  std::size_t covered = 0;
+  for (std::size_t i = 0; i < front.normal.size(); ++i) {
+    EXPECT_EQ(front.normal[i].z() > 0, is_covered(i)) << i;
+    EXPECT_EQ(front.depth[i], 0) << i;
+    covered += front.normal[i].z() > 0;
+  }
+  EXPECT_EQ(front.covered, covered);
+}
+
 TEST(FrontCells, LoseSmallPieces) {
   const FrontCells before = random_front(1);
+  const std::vector<std::size_t> sizes = sizes_of_pieces(before);
   FrontCells after = before;
   clear_small_pieces(after, 6);
-  const std::vector<std::size_t> sizes = sizes_of_pieces(before);
-  std::size_t covered = 0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    EXPECT_EQ(after.normal[i].z() > 0, before.normal[i].z() > 0 && sizes[i] >= 6) << i;
-    covered += after.normal[i].z() > 0;
-  }
-  EXPECT_EQ(after.covered, covered);
-  EXPECT_LT(covered, before.covered);
+  expect_covered(after, [&](std::size_t i) { return before.normal[i].z() > 0 && sizes[i] >= 6; });
+  EXPECT_LT(after.covered, before.covered);
 }
 
 TEST(FrontCells, CloseSmallHoles) {
   const FrontCells before = random_front(2);
+  const std::vector<std::size_t> sizes = sizes_of_pieces(before);
   FrontCells after = before;
   fill_small_holes(after, 6);
-  const std::vector<std::size_t> sizes = sizes_of_pieces(before);
-  std::size_t covered = 0;
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    EXPECT_EQ(after.normal[i].z() > 0, before.normal[i].z() > 0 || sizes[i] <= 6) << i;
-    EXPECT_EQ(after.depth[i], 0) << i;
-    covered += after.normal[i].z() > 0;
-  }
-  EXPECT_EQ(after.covered, covered);
-  EXPECT_GT(covered, before.covered);
+  expect_covered(after, [&](std::size_t i) { return before.normal[i].z() > 0 || sizes[i] <= 6; });
+  EXPECT_GT(after.covered, before.covered);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What is done to fronts after they were drawn: crumbs are cleared, small holes closed, edges marked. Declared in
+// Clears crumbs of fronts that were drawn, closes their small holes, and marks where the surface ends. Declared in
 // front_cells.h, tested by tests/scan/turning_test.cpp.
 #include <algorithm>
 #include <cmath>
@@ -134,13 +134,14 @@ class EdgeSearch {
   explicit EdgeSearch(const FrontCells& front) : front_(front), rises_(rises_of(front)) {}
 
   bool is_edge(int x, int y) const {
-    return front_.is_covered(x, y) && (is_between(x, y, x + 1, y, 0) || is_between(x, y, x - 1, y, 0) ||
-                                       is_between(x, y, x, y + 1, 1) || is_between(x, y, x, y - 1, 1));
+    return front_.is_covered(x, y) &&
+           (is_edge_between(x, y, x + 1, y, 0) || is_edge_between(x, y, x - 1, y, 0) ||
+            is_edge_between(x, y, x, y + 1, 1) || is_edge_between(x, y, x, y - 1, 1));
   }
 
  private:
-  // Returns whether no surface spans the cell and its neighbour (u, v), which lies along the axis.
-  bool is_between(int x, int y, int u, int v, int axis) const {
+  // Returns whether no surface spans the cell and its neighbour (u, v) in the same row (axis 0) or column (axis 1).
+  bool is_edge_between(int x, int y, int u, int v, int axis) const {
     if (!front_.is_covered(u, v)) return true;
     const float rise = std::max(rises_.at(x, y)[axis], rises_.at(u, v)[axis]);
     return std::abs(front_.depth.at(x, y) - front_.depth.at(u, v)) > 2 * rise + 3 * front_.cell;
