@@ -23,6 +23,11 @@ int first_centre(int steps) {
   return (shifted + steps_per_pixel) / steps_per_pixel - 1;
 }
 
+// The first centre at or after `steps`, of 0 to `most`.
+std::uint16_t cell_of(int steps, int most) {
+  return static_cast<std::uint16_t>(std::clamp(first_centre(steps), 0, most));
+}
+
 // A linear function of the pixel, not negative inside the triangle. Its numbers are integers below 2^53, so
 // exact.
 struct EdgeFunction {
@@ -85,39 +90,61 @@ DepthPlane plane_through(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 Rasterizer::Rasterizer(const RasterInput& scene, int band_rows) : scene_(scene), band_rows_(band_rows) {
   corners_.resize(scene.points.size());
+  cells_.resize(scene.points.size());
   parallel_for(scene.points.size(), [&](std::size_t i) {
     const Vec3& p = scene.points[i];
-    corners_[i] = {snap(p.x()), snap(p.y())};
+    const Corner corner{snap(p.x()), snap(p.y())};
+    corners_[i] = corner;
+    cells_[i] = {cell_of(corner.x, scene.width), cell_of(corner.y, scene.height)};
   });
   sort_into_bands();
 }
 
-// Rows in which the triangle can cover a centre; none if it faces away or slips between the centres.
-Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
+// Whether no centre lies between the triangle's corners. Most triangles of a fine scan end here, so that few bytes of each
+// are read.
+bool Rasterizer::slips_through(const Triangle& triangle) const {
+  const Cell a = cells_[triangle[0]], b = cells_[triangle[1]], c = cells_[triangle[2]];
+  const bool is_in_column = a.column == b.column && b.column == c.column;
+  return is_in_column || (a.row == b.row && b.row == c.row);
+}
+
+bool Rasterizer::is_facing(const Triangle& triangle) const {
   const Corner &a = corners_[triangle[0]], &b = corners_[triangle[1]], &c = corners_[triangle[2]];
   const auto cross = std::int64_t{b.x - a.x} * (c.y - a.y) - std::int64_t{b.y - a.y} * (c.x - a.x);
-  if (cross >= 0) return {0, 0};  // y points down: what is counter-clockwise to the viewer is negative here
-  const auto [left, right] = std::minmax({a.x, b.x, c.x});
-  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-  if (first_centre(left) >= first_centre(right + 1)) return {0, 0};
-  return {std::max(0, first_centre(top)), std::min(scene_.height, first_centre(bottom + 1))};
+  return cross < 0;  // y points down: what is counter-clockwise to the viewer is negative here
+}
+
+// Rows with centres between the triangle's corners. A centre at its lowest corner belongs to another triangle.
+Rasterizer::Rows Rasterizer::rows_of(const Triangle& triangle) const {
+  const auto [top, bottom] =
+      std::minmax({cells_[triangle[0]].row, cells_[triangle[1]].row, cells_[triangle[2]].row});
+  return {top, bottom};
+}
+
+// Those of some triangles that face the viewer and may cover a centre, with their bands.
+std::vector<Rasterizer::InBands> Rasterizer::covering(std::size_t begin, std::size_t end) const {
+  std::vector<InBands> found;
+  for (std::size_t t = begin; t < end; ++t) {
+    const Triangle& triangle = scene_.triangles[t];
+    if (slips_through(triangle) || !is_facing(triangle)) continue;
+    const Rows rows = rows_of(triangle);
+    found.push_back({static_cast<Index>(t), {rows.begin / band_rows_, (rows.end - 1) / band_rows_ + 1}});
+  }
+  return found;
 }
 
 void Rasterizer::sort_into_bands() {
   constexpr std::size_t block = 1 << 14;  // triangles that one task sorts
   const std::size_t count = scene_.triangles.size(), blocks = (count + block - 1) / block;
   const auto bands = static_cast<std::size_t>((scene_.height + band_rows_ - 1) / band_rows_);
-  std::vector<Rows> bands_of(count);
+  std::vector<std::vector<InBands>> covering_in(blocks);
   // Per block and band: the number of triangles, then the place of the next.
   std::vector<std::size_t> next(blocks * bands);
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t) {
-      const Rows rows = rows_of(scene_.triangles[t]);
-      if (rows.begin >= rows.end) continue;
-      bands_of[t] = {rows.begin / band_rows_, (rows.end - 1) / band_rows_ + 1};
-      for (int b = bands_of[t].begin; b < bands_of[t].end; ++b)
+    covering_in[begin / block] = covering(begin, end);
+    for (const InBands& p : covering_in[begin / block])
+      for (int b = p.bands.begin; b < p.bands.end; ++b)
         ++next[begin / block * bands + static_cast<std::size_t>(b)];
-    }
   });
   std::size_t sum = 0;
   for (std::size_t b = 0; b < bands; ++b) {
@@ -126,11 +153,14 @@ void Rasterizer::sort_into_bands() {
   }
   first_.push_back(sum);
   triangles_.resize(sum);
-  parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t t = begin; t < end; ++t)
-      for (int b = bands_of[t].begin; b < bands_of[t].end; ++b)
-        triangles_[next[begin / block * bands + static_cast<std::size_t>(b)]++] = static_cast<Index>(t);
-  });
+  parallel_for(
+      blocks,
+      [&](std::size_t i) {
+        for (const InBands& p : covering_in[i])
+          for (int b = p.bands.begin; b < p.bands.end; ++b)
+            triangles_[next[i * bands + static_cast<std::size_t>(b)]++] = p.triangle;
+      },
+      1);
 }
 
 void Rasterizer::draw_triangle(Index t, Rows rows, RowBand& band) const {

@@ -1,6 +1,7 @@
 // Orthographic scan conversion on the CPU: which triangle is seen at the centre of each pixel, and how near.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -46,16 +47,28 @@ class Rasterizer {
   struct Corner {
     int x, y;  // in 1/256 pixel
   };
+  // The first column and row of centres that are at a corner, right of it or below; from 0 to the picture's width and height.
+  struct Cell {
+    std::uint16_t column, row;
+  };
   struct Rows {
     int begin, end;
   };
+  struct InBands {
+    Index triangle;
+    Rows bands;
+  };
+  bool slips_through(const Triangle& triangle) const;
+  bool is_facing(const Triangle& triangle) const;
   Rows rows_of(const Triangle& triangle) const;
+  std::vector<InBands> covering(std::size_t begin, std::size_t end) const;
   void sort_into_bands();
   void draw_triangle(Index t, Rows rows, RowBand& band) const;
 
   const RasterInput& scene_;
   int band_rows_;
   std::vector<Corner> corners_;     // per point
+  std::vector<Cell> cells_;         // per point
   std::vector<std::size_t> first_;  // per band and one more: where its triangles begin
   std::vector<Index> triangles_;    // by band, in the scene's order
 };
