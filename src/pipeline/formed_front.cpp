@@ -63,7 +63,8 @@ HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& h
   return front;
 }
 
-FormedFront full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options) {
+Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                               const Progress* progress) {
   const double scale = mm_per_unit(surface, options);
   FormedFront made;
   if (options.form == Form::lithophane) {
@@ -74,8 +75,10 @@ FormedFront full_front(const Surface& surface, const Relief& relief, const Relie
     made.front = front_in_mm(surface, relief.heights, scale);
   }
   if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
-  if (is_sampled(options))
-    made.front = sample_front(made.front, smooth_triangles(surface), {sample_step(surface, options)});
+  if (is_sampled(options)) {
+    const FrontSampling sampling{sample_step(surface, options)};
+    RELIEVO_TRY(made.front, sample_front(made.front, smooth_triangles(surface), sampling, progress));
+  }
   made.full_triangles = made.front.triangles.size();
   if (options.form == Form::mirror) made.front = mirrored(std::move(made.front));
   if (options.form == Form::die) made.front = as_die(std::move(made.front));

@@ -18,8 +18,9 @@ struct FormedFront {
 // Returns the points at these heights, in millimetres, on the surface's triangles.
 HeightFieldMesh front_in_mm(const Surface& surface, const std::vector<double>& heights, double mm_per_unit);
 
-// Returns the front with all its samples in the form that the options ask for.
-FormedFront full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options);
+// Returns the front with all its samples in the form that the options ask for. Errors: `cancelled`.
+Result<FormedFront> full_front(const Surface& surface, const Relief& relief, const ReliefOptions& options,
+                               const Progress* progress);
 
 // Returns the front as simple as the options ask for, unless make_plate() is to simplify; of outline `none` what of it is
 // relief. Errors: those of simplify().

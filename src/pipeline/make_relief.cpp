@@ -85,7 +85,7 @@ Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& a
   RELIEVO_CHECK(begin_stage(progress, "relief", .85));
   RELIEVO_TRY(const Relief relief, relief_of_height(model, options, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .9));
-  FormedFront full = full_front(surface, relief, options);
+  RELIEVO_TRY(FormedFront full, full_front(surface, relief, options, progress));
   RELIEVO_CHECK(begin_stage(progress, "solid", .95));
   RELIEVO_TRY(FormedBody made, make_formed_body(std::move(full), options, progress));
   auto& [formed, body] = made;

@@ -48,7 +48,7 @@ double area(const HeightFieldMesh& front) {
 
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
   const HeightFieldMesh front = front_of(dome);
-  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2});
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2}).value();
   EXPECT_NEAR(area(sampled), side * side, 1e-6);
   for (const Vec3& p : sampled.points)
     if ((p.head<2>() - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .4 * side) {
@@ -60,7 +60,7 @@ TEST(SampleFront, IsFinerWhereAskedAndCoarserWherePlane) {
   const HeightFieldMesh curved = front_of([](const Vec2&p) { return std::sin(p.x()) * std::cos(p.y()); }),
                         plane = front_of([](const Vec2&p) { return .1 * p.x(); });
   const auto count = [](const HeightFieldMesh& front, double step) {
-    return sample_front(front, all_of(front, 1), {step}).points.size();
+    return sample_front(front, all_of(front, 1), {step}).value().points.size();
   };
   EXPECT_GT(count(curved, .1), 2.5 * static_cast<double>(count(curved, .2)));
   EXPECT_LT(2 * count(plane, .1), count(curved, .1));
@@ -69,7 +69,7 @@ TEST(SampleFront, IsFinerWhereAskedAndCoarserWherePlane) {
 TEST(SampleFront, KeepsHullAndRange) {
   const HeightFieldMesh front =
       front_of([](const Vec2& p) { return std::sin(2 * p.x()) * std::cos(3 * p.y()); });
-  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.15});
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.15}).value();
   for (const Index i : front.hull)
     EXPECT_TRUE(
         std::ranges::any_of(sampled.hull, [&](Index j) { return sampled.points[j] == front.points[i]; }));
@@ -82,7 +82,7 @@ TEST(SampleFront, KeepsHullAndRange) {
 
 TEST(SampleFront, HasNoThinTriangleAwayFromTheHull) {
   const HeightFieldMesh front = front_of(dome);
-  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2});
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2}).value();
   for (const Triangle& t : sampled.triangles) {
     double least = 4;
     bool is_far = true;
@@ -101,7 +101,7 @@ TEST(SampleFront, HasNoThinTriangleAwayFromTheHull) {
 
 TEST(SampleFront, LeavesPlaneTrianglesAsTheyAre) {
   const HeightFieldMesh front = front_of(dome, 500);
-  const HeightFieldMesh sampled = sample_front(front, all_of(front, 0), {.2});
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 0), {.2}).value();
   EXPECT_EQ(sampled.points.size(), front.points.size());
   EXPECT_EQ(sampled.triangles.size(), front.triangles.size());
 }
@@ -111,7 +111,7 @@ TEST(SampleFront, TellsReliefFromGround) {
   front.is_relief.resize(front.triangles.size());
   for (std::size_t t = 0; t < front.triangles.size(); ++t)
     front.is_relief[t] = front.points[front.triangles[t][0]].x() < side / 2;
-  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2});
+  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2}).value();
   ASSERT_EQ(sampled.is_relief.size(), sampled.triangles.size());
   for (std::size_t t = 0; t < sampled.triangles.size(); ++t) {
     const Vec3& p = sampled.points[sampled.triangles[t][0]];
@@ -120,6 +120,13 @@ TEST(SampleFront, TellsReliefFromGround) {
       EXPECT_EQ(sampled.is_relief[t] != 0, x < side / 2);
     }
   }
+}
+
+TEST(SampleFront, EndsWhenCancelled) {
+  const HeightFieldMesh front = front_of(dome, 500);
+  Progress progress;
+  progress.cancel();
+  EXPECT_EQ(sample_front(front, all_of(front, 1), {.2}, &progress).error().kind, ErrorKind::cancelled);
 }
 
 }  // namespace

@@ -66,12 +66,15 @@ class Sampler {
         is_band_(band_triangles(front, is_smooth)),
         grid_(sample_grid(front, options.resolution_mm, 1 << coarsest_level)) {}
 
-  HeightFieldMesh make() {
+  Result<HeightFieldMesh> make(const Progress* progress) {
+    RELIEVO_CHECK(check_cancelled(progress));
     add_old_points();
     divide_band();
     thin_out_band();
+    RELIEVO_CHECK(check_cancelled(progress));
     add_squares();
     keep_within_range();
+    RELIEVO_CHECK(check_cancelled(progress));
     return triangulated();
   }
 
@@ -352,10 +355,10 @@ class Sampler {
 
 }  // namespace
 
-HeightFieldMesh sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
-                             const FrontSampling& options) {
+Result<HeightFieldMesh> sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
+                                     const FrontSampling& options, const Progress* progress) {
   if (front.triangles.empty()) return front;
-  return Sampler(front, is_smooth, options).make();
+  return Sampler(front, is_smooth, options).make(progress);
 }
 
 }  // namespace relievo

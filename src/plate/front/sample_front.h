@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "relievo/core/progress.h"
 #include "relievo/plate/solid.h"
 
 namespace relievo {
@@ -16,8 +17,9 @@ struct FrontSampling {
 
 // Returns a front over the same hull whose points lie on the smooth surface through the given one: on a grid of
 // squares, and near creases on the triangles of the given front, divided as finely. Creases are the edges between
-// smooth triangles and others, `is_smooth` per triangle; the others stay plane. Highest and lowest point stay.
-HeightFieldMesh sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
-                             const FrontSampling& options);
+// smooth triangles and others, `is_smooth` per triangle; the others stay plane. Highest and lowest point stay. Errors:
+// `cancelled`.
+Result<HeightFieldMesh> sample_front(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth,
+                                     const FrontSampling& options, const Progress* progress = nullptr);
 
 }  // namespace relievo
