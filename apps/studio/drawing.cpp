@@ -173,18 +173,19 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   answer.is_plain = is_plain(request.options);
   answer.is_finished = (!answer.is_plain || request.is_finished) && piece_.is_finished(order.key);
   if (answer.is_plain && !answer.is_finished) {
-    renderer_.render(shown(cached), render, answer.picture);
+    renderer_.render(shown(cached), render, answer.picture, request.progress.get());
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
     answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
     const Vec2 half = facts_.size * render.mm_per_unit / 2;
     answer.relief_mm = {-half, half};
   } else {
     RELIEVO_TRY(DrawnPiece* const piece, piece_.drawn(order));
-    piece->renderer.render(render, answer.picture);
+    piece->renderer.render(render, answer.picture, request.progress.get());
     answer.size_mm = size_mm(*piece->solid);
     answer.relief_mm = relief_in(*piece->solid, request.options);
     if (piece->reach) answer.reach = {piece->reach->reached_share, piece->reach->largest_residual_mm};
   }
+  RELIEVO_CHECK(check_cancelled(request.progress.get()));
   answer.drawing_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {};
 }
@@ -198,7 +199,8 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   if (request.is_original) {
     options.has_shadows = false;           // the model's own depth would bury the ground in them
     options.material = Material::plaster;  // whatever the piece is made of
-    renderer_.render(renderer_.original(), options, answer.picture);
+    renderer_.render(renderer_.original(), options, answer.picture, request.progress.get());
+    RELIEVO_CHECK(check_cancelled(request.progress.get()));
     answer.is_finished = true;
     return answer;
   }
@@ -216,8 +218,9 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
 
 Result<double> Drawing::reachable_height(const ReliefOptions& asked) {
   RELIEVO_TRY(const ReliefOptions options, plate_width_.with_width(model_->surface(), asked));
-  return frames_.highest(frame_options({options, {}, std::nullopt, std::nullopt, false, false, {}})) *
-         mm_per_unit(options);
+  PictureRequest request;
+  request.options = options;
+  return frames_.highest(frame_options(request)) * mm_per_unit(options);
 }
 
 Result<std::vector<float>> Drawing::profile(PictureRequest request, const SectionLine& line) {

@@ -40,6 +40,7 @@ struct PictureRequest {
   bool is_original = false;  // shows the model itself in place of its relief
   bool is_finished = false;  // shows the piece as export makes it
   RenderOptions render;      // its lengths are set from the options
+  std::shared_ptr<const Progress> progress = {};  // of a picture that may be cancelled
 };
 
 struct PictureAnswer {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <functional>
 #include <new>
+#include <utility>
 
 #include "common/wording.h"
 #include "relievo/core/choice.h"
@@ -81,6 +82,8 @@ struct MadePiece {
 struct Engine::State {
   std::function<void()> changed;
   Guarded<Shared> shared;
+
+  Guarded<std::shared_ptr<Progress>> at_rest;  // of fine pictures and pieces; null after any other picture
 
   Guarded<Making> making;
   Mutex making_mutex;  // guards `piece`; pictures are drawn meanwhile
@@ -289,7 +292,13 @@ Result<void> Engine::finish(const PictureRequest& request) {
   return {};
 }
 
-Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
+Result<PictureAnswer> Engine::picture(PictureRequest request) {
+  const bool is_at_rest = request.is_finished || request.render.is_fine;
+  state_->at_rest.with([&](std::shared_ptr<Progress>& progress) {
+    if (!is_at_rest && progress) std::exchange(progress, nullptr)->cancel();
+    if (is_at_rest && !progress) progress = std::make_shared<Progress>();
+    request.progress = progress;
+  });
   if (request.is_finished) {
     RELIEVO_CHECK(finish(request));
   } else {
@@ -298,6 +307,7 @@ Result<PictureAnswer> Engine::picture(const PictureRequest& request) {
     });
   }
   const Lock lock(state_->drawing_mutex);
+  RELIEVO_CHECK(check_cancelled(request.progress.get()));
   if (request.turned) {
     RELIEVO_TRY(Drawing* const turned, state_->turned_drawing(*request.turned));
     return turned->picture(request);

@@ -78,8 +78,9 @@ class Engine {
   Result<ModelFacts> facts();
 
   // See Drawing. While another view is prepared, pictures show the last frame of the model before it. A finished piece is
-  // made first; any other picture cancels that, so that nobody waits for it. Errors: also those of piece().
-  Result<PictureAnswer> picture(const PictureRequest& request);
+  // made first; any other picture cancels that, so that nobody waits for it, and one that is not fine cancels all fine ones.
+  // Errors: also those of piece().
+  Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(const PictureRequest& request, const SectionLine& line);
 
   // See Drawing.

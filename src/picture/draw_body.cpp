@@ -145,13 +145,14 @@ int find_seen(const RowBand& band, int column, int row, int n, std::array<SeenTr
   return count;
 }
 
-// Draws with n x n samples per pixel; the painter's transform is that of the samples.
+// Draws with n x n samples per pixel, up to the band where it is cancelled; the painter's transform is that of the samples.
 void draw_triangles(const DrawnBody& body, const RasterInput& input, const Painter& painter, int n,
-                    Image8& picture) {
+                    const Progress* progress, Image8& picture) {
   const Rasterizer rasterizer(input, 12 * n);
   const DisplayTable& display = display_table();
   const float share = 1 / static_cast<float>(n * n);
   const auto draw_band = [&](std::size_t b) {
+    if (progress && progress->is_cancelled()) return;
     const RowBand band = rasterizer.draw(b);
     std::array<SeenTriangle, most_samples> seen;
     for (int row = band.first_row / n; row < (band.first_row + band.fragments.height) / n; ++row) {
@@ -231,7 +232,7 @@ void draw_body(const DrawnBody& body, const ScreenTransform& transform, const Dr
   if (n == 1 && body.is_height_field && transform.is_front)
     draw_visible(cache.front.get(body, samples), painter, picture);
   else
-    draw_triangles(body, raster_input(body, samples), painter, n, picture);
+    draw_triangles(body, raster_input(body, samples), painter, n, params.progress, picture);
   add_drop_shadow(picture, transform.R_screen_body.cast<float>() * to_lamp);
 }
 

@@ -7,6 +7,7 @@
 #include "picture/screen_transform.h"
 #include "picture/visibility.h"
 #include "plate/height_field.h"
+#include "relievo/core/progress.h"
 #include "relievo/picture/material.h"
 #include "relievo/plate/tool.h"
 
@@ -18,6 +19,7 @@ struct DrawParams {
   bool has_shadows = true;
   bool is_fine = false;                         // more samples per pixel and finer shadows
   std::shared_ptr<const ToolReach> reach = {};  // of the body's front: what is left of it is coloured
+  const Progress* progress = nullptr;           // of a picture that may be left unfinished
 };
 
 // Results that stay valid between pictures of the same body, if it is a height field.

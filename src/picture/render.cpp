@@ -42,7 +42,8 @@ Shown FrameRenderer::original() const {
   return {state_->depths, state_->model->surface().normals, 1, {{0, state_->deepest}}};
 }
 
-void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Picture& picture) {
+void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Picture& picture,
+                           const Progress* progress) {
   if (options.width < 1 || options.height < 1 || std::max(options.width, options.height) > largest_side) {
     picture = {};
     return;
@@ -50,8 +51,9 @@ void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Pic
   const DrawnBody body = frame_body(state_->mesh, shown, options);
   const ScreenTransform transform = frame_transform(state_->mesh, options);
   picture.pixels_per_mm = transform.pixels_per_mm;
-  draw_body(body, transform, {options.material, options.light, options.has_shadows, options.is_fine},
-            state_->cache, picture.image);
+  DrawParams params{options.material, options.light, options.has_shadows, options.is_fine};
+  params.progress = progress;
+  draw_body(body, transform, params, state_->cache, picture.image);
 }
 
 std::vector<float> FrameRenderer::profile(const Shown& shown, const RenderOptions& options, const Vec2& from,

@@ -34,7 +34,7 @@ SolidRenderer::SolidRenderer(std::shared_ptr<const Solid> solid, std::shared_ptr
 SolidRenderer::SolidRenderer(SolidRenderer&&) noexcept = default;
 SolidRenderer::~SolidRenderer() = default;
 
-void SolidRenderer::render(const RenderOptions& options, Picture& picture) {
+void SolidRenderer::render(const RenderOptions& options, Picture& picture, const Progress* progress) {
   constexpr int largest_side = 8192;
   if (options.width < 1 || options.height < 1 || std::max(options.width, options.height) > largest_side) {
     picture = {};
@@ -43,7 +43,7 @@ void SolidRenderer::render(const RenderOptions& options, Picture& picture) {
   const ScreenTransform transform = camera_transform(state_->size, options);
   picture.pixels_per_mm = transform.pixels_per_mm;
   draw_body(state_->body, transform,
-            {options.material, options.light, options.has_shadows, options.is_fine, state_->reach},
+            {options.material, options.light, options.has_shadows, options.is_fine, state_->reach, progress},
             state_->cache, picture.image);
 }
 

@@ -236,6 +236,20 @@ TEST(Render, HasTheSameBitsForAnyNumberOfThreads) {
   set_thread_count(0);
 }
 
+TEST(Render, LeavesACancelledPictureUnfinishedAndDrawsTheNext) {
+  RenderOptions options = small();
+  options.is_fine = true;
+  Progress progress;
+  progress.cancel();
+  FrameRenderer renderer(ball());
+  Picture made;
+  const Field shown = bumps();
+  renderer.render(shown.shown(), options, made, &progress);
+  EXPECT_EQ(opaque_pixels(made), 0U);
+  renderer.render(shown.shown(), options, made);
+  EXPECT_EQ(made.image.pixels, picture(bumps(), options).image.pixels);
+}
+
 TEST(Render, RefusesSizesOutOfRange) {
   for (const auto& [width, height] : {std::pair{0, 10}, {10, 0}, {-5, 10}, {10, 8193}}) {
     RenderOptions options = small();

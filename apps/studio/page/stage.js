@@ -108,10 +108,10 @@ export class Stage {
       if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
       else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
     } catch (error) {
-      if (error.kind !== "cancelled" && error.name !== "AbortError") {
-        this.shown = this.fine = this.finished = number;
-        if (number === this.wanted) this.on.failed(error); // the newest state may have no such fault
-      }
+      const isCancelled = error.kind === "cancelled" || error.name === "AbortError", isNewest = number === this.wanted;
+      if (!isCancelled) this.shown = this.fine = this.finished = number;
+      if (!isCancelled && isNewest) this.on.failed(error); // the newest state may have no such fault
+      if (isCancelled && isNewest) this.changedAt = performance.now(); // by another page: once more, after a pause
     }
     this.isBusy = false;
     this.unwanted = null;
@@ -172,7 +172,7 @@ export class Stage {
     for (const [i, {light}] of TABLE_LIGHTS.entries()) {
       const cell = $(`#table [data-cell="${i}"] canvas`);
       const {image, about} = await this.frame(
-        this.request({width: half(width), height: half(height), fine: isFine, light}));
+        this.request({width: half(width), height: half(height), fine: isFine, light}), this.unwanted?.signal);
       if (!this.isReady || model !== this.model) return;
       paint(cell, image);
       if (i === 0) this.on.picture(about, 0, isFine);

@@ -263,6 +263,16 @@ test("makes a frame once", async () => {
   assert.equal((await frame({options: {...options, height: 2.1}})).solves, 1);
 });
 
+test("gives up a fine picture when another is asked for", async () => {
+  const large = {...FRAME, width: 1600, height: 1500, fine: true};
+  assert.equal((await engine.post("frame", large)).status, 200);
+  const fine = engine.post("frame", {...large, light: [1, 0, 1]});
+  await new Promise((resolve) => setTimeout(resolve, 50)); // its drawing takes several times as long
+  assert.equal((await engine.post("frame", FRAME)).status, 200);
+  assert.equal(JSON.parse((await fine).body).error.kind, "cancelled");
+  assert.equal((await engine.post("frame", large)).status, 200);
+});
+
 test("takes a view that is chosen while the scan is read", async () => {
   const input = {sample: "still_life", name: "still_life"}, {document} = await engine.json("open", {input});
   await engine.post("view", {document, view: "left"});

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "relievo/core/image.h"
+#include "relievo/core/progress.h"
 #include "relievo/picture/material.h"
 #include "relievo/relief/frame.h"
 #include "relievo/scan/surface.h"
@@ -77,8 +78,9 @@ class FrameRenderer {
   ~FrameRenderer();
 
   // Overwrites the picture; leaves it without pixels for a size out of range. `shown` has an entry for each
-  // point of the model's surface.
-  void render(const Shown& shown, const RenderOptions& options, Picture& picture);
+  // point of the model's surface. A fine picture that is cancelled lacks some of its rows.
+  void render(const Shown& shown, const RenderOptions& options, Picture& picture,
+              const Progress* progress = nullptr);
 
   // The model itself, as the scan has it: its depth above its lowest visible point.
   Shown original() const;
