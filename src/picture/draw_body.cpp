@@ -152,7 +152,7 @@ void draw_triangles(const DrawnBody& body, const RasterInput& input, const Paint
   const DisplayTable& display = display_table();
   const float share = 1 / static_cast<float>(n * n);
   const auto draw_band = [&](std::size_t b) {
-    if (progress && progress->is_cancelled()) return;
+    if (!check_cancelled(progress)) return;
     const RowBand band = rasterizer.draw(b);
     std::array<SeenTriangle, most_samples> seen;
     for (int row = band.first_row / n; row < (band.first_row + band.fragments.height) / n; ++row) {
@@ -226,6 +226,7 @@ void draw_body(const DrawnBody& body, const ScreenTransform& transform, const Dr
                                            params.is_fine ? cache.fine_light : cache.quick_light)
                            : HeightField{},
                        to_lamp);
+  if (!check_cancelled(params.progress)) return;
   const int n = params.is_fine ? fine_samples : 1;
   const ScreenTransform samples = transform.finer(n);
   const Painter painter(body, samples, light, params);
