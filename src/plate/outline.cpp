@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <string>
 
 #include "geometry/plane.h"
 #include "relievo/core/text.h"
@@ -186,6 +188,19 @@ const OutlineShape* shape_of(Outline outline) {
   return found == shapes.end() ? nullptr : &*found;
 }
 
+// Returns the lengths on both sides of a separator. A unit behind the second alone is that of both, as in "8x6in".
+std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit bare) {
+  const std::size_t middle = text.find(separator);
+  if (middle == std::string_view::npos) return std::nullopt;
+  std::string first(text.substr(0, middle));
+  const std::string_view second = text.substr(middle + 1);
+  const bool has_unit = first.find_first_of("mci\"") != std::string::npos;
+  if (!has_unit) first += second.substr(second.find_last_of("0123456789") + 1);
+  const Result<double> a = parse_length(first, bare), b = parse_length(second, bare);
+  if (!a || !b) return std::nullopt;
+  return Vec2(*a, *b);
+}
+
 }  // namespace
 
 Result<Outline> parse_outline(std::string_view name) {
@@ -193,11 +208,8 @@ Result<Outline> parse_outline(std::string_view name) {
 }
 
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
-  if (const std::size_t middle = text.find('x'); middle != std::string_view::npos) {
-    const Result<double> width = parse_length(text.substr(0, middle), bare),
-                         height = parse_length(text.substr(middle + 1), bare);
-    if (width && height && *width > 0 && *height > 0) return Vec2(*width, *height);
-  }
+  const std::optional<Vec2> size = parse_pair(text, 'x', bare);
+  if (size && size->minCoeff() > 0) return *size;
   return std::unexpected(
       Error{ErrorKind::option,
             {},
@@ -206,11 +218,8 @@ Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
 }
 
 Result<Vec2> parse_shift(std::string_view text, LengthUnit bare) {
-  if (const std::size_t middle = text.find(','); middle != std::string_view::npos) {
-    const Result<double> right = parse_length(text.substr(0, middle), bare),
-                         up = parse_length(text.substr(middle + 1), bare);
-    if (right && up && std::max(std::abs(*right), std::abs(*up)) <= 1e5) return Vec2(*right, *up);
-  }
+  const std::optional<Vec2> shift = parse_pair(text, ',', bare);
+  if (shift && shift->cwiseAbs().maxCoeff() <= 1e5) return *shift;
   return std::unexpected(
       Error{ErrorKind::option,
             {},

@@ -96,9 +96,12 @@ TEST(OutlineAround, HasTheSizeAskedForAndItsCentre) {
 }
 
 TEST(PlateSize, IsTwoLengthsOfAnyUnit) {
-  for (const char* const text : {"200x150", "20cm x 15cm", "200 mmx150mm", "100+100x150,0"})
+  for (const char* const text : {"200x150", "20cm x 15cm", "20x15cm", "200 mmx150mm", "100+100x150,0"})
     EXPECT_EQ(parse_plate_size(text).value_or(Vec2::Zero()), Vec2(200, 150)) << text;
-  EXPECT_EQ(parse_plate_size("8x6in", LengthUnit::inch).value_or(Vec2::Zero()), 25.4 * Vec2(8, 6));
+  for (const LengthUnit bare : {LengthUnit::inch, LengthUnit::mm})
+    EXPECT_EQ(parse_plate_size("8x6in", bare).value_or(Vec2::Zero()), 25.4 * Vec2(8, 6));
+  EXPECT_EQ(parse_plate_size("8in x 150").value_or(Vec2::Zero()), Vec2(25.4 * 8, 150));
+  EXPECT_EQ(parse_shift("1,-2in").value_or(Vec2::Zero()), 25.4 * Vec2(1, -2));
   for (const char* const text : {"", "x", "200", "200x", "x150", "200x150x3", "-200x150", "0x150", "200*150"})
     EXPECT_FALSE(parse_plate_size(text)) << text;
 }

@@ -42,11 +42,12 @@ struct OutlineOptions {
 Result<Outline> parse_outline(std::string_view name);
 
 // Returns width and height in millimetres of a text such as "200x150" or "8in x 6in": two lengths, see parse_length().
-// Errors: kind option for any other text; the error's input is empty, for the caller to fill in.
+// A unit behind the second alone is that of both. Errors: kind option for any other text; the error's input is empty, for
+// the caller to fill in.
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
-// Returns the lengths of a text such as "10,-5" or "1in,0", right and up. Errors: kind option for any other text; the
-// error's input is empty, for the caller to fill in.
+// Returns the lengths of a text such as "10,-5" or "1in,0", right and up, with units as those of sizes. Errors: kind option
+// for any other text; the error's input is empty, for the caller to fill in.
 Result<Vec2> parse_shift(std::string_view text, LengthUnit bare = LengthUnit::mm);
 
 // Returns whether the outline may have any width and height: those with straight sides or axes.
