@@ -78,7 +78,7 @@ class FrameRenderer {
   ~FrameRenderer();
 
   // Overwrites the picture; leaves it without pixels for a size out of range. `shown` has an entry for each
-  // point of the model's surface. A fine picture that is cancelled lacks some of its rows.
+  // point of the model's surface. A picture that is cancelled is left unfinished.
   void render(const Shown& shown, const RenderOptions& options, Picture& picture,
               const Progress* progress = nullptr);
 

@@ -22,8 +22,8 @@ class SolidRenderer {
 
   // Overwrites the picture; leaves it without pixels for a size out of range. Zoom 1 fits the solid into the picture; the
   // middle of its box, at the height of its ground, is what the camera turns around. Lengths in the options
-  // (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is cancelled lacks some of
-  // its rows.
+  // (mm_per_unit, margin_mm, thickness_mm) have no effect: the solid has its own. A picture that is cancelled is left
+  // unfinished.
   void render(const RenderOptions& options, Picture& picture, const Progress* progress = nullptr);
 
  private:
