@@ -1,9 +1,19 @@
 #include <cstdio>
+#include <iostream>
 #include <string_view>
 
 #include "cli/out_of_memory.h"
 #include "cli/program.h"
 #include "common/temporary_file.h"
+
+namespace {
+
+// Returns whether all that was printed has arrived where it was sent: it does not on a full disk.
+bool is_printed() {
+  return std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   // The studio refuses what is too large, and goes on.
@@ -11,5 +21,7 @@ int main(int argc, char** argv) {
   relievo::app::remove_temporary_files_on_signals();
   const relievo::app::cli::ProgramEnd end = relievo::app::cli::run_program({argv + 1, argv + argc});
   if (!end.message.empty()) std::fprintf(stderr, "relievo: %s\n", end.message.c_str());
-  return end.exit_code;
+  if (end.exit_code != 0 || is_printed()) return end.exit_code;
+  std::fprintf(stderr, "relievo: standard output: expected room to write what is printed\n");
+  return 1;
 }

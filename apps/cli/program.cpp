@@ -5,6 +5,7 @@
 #include <new>
 #include <numeric>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include "cli/commands.h"
@@ -118,6 +119,8 @@ ProgramEnd parse(CLI::App& program, std::vector<std::string> arguments) {
     return {2, message.str()};
   } catch (const std::bad_alloc&) {
     return {1, "expected more free memory for so many points", true};
+  } catch (const std::system_error&) {
+    return {1, "expected more threads than the system gives; ulimit -u and ulimit -v limit them", true};
   }
   return {};
 }

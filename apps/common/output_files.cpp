@@ -15,6 +15,14 @@
 namespace relievo::app {
 namespace {
 
+// Returns the file that a symbolic link leads to, so that the link stays; the path itself if it is no such link.
+std::string without_link(const std::string& path) {
+  std::error_code failed;
+  if (!std::filesystem::is_symlink(path, failed)) return path;
+  const std::filesystem::path target = std::filesystem::canonical(path, failed);
+  return failed ? path : target.string();
+}
+
 std::string folder_of(const std::string& path) {
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   return folder.empty() ? "." : folder.string();
@@ -36,7 +44,7 @@ bool is_same_file(const std::string& a, const std::string& b) {
 
 Result<void> check_writable(const std::string& path) {
   std::error_code ignored;
-  const std::string folder = folder_of(path);
+  const std::string folder = folder_of(without_link(path));
   if (std::filesystem::is_directory(path, ignored))
     return std::unexpected(Error{ErrorKind::output, path, {}, "expected a file name, found a folder"});
   if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
@@ -61,13 +69,13 @@ Result<void> check_output(const std::string& path, const std::vector<std::string
 Result<void> write_files(std::span<const OutputFile> files) {
   std::list<TemporaryFile> temporaries;
   for (const OutputFile& file : files) {
-    TemporaryFile& temporary = temporaries.emplace_back(file.path);
+    TemporaryFile& temporary = temporaries.emplace_back(without_link(file.path));
     if (auto ok = temporary.append(file.bytes); !ok) return ok;
     if (auto ok = temporary.finish(); !ok) return ok;
   }
   auto file = files.begin();
   for (TemporaryFile& temporary : temporaries)
-    if (auto ok = temporary.keep((file++)->path); !ok) return ok;
+    if (auto ok = temporary.keep(without_link((file++)->path)); !ok) return ok;
   return {};
 }
 

@@ -27,7 +27,7 @@ namespace {
 
 std::array<TemporaryName, 8> temporary_names;
 
-constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP, SIGXFSZ};
+constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
 
 std::atomic<bool> is_ending = false;       // temporary files are being removed, and the process ends then
 std::atomic<int> threads_with_change = 0;  // threads that make or rename a temporary file now
@@ -179,6 +179,7 @@ void remove_temporary_files() {
 }
 
 void remove_temporary_files_on_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error like a full disk
   for (const int signal : ending_signals) {
     struct sigaction action {};
     ::sigaction(signal, nullptr, &action);

@@ -12,6 +12,7 @@
 #include <deque>
 #include <list>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -23,8 +24,9 @@ using Clock = std::chrono::steady_clock;
 
 // Half of the 1024 files that a program may usually have open.
 constexpr std::size_t most_connections = 512;
-// Requests that are answered at the same time: those of a few pages, and uploads that arrive slowly.
-constexpr std::size_t answering_threads = 96;
+// Requests that are answered at the same time: those of a few pages, and uploads that arrive slowly. Each page holds one
+// request open for events, so that a single thread would answer nothing else.
+constexpr std::size_t fewest_answering = 4, most_answering = 96;
 constexpr std::size_t most_head = 16U << 10;  // browsers send less than 2 KiB
 constexpr auto longest_head = 5s;             // from the first byte of a head to its last
 constexpr auto longest_rest = 30s;            // of a connection between two requests
@@ -83,15 +85,31 @@ struct Connections::State {
   std::list<Connection> waiting;  // the one that waits longest first
   std::deque<Connection> ready;
   std::size_t open = 0;  // waiting, ready, and being answered
+  std::size_t idle = 0;  // threads that wait for a request
   bool is_stopping = false;
   std::vector<std::thread> threads;  // last: they use what stands above
 
   explicit State(Answer how) : answer(std::move(how)) {
-    threads.emplace_back([this] { wait_for_heads(); });
-    for (std::size_t i = 0; i < answering_threads; ++i) threads.emplace_back([this] { answer_requests(); });
+    threads.reserve(1 + most_answering);
+    try {
+      threads.emplace_back([this] { wait_for_heads(); });
+      for (std::size_t i = 0; i < fewest_answering; ++i) threads.emplace_back([this] { answer_requests(); });
+    } catch (const std::system_error&) {
+      stop();
+      throw;
+    }
   }
 
   ~State() { ::close(wake); }
+
+  // Starts another thread if all are busy. Where the system gives none, those that there are go on. The caller holds `mutex`.
+  void add_thread_if_needed() {
+    if (is_stopping || ready.size() <= idle || threads.size() > most_answering) return;
+    try {
+      threads.emplace_back([this] { answer_requests(); });
+    } catch (const std::system_error&) {
+    }
+  }
 
   void interrupt_waiting() const { (void)!::eventfd_write(wake, 1); }
 
@@ -161,6 +179,7 @@ struct Connections::State {
     ready.push_back(std::move(*at));
     waiting.erase(at);
     has_request.notify_one();
+    add_thread_if_needed();
   }
 
   // ------------------------------------------------------------------------------------ the threads that answer
@@ -168,7 +187,9 @@ struct Connections::State {
   void answer_requests() {
     std::unique_lock lock(mutex);
     for (;;) {
+      ++idle;
       has_request.wait(lock, [this] { return is_stopping || !ready.empty(); });
+      --idle;
       if (is_stopping) return;
       Connection connection = std::move(ready.front());
       ready.pop_front();

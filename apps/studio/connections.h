@@ -16,6 +16,7 @@ class Connections {
   // Answers one request. Returns whether the connection may bring another.
   using Answer = std::function<bool(BufferedStream&)>;
 
+  // Starts a few threads, more when they are needed. Throws std::system_error where the system gives not even a few.
   explicit Connections(Answer answer);
   ~Connections();  // see stop()
 
