@@ -148,13 +148,21 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
   return {{low, low + size}};
 }
 
+// Returns the height of the frame's relief, of which walls under a draft angle may allow less.
+PieceHeight Drawing::height_of(const PictureRequest& request, const CachedFrame& cached) const {
+  const Frame& frame = *cached.frame;
+  const double height = frame.height * cached.stretch * mm_per_unit(request.options);
+  if (!request.most_height_mm || height <= *request.most_height_mm) return {height, frame.is_height_met};
+  return {*request.most_height_mm, false};
+}
+
 // A piece has the height of the frame, which is met or the largest that can be reached.
 PieceOrder Drawing::order_of(const PictureRequest& request, const CachedFrame& cached) const {
   constexpr double within = .999;  // of the largest height, so that rounding does not put it out of reach
   PieceOrder order{request.options, request.key};
-  const Frame& frame = *cached.frame;
-  if (!request.u && frame.is_height_met) return order;
-  order.options.height_mm = within * frame.height * cached.stretch * mm_per_unit(request.options);
+  const PieceHeight height = height_of(request, cached);
+  if (!request.u && height.is_met) return order;
+  order.options.height_mm = within * height.mm;
   order.key = cat(request.key, " ", *order.options.height_mm);
   return order;
 }
@@ -208,8 +216,9 @@ Result<PictureAnswer> Drawing::picture(PictureRequest request) {
   const CachedFrame cached = this->frame(request, options.is_fine || !is_plain(request.options));
   const Frame& frame = *cached.frame;
   answer.compression = frame.options.shape.compression;
-  answer.height_mm = frame.height * cached.stretch * options.mm_per_unit;
-  answer.is_height_met = frame.is_height_met;
+  const PieceHeight height = height_of(request, cached);
+  answer.height_mm = height.mm;
+  answer.is_height_met = height.is_met;
   answer.curve = sample_curve(frame.options.shape, facts_.delta);
   if (cached.is_new) answer.times = frame.times;
   RELIEVO_CHECK(draw(request, options, cached, answer));
@@ -232,7 +241,10 @@ Result<std::vector<float>> Drawing::profile(PictureRequest request, const Sectio
   if (request.is_original) return along(renderer_.original());
   const CachedFrame cached = frame(request, true);
   if (is_plain(request.options)) return along(shown(cached));
-  RELIEVO_TRY(const DrawnPiece* const piece, piece_.drawn(order_of(request, cached)));
+  const PieceOrder order = order_of(request, cached);
+  RELIEVO_CHECK(
+      check_rim(order.options, height_of(request, cached).mm));  // coarse pieces have no draft angle
+  RELIEVO_TRY(const DrawnPiece* const piece, piece_.drawn(order));
   return section_of(*piece->solid, line);
 }
 

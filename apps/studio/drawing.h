@@ -32,8 +32,11 @@ struct ModelFacts {
 };
 
 struct PictureRequest {
-  ReliefOptions options;  // its view is ignored
-  std::string key;        // the options as text: equal for equal options
+  ReliefOptions options;       // its view is ignored
+  std::string key;             // the options as text: equal for equal options
+  std::string key_but_height;  // the same without the height
+  std::optional<double>
+      most_height_mm;  // that the draft angle allows; nothing without one, or if it is not known
   std::optional<View>
       turned;                // the view that is shown while the model is turned, in place of the one prepared
   std::optional<double> u;   // of the compression, in place of a height, which then follows the shape
@@ -66,6 +69,12 @@ struct PictureAnswer {
   bool is_height_met = true;
   FrameTimes times;
   CurveSamples curve;
+};
+
+// The height of a piece, and whether it is the one that was asked for.
+struct PieceHeight {
+  double mm = 0;
+  bool is_met = true;
 };
 
 // Knows the width that a plate of a given size leaves for a relief, which is the same while neither changes.
@@ -128,6 +137,7 @@ class Drawing {
   Shown shown(const CachedFrame& cached) const;
   RenderOptions render_options(const PictureRequest& request) const;
   double mm_per_unit(const ReliefOptions& options) const;
+  PieceHeight height_of(const PictureRequest& request, const CachedFrame& cached) const;
   FrameOptions frame_options(const PictureRequest& request);
   CachedFrame frame(const PictureRequest& request, bool is_exact);
   std::optional<std::array<Vec2, 2>> relief_in(const Solid& solid, const ReliefOptions& options) const;

@@ -1,5 +1,6 @@
 #include "studio/engine.h"
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -21,6 +22,11 @@ std::unexpected<Error> nothing_open() {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected a scan to be open"});
 }
 
+// A picture whose piece was given up shows what there is.
+Result<void> unless_cancelled(const Error& error) {
+  return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
+}
+
 // A scan that does not fit into memory must not end the program.
 Result<Scene> load_scan(ScanSource& source, const std::function<bool()>& is_unwanted) {
   try {
@@ -39,10 +45,8 @@ std::uint64_t new_model_number() {
   return next++;
 }
 
-struct ShownModel {
-  std::shared_ptr<const ReliefModel> model;
+struct ShownModel : NumberedModel {
   LoadedScan scan;
-  std::uint64_t number = 0;
 };
 
 // Returns the texts with the side that was chosen for them.
@@ -62,32 +66,17 @@ struct Shared {
   ShownModel shown;
 };
 
-// The making of a piece, for those who watch or cancel it.
-struct Making {
-  std::string stage;
-  double fraction = 0;
-  Progress* progress = nullptr;  // null while nothing is made
-  bool is_for_picture = false;   // in place of a file
-};
-
-// The piece that was made last.
-struct MadePiece {
-  std::shared_ptr<const MadeRelief> made;
-  std::string key;
-  std::uint64_t model = 0;
-};
-
 }  // namespace
 
 struct Engine::State {
+  explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
+
   std::function<void()> changed;
   Guarded<Shared> shared;
 
   Guarded<std::shared_ptr<Progress>> at_rest;  // of fine pictures and pieces; null after any other picture
 
-  Guarded<Making> making;
-  Mutex making_mutex;  // guards `piece`; pictures are drawn meanwhile
-  MadePiece piece;
+  PieceMaker maker;
 
   Mutex drawing_mutex;  // guards what follows up to the session
   std::optional<Drawing> drawing;
@@ -112,7 +101,7 @@ struct Engine::State {
     };
     preparation.mode = parse_mode(texts.mode).value_or(Mode::automatic);
     preparation.ready = [this](const Preparation::Model& model) {
-      shared.with([&](Shared& s) { s.shown = {model, s.scan, new_model_number()}; });
+      shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
     };
     preparation.changed = changed;
     session.open(std::move(preparation));
@@ -190,9 +179,7 @@ struct Engine::State {
   }
 };
 
-Engine::Engine(std::function<void()> changed) : state_(std::make_unique<State>()) {
-  state_->changed = std::move(changed);
-}
+Engine::Engine(const std::function<void()>& changed) : state_(std::make_unique<State>(changed)) {}
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const PreparationTexts& view) {
@@ -252,12 +239,11 @@ void Engine::work() {
 
 EngineStatus Engine::status() const {
   const SessionStatus session = state_->session.status();
-  const auto [stage, fraction] =
-      state_->making.with([](const Making& m) { return std::pair(m.stage, m.fraction); });
+  const PieceMaker::Stage making = state_->maker.stage();
   return state_->shared.with([&](const Shared& s) {
     return EngineStatus{
         session.is_preparing,      session.stage, session.fraction, session.error,  s.shown.scan.input(),
-        with_side(s.view, s.best), stage,         fraction,         s.shown.number, session.can_turn};
+        with_side(s.view, s.best), making.name,   making.fraction,  s.shown.number, session.can_turn};
   });
 }
 
@@ -268,11 +254,21 @@ Result<ModelFacts> Engine::facts() {
   return drawing->facts();
 }
 
-// Makes the piece that a picture is to show, while other pictures are drawn. If one of them cancels it, the picture shows what
-// there is.
-Result<void> Engine::finish(const PictureRequest& request) {
+// Finds the height that the draft angle of the options allows, if they have one, while other pictures are drawn.
+Result<void> Engine::find_draft_limit(PictureRequest& request) {
+  if (!request.options.draft_deg) return {};
+  const NumberedModel shown = state_->shared.with([](const Shared& s) { return NumberedModel(s.shown); });
+  if (!shown.model) return nothing_open();
+  RELIEVO_TRY(request.most_height_mm,
+              state_->maker.draft_limit(shown, request.options, request.key_but_height));
+  return {};
+}
+
+// Makes the piece that a picture is to show, while other pictures are drawn.
+Result<void> Engine::finish(PictureRequest& request) {
   // Another model is prepared, or about to be, whose piece will be asked for.
   if (request.turned || state_->session.status().is_preparing) return {};
+  if (auto known = find_draft_limit(request); !known) return unless_cancelled(known.error());
   std::optional<PieceOrder> order;
   std::uint64_t model = 0;
   {
@@ -283,9 +279,8 @@ Result<void> Engine::finish(const PictureRequest& request) {
     RELIEVO_TRY(order, drawing->missing_piece(request));
   }
   if (!order) return {};
-  auto made = piece(order->options, order->key, true);
-  if (!made && made.error().kind == ErrorKind::cancelled) return {};
-  if (!made) return std::unexpected(made.error());
+  auto made = piece(order->options, order->key, PieceUse::picture);
+  if (!made) return unless_cancelled(made.error());
   const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (drawing && state_->drawn_model == model) drawing->take(std::move(*made), *order);
@@ -302,9 +297,10 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
   if (request.is_finished) {
     RELIEVO_CHECK(finish(request));
   } else {
-    state_->making.with([](Making& m) {
-      if (m.progress && m.is_for_picture) m.progress->cancel();
-    });
+    state_->maker.cancel_for_picture();
+    const NumberedModel shown = state_->shared.with([](const Shared& s) { return NumberedModel(s.shown); });
+    if (request.options.draft_deg)
+      request.most_height_mm = state_->maker.known_draft_limit(shown, request.key_but_height);
   }
   const Lock lock(state_->drawing_mutex);
   RELIEVO_CHECK(check_cancelled(request.progress.get()));
@@ -324,11 +320,16 @@ Result<std::vector<float>> Engine::profile(const PictureRequest& request, const 
   return drawing->profile(request, line);
 }
 
-Result<double> Engine::reachable_height(const ReliefOptions& options) {
-  const Lock lock(state_->drawing_mutex);
-  Drawing* const drawing = state_->current_drawing();
-  if (!drawing) return nothing_open();
-  return drawing->reachable_height(options);
+Result<double> Engine::reachable_height(PictureRequest request) {
+  double height_mm = 0;
+  {
+    const Lock lock(state_->drawing_mutex);
+    Drawing* const drawing = state_->current_drawing();
+    if (!drawing) return nothing_open();
+    RELIEVO_TRY(height_mm, drawing->reachable_height(request.options));
+  }
+  RELIEVO_CHECK(find_draft_limit(request));
+  return std::min(height_mm, request.most_height_mm.value_or(height_mm));
 }
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
@@ -361,7 +362,7 @@ Result<ExportedFile> Engine::make_file(const FileRequest& request) {
 }
 
 Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& options, const std::string& key,
-                                                        bool is_for_picture) {
+                                                        PieceUse use) {
   const ShownModel shown = state_->shared.with([](const Shared& s) { return s.shown; });
   const auto& model = shown.model;
   if (!model) return nothing_open();
@@ -369,28 +370,11 @@ Result<std::shared_ptr<const MadeRelief>> Engine::piece(const ReliefOptions& opt
     return option_error("view", "expected the view that is shown; it is still being prepared");
   if ((resolve_mode(options.mode, model->surface()) == Mode::subspace) != (model->subspace() != nullptr))
     return option_error("mode", "expected the mode of the model that is shown; it is still being prepared");
-  const Lock lock(state_->making_mutex);
-  MadePiece& last = state_->piece;
-  if (last.made && last.key == key && last.model == shown.number) return last.made;
-  Progress progress([this](std::string_view stage, double fraction) {
-    state_->making.with([&](Making& m) {
-      m.stage = stage;
-      m.fraction = fraction;
-    });
-    if (state_->changed) state_->changed();
-  });
-  state_->making.with([&](Making& m) { m = {"waiting", 0, &progress, is_for_picture}; });
-  Result<MadeRelief> made = make_relief(*model, options, &progress);
-  state_->making.with([](Making& m) { m = {}; });
-  if (!made) return std::unexpected(made.error());
-  last = {std::make_shared<const MadeRelief>(std::move(*made)), key, shown.number};
-  return last.made;
+  return state_->maker.piece(shown, options, key, use);
 }
 
 void Engine::cancel_making() {
-  state_->making.with([](Making& m) {
-    if (m.progress) m.progress->cancel();
-  });
+  state_->maker.cancel();
 }
 
 }  // namespace relievo::app::studio

@@ -12,6 +12,7 @@
 #include "relievo/make_relief.h"
 #include "relievo/option_texts.h"
 #include "studio/drawing.h"
+#include "studio/piece.h"
 
 namespace relievo::app::studio {
 
@@ -50,7 +51,7 @@ struct FileRequest {
 class Engine {
  public:
   // Where there are no threads, `changed` is called when status() has changed within a call.
-  explicit Engine(std::function<void()> changed = {});
+  explicit Engine(const std::function<void()>& changed = {});
   ~Engine();
 
   // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
@@ -83,8 +84,10 @@ class Engine {
   Result<PictureAnswer> picture(PictureRequest request);
   Result<std::vector<float>> profile(const PictureRequest& request, const SectionLine& line);
 
-  // See Drawing.
-  Result<double> reachable_height(const ReliefOptions& options);
+  // Returns the height in mm of the highest relief that the options allow, their draft angle included. Finding that of a
+  // draft angle takes as long as a piece does, and is given up as pieces for pictures are. Errors: those of
+  // Drawing::reachable_height() and highest_with_draft(); kind cancelled.
+  Result<double> reachable_height(PictureRequest request);
 
   // Draws the scan itself as it looks in a view.
   Result<Picture> scan_picture(const View& view, int width, int height);
@@ -95,7 +98,7 @@ class Engine {
   // Returns the finished relief as export writes it, and keeps it for the next call with these options. Errors: see
   // make_file(); kind cancelled after cancel_making().
   Result<std::shared_ptr<const MadeRelief>> piece(const ReliefOptions& options, const std::string& key,
-                                                  bool is_for_picture = false);
+                                                  PieceUse use = PieceUse::file);
   void cancel_making();
 
   // Returns a file of the relief, the same bytes as `relievo make` writes. Errors: those of make_relief(); kind option for
@@ -104,7 +107,8 @@ class Engine {
 
  private:
   struct State;
-  Result<void> finish(const PictureRequest& request);
+  Result<void> find_draft_limit(PictureRequest& request);
+  Result<void> finish(PictureRequest& request);
 
   std::unique_ptr<State> state_;
 };

@@ -119,11 +119,11 @@ void Actions::profile(const Json& json, Answer& to) {
 }
 
 void Actions::reach(const Json& json, Answer& to) {
-  const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), "options");
-  if (!options) return answer(to, options.error());
+  const Result<PictureRequest> request = picture_request(json);
+  if (!request) return answer(to, request.error());
   const auto engine = engine_of(json, to);
   if (!engine) return;
-  const Result<double> height = engine->reachable_height(*options);
+  const Result<double> height = engine->reachable_height(*request);
   height ? answer(to, {{"height_mm", *height}}) : answer(to, height.error());
 }
 

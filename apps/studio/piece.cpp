@@ -1,6 +1,9 @@
 #include "studio/piece.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "relievo/core/text.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -14,6 +17,12 @@ ReliefOptions coarse(ReliefOptions options) {
   options.finish = Finish::full;
   options.tool = std::nullopt;
   return options;
+}
+
+constexpr std::size_t most_limits = 16;  // that are kept: one is wanted again when its options come back
+
+std::string whole_key(const NumberedModel& shown, const std::string& key) {
+  return cat(shown.number, " ", key);
 }
 
 }  // namespace
@@ -41,6 +50,68 @@ Result<DrawnPiece*> Piece::drawn(const PieceOrder& order) {
   coarse_.emplace(solid, nullptr, SolidRenderer(solid));
   coarse_key_ = order.key;
   return &*coarse_;
+}
+
+PieceMaker::Stage PieceMaker::stage() const {
+  return making_.with([](const Making& m) { return m.stage; });
+}
+
+template <typename Make>
+auto PieceMaker::watched(PieceUse use, const Make& make) {
+  Progress progress([this](std::string_view stage, double fraction) {
+    making_.with([&](Making& m) { m.stage = {std::string(stage), fraction}; });
+    if (changed_) changed_();
+  });
+  making_.with([&](Making& m) { m = {{"waiting", 0}, &progress, use}; });
+  auto made = make(&progress);
+  making_.with([](Making& m) { m = {}; });
+  return made;
+}
+
+Result<std::shared_ptr<const MadeRelief>> PieceMaker::piece(const NumberedModel& shown,
+                                                            const ReliefOptions& options,
+                                                            const std::string& key, PieceUse use) {
+  const Lock lock(mutex_);
+  if (made_ && made_key_ == whole_key(shown, key)) return made_;
+  RELIEVO_TRY(MadeRelief made,
+              watched(use, [&](Progress* progress) { return make_relief(*shown.model, options, progress); }));
+  made_ = std::make_shared<const MadeRelief>(std::move(made));
+  made_key_ = whole_key(shown, key);
+  return made_;
+}
+
+Result<double> PieceMaker::draft_limit(const NumberedModel& shown, const ReliefOptions& options,
+                                       const std::string& key) {
+  const Lock lock(mutex_);
+  if (const auto known = known_draft_limit(shown, key)) return *known;
+  RELIEVO_TRY(const double height_mm, watched(PieceUse::picture, [&](Progress* progress) {
+                return highest_with_draft(*shown.model, options, progress);
+              }));
+  draft_limits_.with([&](auto& limits) {
+    if (limits.size() >= most_limits) limits.clear();
+    limits[whole_key(shown, key)] = height_mm;
+  });
+  return height_mm;
+}
+
+std::optional<double> PieceMaker::known_draft_limit(const NumberedModel& shown,
+                                                    const std::string& key) const {
+  return draft_limits_.with([&](const auto& limits) -> std::optional<double> {
+    const auto found = limits.find(whole_key(shown, key));
+    return found == limits.end() ? std::nullopt : std::optional(found->second);
+  });
+}
+
+void PieceMaker::cancel() {
+  making_.with([](Making& m) {
+    if (m.progress) m.progress->cancel();
+  });
+}
+
+void PieceMaker::cancel_for_picture() {
+  making_.with([](Making& m) {
+    if (m.progress && m.use == PieceUse::picture) m.progress->cancel();
+  });
 }
 
 }  // namespace relievo::app::studio

@@ -1,10 +1,15 @@
-// The piece of a model as export makes it, for pictures of it, and a coarse one for while it changes.
+// Pieces of a model: finished ones as export makes them, for files and pictures, and coarse ones for while it changes.
 #pragma once
 
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "relievo/core/parallel.h"
+#include "relievo/core/progress.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/solid_renderer.h"
 
@@ -45,6 +50,63 @@ class Piece {
   std::shared_ptr<const ReliefModel> model_;
   std::optional<DrawnPiece> finished_, coarse_;
   std::string finished_key_, coarse_key_;
+};
+
+// A prepared model with a number that no other model has.
+struct NumberedModel {
+  std::shared_ptr<const ReliefModel> model;
+  std::uint64_t number = 0;
+};
+
+// What a piece is made for: a picture gives it up when another picture is asked for.
+enum class PieceUse { file, picture };
+
+// Makes finished pieces, one at a time, while other pictures are drawn. Every method may be called from any thread.
+class PieceMaker {
+ public:
+  // `changed` is called within piece() and draft_limit() when stage() has changed. It may be empty.
+  explicit PieceMaker(std::function<void()> changed) : changed_(std::move(changed)) {}
+
+  struct Stage {
+    std::string name;  // empty while nothing is made
+    double fraction = 0;
+  };
+  Stage stage() const;
+
+  // Returns the piece, and keeps it for the next call with that model and key. Errors: those of make_relief(); kind
+  // cancelled after cancel().
+  Result<std::shared_ptr<const MadeRelief>> piece(const NumberedModel& shown, const ReliefOptions& options,
+                                                  const std::string& key, PieceUse use);
+
+  // Returns highest_with_draft(), and keeps it for the next call with that model and key. Errors: those of
+  // highest_with_draft(); kind cancelled after cancel().
+  Result<double> draft_limit(const NumberedModel& shown, const ReliefOptions& options,
+                             const std::string& key);
+
+  // Returns what draft_limit() returned for that model and key; nothing if it is not known.
+  std::optional<double> known_draft_limit(const NumberedModel& shown, const std::string& key) const;
+
+  // Ends what is being made, or that alone which is made for a picture.
+  void cancel();
+  void cancel_for_picture();
+
+ private:
+  struct Making {
+    Stage stage;
+    Progress* progress = nullptr;  // null while nothing is made
+    PieceUse use = PieceUse::file;
+  };
+
+  // Calls make(progress), which is in stage() and can be cancelled meanwhile.
+  template <typename Make>
+  auto watched(PieceUse use, const Make& make);
+
+  std::function<void()> changed_;
+  Guarded<Making> making_;
+  Guarded<std::map<std::string, double>> draft_limits_;  // by model and key
+  Mutex mutex_;                                          // guards what follows
+  std::shared_ptr<const MadeRelief> made_;               // null before the first
+  std::string made_key_;
 };
 
 }  // namespace relievo::app::studio

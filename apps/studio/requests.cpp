@@ -121,17 +121,15 @@ Result<Json> parse_body(std::string_view body) {
 }
 
 Result<PictureRequest> picture_request(const Json& json) {
-  Result<ReliefOptions> options = options_from_json(json.value("options", Json::object()), "options");
-  if (!options) return std::unexpected(options.error());
-  Result<RenderOptions> render = render_from(json);
-  if (!render) return std::unexpected(render.error());
-  PictureRequest request{std::move(*options),
-                         json.value("options", Json::object()).dump(),
-                         std::nullopt,
-                         std::nullopt,
-                         flag(json, "original"),
-                         flag(json, "finished"),
-                         *render};
+  Json texts = json.value("options", Json::object());
+  PictureRequest request;
+  RELIEVO_TRY(request.options, options_from_json(texts, "options"));
+  RELIEVO_TRY(request.render, render_from(json));
+  request.is_original = flag(json, "original");
+  request.is_finished = flag(json, "finished");
+  request.key = texts.dump();
+  texts.erase("height");
+  request.key_but_height = texts.dump();
   if (const auto turned = json.find("turned"); turned != json.end()) {
     RELIEVO_TRY(View view, view_from(*turned));
     view.crop = request.options.view.crop;

@@ -95,6 +95,15 @@ Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode = M
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options,
                                Progress* progress = nullptr);
 
+// Returns the height in mm of the highest relief whose walls keep the draft angle of the options, or of the highest at all
+// where they give none. The method must be one with a shape, as has_shape() says. Errors: those of make_relief().
+Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& options,
+                                  Progress* progress = nullptr);
+
+// Checks that the bevel of the options' rim leans as their draft angle asks, around a relief of that height.
+// make_relief() does this itself. Errors: kind option.
+Result<void> check_rim(const ReliefOptions& options, double height_mm);
+
 // Samples the points of a file for the view, prepares them, and returns the same as the function above. scene.h has
 // this for several files. Errors: also those of sample_for_view() and prepare().
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress = nullptr);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "relievo/core/text.h"
+#include "relievo/make_relief.h"
 #include "relievo/plate/draft_in_file.h"
 #include "relievo/relief/draft.h"
 
@@ -52,20 +53,21 @@ RimOptions formed_rim(const ReliefOptions& options, double relief_mm) {
   return {width, options.form == Form::die ? -height : height, bevel};
 }
 
+}  // namespace
+
+bool is_mirrored(Form form) {
+  return form == Form::mirror || form == Form::die;
+}
+
 // A bevel of its own is asked for by the user: it must lean as walls must.
-Result<void> check_bevel(const RimOptions& rim, const ReliefOptions& options) {
+Result<void> check_rim(const ReliefOptions& options, double height_mm) {
   if (!options.draft_deg || !options.rim_mm) return {};
+  const RimOptions rim = formed_rim(options, height_mm);
   const double least = least_bevel(std::abs(rim.height_mm), *options.draft_deg);
   if (rim.bevel_mm >= .9999 * least) return {};
   return option_error(options.rim_bevel_mm ? "rim-bevel" : "rim",
                       cat("expected at least ", least, " mm, so that the rim of ", std::abs(rim.height_mm),
                           " mm leans as draft asks, found ", rim.bevel_mm, " mm"));
-}
-
-}  // namespace
-
-bool is_mirrored(Form form) {
-  return form == Form::mirror || form == Form::die;
 }
 
 bool is_simplified_as_plate(const ReliefOptions& options) {
@@ -108,7 +110,7 @@ PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
 
 Result<Body> make_body(const HeightFieldMesh& front, double relief_mm, const ReliefOptions& options) {
   const PlateOptions plate = plate_of(options, relief_mm);
-  RELIEVO_CHECK(check_bevel(plate.rim, options));
+  RELIEVO_CHECK(check_rim(options, relief_mm));
   RELIEVO_TRY(Solid solid, make_plate(front, plate));
   if (options.draft_deg) {
     RELIEVO_TRY(const double moved_mm, enforce_draft_in_float(solid, slope_at_draft(*options.draft_deg)));

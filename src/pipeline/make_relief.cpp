@@ -42,6 +42,12 @@ Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
       "which the steps between level parts can take");
 }
 
+// Returns the shape with full height in all places: u of (6) is infinite.
+Shape uncompressed(Shape shape) {
+  shape.compression.u = std::numeric_limits<double>::infinity();
+  return shape;
+}
+
 // Makes the relief of the height that the options give, or of the shape's own where they give none.
 Result<Relief> shape_relief(const ReliefModel& model, const ReliefOptions& options, const Shape& shape,
                             Progress* progress) {
@@ -72,9 +78,7 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   if (!is_usual || !is_too_high || !has_shape(options.effective_method())) return relief;
   options.method = options.effective_method();
   options.height_mm.reset();
-  Shape uncompressed = shape_of(options);
-  uncompressed.compression.u = std::numeric_limits<double>::infinity();
-  Result<Relief> highest = shape_relief(model, options, uncompressed, progress);
+  Result<Relief> highest = shape_relief(model, options, uncompressed(shape_of(options)), progress);
   return highest ? std::move(highest) : std::move(relief);
 }
 
@@ -113,6 +117,13 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {
   RELIEVO_TRY(Surface surface, find_surface(points, view, {}, progress));
   return ReliefModel::prepare(std::move(surface), progress, mode);
+}
+
+Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
+  RELIEVO_TRY(ReliefOptions options, with_width(model.surface(), asked));
+  options.height_mm.reset();
+  RELIEVO_TRY(const Relief relief, shape_relief(model, options, uncompressed(shape_of(options)), progress));
+  return relief.height * mm_per_unit(model.surface(), options);
 }
 
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {

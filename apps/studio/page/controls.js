@@ -40,7 +40,8 @@ export const spread = {
 };
 
 const STEPS = 1000;
-const UPWARDS = {ArrowUp: 1, ArrowDown: -1}, FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
+export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
+const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
 
 // Returns the next value in a direction that has one digit less than `value`, or with `isFine` as many, but no step is
 // smaller than `least`.

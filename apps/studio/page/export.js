@@ -3,6 +3,7 @@
 import {about} from "./about.js";
 import {$, download, fileSize, make, unbroken} from "./controls.js";
 import {shown, sizeText, typedNumber} from "./lengths.js";
+import {inWords} from "./pieces.js";
 
 const PIXELS = {label: "Longer side of height maps, in pixels", min: 16, max: 16384};
 
@@ -71,7 +72,7 @@ export class ExportDialog {
   show() {
     const pixelsWanted = this.formats.some(({name}) => ["heightmap", "tiff"].includes(name));
     $("#pixels-row").hidden = !pixelsWanted;
-    $("#export-go").disabled = this.isBusy || this.formats.length === 0;
+    $("#export-go").disabled = this.isBusy || this.formats.length === 0 || !this.piece;
     const texts = this.piece ? sizes(this.piece, this.pixels) : {};
     for (const {name} of about.formats) $(`#size-${name}`).textContent = texts[name] ?? "";
     const {size_mm: size, triangles} = this.piece ?? {};
@@ -98,7 +99,7 @@ export class ExportDialog {
     try {
       await work();
     } catch (error) {
-      complaint = error.kind === "cancelled" ? "Cancelled." : error.message;
+      complaint = error.kind === "cancelled" ? "Cancelled." : inWords(error.message);
     }
     this.isBusy = false;
     $("#export-progress").hidden = true;

@@ -278,7 +278,7 @@ function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
   if (placing.fit(error, last)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
-  if (error.kind !== "closed") return toast(error.kind === "option" ? inWords(error.message) : error.message);
+  if (error.kind !== "closed") return toast(inWords(error.message));
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.closed().catch(failed), 200);
 }

@@ -2,7 +2,7 @@
 
 import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
-import {$, make} from "./controls.js";
+import {$, UPWARDS, clamp, make, nextValue} from "./controls.js";
 import {FIRST, engineOptions, shownOptions} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
@@ -29,6 +29,7 @@ const TIPS = {base: "Surface under the relief", wrap: "Body around which the fin
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
 export const ROWS = Object.keys(LABELS);
+const LEAST_STEP = 0.001, REST_MS = 400; // of arrow keys
 
 // The options of two lengths, by what stands between them.
 const PAIRS = {plate: {between: "x", split: /[x×]/}, shift: {between: ",", split: ","}};
@@ -104,8 +105,22 @@ export class PieceRows {
     input.onchange = () => this.take(name);
     input.onkeydown = (event) => {
       if (event.key === "Escape") this.show();
+      if (event.key in UPWARDS) this.step(event, name);
     };
     return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
+  }
+
+  // Arrow keys go from a number to the next round one, with shift finely; it is taken when they rest.
+  step(event, name) {
+    const row = this.rows[name], {input, isNumber, unit, min, max} = row, isLength = unit === "mm";
+    const scale = isLength ? millimetresPerUnit() : 1, value = parseLength(input.value, isLength, scale) / scale;
+    if (!isNumber || !Number.isFinite(value)) return;
+    event.preventDefault();
+    const next = clamp(nextValue(value, UPWARDS[event.key], event.shiftKey, LEAST_STEP) * scale, min, max);
+    input.value = isLength ? shortLength(next) : String(Number(next.toPrecision(12)));
+    input.dispatchEvent(new Event("input")); // as typing does
+    clearTimeout(row.rest);
+    row.rest = setTimeout(() => input.dispatchEvent(new Event("change")), REST_MS);
   }
 
   // Takes what was chosen or typed, unless it is no number where one is wanted.

@@ -5,8 +5,9 @@ import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {withUnit} from "./lengths.js";
 
-// Changes that may let a relief be higher, with the words for what limits it, the mildest first.
+// Changes that may let a relief be higher, with the words for what limits it, in the order of their asking.
 const LOOSER = [
+  {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
   {limit: "The tone curve", action: "Drop the tone curve", part: {tone: ""}},
 ];
@@ -43,21 +44,27 @@ export class Reach {
         return this.clear(); // another view is being prepared
       }
     }
-    const most = frame.is_height_met ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
+    // What a draft angle allows is known to pictures later, and steps at depth jumps do not raise it.
+    const isMet = frame.is_height_met && !(rest.draft && frame.height_mm > this.reach);
+    const most = isMet ? Math.max(this.reach, frame.height_mm) : Math.min(this.reach, frame.height_mm);
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
     this.slider().showMark(most, `${name}: ${withUnit(most)}`);
-    if (frame.is_height_met) return;
+    if (isMet) return;
     await this.explain(most, {...rest, height}, key);
   }
 
   async explain(most, options, key) {
     let best = null;
     for (const looser of LOOSER) {
-      if (Object.entries(looser.part).every(([name, value]) => (this.doc.now.options[name] ?? "") === value)) continue;
+      const isLoose = ([name, value]) => (this.doc.now.options[name] ?? "") === (value ?? "");
+      if (Object.entries(looser.part).every(isLoose)) continue;
       const changed = shownOptions({...this.doc.now, options: {...this.doc.now.options, ...looser.part}});
       const reach = await this.engine.reach(changed).catch(() => 0);
       if (key !== this.key) return; // something else is shown, perhaps another document
-      if (reach > this.reach * WORTH && !best) best = looser;
+      if (reach > this.reach * WORTH) {
+        best = looser;
+        break;
+      }
     }
     const at = unbroken(withUnit(most));
     const text = best ? [`${best.limit} keeps the height at `, at, "."] : ["This view reaches ", at, " at most."];

@@ -76,3 +76,13 @@ test("ends the engine's work when it is cancelled, and saves no file of it", {sk
   assert.deepEqual(await page.evaluate(() => window.saved), []);
   assert.equal(await page.getByRole("alert").getByText(/^Saved/).count(), 0);
 });
+
+test("exports nothing whose piece cannot be made, and says why", {skip}, async () => {
+  const refuse = (route) => route.fulfill({status: 422, json: {kind: "option", message: "rim-bevel: expected 1 mm"}});
+  await page.route("**/api/piece", refuse);
+  await open();
+  await dialog().getByText("Rim bevel: expected 1 mm").waitFor();
+  assert.ok(await dialog().getByRole("button", {name: "Export", exact: true}).isDisabled());
+  await cancel();
+  await page.unroute("**/api/piece", refuse);
+});

@@ -148,6 +148,41 @@ test("takes back what no piece can be made of", {skip}, async () => {
   assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
 });
 
+test("knows what a draft angle allows, and exports no piece that cannot be made", {skip}, async () => {
+  const reach = page.locator("#reach"), dialog = page.getByRole("dialog", {name: "Export"});
+  const option = (name) => page.getByLabel(name, {exact: true});
+  await enter(option("Draft angle (°)"), "60");
+  await set("Height in mm", 15);
+  await reach.getByText(/^The draft angle keeps the height at [\d.]+ mm\./).waitFor();
+  const reached = (await reach.innerText()).match(/[\d.]+ mm/)[0];
+  await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
+  await page.keyboard.press("Control+e");
+  await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
+  assert.ok(await dialog.getByText(`relief ${reached} high,`).isVisible());
+  assert.ok(await dialog.getByRole("button", {name: "Export", exact: true}).isEnabled());
+  await dialog.getByRole("button", {name: "Cancel"}).click();
+  await enter(option("Rim width (mm)"), "3");
+  await enter(option("Rim bevel (mm)"), "0.3");
+  await page.getByText(/^Rim bevel: expected at least [\d.]+ mm, so that the rim of/).waitFor();
+  assert.equal(await option("Rim bevel (mm)").inputValue(), "");
+  await reach.getByRole("button", {name: "Drop the draft angle"}).click();
+  await reach.getByText("draft angle").waitFor({state: "hidden"});
+  assert.equal(await option("Draft angle (°)").inputValue(), "");
+  for (let step = 0; step < 4; ++step) await page.getByRole("button", {name: "Undo"}).click();
+});
+
+test("steps numbers of the plate by arrow keys", {skip}, async () => {
+  const rim = page.getByLabel("Rim width (mm)", {exact: true});
+  await enter(rim, "3");
+  await rim.press("ArrowUp");
+  assert.equal(await rim.inputValue(), "3.1");
+  await rim.press("Shift+ArrowDown");
+  await eventually(async () => assert.equal(await rim.inputValue(), "3.09"));
+  await page.getByRole("button", {name: "Undo"}).click();
+  assert.equal(await rim.inputValue(), "3");
+  await page.getByRole("button", {name: "Undo"}).click();
+});
+
 test("takes back with Escape what a point of the curve is dragged to, and draws no refused curve", {skip}, async () => {
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
