@@ -45,8 +45,8 @@ export class Reach {
       }
     }
     // What a draft angle allows is known to pictures later, and steps at depth jumps do not raise it.
-    const isMet = frame.is_height_met && !(rest.draft && frame.height_mm > this.reach);
-    const most = isMet ? Math.max(this.reach, frame.height_mm) : Math.min(this.reach, frame.height_mm);
+    const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
+    const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
     this.slider().showMark(most, `${name}: ${withUnit(most)}`);
     if (isMet) return;

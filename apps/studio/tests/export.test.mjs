@@ -78,7 +78,8 @@ test("ends the engine's work when it is cancelled, and saves no file of it", {sk
 });
 
 test("exports nothing whose piece cannot be made, and says why", {skip}, async () => {
-  const refuse = (route) => route.fulfill({status: 422, json: {kind: "option", message: "rim-bevel: expected 1 mm"}});
+  const error = {kind: "option", text: "rim-bevel: expected 1 mm"};
+  const refuse = (route) => route.fulfill({status: 400, json: {error}});
   await page.route("**/api/piece", refuse);
   await open();
   await dialog().getByText("Rim bevel: expected 1 mm").waitFor();
