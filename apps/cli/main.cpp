@@ -2,6 +2,7 @@
 #include <iostream>
 #include <string_view>
 
+#include "cli/huge_pages.h"
 #include "cli/out_of_memory.h"
 #include "cli/program.h"
 #include "common/temporary_file.h"
@@ -16,6 +17,7 @@ bool is_printed() {
 }  // namespace
 
 int main(int argc, char** argv) {
+  relievo::app::cli::restart_with_huge_pages(argv);
   // The studio refuses what is too large, and goes on.
   if (argc > 1 && argv[1] != std::string_view("studio")) relievo::app::cli::exit_when_out_of_memory();
   relievo::app::remove_temporary_files_on_signals();

@@ -1,0 +1,25 @@
+#include "cli/huge_pages.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+namespace relievo::app::cli {
+
+void restart_with_huge_pages(char** argv) {
+  constexpr const char *name = "GLIBC_TUNABLES", *request = "glibc.malloc.hugetlb=1";
+  if (const char* const given = std::getenv(name)) {
+    if (given == std::string_view(request)) ::unsetenv(name);  // programs that this one starts do not get it
+    return;
+  }
+  std::error_code failed;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed || ::setenv(name, request, 1) != 0) return;
+  ::execv(program.c_str(), argv);
+  ::unsetenv(name);
+}
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,10 @@
+// Pages of 2 MB instead of 4 KB for all large memory.
+#pragma once
+
+namespace relievo::app::cli {
+
+// Starts the program anew, once, with the request for huge pages in its environment: glibc looks for it there alone, and
+// only before main(). Returns if that is not possible, or was done. A user's own GLIBC_TUNABLES stays as it is.
+void restart_with_huge_pages(char** argv);
+
+}  // namespace relievo::app::cli
