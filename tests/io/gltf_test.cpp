@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/format_samples.h"
 #include "support/read_text.h"
 
@@ -206,6 +208,64 @@ TEST(Gltf, ReadsQuantisedMeshes) {
       EXPECT_LE((file->mesh.points[i] - expected).norm(), 1e-9) << kind.code;
     }
   }
+}
+
+// The file's two nodes move by (10, 0, 0) and double sizes; the second copy is turned by 90 degrees about z.
+TEST(Gltf, PutsCopiesOfAMeshWhereInstancingSaysSo) {
+  std::string buffer = gltf_buffer();
+  for (const float x : {0.F, 0.F, 0.F, 5.F, 6.F, 7.F}) buffer += raw(x);
+  for (const float x : {0.F, 0.F, 0.F, 1.F, 0.F, 0.F, std::sqrt(.5F), std::sqrt(.5F)}) buffer += raw(x);
+  for (const float x : {1.F, 1.F, 1.F, 3.F, 3.F, 3.F}) buffer += raw(x);
+  const auto json = [](const std::string& attributes) {
+    std::string text =
+        replaced(gltf_json(), R"("mesh":0,)",
+                 R"("mesh":0,"extensions":{"EXT_mesh_gpu_instancing":{"attributes":{)" + attributes + "}}},");
+    text = replaced(
+        text, R"("count":12,"type":"SCALAR"})",
+        R"("count":12,"type":"SCALAR"},{"bufferView":2,"componentType":5126,"count":2,"type":"VEC3"},)"
+        R"({"bufferView":3,"componentType":5126,"count":2,"type":"VEC4"},)"
+        R"({"bufferView":4,"componentType":5126,"count":2,"type":"VEC3"})");
+    text = replaced(
+        text, R"("byteOffset":48,"byteLength":24})",
+        R"("byteOffset":48,"byteLength":24},{"buffer":0,"byteOffset":72,"byteLength":24},)"
+        R"({"buffer":0,"byteOffset":96,"byteLength":32},{"buffer":0,"byteOffset":128,"byteLength":24})");
+    return replaced(replaced(text, R"("byteLength":72)", R"("byteLength":152)"), R"("scene":0)",
+                    R"("scene":0,"extensionsRequired":["EXT_mesh_gpu_instancing"])");
+  };
+  const auto file = read(glb_of(json(R"("TRANSLATION":2,"ROTATION":3,"SCALE":4)"), buffer), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  const std::vector<Vec3> expected = {{10, 0, 0},   {12, 0, 0},   {10, 2, 0},   {10, 0, 2},
+                                      {20, 12, 14}, {20, 18, 14}, {14, 12, 14}, {20, 12, 20}};
+  ASSERT_EQ(file->mesh.points.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_LE((file->mesh.points[i] - expected[i]).norm(), 1e-5) << i;
+  EXPECT_EQ(file->mesh.triangles.size(), 8U);
+  EXPECT_EQ(file->mesh.triangles[4], (Triangle{4, 6, 5}));
+  EXPECT_EQ(message_of(glb_of(json(R"("ROTATION":2)"), buffer), "a.glb"),
+            "a.glb, node 1: expected vectors of 4 numbers as ROTATION, found vectors of 3");
+  EXPECT_EQ(message_of(glb_of(json(R"("TRANSLATION":2,"SCALE":0)"), buffer), "a.glb"),
+            "a.glb, node 1: expected as many values of SCALE as copies, 2, found 4");
+}
+
+TEST(Gltf, ReadsWhatRequiresExtensionsThatLeaveShapesAlone) {
+  const auto with = [](const std::string& name) {
+    return glb_of(replaced(gltf_json(), R"("scene":0)", R"("scene":0,"extensionsRequired":[)" + name + "]"));
+  };
+  for (const char* name :
+       {"KHR_mesh_quantization", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
+        "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp", "KHR_lights_punctual",
+        "EXT_lights_image_based", "EXT_meshopt_compression"}) {
+    const auto file = read(with("\"" + std::string(name) + "\""), "a.glb");
+    ASSERT_TRUE(file) << name << file.error().message();
+    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+  }
+  const auto refusal = [](const std::string& found) {
+    return "a.glb, extensionsRequired: expected no extension but those that are read here, found " + found +
+           "; export the model without it, or as PLY, STL or OBJ";
+  };
+  EXPECT_EQ(message_of(with(R"("KHR_texture_basisu","KHR_gaussian_splatting")"), "a.glb"),
+            refusal("'KHR_gaussian_splatting'"));
+  EXPECT_EQ(message_of(with("7"), "a.glb"), refusal("'7'"));
 }
 
 // A search for the root from each node would take half a minute, and one that recurses would end the program.

@@ -258,7 +258,7 @@ TEST(Gltf, BrokenFieldsAreNamed) {
        {json(R"("POSITION":0)", R"("POSITION":9)"),
         ", mesh 0, accessor 9: expected an accessor, found none of that number"},
        {json(R"("POSITION":0)", R"("POSITION":1)"),
-        ", mesh 0: expected vectors of three numbers, found fewer"},
+        ", mesh 0: expected vectors of 3 numbers as POSITION, found vectors of 1"},
        {json(R"("mesh":0)", R"("mesh":3)"), ", mesh 3: expected a mesh, found none of that number"},
        {json(R"("mesh":0)", R"("children":[0])"), ", node 0: expected one parent, found two or a ring"},
        {json(R"("nodes":[0])", R"("nodes":[5])"), ", node 5: expected a node, found none of that number"},

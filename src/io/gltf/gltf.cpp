@@ -47,6 +47,18 @@ std::optional<Transform> transform_of(const Json& node) {
   return transform.scale(Vec3((*s)[0], (*s)[1], (*s)[2]));
 }
 
+// Returns whether the positions and triangles of a file that requires an extension are read: the extension is known here,
+// or is about how surfaces look.
+bool is_readable_with(std::string_view extension) {
+  for (const char* const known :
+       {"KHR_mesh_quantization", "KHR_meshopt_compression", "EXT_meshopt_compression",
+        "EXT_mesh_gpu_instancing", "EXT_mesh_features", "EXT_structural_metadata"})
+    if (extension == known) return true;
+  for (const char* const look : {"material", "texture", "light", "animation", "xmp", "audio"})
+    if (extension.contains(look)) return true;
+  return false;
+}
+
 // The vertices of a primitive, whose number its positions decide.
 struct Vertices {
   AccessorValues positions, normals, colours;
@@ -63,7 +75,7 @@ class GltfReader {
   GltfReader(const Source& source, GltfFile& file) : source_(source), file_(file) {}
 
   Result<RawCloud> read() {
-    RELIEVO_CHECK(refuse_compression());
+    RELIEVO_CHECK(check_extensions());
     const std::vector<std::size_t> first = roots();
     RELIEVO_CHECK(first.empty() ? add_all_meshes() : walk_nodes(first));
     if (points_.empty())
@@ -83,14 +95,20 @@ class GltfReader {
     Transform parent;
   };
 
-  Result<void> refuse_compression() const {
+  Result<void> check_extensions() const {
     const auto required = file_.json().find("extensionsRequired");
     if (required == file_.json().end() || !required->is_array()) return {};
-    for (const Json& name : *required)
+    for (const Json& name : *required) {
       if (name == "KHR_draco_mesh_compression")
         return source_.error("extensionsRequired",
                              "expected meshes that are not compressed, found 'KHR_draco_mesh_compression'; "
                              "Blender opens the file, and exports it without compression");
+      const std::string text = name.is_string() ? name.get<std::string>() : name.dump();
+      if (!is_readable_with(text))
+        return source_.error("extensionsRequired",
+                             cat("expected no extension but those that are read here, found ",
+                                 in_quotes(text), "; export the model without it, or as PLY, STL or OBJ"));
+    }
     return {};
   }
 
@@ -122,7 +140,7 @@ class GltfReader {
   // A file without nodes is a library of meshes; all of them are shown where they are.
   Result<void> add_all_meshes() {
     for (std::size_t i = 0; file_.element("meshes", i); ++i)
-      RELIEVO_CHECK(add_mesh(i, Transform::Identity()));
+      RELIEVO_CHECK(add_mesh(i, {Transform::Identity()}));
     return {};
   }
 
@@ -150,7 +168,10 @@ class GltfReader {
       if (!mesh)
         return source_.error(place,
                              cat("expected the number of a mesh, found ", in_quotes((*node)["mesh"].dump())));
-      if (*mesh != no_index) RELIEVO_CHECK(add_mesh(*mesh, transform));
+      if (*mesh != no_index) {
+        RELIEVO_TRY(const std::vector<Transform> copies, copies_of(*node, transform, place));
+        RELIEVO_CHECK(add_mesh(*mesh, copies));
+      }
       if (node->contains("children") && (*node)["children"].is_array())
         for (const Json& child : (*node)["children"])
           if (const auto number = whole_number(child)) open.push_back({*number, transform});
@@ -158,18 +179,48 @@ class GltfReader {
     return {};
   }
 
-  Result<void> add_mesh(std::size_t i, const Transform& transform) {
+  // Returns where the node's mesh is: at the node, or where EXT_mesh_gpu_instancing puts copies of it.
+  Result<std::vector<Transform>> copies_of(const Json& node, const Transform& transform,
+                                           const std::string& place) {
+    const Json* attributes = &node;
+    for (const char* const name : {"extensions", "EXT_mesh_gpu_instancing", "attributes"})
+      if (attributes) attributes = object_in(*attributes, name);
+    std::vector<Transform> copies;
+    if (!attributes) return std::vector{transform};
+    for (const char* const name : {"TRANSLATION", "ROTATION", "SCALE"}) {
+      if (!attributes->contains(name)) continue;
+      const std::size_t needed = name == std::string_view("ROTATION") ? 4 : 3;
+      RELIEVO_TRY(const AccessorValues values, attribute(*attributes, name, needed, place));
+      if (copies.empty()) copies.assign(values.count(), transform);
+      if (values.count() != copies.size())
+        return source_.error(place, cat("expected as many values of ", name, " as copies, ", copies.size(),
+                                        ", found ", values.count()));
+      for (std::size_t i = 0; i < copies.size(); ++i) {
+        const double* v = values.numbers.data() + i * values.components;
+        if (needed == 4)
+          copies[i].rotate(Eigen::Quaterniond(v[3], v[0], v[1], v[2]).normalized());
+        else if (name == std::string_view("SCALE"))
+          copies[i].scale(Vec3(v[0], v[1], v[2]));
+        else
+          copies[i].translate(Vec3(v[0], v[1], v[2]));
+      }
+    }
+    return copies;
+  }
+
+  Result<void> add_mesh(std::size_t i, const std::vector<Transform>& copies) {
     const std::string place = "mesh " + std::to_string(i);
     const Json* mesh = file_.element("meshes", i);
     if (!mesh) return source_.error(place, "expected a mesh, found none of that number");
     const auto primitives = mesh->find("primitives");
     if (primitives == mesh->end() || !primitives->is_array())
       return source_.error(place, "expected primitives, found none");
-    for (const Json& primitive : *primitives) RELIEVO_CHECK(add_primitive(primitive, transform, place));
+    for (const Json& primitive : *primitives) RELIEVO_CHECK(add_primitive(primitive, copies, place));
     return {};
   }
 
-  Result<void> add_primitive(const Json& primitive, const Transform& transform, const std::string& place) {
+  Result<void> add_primitive(const Json& primitive, const std::vector<Transform>& copies,
+                             const std::string& place) {
     const auto attributes = primitive.find("attributes");
     if (attributes == primitive.end() || !attributes->is_object())
       return source_.error(place, "expected attributes, found none");
@@ -180,20 +231,27 @@ class GltfReader {
     has_lines_ = has_lines_ || !is_read;
     if (!is_read) return {};
     RELIEVO_TRY(const Vertices vertices, vertices_of(*attributes, place));
-    const auto first = static_cast<Index>(points_.size());
-    add_vertices(vertices, transform);
-    if (*mode == points_mode) return {};
-    RELIEVO_TRY(const std::vector<std::int64_t> order, order_of(primitive, vertices.count(), first, place));
-    add_triangles(order, *mode);
+    std::vector<std::int64_t> order;
+    if (*mode != points_mode) {
+      RELIEVO_TRY(order, order_of(primitive, vertices.count(), place));
+    }
+    if (vertices.count() == 0) return {};
+    for (const Transform& copy : copies) {
+      if (points_.size() + vertices.count() > most_vertices || triangles_.size() > most_vertices)
+        return source_.error(place, "expected at most 100000000 vertices and as many triangles, found more");
+      const std::size_t first = points_.size();
+      add_vertices(vertices, copy);
+      add_triangles(order, *mode, first);
+    }
     return {};
   }
 
-  // Returns the points that the corners of the triangles are, one after the other.
-  Result<std::vector<std::int64_t>> order_of(const Json& primitive, std::size_t vertices, Index first,
+  // Returns the vertices that the corners of the triangles are, one after the other.
+  Result<std::vector<std::int64_t>> order_of(const Json& primitive, std::size_t vertices,
                                              const std::string& place) {
     std::vector<std::int64_t> order;
     if (!primitive.contains("indices")) {
-      for (std::size_t i = 0; i < vertices; ++i) order.push_back(static_cast<std::int64_t>(first + i));
+      for (std::size_t i = 0; i < vertices; ++i) order.push_back(static_cast<std::int64_t>(i));
       return order;
     }
     const auto number = number_in(primitive, "indices", no_index);
@@ -201,31 +259,32 @@ class GltfReader {
     for (const double i : indices.numbers) {
       if (!(i >= 0 && i < static_cast<double>(vertices)))
         return source_.error(place, cat("expected numbers of vertices below ", vertices, ", found ", i));
-      order.push_back(static_cast<std::int64_t>(i) + first);
+      order.push_back(static_cast<std::int64_t>(i));
     }
     return order;
   }
 
-  // Returns the vectors of an attribute.
-  Result<AccessorValues> attribute(const Json& attributes, const char* name, const std::string& place) {
+  // Returns the vectors of an attribute, which have at least so many numbers each.
+  Result<AccessorValues> attribute(const Json& attributes, const char* name, std::size_t least,
+                                   const std::string& place) {
     const auto number = number_in(attributes, name, no_index);
     RELIEVO_TRY(AccessorValues values, file_.accessor(number.value_or(no_index), place));
-    if (values.components < 3) return source_.error(place, "expected vectors of three numbers, found fewer");
+    if (values.components < least)
+      return source_.error(place, cat("expected vectors of ", least, " numbers as ", name,
+                                      ", found vectors of ", values.components));
     return values;
   }
 
   Result<Vertices> vertices_of(const Json& attributes, const std::string& place) {
     Vertices all;
-    RELIEVO_TRY(all.positions, attribute(attributes, "POSITION", place));
-    if (points_.size() + all.count() > most_vertices)
-      return source_.error(place, "expected at most 100000000 vertices, found more");
+    RELIEVO_TRY(all.positions, attribute(attributes, "POSITION", 3, place));
     if (attributes.contains("NORMAL")) {
-      RELIEVO_TRY(all.normals, attribute(attributes, "NORMAL", place));
+      RELIEVO_TRY(all.normals, attribute(attributes, "NORMAL", 3, place));
       if (all.normals.count() != all.count())
         return source_.error(place, "expected a normal for each vertex");
     }
     if (attributes.contains("COLOR_0")) {
-      RELIEVO_TRY(all.colours, attribute(attributes, "COLOR_0", place));
+      RELIEVO_TRY(all.colours, attribute(attributes, "COLOR_0", 3, place));
       if (all.colours.count() != all.count())
         return source_.error(place, "expected a colour for each vertex");
     }
@@ -247,12 +306,12 @@ class GltfReader {
     }
   }
 
-  void add_triangles(const std::vector<std::int64_t>& corners, std::size_t mode) {
-    if (mode != triangles_mode) {
+  // Adds triangles among the vertices from number `first` on.
+  void add_triangles(std::vector<std::int64_t> corners, std::size_t mode, std::size_t first) {
+    for (std::int64_t& corner : corners) corner += static_cast<std::int64_t>(first);
+    if (mode != triangles_mode)
       add_face(corners, mode == strip_mode ? FaceKind::strip : FaceKind::fan, points_, triangles_);
-      return;
-    }
-    for (std::size_t i = 0; i + 2 < corners.size(); i += 3)
+    for (std::size_t i = 0; mode == triangles_mode && i + 2 < corners.size(); i += 3)
       add_face(std::span(corners).subspan(i, 3), FaceKind::polygon, points_, triangles_);
   }
 
