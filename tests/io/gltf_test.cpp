@@ -268,6 +268,35 @@ TEST(Gltf, ReadsWhatRequiresExtensionsThatLeaveShapesAlone) {
   EXPECT_EQ(message_of(with("7"), "a.glb"), refusal("'7'"));
 }
 
+double volume_of(const Mesh& mesh) {
+  double volume = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    volume += mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6;
+  return volume;
+}
+
+// A node that mirrors its mesh would turn it inside out; the format says that it does not.
+TEST(Gltf, KeepsTheOutsideOfMirroredMeshesOutside) {
+  for (const char* scale : {"[2,2,2]", "[-2,2,2]", "[-2,-2,-2]"}) {
+    const auto file = read(glb_of(replaced(gltf_json(), "[2,2,2]", scale)), "a.glb");
+    ASSERT_TRUE(file) << file.error().message();
+    EXPECT_NEAR(volume_of(file->mesh), 8 / 6., 1e-9) << scale;
+  }
+}
+
+TEST(Gltf, KeepsNormalsOfMirroredMeshesOutside) {
+  const std::string json = replaced(gltf_json(), R"("POSITION":0)", R"("POSITION":0,"NORMAL":0)");
+  const auto file = read(glb_of(replaced(json, "[2,2,2]", "[-2,2,2]")), "a.glb");
+  ASSERT_TRUE(file) << file.error().message();
+  ASSERT_FALSE(file->mesh.triangles.empty());
+  for (std::size_t t = 0; t < file->mesh.triangles.size(); ++t)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const Vec3 place = file->mesh.points[file->mesh.triangles[t][c]] - Vec3(10, 0, 0);
+      const double outwards = place.dot(file->mesh.corner_normals[t][c].cast<double>());
+      EXPECT_TRUE(place.isZero() || outwards > 0) << t;
+    }
+}
+
 // A search for the root from each node would take half a minute, and one that recurses would end the program.
 TEST(Gltf, ReadsALongChainOfNodesWithoutAScene) {
   std::string nodes = R"("nodes":[)";

@@ -241,7 +241,7 @@ class GltfReader {
         return source_.error(place, "expected at most 100000000 vertices and as many triangles, found more");
       const std::size_t first = points_.size();
       add_vertices(vertices, copy);
-      add_triangles(order, *mode, first);
+      add_triangles(order, *mode, first, copy.linear().determinant() < 0);
     }
     return {};
   }
@@ -295,8 +295,7 @@ class GltfReader {
     const auto byte = [](double v) {
       return v > 0 ? static_cast<std::uint8_t>(std::min(255.0, 255 * v + .5)) : std::uint8_t{0};
     };
-    const Mat3 turn =
-        transform.linear().inverse().transpose() * (transform.linear().determinant() < 0 ? -1 : 1);
+    const Mat3 turn = transform.linear().inverse().transpose();
     for (std::size_t i = 0; i < all.count(); ++i) points_.push_back(transform * vector_at(all.positions, i));
     for (std::size_t i = 0; i < all.normals.count(); ++i)
       normals_.push_back(unit_normal(turn * vector_at(all.normals, i)));
@@ -306,13 +305,18 @@ class GltfReader {
     }
   }
 
-  // Adds triangles among the vertices from number `first` on.
-  void add_triangles(std::vector<std::int64_t> corners, std::size_t mode, std::size_t first) {
+  // Adds triangles among the vertices from number `first` on. A mirrored one would have its outside inside, so its corners
+  // change their order.
+  void add_triangles(std::vector<std::int64_t> corners, std::size_t mode, std::size_t first,
+                     bool is_mirrored) {
+    const auto before = static_cast<std::ptrdiff_t>(triangles_.size());
     for (std::int64_t& corner : corners) corner += static_cast<std::int64_t>(first);
     if (mode != triangles_mode)
       add_face(corners, mode == strip_mode ? FaceKind::strip : FaceKind::fan, points_, triangles_);
     for (std::size_t i = 0; mode == triangles_mode && i + 2 < corners.size(); i += 3)
       add_face(std::span(corners).subspan(i, 3), FaceKind::polygon, points_, triangles_);
+    for (auto t = triangles_.begin() + before; is_mirrored && t != triangles_.end(); ++t)
+      std::swap((*t)[1], (*t)[2]);
   }
 
   const Source& source_;
