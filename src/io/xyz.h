@@ -49,13 +49,17 @@ struct XyzLayout {
 // Returns the number that a field spells, with a decimal comma if the layout has them.
 std::optional<double> parse_field(std::string_view field, const XyzLayout& layout);
 
-// Returns true if x, y and z are among the names.
+// Returns true if x, y and z are among the names, or easting, northing and elevation, or other names of these.
 bool has_coordinates(const ColumnNames& names);
 
+// Returns true if the only coordinates among the names are longitude and latitude.
+bool has_degrees(const ColumnNames& names);
+
 // Sets the columns of coordinates, normals and colours: those of that name, or else those whose values are unit vectors or
-// colours in lines all over the file.
+// colours in lines all over the file. The first three columns are coordinates, or, if `has_name` and no line shows
+// otherwise, those after the first.
 void take_columns(const ColumnNames& names, XyzLayout& layout);
-void find_columns(const Source& source, XyzLayout& layout);
+void find_columns(const Source& source, bool has_name, XyzLayout& layout);
 
 // Detects the layout: from the names of the columns if the file has any, else from the first line of data
 // (separator, number of columns) and from lines all over the file (normals, colours).

@@ -10,8 +10,27 @@ namespace {
 
 using Row = std::vector<double>;
 
-constexpr std::array<std::string_view, XyzLayout::first_colour> vector_names = {"x",  "y",  "z",
-                                                                                "nx", "ny", "nz"};
+// Names of the coordinates in files of other programs, most usual first: those of a plane, and the height above it.
+constexpr std::array<std::array<std::string_view, 2>, 8> plane_names = {{{"x", "y"},
+                                                                         {"easting", "northing"},
+                                                                         {"east", "north"},
+                                                                         {"e", "n"},
+                                                                         {"point_x", "point_y"},
+                                                                         {"x_coord", "y_coord"},
+                                                                         {"coord_x", "coord_y"},
+                                                                         {"xcoord", "ycoord"}}};
+constexpr std::array<std::array<std::string_view, 1>, 10> height_names = {{{"z"},
+                                                                           {"elevation"},
+                                                                           {"height"},
+                                                                           {"altitude"},
+                                                                           {"elev"},
+                                                                           {"h"},
+                                                                           {"point_z"},
+                                                                           {"z_coord"},
+                                                                           {"coord_z"},
+                                                                           {"zcoord"}}};
+
+constexpr std::array<std::array<std::string_view, 3>, 1> normal_names = {{{"nx", "ny", "nz"}}};
 
 // Names of red, green and blue in files of other programs.
 constexpr std::array<std::array<std::string_view, 3>, 3> colour_names = {
@@ -26,11 +45,13 @@ std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-// Sets the columns of the names, beginning with number `first` of those wanted; returns true if the file has all.
-bool take_named(const ColumnNames& names, std::span<const std::string_view> wanted, std::size_t first,
-                XyzLayout& layout) {
-  for (std::size_t i = 0; i < wanted.size(); ++i) layout.wanted[first + i] = find_name(names, wanted[i]);
-  return std::ranges::all_of(wanted, [&](auto name) { return find_name(names, name) < names.size(); });
+// Sets the columns of the first names of which the file has all, beginning with number `first` of those wanted; returns
+// false if there are none.
+bool take_named(const ColumnNames& names, const auto& spellings, std::size_t first, XyzLayout& layout) {
+  return std::ranges::any_of(spellings, [&](const auto& wanted) {
+    for (std::size_t i = 0; i < wanted.size(); ++i) layout.wanted[first + i] = find_name(names, wanted[i]);
+    return std::ranges::all_of(wanted, [&](auto name) { return find_name(names, name) < names.size(); });
+  });
 }
 
 // Returns the line around a byte, or the part of it within 1,000 bytes: without that limit, a file of one
@@ -98,33 +119,40 @@ bool find_triple(const std::vector<Row>& rows, IsTriple is_triple, std::span<con
 }  // namespace
 
 bool has_coordinates(const ColumnNames& names) {
-  return std::ranges::all_of(std::span(vector_names).first(3),
-                             [&](auto name) { return find_name(names, name) < names.size(); });
+  XyzLayout layout;
+  return take_named(names, plane_names, 0, layout) && take_named(names, height_names, 2, layout);
+}
+
+bool has_degrees(const ColumnNames& names) {
+  const auto has = [&](auto... spellings) { return ((find_name(names, spellings) < names.size()) || ...); };
+  return has("longitude", "lon", "long", "lng") && has("latitude", "lat") && !has_coordinates(names);
 }
 
 void take_columns(const ColumnNames& names, XyzLayout& layout) {
-  const std::span vectors(vector_names);
-  take_named(names, vectors.first(XyzLayout::first_normal), 0, layout);
-  layout.has_normals =
-      take_named(names, vectors.subspan(XyzLayout::first_normal), XyzLayout::first_normal, layout);
-  layout.has_colours = std::ranges::any_of(colour_names, [&](const auto& wanted) {
-    return take_named(names, wanted, XyzLayout::first_colour, layout);
-  });
+  take_named(names, plane_names, 0, layout);
+  take_named(names, height_names, 2, layout);
+  layout.has_normals = take_named(names, normal_names, XyzLayout::first_normal, layout);
+  layout.has_colours = take_named(names, colour_names, XyzLayout::first_colour, layout);
 }
 
-void find_columns(const Source& source, XyzLayout& layout) {
-  if (layout.columns < 6) return;
+void find_columns(const Source& source, bool has_name, XyzLayout& layout) {
+  if (layout.columns < 6 && !has_name) return;
   const auto rows = sample_rows(source.bytes.substr(layout.data_offset), layout);
+  // If other rows begin with a number, the name stands for a coordinate that is missing.
+  const bool is_named =
+      has_name && std::ranges::all_of(rows, [](const Row& row) { return std::isnan(row[0]); });
+  const std::size_t first = is_named ? 1 : 0;
+  for (std::size_t i = 0; i < 3; ++i) layout.wanted[i] = first + i;
   std::vector<std::size_t> candidates;
-  for (std::size_t column = 3; column + 3 <= layout.columns; ++column) candidates.push_back(column);
+  for (std::size_t column = first + 3; column + 3 <= layout.columns; ++column) candidates.push_back(column);
   const std::span wanted(layout.wanted);
   layout.has_normals =
       find_triple(rows, are_unit_vectors, candidates, wanted.subspan(XyzLayout::first_normal, 3));
   // A normal's columns hold no colour. Below a number of points (PTS) the fourth column is the intensity.
   const std::size_t normal = layout.has_normals ? layout.wanted[XyzLayout::first_normal] : layout.columns + 3;
-  const bool has_intensity = layout.promised_points && layout.columns > 6;
+  const bool has_intensity = layout.promised_points && layout.columns > first + 6;
   std::erase_if(candidates, [&](std::size_t column) {
-    return (column + 3 > normal && column < normal + 3) || (has_intensity && column == 3);
+    return (column + 3 > normal && column < normal + 3) || (has_intensity && column == first + 3);
   });
   layout.has_colours = find_triple(rows, are_colours, candidates, wanted.subspan(XyzLayout::first_colour, 3));
 }

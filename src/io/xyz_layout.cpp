@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/xyz.h"
@@ -11,21 +12,40 @@ bool is_comment(std::string_view trimmed) {
   return trimmed.starts_with('#') || trimmed.starts_with("//");
 }
 
-// Returns the words of a line of column names, which may be separated and quoted in any way. Units in brackets, as in
-// "X (m)" or "x[mm]", are left out.
+// Returns a name without a unit in brackets, as in "X (m)" or "x[mm]", and without quotation marks.
+std::string_view plain_name(std::string_view field) {
+  field = field.substr(0, field.find_first_of("(["));
+  const std::string_view around = " \t\v\f\"'";
+  const std::size_t first = std::min(field.find_first_not_of(around), field.size());
+  return field.substr(first, field.find_last_not_of(around) + 1 - first);
+}
+
+// Returns the names of columns in a line, which separators other than those of the data may part.
 ColumnNames split_names(std::string_view line) {
-  const std::string_view separators = " \t\v\f,;\"'/#";
+  line.remove_prefix(std::min(line.find_first_not_of("#/ \t\v\f"), line.size()));
+  const std::size_t separator = line.find_first_of(line.contains(';')   ? ";"
+                                                   : line.contains(',') ? ","
+                                                                        : "\t");
+  Fields fields(line, separator == std::string_view::npos ? ' ' : line[separator]);
   ColumnNames names;
-  while (true) {
-    line.remove_prefix(std::min(line.find_first_not_of(separators), line.size()));
-    if (line.empty()) return names;
-    if (line[0] == '(' || line[0] == '[') {
-      line.remove_prefix(std::min(line.find_first_of(")]"), line.size() - 1) + 1);
-      continue;
-    }
-    names.push_back(line.substr(0, line.find_first_of(" \t\v\f,;\"'/#([")));
-    line.remove_prefix(names.back().size());
+  while (const auto field = fields.next()) {
+    const std::string_view name = plain_name(*field);
+    const bool is_unit = name.empty() && !field->empty();
+    if (!is_unit) names.push_back(name);
   }
+  return names;
+}
+
+// Returns the words that separators of any kind part.
+ColumnNames split_words(std::string_view line) {
+  const std::string_view separators = " \t\v\f,;\"'";
+  ColumnNames words;
+  for (std::size_t at = line.find_first_not_of(separators); at < line.size();) {
+    const std::size_t end = std::min(line.find_first_of(separators, at), line.size());
+    words.push_back(line.substr(at, end - at));
+    at = line.find_first_not_of(separators, end);
+  }
+  return words;
 }
 
 std::size_t count_fields(std::string_view line, char separator) {
@@ -42,6 +62,21 @@ bool are_numbers(std::string_view text) {
   return true;
 }
 
+// Returns the line without what stands in quotation marks, in which separators separate nothing.
+std::string without_quoted(std::string_view line) {
+  std::string plain;
+  bool is_quoted = false;
+  for (const char c : line) {
+    if (!is_quoted || c == '"') plain += c;
+    if (c != '"') continue;
+    const std::size_t before = plain.find_last_not_of(' ', plain.size() - 2);
+    const bool may_open =
+        plain.size() == 1 || before > plain.size() || std::string_view(",;\t\"").contains(plain[before]);
+    is_quoted = !is_quoted && may_open;
+  }
+  return plain;
+}
+
 // Returns true for commas that cannot all be separators, as in "1,5 2,5". In "1, 2,5" a comma counts as
 // decimal only if no number has a decimal point.
 bool has_decimal_commas(std::string_view line) {
@@ -50,11 +85,50 @@ bool has_decimal_commas(std::string_view line) {
   while (const auto field = fields.next()) {
     if (std::any_of(field->begin(), field->end(), is_blank) && are_numbers(*field)) return true;
   }
-  for (std::size_t i = line.find(','); i < line.size(); i = line.find(',', i + 1)) {
+  const std::string plain = without_quoted(line);
+  for (std::size_t i = plain.find(','); i < plain.size(); i = plain.find(',', i + 1)) {
     ++commas;
-    if (i + 1 < line.size() && is_blank(line[i + 1])) ++spaced_commas;
+    if (i + 1 < plain.size() && is_blank(plain[i + 1])) ++spaced_commas;
   }
-  return spaced_commas > 0 && spaced_commas < commas && line.find('.') == std::string_view::npos;
+  return spaced_commas > 0 && spaced_commas < commas && !line.contains('.');
+}
+
+// Returns whether each field between tabs is a number with a decimal point or comma; the first may be a name.
+bool is_between_tabs(std::string_view line) {
+  if (!line.contains('\t')) return false;
+  XyzLayout commas;
+  commas.has_decimal_commas = true;
+  Fields fields(line, '\t');
+  bool is_first = true;
+  while (const auto field = fields.next()) {
+    const bool is_name = std::exchange(is_first, false) && !field->contains(',');
+    if (!is_name && (field->ends_with(',') || !parse_field(*field, commas))) return false;
+  }
+  return true;
+}
+
+char likely_separator(std::string_view line) {
+  const std::string plain = without_quoted(line);
+  if (plain.contains(';')) return ';';
+  return plain.contains(',') && !is_between_tabs(line) ? ',' : ' ';
+}
+
+// Returns whether the first column is a name, which begins with a letter, and three numbers follow.
+bool begins_with_name(std::string_view line) {
+  XyzLayout layout;
+  layout.separator = likely_separator(line);
+  layout.has_decimal_commas = layout.separator != ',';
+  Fields fields(line, layout.separator);
+  const auto name = fields.next();
+  const auto is_letter = [](char c) {
+    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80;
+  };
+  if (!name || name->empty() || !is_letter(name->front()) || parse_number(*name)) return false;
+  for (int i = 0; i < 3; ++i) {
+    const auto field = fields.next();
+    if (!field || !parse_field(*field, layout)) return false;
+  }
+  return true;
 }
 
 // Reads the lines before the first line of data.
@@ -98,7 +172,7 @@ class Preamble {
 
  private:
   Result<bool> take(std::string_view line) {
-    const ColumnNames words = split_names(line);
+    const ColumnNames words = split_words(line);
     if (line.empty()) return false;
     if (words.size() == 1 && !layout_.promised_points && parse_integer(words[0]).value_or(-1) >= 0) {
       layout_.promised_points = parse_integer(words[0]);
@@ -109,11 +183,17 @@ class Preamble {
     const bool has_number =
         std::ranges::any_of(words, [](auto word) { return parse_number(word).has_value(); });
     if (!words.empty() && (parse_number(words[0]) || (!names_.empty() && has_number))) return true;
-    if (!names_.empty() || !has_coordinates(words)) {
+    if (names_.empty() && begins_with_name(line)) return true;
+    const ColumnNames names = split_names(line);
+    if (names_.empty() && has_degrees(names))
+      return source_.error_in_line(lines_.number(),
+                                   "expected coordinates that are lengths, found degrees of longitude and "
+                                   "latitude; a program for maps, such as QGIS, projects them to metres");
+    if (!names_.empty() || !has_coordinates(names)) {
       return source_.error_in_line(
           lines_.number(), "expected numbers, or names of columns with x, y and z, found " + in_quotes(line));
     }
-    names_ = words;
+    names_ = names;
     names_line_ = lines_.number();
     return false;
   }
@@ -125,23 +205,21 @@ class Preamble {
   std::size_t names_line_ = 0;
 };
 
-// Returns whether each field between tabs is a number with a decimal point or comma.
-bool is_between_tabs(std::string_view line) {
-  if (!line.contains('\t')) return false;
-  XyzLayout commas;
-  commas.has_decimal_commas = true;
-  Fields fields(line, '\t');
-  while (const auto field = fields.next())
-    if (field->ends_with(',') || !parse_field(*field, commas)) return false;
-  return true;
-}
-
 Result<char> find_separator(const Source& source, std::string_view line, std::size_t number) {
-  if (line.find(';') != std::string_view::npos) return ';';
-  if (line.find(',') == std::string_view::npos || is_between_tabs(line)) return ' ';
-  if (!has_decimal_commas(line)) return ',';
+  const char separator = likely_separator(line);
+  if (separator != ',' || !has_decimal_commas(line)) return separator;
   return source.error_in_line(
       number, "expected numbers with a decimal point, separated in one way, found " + in_quotes(line));
+}
+
+// Returns where the quoted text ends with which a line begins, 0 if it begins with none. Two quotation marks stand for one.
+std::size_t end_of_quoted(std::string_view line) {
+  std::size_t at = 0;
+  while (at < line.size() && is_blank(line[at])) ++at;
+  if (at == line.size() || line[at] != '"') return 0;
+  for (at = line.find('"', at + 1); at < line.size(); at = line.find('"', at + 2))
+    if (line.substr(at + 1, 1) != "\"") return at + 1;
+  return 0;
 }
 
 }  // namespace
@@ -152,7 +230,7 @@ std::optional<std::string_view> Fields::next() {
     return word.empty() ? std::nullopt : std::optional(word);
   }
   if (trim(line_).empty()) return std::nullopt;
-  const std::size_t end = std::min(line_.find(separator_), line_.size());
+  const std::size_t end = std::min(line_.find(separator_, end_of_quoted(line_)), line_.size());
   std::string_view field = trim(line_.substr(0, end));
   line_.remove_prefix(std::min(end + 1, line_.size()));
   const bool is_quoted = field.size() >= 2 && field.starts_with('"') && field.ends_with('"');
@@ -195,7 +273,7 @@ Result<XyzLayout> find_layout(const Source& source) {
   }
   if (const auto named = preamble.name_columns(); !named) return std::unexpected(named.error());
   if (preamble.names().empty())
-    find_columns(source, layout);
+    find_columns(source, begins_with_name(*line), layout);
   else
     take_columns(preamble.names(), layout);
   return layout;

@@ -227,6 +227,49 @@ TEST(Xyz, OtherColumnsMayBeTexts) {
   EXPECT_EQ(points_of("\"1\",\"2.5\",\" -3 \",\"a\"\n\"4\",\"5\",\"6e3\",\"b c\"\n"), two_points);
 }
 
+TEST(Xyz, TheFirstColumnMayBeANameWithoutAHeader) {
+  for (const char* const text :
+       {"P1 1 2.5 -3\nP2 4 5 6e3\n", "P1,1,2.5,-3\nP2,4,5,6e3\n", "P1, 1, 2.5, -3\nP2, 4, 5, 6e3\n",
+        "a;1,0;2,5;-3;wall\nb;4;5;6,0e3;door\n", "a\t1,0\t2,5\t-3\nb\t4\t5\t6,0e3\n",
+        "first one,1,2.5,-3\nb,4,5,6e3\n", "2\nP1 1 2.5 -3\nP2 4 5 6e3\n"})
+    EXPECT_EQ(points_of(text), two_points) << text;
+  const CloudFile file = file_of("P1 1 2.5 -3 1 0 0 255 0 10\nP2 4 5 6e3 0 0 1 0 9 1\n");
+  EXPECT_EQ(file.cloud.points, two_points);
+  EXPECT_EQ(file.cloud.normals, xz);
+  EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 10}, {0, 9, 1}}));
+  EXPECT_EQ(message_of("none,2,3,255\n4,5,6,255\n", "scan.xyz"),
+            "scan.xyz, line 1: expected a number in column 1, found 'none'")
+      << "a missing coordinate is no name";
+  EXPECT_EQ(message_of("1.o,2,3,255\n", "scan.xyz"),
+            "scan.xyz, line 1: expected numbers, or names of columns with x, y and z, found '1.o,2,3,255'");
+}
+
+TEST(Xyz, SeparatorsInQuotationMarksSeparateNothing) {
+  for (const char* const text :
+       {"\"a, b\",1,2.5,-3\n\"c, d\",4,5,6e3\n", "\"a; b\",1,2.5,-3\n\"c\",4,5,6e3\n",
+        "1,2.5,-3,\"a, b\"\n4,5,6e3,\"c \"\"d, e\"\" f\"\n", "\"a, b\",1,2.5,-3\n\"c \"\"d, e\",4,5,6e3\n",
+        "name,x,y,z\n\"a, b\",1,2.5,-3\nc,4,5,6e3\n", "x;y;z;name\n1;2,5;-3;\"a; b\"\n4;5;6e3;c\n"})
+    EXPECT_EQ(points_of(text), two_points) << text;
+  EXPECT_EQ(points_of("\"a, b\",1,2,3\n"), (std::vector<Vec3>{{1, 2, 3}}));
+  for (const char* const text : {"1,2.5,-3,\"open\n4,5,6e3,5\" pipe\n", "a 5\" pipe,1,2.5,-3\nb,4,5,6e3\n"})
+    EXPECT_EQ(points_of(text), two_points) << "a lone mark is a character: " << text;
+}
+
+TEST(Xyz, CoordinatesHaveNamesOfOtherPrograms) {
+  for (const char* const text :
+       {"Point ID,Easting,Northing,Elevation\na,1,2.5,-3\nb,4,5,6e3\n", "P,N,E,H\n7,2.5,1,-3\n8,5,4,6e3\n",
+        "POINT_X,POINT_Y,POINT_Z\n1,2.5,-3\n4,5,6e3\n", "X_coord;Y_coord;Z_coord\n1;2,5;-3\n4;5;6e3\n",
+        "X [m],Y [m],Height [m]\n1,2.5,-3\n4,5,6e3\n", "East North Altitude Z\n1 2.5 7 -3\n4 5 7 6e3\n",
+        "Latitude,Longitude,Northing,Easting,Elev\n51,7,2.5,1,-3\n51,7,5,4,6e3\n",
+        "n,e,height,x,y\n7,7,-3,1,2.5\n7,7,6e3,4,5\n", "'x' 'y' 'z'\n1 2.5 -3\n4 5 6e3\n"})
+    EXPECT_EQ(points_of(text), two_points) << text;
+  for (const char* const names : {"Longitude,Latitude,Altitude", "id;Lat;Lon;Height", "lng lat z"})
+    EXPECT_EQ(
+        message_of(std::string(names) + "\n7.1,51.2,90\n", "scan.csv"),
+        "scan.csv, line 1: expected coordinates that are lengths, found degrees of longitude and latitude; "
+        "a program for maps, such as QGIS, projects them to metres");
+}
+
 TEST(Xyz, BadLinesAreNamed) {
   const std::vector<std::pair<std::string, std::string>> all = {
       {"1 2 3\n4 5\n", "line 2: expected 3 columns as in line 1, found 2"},
