@@ -26,7 +26,7 @@ class ObjReader {
       Result<void> taken;
       if (keyword == "v") taken = take_vector(words, points_);
       if (keyword == "vn") taken = take_vector(words, normals_);
-      if (keyword == "f") taken = take_face(words);
+      if (keyword == "f" || keyword == "fo") taken = take_face(words);  // fo: an old name of f
       if (!taken) return std::unexpected(taken.error());
     }
     if (points_.empty()) {

@@ -12,11 +12,14 @@ namespace {
 constexpr std::array<std::string_view, VertexColumns::most> column_names = {"x",  "y",   "z",     "nx",  "ny",
                                                                             "nz", "red", "green", "blue"};
 
-// Returns the index of the property with that name; the number of properties if there is none.
+// Returns the index of the property with that name, or else with that name in another case, as in X and Y; the number of
+// properties if there is none.
 std::size_t find_property(const PlyElement& element, std::string_view name) {
   const auto& all = element.properties;
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const PlyProperty& p) { return p.name == name; });
+  auto found = std::ranges::find(all, name, &PlyProperty::name);
+  if (found == all.end())
+    found =
+        std::ranges::find_if(all, [&](const PlyProperty& p) { return equals_ignoring_case(p.name, name); });
   return static_cast<std::size_t>(found - all.begin());
 }
 

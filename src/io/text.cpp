@@ -62,6 +62,11 @@ std::optional<double> parse_number(std::string_view word) {
     value = is_tiny(word) ? 0 : std::numeric_limits<double>::infinity();
   }
   if (end == last) return value;
+  if (*end == 'D' || *end == 'd') {  // Fortran writes 1.0D+02
+    std::string with_e(word);
+    with_e[static_cast<std::size_t>(end - word.data())] = 'e';
+    return parse_number(with_e);
+  }
   const bool is_old_runtimes_nan = *end == '#';  // 1.#QNAN, -1.#IND, 1.#INF
   return is_old_runtimes_nan ? std::optional(std::numeric_limits<double>::quiet_NaN()) : std::nullopt;
 }

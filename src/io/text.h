@@ -65,8 +65,8 @@ std::string_view trim(std::string_view text);
 // Returns the text before the comment that '#' begins. It begins none in 1.#QNAN.
 std::string_view before_comment(std::string_view line);
 
-// Returns the number that the whole word spells: decimal, with exponent and either sign, or nan and inf in
-// their spellings. It is infinite beyond the range of double, and zero if too small. Nothing if the word is
+// Returns the number that the whole word spells: decimal, with exponent (after e, or d as in Fortran) and either sign, or
+// nan and inf in their spellings. It is infinite beyond the range of double, and zero if too small. Nothing if the word is
 // no number.
 std::optional<double> parse_number(std::string_view word);
 

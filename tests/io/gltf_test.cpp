@@ -46,6 +46,30 @@ TEST(GltfBeside, TakesBuffersFromOtherFiles) {
   }
 }
 
+// The data of a URI are in base64, or are bytes of which any may be an escape.
+TEST(Gltf, ReadsDataOfUrisInBothForms) {
+  std::string escaped;
+  for (const char byte : gltf_buffer()) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    const auto number = static_cast<unsigned char>(byte);
+    escaped += '%';
+    escaped += digits[number / 16];
+    escaped += digits[number % 16];
+  }
+  for (const std::string& uri :
+       {"data:application/octet-stream," + escaped, "data:," + escaped,
+        "data:;base64," + replaced(replaced(base64(gltf_buffer()), "=", "%3D"), "/", "%2F")}) {
+    const auto file = read(with_uri(uri), "a.gltf");
+    ASSERT_TRUE(file) << uri << file.error().message();
+    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+    EXPECT_EQ(file->mesh.points, read(glb(), "a.glb")->mesh.points);
+  }
+  EXPECT_EQ(message_of(with_uri("data:abc"), "a.gltf"),
+            "a.gltf, buffer 0: expected a comma before the data of the uri, found none");
+  EXPECT_EQ(message_of(with_uri("data:;base64,A*"), "a.gltf"),
+            "a.gltf, buffer 0: expected base64 text, found other characters");
+}
+
 TEST(GltfBeside, NamesWhatIsMissing) {
   const std::string missing =
       "a.gltf, buffer 0: expected the file 'b.bin' beside it, found none that can be read; a .glb needs no "

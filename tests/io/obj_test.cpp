@@ -42,6 +42,10 @@ TEST(Obj, ReadsCornersOfEveryForm) {
   }
 }
 
+TEST(Obj, FacesHaveAnOldNameToo) {
+  EXPECT_EQ(cloud_of(triangle + two_normals + "fo 1//1 2//1 3//2\n").normals, (std::vector<Vec3f>{z, z, x}));
+}
+
 TEST(Obj, NegativeIndicesCountBackFromTheirLine) {
   const Cloud cloud = cloud_of(triangle + "vn 0 0 1\nf -3//-1 -2//-1 -1//-1\n" + triangle +
                                "vn 1 0 0\nf -3//-1 -2//-1 -1//-1\n");

@@ -70,6 +70,26 @@ TEST_P(Ply, TakesPropertiesInAnyOrderAmongOthers) {
   EXPECT_EQ(file->cloud.normals, (std::vector<Vec3f>{{1, 0, 0}, {0, 0, -1}}));
 }
 
+TEST_P(Ply, NamesMayBeInUpperCase) {
+  const PlyTable table{"vertex",
+                       {{"float", "X"},
+                        {"float", "Y"},
+                        {"float", "Z"},
+                        {"float", "NX"},
+                        {"float", "NY"},
+                        {"float", "NZ"},
+                        {"uchar", "Red"},
+                        {"uchar", "Green"},
+                        {"uchar", "Blue"},
+                        {"float", "x"}},
+                       {{9, 2.5, 3, 2, 0, 0, 1, 2, 3, 1}, {9, 5.5, 6, 0, 0, -1, 4, 5, 6, 4}}};
+  const auto file = read(encode({table}), "scan.ply");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{1, 2.5, 3}, {4, 5.5, 6}})) << "x comes before X";
+  EXPECT_EQ(file->cloud.normals, (std::vector<Vec3f>{{1, 0, 0}, {0, 0, -1}}));
+  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{1, 2, 3}, {4, 5, 6}}));
+}
+
 TEST_P(Ply, SkipsElementsAroundTheVertices) {
   const PlyTable camera{"camera", {{"float", "view_px"}, {"double", "y"}}, {{1, 2}, {3, 4}}};
   const PlyTable strips{"tristrips", {{"int", "vertex_indices", "int"}}, {{4, 0, 1, -1, 2}, {0}}};
@@ -166,6 +186,10 @@ TEST(PlyAscii, OnlyRowsOfVerticesMustHaveTheRightLength) {
   const auto file = read(change("end_header\n", faces) + "3 0 1 2 255 0 0 255 9 9\n3 2 1 0 7\n", "scan.ply");
   ASSERT_TRUE(file) << file.error().message();
   EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
+}
+
+TEST(PlyAscii, NumbersMayHaveExponentsOfFortran) {
+  EXPECT_EQ(points_of(replaced(change("1e6", "1.0D+06"), "8.25", "0.825d1")), three_points);
 }
 
 TEST(PlyAscii, PropertiesThatAreNotReadMayBeTexts) {

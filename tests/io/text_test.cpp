@@ -68,6 +68,16 @@ TEST(ParseNumber, ReadsWhatIsNotFinite) {
   EXPECT_EQ(parse_number("-inf"), -INFINITY);
 }
 
+TEST(ParseNumber, ReadsExponentsOfFortran) {
+  EXPECT_EQ(parse_number("1.0D+02"), 100.0);
+  EXPECT_EQ(parse_number("-2.5d-1"), -0.25);
+  EXPECT_EQ(parse_number("+5D3"), 5000.0);
+  EXPECT_EQ(parse_number("1D999"), INFINITY);
+  EXPECT_EQ(parse_number("1D-999"), 0.0);
+  for (const auto* word : {"1D", "D5", "1D5D2", "1D5e2", "1e5D2", "1D+", "nanD2"})
+    EXPECT_FALSE(parse_number(word)) << word;
+}
+
 TEST(ParseNumber, TooSmallIsZero) {
   EXPECT_EQ(parse_number("1e-999"), 0.0);
   EXPECT_EQ(parse_number("0." + std::string(400, '0') + "1"), 0.0);

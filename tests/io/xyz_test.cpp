@@ -270,6 +270,12 @@ TEST(Xyz, CoordinatesHaveNamesOfOtherPrograms) {
         "a program for maps, such as QGIS, projects them to metres");
 }
 
+TEST(Xyz, ReadsExponentsOfFortran) {
+  EXPECT_EQ(points_of("1.0D+00 0.25d1 -3D0\n4.0 5D+00 6.0D+03\n"), two_points);
+  EXPECT_EQ(message_of("1 2 3\n1D 2 3\n", "a.xyz"),
+            "a.xyz, line 2: expected a number in column 1, found '1D'");
+}
+
 TEST(Xyz, BadLinesAreNamed) {
   const std::vector<std::pair<std::string, std::string>> all = {
       {"1 2 3\n4 5\n", "line 2: expected 3 columns as in line 1, found 2"},

@@ -56,6 +56,7 @@ class GltfFile {
   Result<std::string_view> buffer(std::size_t i, const Json& json);
   Result<std::string_view> part_of_buffer(const Json& part, const std::string& place);
   Result<std::string_view> view(std::size_t i, const std::string& place);
+  Result<std::vector<std::byte>> data_in_uri(std::string_view uri, const std::string& place) const;
   Result<std::string_view> load(const std::string& uri, const std::string& place);
   Result<Layout> layout_of(const Json& json, const std::string& place) const;
   Result<BufferRows> rows(const Json& in_view, const Layout& layout, const std::string& place);

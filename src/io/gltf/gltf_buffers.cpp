@@ -2,6 +2,7 @@
 // may be compressed.
 #include <algorithm>
 #include <charconv>
+#include <span>
 
 #include "io/gltf/gltf.h"
 #include "io/gltf/meshopt.h"
@@ -79,16 +80,27 @@ std::optional<std::string> name_in_uri(std::string_view uri) {
   return name;
 }
 
+// Returns the bytes that follow the first comma of a URI "data:", in base64 or as they are; both may have escapes.
+Result<std::vector<std::byte>> GltfFile::data_in_uri(std::string_view uri, const std::string& place) const {
+  const std::size_t comma = uri.find(',');
+  if (comma == std::string::npos)
+    return source_->error(place, "expected a comma before the data of the uri, found none");
+  const std::string plain = without_escapes(uri.substr(comma + 1));
+  if (!uri.substr(0, comma).ends_with(";base64")) {
+    const auto bytes = std::as_bytes(std::span(plain));
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+  }
+  auto decoded = decode_base64(plain);
+  if (!decoded) return source_->error(place, "expected base64 text, found other characters");
+  return std::move(*decoded);
+}
+
 // Returns the bytes that a URI contains or names.
 Result<std::string_view> GltfFile::load(const std::string& uri, const std::string& place) {
   const auto known = loaded_.find(uri);
   std::vector<std::byte> bytes;
   if (known == loaded_.end() && uri.starts_with("data:")) {
-    const std::size_t data = uri.find(";base64,");
-    auto decoded =
-        data == std::string::npos ? std::nullopt : decode_base64(std::string_view(uri).substr(data + 8));
-    if (!decoded) return source_->error(place, "expected base64 text, found other characters");
-    bytes = std::move(*decoded);
+    RELIEVO_TRY(bytes, data_in_uri(uri, place));
   } else if (known == loaded_.end()) {
     const auto name = name_in_uri(uri);
     if (!name) return source_->error(place, "expected a file in the same folder, found " + in_quotes(uri));
