@@ -1,10 +1,11 @@
-// OFF: a keyword whose prefixes state the properties of a vertex, three counts, vertices, faces.
+// OFF: a keyword whose prefixes state the properties of a vertex, three counts, vertices, faces. The keyword may be missing.
 #include <algorithm>
 #include <utility>
 
 #include "io/faces.h"
 #include "io/formats.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -34,10 +35,12 @@ class OffReader {
 
   Result<RawCloud> read() {
     Words words = next_row();
-    const std::string_view keyword = words.next();
+    const std::string_view keyword = Words(words).next();
     const auto kind = parse_keyword(keyword);
-    if (!kind) return fail("expected OFF, COFF or NOFF, found " + in_quotes(keyword));
-    kind_ = *kind;
+    if (!kind && !parse_integer(keyword))
+      return fail("expected OFF, COFF or NOFF, found " + in_quotes(keyword));
+    kind_ = kind.value_or(Kind{});
+    if (kind) words.next();
     if (const auto counted = take_counts(words); !counted) return std::unexpected(counted.error());
     for (std::int64_t i = 0; i < vertices_; ++i)
       if (const auto taken = take_vertex(i); !taken) return std::unexpected(taken.error());
@@ -152,14 +155,23 @@ class OffReader {
       corners_.push_back(*corner);
     }
     if (const auto ended = end_row(words); !ended) return ended;
+    has_two_in_line_ = has_two_in_line_ || is_face(words);
     if (add_face(corners_, FaceKind::polygon, cloud_.points, triangles)) return {};
     return fail(expected_corners(corners_, cloud_.points));
   }
 
+  // Returns whether words behind a face may be another one. Its colour has other numbers, as a rule.
+  static bool is_face(Words words) {
+    const auto length = parse_integer(words.next());
+    std::int64_t corners = 0;
+    while (!words.next().empty()) ++corners;
+    return length && *length >= 3 && corners >= *length;
+  }
+
   Result<void> fail_at_end(std::string_view what, std::int64_t promised, std::int64_t found) const {
-    return source_.error_in_line(lines_.number() + 1,
-                                 "expected " + std::to_string(promised) + " " + std::string(what) +
-                                     ", found the end of the file after " + std::to_string(found));
+    return source_.error_in_line(
+        lines_.number() + 1, cat("expected ", promised, " ", what, ", found the end of the file after ",
+                                 found, has_two_in_line_ ? "; each has to begin on a line of its own" : ""));
   }
   std::unexpected<Error> fail(std::string expected) const {
     return source_.error_in_line(lines_.number(), std::move(expected));
@@ -168,7 +180,7 @@ class OffReader {
   const Source& source_;
   Lines lines_;
   Kind kind_;
-  bool is_at_end_ = false, is_wrapped_ = false;
+  bool is_at_end_ = false, is_wrapped_ = false, has_two_in_line_ = false;
   std::int64_t vertices_ = 0, faces_ = 0;
   std::vector<std::int64_t> corners_;
   Cloud cloud_;

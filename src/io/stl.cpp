@@ -92,12 +92,8 @@ class AsciiReader {
   Result<RawCloud> read() {
     while (const auto line = lines_.next()) {
       Words words(*line);
-      const std::string_view keyword = words.next();
-      Result<void> taken;
-      if (equals_ignoring_case(keyword, "vertex")) taken = take_vertex(words);
-      if (equals_ignoring_case(keyword, "endfacet")) taken = end_facet();
-      if (equals_ignoring_case(keyword, "endsolid")) has_end_ = true;
-      if (!taken) return std::unexpected(taken.error());
+      for (auto keyword = words.next(); !keyword.empty(); keyword = words.next())
+        RELIEVO_CHECK(take(keyword, words));
     }
     if (!has_end_ || corners_.count() % 3 != 0)
       return source_.error_in_line(lines_.number() + 1, "expected endsolid, found the end of the file");
@@ -108,6 +104,27 @@ class AsciiReader {
   }
 
  private:
+  // Some programs end no lines.
+  Result<void> take(std::string_view keyword, Words& words) {
+    if (equals_ignoring_case(keyword, "vertex")) return take_vertex(words);
+    if (equals_ignoring_case(keyword, "endfacet")) return end_facet();
+    const bool is_end = equals_ignoring_case(keyword, "endsolid");
+    has_end_ = has_end_ || is_end;
+    if (is_end || equals_ignoring_case(keyword, "solid")) skip_name(words);
+    if (equals_ignoring_case(keyword, "facet"))
+      for (int i = 0; i < 4; ++i) words.next();  // normal and its numbers
+    return {};
+  }
+
+  // A solid's name goes up to its first facet; its words mean nothing, whatever they are.
+  static void skip_name(Words& words) {
+    Words ahead = words;
+    for (auto word = ahead.next(); !word.empty(); word = ahead.next()) {
+      if (equals_ignoring_case(word, "facet") && equals_ignoring_case(Words(ahead).next(), "normal")) return;
+      words = ahead;
+    }
+  }
+
   Result<void> take_vertex(Words& words) {
     Vec3 corner;
     for (double& value : corner) {

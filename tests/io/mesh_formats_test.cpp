@@ -137,6 +137,25 @@ TEST(Stl, TextMayBeginInManyWays) {
     expect_tetrahedron(text, "scan.stl", "STL ascii");
 }
 
+// The name of the solid holds words of the format.
+TEST(Stl, TextMayStandInOneLine) {
+  const std::string named = replaced(ascii_stl(), "solid tetrahedron", "solid a vertex of my facet 7");
+  expect_tetrahedron(replaced(named, "\n", " "), "a.stl", "STL ascii");
+  expect_tetrahedron(replaced(named, "\n", "\t"), "a.stl", "STL ascii");
+  expect_tetrahedron(named, "a.stl", "STL ascii");
+  const std::string two =
+      "solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet "
+      "endsolid a solid b facet normal 0 0 1 outer loop vertex 0 0 2 vertex 1 0 0 vertex 0 1 0 "
+      "endloop endfacet endsolid b";
+  const auto file = read(two, "a.stl");
+  ASSERT_TRUE(file) << file.error().message();
+  EXPECT_EQ(file->mesh.triangles.size(), 2U);
+  EXPECT_EQ(message_of(replaced(two, "0 1 0", "0 1 x"), "a.stl"),
+            "a.stl, line 1: expected 3 numbers after vertex, found 'x'");
+  EXPECT_EQ(message_of(replaced(two, "vertex 1 0 0 ", ""), "a.stl"),
+            "a.stl, line 1: expected 3 vertices in the facet, found 2");
+}
+
 TEST(Stl, BrokenFieldsAreNamed) {
   const std::string binary = binary_stl(), ascii = ascii_stl();
   expect_messages(
@@ -170,6 +189,20 @@ TEST(Off, ReadsColoursAndNormals) {
   EXPECT_EQ(file->cloud.normals, std::vector<Vec3f>(3, Vec3f::UnitZ()));
   EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
   EXPECT_EQ(file->mesh.colours, file->cloud.colours);
+}
+
+TEST(Off, TheKeywordMayBeMissing) {
+  expect_tetrahedron(replaced(off(), "OFF # a tetrahedron\n", ""), "a.off", "OFF");
+  expect_tetrahedron("# mine\n\n" + replaced(off(), "OFF # a tetrahedron\n", ""), "a.off", "OFF");
+  expect_tetrahedron(replaced(off(), "OFF # a tetrahedron\n", "OFF "), "a.off", "OFF");
+}
+
+// Numbers behind a face may be its colour.
+TEST(Off, TwoRowsInALineAreRefusedWithTheReason) {
+  EXPECT_EQ(
+      message_of(replaced(off(), "3 0 2 1\n", "3 0 2 1 "), "a.off"),
+      "a.off, line 11: expected 4 faces, found the end of the file after 3; each has to begin on a line of "
+      "its own");
 }
 
 TEST(Off, RowsMayGoOverTheEndsOfLines) {
