@@ -99,48 +99,83 @@ SampleRow row_of(const Layout& layout, const unsigned char* bytes, std::uint16_t
   return {bytes, has_all ? std::size_t{channel} : 0, samples_per_pixel(layout)};
 }
 
-bool read_lines(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
+// The number of a strip or tile that cannot be read.
+using Broken = std::optional<std::uint32_t>;
+
+Broken read_lines(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
   std::vector<unsigned char> line(static_cast<std::size_t>(TIFFScanlineSize64(tiff)));
-  if (line.size() < row_size(layout, layout.width)) return false;
+  if (line.size() < row_size(layout, layout.width)) return 0;
   for (std::uint32_t r = 0; r < layout.height; ++r) {
-    if (TIFFReadScanline(tiff, line.data(), r, channel) != 1) return false;
+    if (TIFFReadScanline(tiff, line.data(), r, channel) != 1) return TIFFComputeStrip(tiff, r, channel);
     decode_samples(layout.samples, row_of(layout, line.data(), channel), layout.width,
                    to.pixels.data() + to.index(0, static_cast<int>(r)));
   }
-  return true;
+  return {};
 }
 
-bool read_tiles(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
+Broken read_tiles(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
   const std::size_t row = row_size(layout, layout.tile_width);
   const auto size = static_cast<std::size_t>(TIFFTileSize64(tiff));
   if (layout.tile_width == 0 || layout.tile_height == 0 || size > most_pixels * 4 ||
       size < row * layout.tile_height)
-    return false;
+    return 0;
   std::vector<unsigned char> tile(size);
   for (std::uint32_t y = 0; y < layout.height; y += layout.tile_height)
     for (std::uint32_t x = 0; x < layout.width; x += layout.tile_width) {
-      if (TIFFReadTile(tiff, tile.data(), x, y, 0, channel) < 0) return false;
+      if (TIFFReadTile(tiff, tile.data(), x, y, 0, channel) < 0)
+        return TIFFComputeTile(tiff, x, y, 0, channel);
       const std::uint32_t columns = std::min(layout.tile_width, layout.width - x);
       for (std::uint32_t r = 0; r < std::min(layout.tile_height, layout.height - y); ++r)
         decode_samples(layout.samples, row_of(layout, tile.data() + r * row, channel), columns,
                        &to.at(static_cast<int>(x), static_cast<int>(y + r)));
     }
-  return true;
+  return {};
 }
 
-bool read_channel(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
+Broken read_channel(TIFF* tiff, const Layout& layout, std::uint16_t channel, Image<float>& to) {
   to.resize(static_cast<int>(layout.width), static_cast<int>(layout.height));
   return (TIFFIsTiled(tiff) ? read_tiles : read_lines)(tiff, layout, channel, to);
 }
 
-bool read_luminance(TIFF* tiff, const Layout& layout, Image<float>& to) {
+Broken read_luminance(TIFF* tiff, const Layout& layout, Image<float>& to) {
   to.resize(static_cast<int>(layout.width), static_cast<int>(layout.height));
   Image<float> one;
   for (std::uint16_t c = 0; c < 3; ++c) {
-    if (!read_channel(tiff, layout, c, one)) return false;
+    if (const Broken broken = read_channel(tiff, layout, c, one)) return broken;
     for (std::size_t i = 0; i < one.size(); ++i) to[i] += luminance_shares[c] * one[i];
   }
-  return true;
+  return {};
+}
+
+std::string in_words_of_libtiff(const TiffBytes& file) {
+  return "expected the data of a TIFF picture; libtiff says: " + printable(file.message(), 120);
+}
+
+// Says why a strip or tile cannot be read: most often the file is cut, which libtiff says in riddles.
+std::unexpected<Error> broken_part(const Source& source, const TiffBytes& file, std::uint32_t number) {
+  const std::string place = cat(TIFFIsTiled(file.handle()) ? "tile " : "strip ", number);
+  const std::uint64_t first = TIFFGetStrileOffset(file.handle(), number),
+                      size = TIFFGetStrileByteCount(file.handle(), number), end = source.bytes.size();
+  if (first > end || size > end - first)
+    return source.error(place, cat("expected ", size, " bytes from byte ", first, " on, found ",
+                                   end - std::min(first, end), "; the file is cut, get it anew"));
+  return source.error(place, file.message().empty() ? "expected the rows of a picture, found none"
+                                                    : in_words_of_libtiff(file));
+}
+
+// Says why libtiff finds no picture in the file.
+std::unexpected<Error> no_directory(const Source& source, const TiffBytes& file) {
+  const std::string_view bytes = source.bytes;
+  const bool is_big = bytes.size() >= 16 && (bytes[2] == '+' || bytes[3] == '+'),
+             is_swapped = bytes[0] == 'M';
+  const std::size_t at = is_big ? 8 : 4, size = is_big ? 8 : 4;
+  std::uint64_t first = 0;
+  for (std::size_t i = 0; i < size && at + size <= bytes.size(); ++i)
+    first |= std::uint64_t{static_cast<unsigned char>(bytes[at + i])} << 8 * (is_swapped ? size - 1 - i : i);
+  if (first < bytes.size()) return source.error_at_byte(first, in_words_of_libtiff(file));
+  return source.error_at_byte(at,
+                              cat("expected the place of the picture's tags below ", bytes.size(),
+                                  ", the size of the file, found ", first, "; the file is cut, get it anew"));
 }
 
 // Returns the value that stands for none, if the file states one as GDAL does.
@@ -178,26 +213,22 @@ bool is_tiff(const Source& source) {
 
 Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& channels) {
   TiffBytes file(source.bytes);
-  const auto broken = [&] {
-    const std::string why = printable(file.message(), 120);
-    return source.error({}, why.empty() ? "expected the data of a TIFF picture, found too little"
-                                        : "expected the data of a TIFF picture; libtiff says: " + why);
-  };
-  if (!file.handle()) return broken();
+  if (!file.handle()) return no_directory(source, file);
   Layout layout = layout_of(file.handle());
   const std::size_t pixels = std::size_t{layout.width} * layout.height;
   if (pixels > most_pixels)
     return source.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
   if (pixels / best_packing > source.bytes.size())
-    return source.error({}, "expected more data for " + std::to_string(pixels) + " pixels");
+    return source.error({}, cat("expected more data for ", pixels, " pixels, found ", source.bytes.size(),
+                                " bytes; the file is cut, get it anew"));
   RELIEVO_CHECK(check_samples(source, layout, channels));
   const bool is_fraction = layout.samples.kind == SampleKind::fraction;
   DepthImage image{{}, is_fraction ? 0.0 : 1.0, "TIFF, " + std::to_string(layout.bits) + " bits"};
   const auto channel = static_cast<std::uint16_t>(std::max(channels.channel, 1) - 1);
-  const bool is_read = takes_luminance(layout, channels)
-                           ? read_luminance(file.handle(), layout, image.values)
-                           : read_channel(file.handle(), layout, channel, image.values);
-  if (!is_read) return broken();
+  const Broken broken = takes_luminance(layout, channels)
+                            ? read_luminance(file.handle(), layout, image.values)
+                            : read_channel(file.handle(), layout, channel, image.values);
+  if (broken) return broken_part(source, file, *broken);
   interpret(layout, no_data(file.handle()), image);
   return image;
 }

@@ -148,32 +148,30 @@ TEST(ReadDepthImage, AllocatesNothingForTextsInPng) {
 TEST(ReadDepthImage, BrokenTiffFieldsAreNamed) {
   const std::string good = small_tiff();
   const auto field = [](std::size_t i) { return 10 + 12 * i; };
+  const std::string libtiff = ": expected the data of a TIFF picture; libtiff says: ";
   const std::vector<std::pair<std::string, std::string>> all = {
-      {good.substr(0, 6), ""},
-      {patched(good, 4, std::uint32_t{999999}), ""},
-      {good.substr(0, 60), ""},
-      {good.substr(0, good.size() - 10), ""},
-      {patched(good, field(0) + 8, std::uint32_t{0}), ""},
-      {patched(good, field(0) + 8, std::uint32_t{1} << 30), ""},
+      {good.substr(0, 6), ", byte 0" + libtiff},
+      {patched(good, 4, std::uint32_t{999999}),
+       ", byte 4: expected the place of the picture's tags below 162, the size of the file, found 999999; "
+       "the file is cut, get it anew"},
+      {good.substr(0, 60), ", byte 8" + libtiff},
+      {good.substr(0, good.size() - 10),
+       ", strip 0: expected 40 bytes from byte 122 on, found 30; the file is cut, get it anew"},
+      {patched(good, field(0) + 8, std::uint32_t{0}), ", byte 8" + libtiff},
+      {patched(good, field(0) + 8, std::uint32_t{1} << 30), ": expected at most 134217728 pixels, found "},
       {patched(patched(good, field(1) + 8, std::uint32_t{1} << 26), field(7) + 8, std::uint32_t{1} << 26),
        ": expected at most 134217728 pixels, found 335544320"},
       {patched(good, field(2) + 8, std::uint32_t{48}),
        ": expected whole numbers of 1 to 32 or 64 bits, or fractions of 16, 32 or 64, found 48-bit whole "
        "numbers"},
-      {patched(good, field(3) + 8, std::uint32_t{5}), ""},
-      {patched(good, field(3) + 8, std::uint32_t{60000}), ""},
-      {patched(good, field(5) + 8, std::uint32_t{99999}), ""},
+      {patched(good, field(3) + 8, std::uint32_t{5}), ", strip 0" + libtiff},
+      {patched(good, field(3) + 8, std::uint32_t{60000}), ", strip 0" + libtiff},
+      {patched(good, field(5) + 8, std::uint32_t{99999}),
+       ", strip 0: expected 40 bytes from byte 99999 on, found 0; the file is cut, get it anew"},
       {patched(good, field(6) + 8, std::uint32_t{3}),
        ": expected one channel of depths, found 3; the option channel takes one of them, and depth-values "
        "luminance their brightness"}};
-  for (const auto& [text, whole] : all) {
-    const std::string message = message_of(text);
-    if (whole.empty()) {
-      EXPECT_TRUE(message.starts_with("d: expected ")) << message;
-    } else {
-      EXPECT_EQ(message, "d" + whole);
-    }
-  }
+  for (const auto& [text, begin] : all) EXPECT_EQ(message_of(text).substr(0, 1 + begin.size()), "d" + begin);
 }
 
 TEST(ReadDepthImage, AnyDamageGivesAnAnswer) {

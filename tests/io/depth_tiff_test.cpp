@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "relievo/core/text.h"
 #include "relievo/io/read.h"
 #include "relievo/scan/depth_image.h"
 #include "support/format_samples.h"
@@ -249,17 +250,41 @@ TEST(DepthTiff, RefusesTilesWithoutWidth) {
   const std::string file = tiled_tiff(0);
   const auto image = read_depth_image(std::as_bytes(std::span(file)), "d.tif");
   ASSERT_FALSE(image);
-  EXPECT_TRUE(image.error().message().starts_with("d.tif: expected the data of a TIFF picture"))
+  EXPECT_TRUE(image.error().message().starts_with("d.tif, byte 8: expected the data of a TIFF picture"))
       << image.error().message();
+}
+
+std::string tiff_message(const std::string& file) {
+  const auto image = read_depth_image(std::as_bytes(std::span(file)), "d.tif");
+  return image ? "no error" : image.error().message();
+}
+
+TEST(DepthTiff, CutFilesAreNamedWithThePlace) {
+  const std::string whole = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
+  EXPECT_EQ(tiff_message(whole.substr(0, whole.size() - 10)),
+            cat("d.tif, strip 0: expected 40 bytes from byte ", whole.size() - 40,
+                " on, found 30; the file is cut, get it anew"));
+  EXPECT_EQ(tiff_message(tiled_tiff(16).substr(0, tiled_tiff(16).size() - 1)),
+            cat("d.tif, tile 5: expected 512 bytes from byte ", tiled_tiff(16).size() - 512,
+                " on, found 511; the file is cut, get it anew"));
+  // Some programs write the tags behind the picture.
+  for (const auto& [begin, place] : {std::pair{std::string("II*\0\x20\x1\0\0", 8), "byte 4"},
+                                     {std::string("MM\0*\0\0\x1\x20", 8), "byte 4"},
+                                     {std::string("II+\0\x8\0\0\0\x20\x1\0\0\0\0\0\0", 16), "byte 8"}})
+    EXPECT_EQ(
+        tiff_message(padded(begin + std::string(200 - begin.size(), '\7'), '\7')),
+        cat("d.tif, ", place,
+            ": expected the place of the picture's tags below 200, the size of the file, found 288; the file "
+            "is cut, get it anew"));
 }
 
 TEST(DepthTiff, SaysWhatLibtiffSays) {
   const std::string whole = tiff_of({}, pixels_of([](int i) { return static_cast<std::uint16_t>(i); }));
-  for (const std::size_t size : {std::size_t{60}, whole.size() - 10}) {
-    const auto image = read_depth_image(std::as_bytes(std::span(whole).first(size)), "d.tif");
-    ASSERT_FALSE(image);
-    const std::string message = image.error().message();
-    EXPECT_TRUE(message.starts_with("d.tif: expected the data of a TIFF picture; libtiff says: ")) << message;
+  const std::string packed = patched(whole, whole.find(raw(std::uint16_t{259})) + 8, std::uint16_t{5});
+  for (const auto& [file, place] : {std::pair{whole.substr(0, 60), "byte 8"}, {packed, "strip 0"}}) {
+    const std::string message = tiff_message(file),
+                      begin = cat("d.tif, ", place, ": expected the data of a TIFF picture; libtiff says: ");
+    EXPECT_TRUE(message.starts_with(begin) && message.size() > begin.size()) << message;
     EXPECT_EQ(message.find("picture: "), std::string::npos) << message;
     EXPECT_FALSE(message.ends_with("...")) << message;
   }
