@@ -86,7 +86,8 @@ class Reader {
       return source_.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
     const std::size_t row = png_get_rowbytes(png_, info_);
     if (row * job_.height / best_packing > source_.bytes.size())
-      return source_.error({}, "expected more data for " + std::to_string(pixels) + " pixels");
+      return source_.error({}, cat("expected more data for ", pixels, " pixels, found ", source_.bytes.size(),
+                                   " bytes; the file is cut, get it anew"));
     std::vector<png_byte> bytes(row * job_.height);
     std::vector<png_bytep> rows(job_.height);
     for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = bytes.data() + r * row;

@@ -9,6 +9,7 @@
 
 #include "io/formats.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -110,7 +111,10 @@ class PcdHeaderReader {
     const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // their product would, too
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})
-      return fail("expected the number of points before DATA, found none that fits");
+      return fail(cat("expected the number of points before DATA, up to 4294967294, found ",
+                      points_ >= 0  ? std::to_string(points_)
+                      : width_ >= 0 ? cat("WIDTH ", width_, " and HEIGHT ", height_)
+                                    : "none"));
     Records& records = header_.records;
     records.count = static_cast<std::uint64_t>(points_);
     records.offset = lines_.offset();
@@ -271,7 +275,8 @@ Result<Cloud> read_compressed(const Source& source, const PcdHeader& header) {
                                                         " bytes of points, found " + std::to_string(size));
   std::vector<char> fields(size), rows(size);
   if (!unpack_lzf(data.substr(8, packed), fields))
-    return source.error_at_byte(records.offset + 8, "expected LZF-compressed points, found other bytes");
+    return source.error_at_byte(records.offset + 8, cat("expected LZF-compressed points of ", size,
+                                                        " bytes, found bytes that do not unpack to as many"));
   std::size_t from = 0, at = 0;
   for (const std::size_t width : header.field_sizes) {
     for (std::size_t i = 0; i < records.count; ++i, from += width)

@@ -93,7 +93,7 @@ class PlyHeaderReader {
   }
 
   Result<void> take_property(Words& words) {
-    if (header_.elements.empty()) return fail("expected an element before its first property");
+    if (header_.elements.empty()) return fail("expected an element before its first property, found none");
     std::string_view word = words.next();
     std::optional<NumberType> count_type;
     if (word == "list") {
@@ -113,7 +113,7 @@ class PlyHeaderReader {
   }
 
   Result<PlyHeader> finish() {
-    if (!has_format_) return fail("expected a line 'format ...' before end_header");
+    if (!has_format_) return fail("expected a line 'format ...' before end_header, found none");
     header_.lines = lines_.number();
     header_.data_offset = lines_.offset();
     // Where CR alone ends the lines, an LF after it is the first byte of the data.

@@ -103,7 +103,7 @@ TEST(Pcd, BrokenFieldsAreNamed) {
        {replaced(ascii, "POINTS 3", "POINTS 4"),
         ", line 15: expected 4 points, found the end of the file after 3"},
        {replaced(replaced(ascii, "POINTS 3\n", ""), "WIDTH 3\n", ""),
-        ", line 9: expected the number of points before DATA, found none that fits"},
+        ", line 9: expected the number of points before DATA, up to 4294967294, found none"},
        {replaced(ascii, "DATA ascii", "DATA text"),
         ", line 11: expected ascii, binary or binary_compressed, found 'text'"},
        {replaced(ascii, "HEIGHT", "HIGHT"),
@@ -120,7 +120,7 @@ TEST(Pcd, BrokenFieldsAreNamed) {
         ", byte " + std::to_string(packed_data + 4) + ": expected 108 bytes of points, found 100"},
        {patched(packed, packed_data + 8, std::uint8_t{33}),
         ", byte " + std::to_string(packed_data + 8) +
-            ": expected LZF-compressed points, found other bytes"}});
+            ": expected LZF-compressed points of 108 bytes, found bytes that do not unpack to as many"}});
 }
 
 TEST(Las, ReadsOldAndNewRecords) {
@@ -163,7 +163,7 @@ TEST(Las, BrokenFieldsAreNamed) {
   const std::string good = las(), newer = las(4);
   expect_messages(
       "a.las",
-      {{"LASG" + good.substr(4), ", byte 0: expected LASF, found other bytes"},
+      {{"LASG" + good.substr(4), ", byte 0: expected LASF, found 'LASG'"},
        {good.substr(0, 100),
         ", byte 100: expected a header of at least 227 bytes, found the end of the file"},
        {newer.substr(0, 300), ", byte 300: expected a header of 375 bytes, found the end of the file"},

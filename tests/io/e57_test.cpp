@@ -136,8 +136,9 @@ TEST(E57, DamagedPagesAreNamed) {
   ASSERT_GT(whole.size(), 2048U);
   std::string file = whole;
   file[1500] ^= 1;
-  EXPECT_EQ(message_of(file, "a.e57"), cat("a.e57, byte 1024: expected page 2 of ", file.size() / 1024,
-                                           " as its checksum says, found other bytes; the file is damaged"));
+  EXPECT_EQ(message_of(file, "a.e57"),
+            cat("a.e57, byte 1024: expected page 2 of ", file.size() / 1024,
+                " as its checksum says, found bytes of another checksum; the file is damaged, get it anew"));
   EXPECT_EQ(message_of(whole.substr(0, 1024), "a.e57"),
             cat("a.e57, byte 16: expected a file of ", file.size(), " bytes, in pages of 1024, found 1024"));
 }
@@ -148,7 +149,7 @@ TEST(E57, BrokenDescriptionsAreNamed) {
   EXPECT_EQ(message_with("cartesianZ", "altitude"),
             "a.e57, element prototype: expected cartesianX, Y and Z or sphericalRange, Azimuth and "
             "Elevation, found "
-            "others");
+            "cartesianX, cartesianY, altitude");
   EXPECT_EQ(message_with("type=\"Float\"", "type=\"Text\""),
             "a.e57, element cartesianX: expected a type Integer, ScaledInteger or Float, found 'Text'");
   EXPECT_EQ(message_with("recordCount=\"1\"", "recordCount=\"-1\""),
@@ -165,7 +166,7 @@ TEST(E57, BrokenXmlIsNamed) {
   };
   EXPECT_EQ(found("<data3D", "<!ELEMENT><data3D"), "expected an element, found a document type");
   EXPECT_EQ(found("<name><![CDATA[<a>]]></name>", "</e57Root><e57Root>"),
-            "expected one root element, found another");
+            "expected one root element, found '<e57Root>' after it");
   EXPECT_EQ(found("</e57Root>", "</e57Root>x"), "expected an element, found 'x'");
   EXPECT_EQ(found("<data3D", "<>"), "expected the name of an element, found none");
   EXPECT_EQ(found("</e57Root>", "<e57Root "), "expected the end of a tag, found the end");
@@ -187,7 +188,7 @@ TEST(E57, BrokenPrototypesAreNamed) {
   EXPECT_EQ(found(integers, R"(type="Integer" minimum="low" maximum="9")"),
             "expected an integer as minimum, found 'low'");
   EXPECT_EQ(found(integers, R"(type="Integer" minimum="9" maximum="1")"),
-            "expected a maximum that is not below the minimum");
+            "expected a maximum that is not below the minimum, 9, found 1");
   EXPECT_EQ(found(one, ""), "expected coordinates that differ, found a single point");
 }
 

@@ -67,7 +67,7 @@ TEST(Gltf, ReadsDataOfUrisInBothForms) {
   EXPECT_EQ(message_of(with_uri("data:abc"), "a.gltf"),
             "a.gltf, buffer 0: expected a comma before the data of the uri, found none");
   EXPECT_EQ(message_of(with_uri("data:;base64,A*"), "a.gltf"),
-            "a.gltf, buffer 0: expected base64 text, found other characters");
+            "a.gltf, buffer 0: expected base64 text, found '*' as character 2");
 }
 
 TEST(GltfBeside, NamesWhatIsMissing) {
@@ -77,7 +77,7 @@ TEST(GltfBeside, NamesWhatIsMissing) {
   EXPECT_EQ(read_beside(with_uri("b.bin"), {}).error().message(), missing);
   EXPECT_EQ(message_of(with_uri("b.bin"), "a.gltf"), missing);
   EXPECT_EQ(read_beside(with_uri("b.bin"), {{"b.bin", "short"}}).error().message(),
-            "a.gltf, buffer 0: expected as many bytes as its byteLength says, found 5");
+            "a.gltf, buffer 0: expected the bytes that it says, byteLength 72, found 5");
 }
 
 TEST(GltfBeside, AsksForNoFileOutsideTheFolder) {
@@ -178,7 +178,7 @@ TEST(Gltf, ReplacesTheVectorsOfSparseAccessors) {
   EXPECT_EQ(zeros->mesh.points, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 0, 0}, {8, 9, 10}}));
   EXPECT_EQ(
       message_of(replaced(sparse_glb(""), R"("count":4,"type":"VEC3")", R"("count":2,"type":"VEC3")"), "a"),
-      "a, mesh 0, accessor 0: expected sparse indices below 2");
+      "a, mesh 0, accessor 0: expected sparse indices below 2, found 3");
 }
 
 TEST(Gltf, NamesOldVersions) {

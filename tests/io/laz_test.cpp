@@ -162,7 +162,7 @@ TEST(Laz, BrokenFilesAreNamed) {
   EXPECT_EQ(message(patched(good, 429, std::uint16_t{4})),
             "a.laz, byte 429: expected a compressor from 1 to 3, found 4");
   EXPECT_EQ(message(patched(good, 395, std::uint16_t{33})),
-            "a.laz, byte 429: expected a record of 34 bytes or more");
+            "a.laz, byte 429: expected a record of 34 bytes or more, found 33");
   EXPECT_EQ(message(patched(good, 461, std::uint16_t{99})),
             "a.laz, byte 461: expected items within the record, found 99");
   EXPECT_EQ(message(patched(good, 463, std::uint16_t{99})).substr(17),

@@ -71,7 +71,7 @@ Result<RawCloud> read_e57(const Source& source) {
     RELIEVO_CHECK(read_packed_columns(source, pages, scan.section, scan.columns));
     const std::size_t first = raw.cloud.size(), rows = scan.section.rows;
     if (rows >= no_index - first)
-      return source.error({}, cat("expected fewer than ", no_index, " points, found more"));
+      return source.error({}, cat("expected fewer than ", no_index, " points, found ", first + rows));
     raw.cloud.points.resize(first + rows);
     if (has_normals) raw.cloud.normals.resize(first + rows);
     if (has_colours) raw.cloud.colours.resize(first + rows);

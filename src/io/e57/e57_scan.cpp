@@ -67,7 +67,8 @@ class ScanParser {
       RELIEVO_TRY(column.minimum, limit(i, "minimum", Limits::min()));
       RELIEVO_TRY(const std::int64_t maximum, limit(i, "maximum", Limits::max()));
       if (maximum < column.minimum)
-        return error(element.name, "expected a maximum that is not below the minimum");
+        return error(element.name, cat("expected a maximum that is not below the minimum, ", column.minimum,
+                                       ", found ", maximum));
       column.bits = static_cast<unsigned>(
           std::bit_width(static_cast<std::uint64_t>(maximum) - static_cast<std::uint64_t>(column.minimum)));
       if (type == "ScaledInteger") {
@@ -103,14 +104,20 @@ class ScanParser {
     return triple;
   }
 
+  std::string names() const {
+    std::string all;
+    for (const PackedColumn& column : scan_.columns)
+      all += (all.empty() ? "" : ", ") + std::string(column.name);
+    return all.empty() ? "none" : printable(all, 80);
+  }
+
   Result<void> choose_columns() {
     auto position = find_triple({"cartesianX", "cartesianY", "cartesianZ"});
     scan_.is_spherical = !position;
     if (!position) position = find_triple({"sphericalRange", "sphericalAzimuth", "sphericalElevation"});
     if (!position)
       return error("prototype",
-                   "expected cartesianX, Y and Z or sphericalRange, Azimuth and Elevation, "
-                   "found others");
+                   "expected cartesianX, Y and Z or sphericalRange, Azimuth and Elevation, found " + names());
     scan_.position = *position;
     scan_.normal = find_triple({"normalX", "normalY", "normalZ"}, true);
     scan_.colour = find_triple({"colorRed", "colorGreen", "colorBlue"});

@@ -5,6 +5,7 @@
 #include <atomic>
 
 #include "io/numbers.h"
+#include "io/text.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 
@@ -39,7 +40,8 @@ std::uint32_t stored_checksum(std::string_view page) {
 
 Result<std::uint64_t> check_header(const Source& source) {
   const std::string_view bytes = source.bytes;
-  if (!bytes.starts_with("ASTM-E57")) return source.error_at_byte(0, "expected ASTM-E57, found other bytes");
+  if (!bytes.starts_with("ASTM-E57"))
+    return source.error_at_byte(0, "expected ASTM-E57, found " + in_quotes(bytes.substr(0, 8)));
   if (bytes.size() < header_size)
     return source.error_at_byte(bytes.size(), "expected a header of 48 bytes, found the end of the file");
   const auto major = little<std::uint32_t>(bytes.data() + 8),
@@ -97,13 +99,16 @@ Result<void> read_e57_pages(const Source& source, E57Pages& pages) {
       },
       256);
   if (damaged < count)
-    return source.error_at_byte(damaged * pages.page_size,
-                                cat("expected page ", damaged + 1, " of ", count,
-                                    " as its checksum says, found other bytes; the file is damaged"));
+    return source.error_at_byte(
+        damaged * pages.page_size,
+        cat("expected page ", damaged + 1, " of ", count,
+            " as its checksum says, found bytes of another checksum; the file is damaged, get it anew"));
   const std::uint64_t xml = pages.logical(little<std::uint64_t>(source.bytes.data() + 24)),
                       length = little<std::uint64_t>(source.bytes.data() + 32);
   if (length == 0 || length > pages.bytes.size() - std::min<std::uint64_t>(xml, pages.bytes.size()))
-    return source.error_at_byte(24, cat("expected ", length, " bytes of XML within the file, found fewer"));
+    return source.error_at_byte(24,
+                                cat("expected ", length, " bytes of XML within the file, found ",
+                                    pages.bytes.size() - std::min<std::uint64_t>(xml, pages.bytes.size())));
   pages.xml = std::string_view(pages.bytes).substr(xml, length);
   return {};
 }

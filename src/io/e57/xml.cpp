@@ -110,7 +110,9 @@ class XmlParser {
   Result<void> take_start_tag() {
     const std::size_t end = end_of_tag();
     if (end == std::string_view::npos) return error("expected the end of a tag, found the end");
-    if (open_.empty() && !elements_.empty()) return error("expected one root element, found another");
+    if (open_.empty() && !elements_.empty())
+      return error("expected one root element, found " + in_quotes(text_.substr(at_, end + 1 - at_)) +
+                   " after it");
     std::string_view tag = text_.substr(at_ + 1, end - at_ - 1);
     const bool is_closed = tag.ends_with('/');
     if (is_closed) tag.remove_suffix(1);

@@ -162,7 +162,8 @@ class GltfReader {
       const auto own = transform_of(*node);
       if (!own)
         return source_.error(
-            place, "expected 16 numbers as matrix, 4 as rotation, 3 as translation and scale, found others");
+            place, "expected 16 numbers as matrix, 4 as rotation, 3 as translation and scale, found " +
+                       shown_members(*node, {"matrix", "rotation", "translation", "scale"}));
       const Transform transform = visit.parent * *own;
       const auto mesh = number_in(*node, "mesh", no_index);
       if (!mesh)
@@ -238,7 +239,8 @@ class GltfReader {
     if (vertices.count() == 0) return {};
     for (const Transform& copy : copies) {
       if (points_.size() + vertices.count() > most_vertices || triangles_.size() > most_vertices)
-        return source_.error(place, "expected at most 100000000 vertices and as many triangles, found more");
+        return source_.error(place, cat("expected at most 100000000 vertices and as many triangles, found ",
+                                        points_.size() + vertices.count(), " and ", triangles_.size()));
       const std::size_t first = points_.size();
       add_vertices(vertices, copy);
       add_triangles(order, *mode, first, copy.linear().determinant() < 0);
@@ -281,12 +283,14 @@ class GltfReader {
     if (attributes.contains("NORMAL")) {
       RELIEVO_TRY(all.normals, attribute(attributes, "NORMAL", 3, place));
       if (all.normals.count() != all.count())
-        return source_.error(place, "expected a normal for each vertex");
+        return source_.error(place, cat("expected a normal for each of ", all.count(), " vertices, found ",
+                                        all.normals.count()));
     }
     if (attributes.contains("COLOR_0")) {
       RELIEVO_TRY(all.colours, attribute(attributes, "COLOR_0", 3, place));
       if (all.colours.count() != all.count())
-        return source_.error(place, "expected a colour for each vertex");
+        return source_.error(place, cat("expected a colour for each of ", all.count(), " vertices, found ",
+                                        all.colours.count()));
     }
     return all;
   }

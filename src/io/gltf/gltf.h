@@ -78,6 +78,9 @@ std::optional<std::size_t> whole_number(const Json& value);
 // else.
 std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise);
 
+// Returns the members of these names that the object has, as a message shows them: count -4, type "VEC3".
+std::string shown_members(const Json& object, std::initializer_list<const char*> names);
+
 // Returns a member that is an object, else null.
 const Json* object_in(const Json& json, const char* name);
 

@@ -49,13 +49,15 @@ std::vector<double> decode_vectors(const BufferRows& rows, NumberType type, std:
 Result<GltfFile::Layout> GltfFile::layout_of(const Json& json, const std::string& place) const {
   const auto code = number_in(json, "componentType", 0), count = number_in(json, "count", 0);
   if (!code || !count)
-    return source_->error(place, "expected whole numbers as componentType and count, found others");
+    return source_->error(place, "expected whole numbers as componentType and count, found " +
+                                     shown_members(json, {"componentType", "count"}));
   const auto type = std::ranges::find(component_types, *code, &ComponentType::code);
   const std::size_t components = components_of(json);
   if (type == component_types.end() || components == 0)
     return source_->error(place, cat("expected a known componentType and type, found ", *code, " and ",
                                      in_quotes(json.value("type", Json("none")).dump())));
-  if (*count >= no_index) return source_->error(place, "expected fewer than 4294967295 vectors, found more");
+  if (*count >= no_index)
+    return source_->error(place, cat("expected fewer than 4294967295 vectors, found ", *count));
   const bool is_normalised = json.value("normalized", Json(false)) == Json(true);
   return Layout{*count, components, type->type, is_normalised ? type->scale : 1};
 }
@@ -66,16 +68,21 @@ Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, con
   const auto offset = number_in(in_view, "byteOffset", 0),
              view_number = number_in(in_view, "bufferView", no_index);
   if (!offset || !view_number)
-    return fail("expected whole numbers as byteOffset and bufferView, found others");
+    return fail("expected whole numbers as byteOffset and bufferView, found " +
+                shown_members(in_view, {"byteOffset", "bufferView"}));
   RELIEVO_TRY(const std::string_view bytes, view(*view_number, place));
-  const auto stride = number_in(*element("bufferViews", *view_number), "byteStride", 0);
-  if (!stride) return fail("expected a whole number as byteStride, found another value");
-  if (*offset > bytes.size() || *stride > 252)
-    return fail("expected a view inside its buffer, found one beyond it");
+  const Json& of_view = *element("bufferViews", *view_number);
+  const auto stride = number_in(of_view, "byteStride", 0);
+  if (!stride || *stride > 252)
+    return fail("expected a whole number up to 252 as byteStride, found " +
+                in_quotes(of_view["byteStride"].dump()));
+  if (*offset > bytes.size())
+    return fail(
+        cat("expected a byteOffset inside its bufferView, up to ", bytes.size(), ", found ", *offset));
   const std::size_t row = layout.components * size_in_bytes(layout.type), room = bytes.size() - *offset;
   const BufferRows found{bytes.data() + *offset, *stride > 0 ? *stride : row};
   if (layout.count > 0 && (room < row || (room - row) / found.stride < layout.count - 1))
-    return fail("expected room for " + std::to_string(layout.count) + " elements, found less");
+    return fail(cat("expected room for ", layout.count, " elements, found ", room, " bytes"));
   return found;
 }
 
@@ -83,7 +90,9 @@ Result<BufferRows> GltfFile::rows(const Json& in_view, const Layout& layout, con
 Result<void> GltfFile::replace_sparse(const Json& sparse, const Layout& layout, const std::string& place,
                                       AccessorValues& out) {
   const Json *at = object_in(sparse, "indices"), *by = object_in(sparse, "values");
-  if (!at || !by) return source_->error(place, "expected the indices and values of its sparse part");
+  if (!at || !by)
+    return source_->error(place, "expected the indices and values of its sparse part, found " +
+                                     shown_members(sparse, {"indices", "values"}));
   Json indices = *at;
   indices["type"] = "SCALAR";
   indices["count"] = sparse.value("count", Json());
@@ -97,7 +106,7 @@ Result<void> GltfFile::replace_sparse(const Json& sparse, const Layout& layout, 
       decode_vectors(value_rows, layout.type, layout.components, index_layout.count, layout.scale);
   for (std::size_t i = 0; i < which.size(); ++i) {
     if (!(which[i] >= 0 && which[i] < static_cast<double>(layout.count)))
-      return source_->error(place, "expected sparse indices below " + std::to_string(layout.count));
+      return source_->error(place, cat("expected sparse indices below ", layout.count, ", found ", which[i]));
     const std::size_t to = static_cast<std::size_t>(which[i]) * layout.components;
     std::copy_n(vectors.begin() + static_cast<std::ptrdiff_t>(i * layout.components), layout.components,
                 out.numbers.begin() + static_cast<std::ptrdiff_t>(to));
@@ -118,7 +127,8 @@ Result<AccessorValues> GltfFile::accessor(std::size_t i, const std::string& at) 
   } else if (layout.count <= most_zeros) {
     out.numbers.assign(layout.count * layout.components, 0);
   } else {
-    return source_->error(place, "expected at most 1048576 vectors without a bufferView, found more");
+    return source_->error(place,
+                          cat("expected at most 1048576 vectors without a bufferView, found ", layout.count));
   }
   if (sparse) RELIEVO_CHECK(replace_sparse(*sparse, layout, place, out));
   return out;

@@ -7,20 +7,21 @@
 #include "io/gltf/gltf.h"
 #include "io/gltf/meshopt.h"
 #include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
 
-// Returns the bytes; nothing for text that is not base64.
-std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
+// Returns the bytes; nothing for text that is not base64, of which `wrong` is then the first character that is none.
+std::optional<std::vector<std::byte>> decode_base64(std::string_view text, std::size_t& wrong) {
   std::vector<std::byte> bytes;
   bytes.reserve(text.size() / 4 * 3);
   std::uint32_t bits = 0;
   int held = 0;
   while (text.ends_with('=')) text.remove_suffix(1);
-  for (const char c : text) {
+  for (wrong = 0; wrong < text.size(); ++wrong) {
     constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    const std::size_t digit = digits.find(c);
+    const std::size_t digit = digits.find(text[wrong]);
     if (digit == std::string_view::npos) return std::nullopt;
     bits = bits << 6 | static_cast<std::uint32_t>(digit);
     held += 6;
@@ -90,8 +91,11 @@ Result<std::vector<std::byte>> GltfFile::data_in_uri(std::string_view uri, const
     const auto bytes = std::as_bytes(std::span(plain));
     return std::vector<std::byte>(bytes.begin(), bytes.end());
   }
-  auto decoded = decode_base64(plain);
-  if (!decoded) return source_->error(place, "expected base64 text, found other characters");
+  std::size_t wrong = 0;
+  auto decoded = decode_base64(plain, wrong);
+  if (!decoded)
+    return source_->error(place, cat("expected base64 text, found ", in_quotes(plain.substr(wrong, 1)),
+                                     " as character ", wrong + 1));
   return std::move(*decoded);
 }
 
@@ -125,8 +129,8 @@ Result<std::string_view> GltfFile::buffer(std::size_t i, const Json& json) {
   }
   const auto promised = number_in(json, "byteLength", 0);
   if (!promised || *promised > bytes.size())
-    return source_->error(
-        place, "expected as many bytes as its byteLength says, found " + std::to_string(bytes.size()));
+    return source_->error(place, cat("expected the bytes that it says, ", shown_members(json, {"byteLength"}),
+                                     ", found ", bytes.size()));
   return bytes.substr(0, *promised);
 }
 
@@ -134,12 +138,14 @@ Result<std::string_view> GltfFile::part_of_buffer(const Json& part, const std::s
   const auto number = number_in(part, "buffer", no_index), start = number_in(part, "byteOffset", 0),
              length = number_in(part, "byteLength", 0);
   if (!number || !start || !length)
-    return source_->error(place, "expected whole numbers as buffer, byteOffset and byteLength, found others");
+    return source_->error(place, "expected whole numbers as buffer, byteOffset and byteLength, found " +
+                                     shown_members(part, {"buffer", "byteOffset", "byteLength"}));
   const Json* json = element("buffers", *number);
   if (!json) return source_->error(place, "expected a buffer, found none of that number");
   RELIEVO_TRY(const std::string_view bytes, buffer(*number, *json));
   if (*start > bytes.size() || *length > bytes.size() - *start)
-    return source_->error(place, "expected a view inside its buffer, found one beyond it");
+    return source_->error(place, cat("expected a view inside its buffer of ", bytes.size(), " bytes, found ",
+                                     *length, " from byte ", *start, " on"));
   return bytes.substr(*start, *length);
 }
 
@@ -158,8 +164,9 @@ Result<std::string_view> GltfFile::view(std::size_t i, const std::string& place)
     const auto layout = meshopt_layout(*meshopt);
     auto decoded = layout ? decode_meshopt(compressed, *layout) : std::nullopt;
     if (!decoded)
-      return source_->error(
-          place, "expected a bufferView that is compressed as its extension says, found other bytes");
+      return source_->error(place, cat("expected a bufferView that is compressed as its extension says, ",
+                                       shown_members(*meshopt, {"mode", "filter", "count", "byteStride"}),
+                                       ", found ", compressed.size(), " bytes that are not"));
     decoded_[i] = std::move(*decoded);
   }
   const auto& bytes = decoded_[i];

@@ -4,6 +4,7 @@
 #include "io/gltf/gltf.h"
 #include "io/text.h"
 #include "relievo/core/json_place.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -15,6 +16,14 @@ constexpr std::uint32_t json_chunk = 0x4E4F534A, binary_chunk = 0x004E4942;
 std::optional<std::size_t> number_in(const Json& object, const char* name, std::size_t otherwise) {
   const auto found = object.find(name);
   return found == object.end() ? otherwise : whole_number(*found);
+}
+
+std::string shown_members(const Json& object, std::initializer_list<const char*> names) {
+  std::string shown;
+  for (const char* const name : names)
+    if (const auto found = object.find(name); found != object.end())
+      shown += cat(shown.empty() ? "" : ", ", name, " ", printable(found->dump()));
+  return shown.empty() ? "none of them" : shown;
 }
 
 const Json* object_in(const Json& json, const char* name) {

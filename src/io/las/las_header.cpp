@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/numbers.h"
+#include "io/text.h"
 #include "relievo/core/text.h"
 
 namespace relievo::io {
@@ -19,7 +20,8 @@ class LasHeaderReader {
   explicit LasHeaderReader(const Source& source) : source_(source), bytes_(source.bytes) {}
 
   Result<LasHeader> read() {
-    if (!bytes_.starts_with("LASF")) return source_.error_at_byte(0, "expected LASF, found other bytes");
+    if (!bytes_.starts_with("LASF"))
+      return source_.error_at_byte(0, "expected LASF, found " + in_quotes(bytes_.substr(0, 4)));
     if (bytes_.size() < least_header)
       return source_.error_at_byte(bytes_.size(),
                                    "expected a header of at least 227 bytes, found the end of the file");

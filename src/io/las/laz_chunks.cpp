@@ -58,7 +58,8 @@ class LayoutReader {
   Result<void> take_items() {
     constexpr std::size_t items_at = 34;
     if (record_size_ < items_at)
-      return source_.error_at_byte(record_, "expected a record of 34 bytes or more");
+      return source_.error_at_byte(record_,
+                                   cat("expected a record of 34 bytes or more, found ", record_size_));
     compressor_ = at<std::uint16_t>(record_);
     chunk_size_ = at<std::uint32_t>(record_ + 12);
     const std::size_t count = at<std::uint16_t>(record_ + 32);
