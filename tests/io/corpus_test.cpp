@@ -113,7 +113,7 @@ TEST_F(Corpus, FilesHaveAsManyPointsAsTheirHeadersSay) {
       const auto many = text[25] < 4 ? 0 : io::little<std::uint64_t>(text.data() + 247);
       expect_count(path, many > 0 ? many : few);
     }
-  std::printf("counted the points of %zu files\n", counted);
+  EXPECT_GT(counted, 0U);
 }
 
 TEST_F(Corpus, LasWithPointsIsRead) {
@@ -152,7 +152,7 @@ TEST_F(Corpus, TiffOfOneChannelHasItsPixels) {
     }
     ++judged;
   }
-  std::printf("judged %zu pictures of one channel\n", judged);
+  EXPECT_GT(judged, 0U);
 }
 
 TEST_F(Corpus, LuminanceIsThatOfTheChannels) {
@@ -170,29 +170,109 @@ TEST_F(Corpus, LuminanceIsThatOfTheChannels) {
     }
     ++judged;
   }
-  std::printf("judged the luminance of %zu pictures\n", judged);
+  EXPECT_GT(judged, 0U);
 }
 
-// The validator's report says whether a file is right and how many triangles it has. Some right files have no data.
-TEST_F(Corpus, RightGltfOfTheValidatorIsRead) {
-  std::size_t judged = 0;
-  for (const fs::path& path : files("KhronosGroup+glTF-Validator", ".report.json")) {
+// A glTF file beside which the validator's report lies.
+struct JudgedGltf {
+  std::string name;
+  std::size_t errors, draws, triangles;
+};
+
+std::vector<JudgedGltf> judged_gltf(const std::vector<fs::path>& reports) {
+  std::vector<JudgedGltf> all;
+  for (const fs::path& path : reports) {
     const auto report = nlohmann::json::parse(content_of(path), nullptr, false);
-    const std::string name =
-        path.string().substr(0, path.string().size() - std::string(".report.json").size());
-    if (!report.is_object() || report["issues"].value("numErrors", 1) > 0 || !report.contains("info"))
-      continue;
-    if (report["info"].value("totalTriangleCount", 0) == 0 || !fs::exists(name)) continue;
-    const auto file = read_at(name);
-    const std::string why = file ? "" : file.error().expected;
-    const bool has_no_data = why.starts_with("expected as many bytes") || why.ends_with("found none");
-    EXPECT_TRUE(file || has_no_data) << name << ": " << why;
-    if (!file || file->mesh.empty())
-      continue;  // two have only triangles with a corner twice, which are left out
-    EXPECT_EQ(file->mesh.triangles.size(), report["info"]["totalTriangleCount"].get<std::size_t>()) << name;
-    ++judged;
+    const std::string name = path.string().substr(0, path.string().rfind(".report.json"));
+    if (!fs::exists(name) || !report.is_object()) continue;
+    const auto info = report.value("info", nlohmann::json::object());
+    all.push_back({name, report["issues"].value("numErrors", std::size_t{1}),
+                   info.value("drawCallCount", std::size_t{0}),
+                   info.value("totalTriangleCount", std::size_t{0})});
   }
-  std::printf("judged %zu right glTF files with triangles\n", judged);
+  return all;
+}
+
+// Files by the ends of their names, with the reason why they are no counterexample.
+struct Exceptions {
+  const char* reason;
+  std::vector<std::string> names;
+};
+
+bool is_among(const std::vector<Exceptions>& all, const std::string& name) {
+  return std::ranges::any_of(all, [&](const Exceptions& one) {
+    return std::ranges::any_of(one.names, [&](const std::string& end) { return name.ends_with("/" + end); });
+  });
+}
+
+TEST_F(Corpus, RightGltfOfTheValidatorIsRead) {
+  const std::vector<Exceptions> exceptions = {
+      {"the file has no data", {"root/named_objects.gltf", "root/unused_objects.gltf"}},
+      {"no primitive has positions",
+       {"mesh/primitive_no_position.gltf", "json/integer_written_as_float.gltf"}}};
+  const auto all = judged_gltf(files("KhronosGroup+glTF-Validator", ".report.json"));
+  std::size_t read = 0;
+  for (const auto& [name, errors, draws, triangles] : all) {
+    if (errors > 0 || draws == 0) continue;
+    const auto file = read_at(name);
+    EXPECT_EQ(file.has_value(), !is_among(exceptions, name))
+        << name << (file ? " is no exception any more" : file.error().expected);
+    if (!file) continue;
+    ++read;
+    if (file->mesh.empty()) continue;  // two have only triangles with a corner twice, which are left out
+    EXPECT_EQ(file->mesh.triangles.size(), triangles) << name;
+  }
+  EXPECT_TRUE(all.empty() || read > 0);
+}
+
+TEST_F(Corpus, BrokenGltfOfTheValidatorIsRefused) {
+  const std::vector<Exceptions> exceptions = {
+      {"the fault is in morphs, skins, joints or weights, which are not read",
+       {"mesh/morph_attribute_invalid_count.gltf", "mesh/morph_attribute_no_base.gltf",
+        "mesh/morph_position_accessor_no_bounds.gltf", "mesh/morph_unequal_targets_count.gltf",
+        "mesh/morph_weights_wrong_count.gltf", "mesh/unequal_joints.gltf",
+        "mesh/unresolved_morph_positions.gltf", "mesh_data/joints_no_weights.gltf",
+        "mesh_data/joints_weights_complex.gltf", "node/node_skin_without_skinned_mesh.gltf",
+        "node/node_weights_invalid.gltf", "skin/no_joints_in_scene.gltf"}},
+      {"the fault is in materials, textures, tangents or attributes of a program's own, which are not read",
+       {"mesh/accessor_attribute_uint32.gltf", "mesh/invalid_attribute.gltf",
+        "mesh/invalid_attribute_escaped_name.gltf", "mesh/invalid_indexed_attribute.gltf",
+        "mesh/unresolved_material.gltf", "mesh/uv.gltf", "material/no_tangent_space.gltf",
+        "KHR_materials_variants/data/primitive/dependency.gltf",
+        "KHR_materials_variants/data/primitive/empties.gltf",
+        "KHR_materials_variants/data/primitive/non_unique.gltf",
+        "KHR_materials_variants/data/primitive/unexpected_extension.gltf",
+        "KHR_materials_variants/data/primitive/unresolved_references.gltf", "textureInfo/uv_sets.gltf"}},
+      {"normals become unit vectors and colours are cut off at 1",
+       {"mesh_data/normals_tangents_non_unit_invalid_sign.gltf", "mesh_data/colors_non_clamped.gltf"}},
+      {"the bounds that the file lacks are measured", {"mesh/position_accessor_no_bounds.gltf"}},
+      {"the vertex exists that the number 255 names", {"mesh_data/index_buffer_primitive_restart.gltf"}},
+      {"the file has whole numbers as coordinates, but does not announce them",
+       {"KHR_mesh_quantization/data/primitive/non_required.gltf",
+        "KHR_mesh_quantization/data/primitive/unexpected_extension.gltf"}}};
+  std::vector<std::string> read;
+  for (const auto& one : judged_gltf(files("KhronosGroup+glTF-Validator", ".report.json")))
+    if (one.errors > 0 && read_at(one.name)) read.push_back(one.name);
+  for (const std::string& name : read) EXPECT_TRUE(is_among(exceptions, name)) << name;
+  for (const auto& [reason, names] : exceptions)
+    for (const std::string& end : names)
+      EXPECT_TRUE(read.empty() ||
+                  std::ranges::any_of(read, [&](auto& name) { return name.ends_with("/" + end); }))
+          << end << " is no exception any more";
+}
+
+// Corrupt pictures of PngSuite have names with an x.
+TEST_F(Corpus, BrokenPngIsRefused) {
+  for (const fs::path& path : files("nothings+stb", ".png"))
+    EXPECT_FALSE(path.filename().string().starts_with("x") && depths_at(path)) << path;
+}
+
+TEST_F(Corpus, RightPlyWithVerticesIsRead) {
+  for (const fs::path& path : files("Fluci+ply-rs", ".ply")) {
+    const bool is_right =
+        path.string().contains("_ok_") && number_after(content_of(path), "element vertex ").value_or(0) > 0;
+    EXPECT_TRUE(!is_right || read_at(path)) << path;
+  }
 }
 
 TEST_F(Corpus, BrokenPlyIsRefused) {
@@ -260,7 +340,7 @@ TEST_F(Corpus, LazHasThePointsOfItsLas) {
     EXPECT_EQ(packed->cloud.colours, plain->cloud.colours) << path;
     ++compared;
   }
-  std::printf("compared %zu LAZ files with LAS\n", compared);
+  EXPECT_GT(compared, 0U);
 }
 
 TEST_F(Corpus, JsonIsJudgedAsItsNamesSay) {

@@ -292,6 +292,19 @@ TEST(Gltf, ReadsWhatRequiresExtensionsThatLeaveShapesAlone) {
   EXPECT_EQ(message_of(with("7"), "a.glb"), refusal("'7'"));
 }
 
+TEST(Gltf, RefusesNumbersOfAnotherKind) {
+  const auto message = [](std::string_view what, std::string_view by) {
+    return message_of(glb_of(replaced(gltf_json(), what, by)), "a.glb");
+  };
+  const std::string positions = R"("count":4,"type":"VEC3")", indices = R"("componentType":5123,"count":12)";
+  EXPECT_EQ(message(positions, R"("count":3,"type":"VEC4")"),
+            "a.glb, mesh 0: expected vectors of 3 numbers as POSITION, found vectors of 4");
+  EXPECT_EQ(message(indices, R"("componentType":5126,"count":6)"),
+            "a.glb, mesh 0: expected whole numbers as indices, found fractions");
+  EXPECT_EQ(message(indices + R"(,"type":"SCALAR")", R"("componentType":5123,"count":4,"type":"VEC3")"),
+            "a.glb, mesh 0: expected whole numbers as indices, found vectors");
+}
+
 double volume_of(const Mesh& mesh) {
   double volume = 0;
   for (const auto& [a, b, c] : mesh.triangles)

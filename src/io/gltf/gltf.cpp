@@ -258,6 +258,9 @@ class GltfReader {
     }
     const auto number = number_in(primitive, "indices", no_index);
     RELIEVO_TRY(const AccessorValues indices, file_.accessor(number.value_or(no_index), place));
+    if (indices.components != 1 || indices.type == NumberType::float32)
+      return source_.error(place, cat("expected whole numbers as indices, found ",
+                                      indices.type == NumberType::float32 ? "fractions" : "vectors"));
     for (const double i : indices.numbers) {
       if (!(i >= 0 && i < static_cast<double>(vertices)))
         return source_.error(place, cat("expected numbers of vertices below ", vertices, ", found ", i));
@@ -266,13 +269,14 @@ class GltfReader {
     return order;
   }
 
-  // Returns the vectors of an attribute, which have at least so many numbers each.
-  Result<AccessorValues> attribute(const Json& attributes, const char* name, std::size_t least,
+  // Returns the vectors of an attribute, which have so many numbers each; colours may have another for transparency.
+  Result<AccessorValues> attribute(const Json& attributes, const char* name, std::size_t wanted,
                                    const std::string& place) {
     const auto number = number_in(attributes, name, no_index);
     RELIEVO_TRY(AccessorValues values, file_.accessor(number.value_or(no_index), place));
-    if (values.components < least)
-      return source_.error(place, cat("expected vectors of ", least, " numbers as ", name,
+    const bool has_alpha = name == std::string_view("COLOR_0") && values.components == 4;
+    if (values.components != wanted && !has_alpha)
+      return source_.error(place, cat("expected vectors of ", wanted, " numbers as ", name,
                                       ", found vectors of ", values.components));
     return values;
   }

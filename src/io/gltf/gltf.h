@@ -17,6 +17,7 @@ using Json = nlohmann::json;
 struct AccessorValues {
   std::size_t components = 1;
   std::vector<double> numbers;
+  NumberType type = NumberType::float32;  // as which the file has them
 
   std::size_t count() const { return numbers.size() / components; }
 };

@@ -120,7 +120,7 @@ Result<AccessorValues> GltfFile::accessor(std::size_t i, const std::string& at) 
   if (!json) return source_->error(place, "expected an accessor, found none of that number");
   RELIEVO_TRY(const Layout layout, layout_of(*json, place));
   const Json* sparse = object_in(*json, "sparse");
-  AccessorValues out{layout.components, {}};
+  AccessorValues out{layout.components, {}, layout.type};
   if (json->contains("bufferView")) {
     RELIEVO_TRY(const BufferRows found, rows(*json, layout, place));
     out.numbers = decode_vectors(found, layout.type, layout.components, layout.count, layout.scale);
