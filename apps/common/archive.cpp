@@ -22,6 +22,19 @@ std::unexpected<Error> broken(std::string_view name, std::string expected) {
   return std::unexpected(Error{ErrorKind::input, std::string(name), {}, std::move(expected)});
 }
 
+// Returns the message about a file of the archive that libzip does not unpack, for the reason of that code.
+std::string not_unpacked(const zip_stat_t& file, int code) {
+  if (file.encryption_method != ZIP_EM_NONE)
+    return "expected a file without a password, found an encrypted one; unpack the archive first";
+  if (file.size > most_unpacked)
+    return cat("expected at most 4294967296 bytes, found ", file.size, "; unpack the archive first");
+  if (code == ZIP_ER_COMPNOTSUPP)
+    return cat("expected a file that is stored or packed by deflate, found method ", file.comp_method,
+               "; unpack the archive first");
+  const char* const found = code == ZIP_ER_CRC ? "content that its checksum does not fit" : "damaged content";
+  return cat("expected a whole file, found ", found, "; get the archive anew");
+}
+
 // Licences, textures and previews lie beside models.
 bool is_model(const std::string& name) {
   constexpr std::array beside_models = {"txt", "csv", "png", "tif", "tiff"};
@@ -43,7 +56,7 @@ Result<Archive> Archive::open(std::span<const std::byte> bytes, std::string_view
   made.name_ = name;
   ArchiveSource source(zip_source_buffer_create(bytes.data(), bytes.size(), 0, nullptr));
   made.zip_.reset(source ? zip_open_from_source(source.get(), ZIP_RDONLY, nullptr) : nullptr);
-  if (!made.zip_) return broken(name, "expected a whole archive, found a damaged one");
+  if (!made.zip_) return broken(name, "expected a whole archive, found a damaged one; get it anew");
   (void)source.release();  // belongs to the archive now
   return made;
 }
@@ -57,24 +70,28 @@ std::vector<std::string> Archive::names() const {
 
 Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
   const zip_int64_t found = zip_name_locate(zip_.get(), name.c_str(), 0);
-  if (found < 0) return broken(name_, cat("expected an archive with ", name));
+  if (found < 0) return broken(name_, cat("expected an archive with ", name, ", found none in it"));
   const auto index = static_cast<zip_uint64_t>(found);
   zip_stat_t stat;
-  const ArchiveEntry entry(zip_fopen_index(zip_.get(), index, 0));
-  if (!entry || zip_stat_index(zip_.get(), index, 0, &stat) != 0 || stat.size > most_unpacked)
-    return broken(name_, "expected a whole archive of at most 4 GiB");
+  zip_stat_init(&stat);
+  const auto fail = [&](zip_error_t* why) {
+    return broken(cat(name_, "/", name), not_unpacked(stat, zip_error_code_zip(why)));
+  };
+  if (zip_stat_index(zip_.get(), index, 0, &stat) != 0) return fail(zip_get_error(zip_.get()));
+  const ArchiveEntry entry(stat.size > most_unpacked ? nullptr : zip_fopen_index(zip_.get(), index, 0));
+  if (!entry) return fail(zip_get_error(zip_.get()));
   std::vector<std::byte> bytes;
   // Pieces, as a damaged archive may promise any size; the last one is empty, and the checksum is compared there.
   constexpr std::size_t piece = 1 << 20;
   for (std::size_t filled = 0; bytes.size() <= stat.size;) {
     bytes.resize(filled + std::min<std::size_t>(piece, stat.size + 1 - filled));
     const zip_int64_t got = zip_fread(entry.get(), bytes.data() + filled, bytes.size() - filled);
-    if (got < 0) return broken(name_, "expected a whole archive, found a damaged one");
+    if (got < 0) return fail(zip_file_get_error(entry.get()));
     filled += static_cast<std::size_t>(got);
     bytes.resize(filled);
     if (got == 0) break;
   }
-  if (bytes.size() != stat.size) return broken(name_, "expected a whole archive, found a damaged one");
+  if (bytes.size() != stat.size) return fail(zip_file_get_error(entry.get()));
   return bytes;
 }
 

@@ -5,6 +5,7 @@
 
 #include "common/read_inputs.h"
 #include "support/format_samples.h"
+#include "support/read_text.h"
 #include "support/zip_encoder.h"
 
 namespace relievo::app {
@@ -46,6 +47,27 @@ TEST(Archive, ErrorsNameTheArchiveAndTheFile) {
             "a.zip/scene.gltf, buffer 0: expected the file 'scene.bin' beside it, found none that can be "
             "read; a .glb "
             "needs no other file");
+}
+
+// Changes both headers of the archive's only file, by the byte's place behind that of the version needed.
+std::string changed_headers(std::string archive, std::size_t at, std::uint16_t to) {
+  archive = patched(archive, archive.find("PK\x03\x04") + 4 + at, to);
+  return patched(archive, archive.find("PK\x01\x02") + 6 + at, to);
+}
+
+TEST(Archive, WhatCannotBeUnpackedIsRefusedWithItsReason) {
+  const std::string good = archive_of({{"a.xyz", "0 0 0\n1 0 0\n0 1 0\n"}});
+  const auto expect = [](const std::string& archive, const std::string& expected) {
+    EXPECT_EQ(read(archive).error().message(), "a.zip/a.xyz: " + expected);
+  };
+  ASSERT_TRUE(read(good));
+  expect(changed_headers(good, 2, 1),
+         "expected a file without a password, found an encrypted one; unpack the archive first");
+  expect(changed_headers(good, 4, 98),
+         "expected a file that is stored or packed by deflate, found method 98; unpack the archive first");
+  expect(replaced(good, "1 0 0", "1 0 5"),
+         "expected a whole file, found content that its checksum does not fit; get the archive anew");
+  expect(changed_headers(good, 4, 8), "expected a whole file, found damaged content; get the archive anew");
 }
 
 TEST(Archive, AnyByteChangedOrMissingGetsAnAnswer) {
