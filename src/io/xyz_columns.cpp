@@ -11,15 +11,16 @@ namespace {
 using Row = std::vector<double>;
 
 // Names of the coordinates in files of other programs, most usual first: those of a plane, and the height above it.
-constexpr std::array<std::array<std::string_view, 2>, 8> plane_names = {{{"x", "y"},
+constexpr std::array<std::array<std::string_view, 2>, 9> plane_names = {{{"x", "y"},
                                                                          {"easting", "northing"},
                                                                          {"east", "north"},
                                                                          {"e", "n"},
                                                                          {"point_x", "point_y"},
                                                                          {"x_coord", "y_coord"},
                                                                          {"coord_x", "coord_y"},
-                                                                         {"xcoord", "ycoord"}}};
-constexpr std::array<std::array<std::string_view, 1>, 10> height_names = {{{"z"},
+                                                                         {"xcoord", "ycoord"},
+                                                                         {"rechtswert", "hochwert"}}};
+constexpr std::array<std::array<std::string_view, 1>, 12> height_names = {{{"z"},
                                                                            {"elevation"},
                                                                            {"height"},
                                                                            {"altitude"},
@@ -28,7 +29,9 @@ constexpr std::array<std::array<std::string_view, 1>, 10> height_names = {{{"z"}
                                                                            {"point_z"},
                                                                            {"z_coord"},
                                                                            {"coord_z"},
-                                                                           {"zcoord"}}};
+                                                                           {"zcoord"},
+                                                                           {"h\xC3\xB6he"},
+                                                                           {"hoehe"}}};
 
 constexpr std::array<std::array<std::string_view, 3>, 1> normal_names = {{{"nx", "ny", "nz"}}};
 

@@ -261,7 +261,8 @@ TEST(Xyz, CoordinatesHaveNamesOfOtherPrograms) {
         "POINT_X,POINT_Y,POINT_Z\n1,2.5,-3\n4,5,6e3\n", "X_coord;Y_coord;Z_coord\n1;2,5;-3\n4;5;6e3\n",
         "X [m],Y [m],Height [m]\n1,2.5,-3\n4,5,6e3\n", "East North Altitude Z\n1 2.5 7 -3\n4 5 7 6e3\n",
         "Latitude,Longitude,Northing,Easting,Elev\n51,7,2.5,1,-3\n51,7,5,4,6e3\n",
-        "n,e,height,x,y\n7,7,-3,1,2.5\n7,7,6e3,4,5\n", "'x' 'y' 'z'\n1 2.5 -3\n4 5 6e3\n"})
+        "n,e,height,x,y\n7,7,-3,1,2.5\n7,7,6e3,4,5\n", "'x' 'y' 'z'\n1 2.5 -3\n4 5 6e3\n",
+        "Punkt;Rechtswert;Hochwert;H\xC3\xB6he\na;1;2,5;-3\nb;4;5;6e3\n"})
     EXPECT_EQ(points_of(text), two_points) << text;
   for (const char* const names : {"Longitude,Latitude,Altitude", "id;Lat;Lon;Height", "lng lat z"})
     EXPECT_EQ(
