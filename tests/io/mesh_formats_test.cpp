@@ -285,6 +285,8 @@ TEST(Gltf, BrokenFieldsAreNamed) {
         first + "expected the indices and values of its sparse part, found none of them"},
        {json(R"("byteOffset":48)", R"("byteOffset":49)"),
         indices + "expected a view inside its buffer of 72 bytes, found 24 from byte 49 on"},
+       {json(R"({"bufferView":0)", R"({"byteOffset":49,"bufferView":0)"),
+        first + "expected a byteOffset inside its bufferView, up to 48, found 49"},
        {json(R"({"buffer":0,"byteLength":48})", R"({"buffer":1,"byteLength":48})"),
         first + "expected a buffer, found none of that number"},
        {json(R"("bufferView":0)", R"("bufferView":7)"), first + "expected a bufferView, found none"},
