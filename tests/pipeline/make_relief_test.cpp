@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/simd.h"
 #include "relievo/relief/relief.h"
@@ -181,6 +182,41 @@ TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
     ReliefOptions asked = options;
     asked.height_mm = 5;
     EXPECT_FALSE(make_relief(shallow, asked));
+  }
+}
+
+TEST(MakeRelief, ReachesTheHighestWithADraftAngleAndNoMore) {
+  const auto model = prepare(figure(), View{});
+  ReliefOptions options;
+  options.width_mm = 60;
+  const double free = *highest_with_draft(*model, options);
+  options.draft_deg = 50;
+  const double highest = *highest_with_draft(*model, options);
+  EXPECT_GT(highest, 1);
+  EXPECT_LT(highest, .9 * free);
+  options.height_mm = .999 * highest;
+  const auto made = make_relief(*model, options);
+  ASSERT_TRUE(made) << made.error().message();
+  EXPECT_NEAR(made->report.height_mm, .999 * highest, 1e-3);
+  EXPECT_EQ(*highest_with_draft(*model, options), highest);  // whatever height is asked for
+  options.height_mm = 1.001 * highest;
+  const auto refused = make_relief(*model, options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().input, "draft");
+}
+
+TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
+  const auto model = prepare(test::torus(8000, 1.5, .4), View{});
+  ReliefOptions options;
+  options.height_mm = 2;
+  options.rim_mm = 3;
+  options.draft_deg = 20;
+  for (const double share : {.9, 1.1}) {  // of the bevel that leans by that angle
+    options.rim_bevel_mm = share * 2 * std::tan(20 * std::numbers::pi / 180);
+    EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
+    const auto made = make_relief(*model, options);
+    ASSERT_EQ(made.has_value(), share > 1);
+    if (!made) EXPECT_EQ(made.error().input, "rim-bevel");
   }
 }
 
