@@ -10,7 +10,7 @@ const skip = found.missing ? `${found.missing}: the page is not tested` : false;
 if (skip) console.log(`SKIPPED: ${skip}`);
 
 const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
-if (!axe) console.log("axe-core is not installed (npm ci --prefix apps/studio/tests): it finds nothing");
+const missing = axe ? false : "axe-core is not installed (npm ci --prefix apps/studio/tests)";
 
 const folder = temporaryFolder(), scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
 const DESK = {width: 1280, height: 800}, PHONE = {width: 390, height: 844};
@@ -113,7 +113,8 @@ async function misfits(screen, part) {
 }
 
 // How the page may be shown: axe looks at each.
-const MEDIA = [{screen: PHONE}, {colorScheme: "dark"}, {forcedColors: "active"}, {}];
+const MEDIA = [{screen: PHONE}, {screen: PHONE, colorScheme: "dark"}, {colorScheme: "dark"}, {forcedColors: "active"},
+  {}];
 
 async function assertFits(part = "body") {
   const all = [];
@@ -121,25 +122,26 @@ async function assertFits(part = "body") {
   assert.deepEqual(all, []);
 }
 
-// Returns what axe finds on the page as it is, as its rules and the elements that break them; nothing without axe.
+// Returns what axe finds on the page as it is, as its rules and the elements that break them.
 async function findings() {
-  if (!axe) return [];
   if (!await page.evaluate(() => "axe" in window)) await page.evaluate(axe);
   return page.evaluate(async () => (await window.axe.run(document, {resultTypes: ["violations"]})).violations
     .flatMap(({id, nodes}) => nodes.map(({target}) => `${id}: ${target}`)));
 }
 
-async function assertHasNoFindings() {
+// A test within the state's, so that its skipping is told where axe is missing; in CI that is a failure.
+const hasNoFindings = (state) => state.test("has no findings of axe", {skip: !process.env.CI && missing}, async () => {
+  assert.ok(!missing, missing);
   for (const {screen = DESK, colorScheme = "light", forcedColors = "none"} of MEDIA) {
     await page.setViewportSize(screen);
     await page.emulateMedia({colorScheme, forcedColors});
     assert.deepEqual(await findings(), [], JSON.stringify({screen, colorScheme, forcedColors}));
   }
-}
+});
 
-test("fits every screen before the first scan", {skip}, async () => {
+test("fits every screen before the first scan", {skip}, async (state) => {
   await assertFits();
-  await assertHasNoFindings();
+  await hasNoFindings(state);
   await page.locator("#file").setInputFiles(scans[0]);
   await untilReady(page);
   await openPanels(page);
@@ -155,11 +157,11 @@ test("leaves the picture room on a phone", {skip}, async () => {
 });
 
 for (const [name, {enter, leave, part}] of Object.entries(STATES))
-  test(`fits every screen: ${name}`, {skip}, async () => {
+  test(`fits every screen: ${name}`, {skip}, async (state) => {
     try {
       await enter(page);
       await assertFits(part);
-      await assertHasNoFindings();
+      await hasNoFindings(state);
     } finally {
       await page.emulateMedia({colorScheme: "light", forcedColors: "none"});
       await page.setViewportSize(DESK);
@@ -167,9 +169,9 @@ for (const [name, {enter, leave, part}] of Object.entries(STATES))
     }
   });
 
-test("fits every screen: a scene", {skip}, async () => {
+test("fits every screen: a scene", {skip}, async (state) => {
   await showScene(page, scans);
   await page.getByRole("button", {name: "Dismiss"}).click(); // that work is kept
   await assertFits();
-  await assertHasNoFindings();
+  await hasNoFindings(state);
 });
