@@ -31,8 +31,6 @@ export class Modes {
 
   setTool(tool) {
     for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
-    const row = $(".tools"); // of which a phone shows a part
-    if (row.scrollWidth > row.clientWidth) $(`#tools [data-tool=${tool}]`).scrollIntoView({block: "nearest"});
     $("#section").hidden = tool !== "section";
     this.cropFrame.show(tool === "crop");
     if (tool !== "light") this.setTable(false);
