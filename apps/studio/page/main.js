@@ -1,6 +1,6 @@
 // Connects the parts of the studio's page.
 
-import {about, defaultOf, engine} from "./about.js";
+import {about, engine} from "./about.js";
 import {AlphaRow} from "./alpha.js";
 import {$, clamp, make} from "./controls.js";
 import {CropFrame} from "./crop_frame.js";
@@ -78,14 +78,6 @@ let facts = null; // of the model that is shown
 let last = null; // numbers of the newest picture
 let isKept = !about.notice;
 
-// Changes the method. A soft rim that was not touched becomes the one that the new method starts from.
-function changeMethod(method) {
-  const {options} = doc.now;
-  const isUntouched = options.boundary === defaultOf("boundary", options.method);
-  const boundary = isUntouched ? defaultOf("boundary", method) : options.boundary;
-  doc.change({options: {method, boundary}});
-}
-
 // Returns the tone curve of the document, which refuses another one after its drag was taken back.
 function changeTone(tone) {
   doc.change({options: {tone}}, "tone");
@@ -142,7 +134,6 @@ function showDocument() {
   const {options, material, input} = doc.now;
   sliders.show();
   curve.show({tone: options.tone});
-  $("#method").value = options.method;
   pieces.show();
   kinds.show();
   kindPanel.show();
@@ -345,7 +336,6 @@ function wire() {
     event.target.value = "";
   };
   $("#unit").onchange = (event) => chooseUnit(event.target.value);
-  $("#method").onchange = (event) => changeMethod(event.target.value);
   takeDrops($("#veil"), openFiles);
   takeKeys({
     commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,

@@ -1,4 +1,4 @@
-// The sliders on the page, with the lock of the height: shows the document's values, and changes them.
+// The sliders on the page, with the lock of the height and the method: shows the document's values, and changes them.
 
 import {defaultOf} from "./about.js";
 import {$, Slider, lockButton, make} from "./controls.js";
@@ -22,6 +22,7 @@ export class Sliders {
       $(FIELDS[name].place).append(slider.element);
     }
     this.all.height.element.after(make("p", {id: "reach", class: "note", role: "status"}));
+    $("#method").onchange = (event) => this.changeMethod(event.target.value);
   }
 
   // The elements by the names of their options.
@@ -51,6 +52,14 @@ export class Sliders {
     else if (doc.now.options[name] !== value) this.all[name].show(doc.now.options[name]); // the drag was taken back
   }
 
+  // Changes the method. A soft rim that was not touched becomes the one that the new method starts from.
+  changeMethod(method) {
+    const {options} = this.doc.now;
+    const isUntouched = options.boundary === defaultOf("boundary", options.method);
+    const boundary = isUntouched ? defaultOf("boundary", method) : options.boundary;
+    this.doc.change({options: {method, boundary}});
+  }
+
   toggleLock() {
     const {isHeightLocked} = this.doc.now;
     this.doc.change({isHeightLocked: !isHeightLocked, u: isHeightLocked ? this.frame()?.u ?? null : null});
@@ -65,6 +74,7 @@ export class Sliders {
     const {options, isHeightLocked} = this.doc.now, isShaped = options.form !== "lithophane";
     for (const [name, slider] of Object.entries(this.all)) slider.show(options[name] ?? this.shownWidth());
     this.showWidth();
+    $("#method").value = options.method;
     for (const name of SHAPING) this.all[name].disabled = !isShaped;
     this.all.saturation.disabled = !isShaped || options.tone !== "";
     this.all.corner.element.hidden = options.outline !== "round";
