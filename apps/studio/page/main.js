@@ -343,9 +343,12 @@ function wire() {
   });
 }
 
+// Nothing that is not shown changes by a key.
+const ofDocument = (act) => () => $("#studio").hidden || act();
 const COMMANDS = {
-  z: () => doc.undo(), Z: () => doc.redo(), y: () => doc.redo(), o: () => $("#file").click(),
-  s: () => facts && saveProject(), e: () => facts && exporting.open(),
+  z: ofDocument(() => doc.undo()), Z: ofDocument(() => doc.redo()), y: ofDocument(() => doc.redo()),
+  s: ofDocument(() => facts && saveProject()), e: ofDocument(() => facts && exporting.open()),
+  o: () => $("#file").click(),
 };
 const KEYS = {
   l: () => modes.setTool("light"), r: () => modes.setTool("turn"), o: () => modes.setTool("orbit"),

@@ -83,6 +83,24 @@ test("leads back to the relief for the tour, and says that it needs one", {skip}
   await empty.stop();
 });
 
+test("shows nothing of the document on the start page, and changes nothing there by keys", {skip}, async () => {
+  const parts = ["title", "undo", "redo", "save", "export", "numbers", "remarks"], shown = () => page.evaluate((ids) =>
+    ids.filter((id) => document.getElementById(id).checkVisibility()), parts);
+  const bronze = page.getByRole("radio", {name: "Bronze"});
+  await bronze.click();
+  assert.deepEqual(await shown(), parts);
+  await button("Relievo, start page").click();
+  await page.getByRole("heading", {name: "From scan to bas-relief"}).waitFor();
+  assert.deepEqual(await shown(), []);
+  for (const key of ["z", "e", "s"]) await page.keyboard.press(`Control+${key}`);
+  assert.equal(await page.locator("dialog[open]").count(), 0);
+  await button("Back to the relief").click();
+  assert.deepEqual(await shown(), parts);
+  assert.ok(await bronze.isChecked());
+  await button("Undo").click();
+  assert.ok(!await bronze.isChecked());
+});
+
 test("offers the tour no longer to whoever begins to work", {skip}, async () => {
   const other = await (await browser.newContext()).newPage();
   await other.goto(engine.address);
