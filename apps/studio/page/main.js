@@ -37,7 +37,7 @@ const SHOW_MS = 120; // pause of a drag after which all controls show what it ha
 const doc = new Document((before) => changed(before), () => showing && showDocument());
 const sliders = new Sliders({doc, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
-const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: toast});
+const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: refuse});
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
 const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: () => shownView.choose()});
@@ -67,7 +67,8 @@ const keeper = new Keeper({
   onFailed: notKept, onKept: () => (isKept = true),
 });
 const opened = new OpenDocument({engine, doc, keeper, on: {
-  begun, measured, arrived, failed, refused: () => shownView.restore(), changed: stateCame, progress,
+  begun, measured, arrived, failed, refused: (why) => (shownView.restore(), why && refuse(why)),
+  changed: stateCame, progress,
   missing: (input, work) => projects.askFor(input, work), closed: () => showStart(true),
 }});
 const shownView = new ShownView({doc, stage, opened, showDocument, failed});
@@ -92,17 +93,19 @@ function chooseUnit(unit) {
   if (last) stage.invalidate();
 }
 
-// Says why an entry is refused, until one is taken.
+// Says why an entry is refused, until the next one.
 let takeRefusalBack = () => {};
 function refuse(text) {
   takeRefusalBack = toast(text);
 }
+// An entry need not change anything. A slider's end is none: what it has changed was told while it moved.
+addEventListener("change", ({target}) => target.type !== "range" && takeRefusalBack(), true);
 
 // ----------------------------------------------------------------------------------------------- the document
 
 function changed(before) {
   const {now} = doc;
-  takeRefusalBack();
+  if (doc.steps.includes(before)) takeRefusalBack(); // a drag that goes on is no other entry
   opened.keep(doc.stroke !== null);
   tour.takeBack();
   showDocumentSoon();
@@ -269,7 +272,7 @@ function failed(error) {
   if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
   if (placing.fit(error, last)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
-  if (error.kind !== "closed") return toast(inWords(error.message));
+  if (error.kind !== "closed") return (error.kind === "lost" ? toast : refuse)(inWords(error.message));
   clearTimeout(reopening);
   reopening = setTimeout(() => opened.closed().catch(failed), 200);
 }

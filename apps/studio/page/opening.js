@@ -19,8 +19,8 @@ export class OpenDocument {
   // Calls on.begun(former) when another document is shown, with the input of the one before if there was one,
   // on.progress(status), on.measured(status) when pictures can be drawn of the view that is being prepared first,
   // on.arrived(status) when its model is ready, on.changed() when its state came from elsewhere,
-  // on.missing(input, kept) if its scan is not there, on.failed(error), and on.closed() when there is no document left
-  // to show.
+  // on.missing(input, kept) if its scan is not there, on.refused(why) if the view cannot be prepared, without a reason
+  // if that was cancelled, on.failed(error), and on.closed() when there is no document left to show.
   constructor({engine, doc, keeper, on}) {
     Object.assign(this, {engine, doc, keeper, on, id: "", status: {busy: false, model: 0}, model: 0, run: ""});
     this.asked = null; // the view that this page asked for last, until the engine names it
@@ -148,9 +148,10 @@ export class OpenDocument {
 
   complain({error, model}) {
     const {path, name} = this.input; // a dropped scan is read from where the engine has put it
-    if (error.kind !== "cancelled") toast(path ? error.text.replaceAll(path, () => name) : error.text);
-    if (model > 0 && this.asked && error.kind !== "cancelled") return; // another view is on its way already
-    if (model > 0) return this.on.refused();
+    const why = error.kind === "cancelled" ? "" : path ? error.text.replaceAll(path, () => name) : error.text;
+    if (model > 0 && !(this.asked && why)) return this.on.refused(why);
+    if (why) toast(why);
+    if (model > 0) return; // another view is on its way already
     const {former} = this;
     this.former = null;
     this.id = this.engine.document = "";

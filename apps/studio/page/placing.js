@@ -51,8 +51,8 @@ export class Placing {
     const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
     if (angle === 0) return;
     const {options} = this.doc.now;
-    if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
     this.doc.change({options: viewTurned(options, this.isMirrored ? -angle : angle)});
+    if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
   }
 
   // Takes the error of the newest picture, and the numbers of the one that is shown. A figure that was moved too far

@@ -18,8 +18,8 @@ export class ShownView {
   // Asks the engine for the document's view.
   choose() {
     return this.opened.chooseView().catch((error) => {
-      this.failed(error);
       if (error.kind === "option" && !this.opened.asked) this.restore();
+      this.failed(error); // which is said until the next change
     });
   }
 

@@ -148,6 +148,73 @@ test("takes back what no piece can be made of", {skip}, async () => {
   assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
 });
 
+test("says why an entry is refused until the next one is taken, even one that changes nothing", {skip}, async () => {
+  const option = (name) => page.getByLabel(name, {exact: true}), toast = page.locator("#toast");
+  const refused = (text) => toast.getByText(text).waitFor();
+  const untilGone = () => toast.waitFor({state: "hidden", timeout: 4000}); // it would go by itself after eight seconds
+  await set("Height in mm", 5);
+  await set("Height in mm", "high");
+  await refused("Height: expected a number");
+  await set("Height in mm", "5.0");
+  await untilGone();
+  await enter(page.locator("#crop"), "abc");
+  await refused("expected shares X0,Y0,X1,Y1");
+  await untilReady(page);
+  assert.ok(await toast.isVisible());
+  await enter(option("Margin in mm"), "6");
+  await untilGone();
+  await enter(page.locator("#crop"), "0,0,0.001,0.001"); // which keeps nothing
+  await refused("expected");
+  await eventually(async () => assert.equal(await page.locator("#crop").inputValue(), ""));
+  assert.ok(await toast.isVisible());
+  await enter(option("Margin in mm"), "5");
+  await untilGone();
+  await option("Outline").selectOption("hexagon");
+  await page.getByRole("radio", {name: "Place", exact: true}).click();
+  await page.locator("#stage").click();
+  await refused("Give the plate a size first: then the figure can be moved on it.");
+  await option("Outline").selectOption("ellipse");
+  await untilGone();
+  await enter(option("Plate size"), "200x150");
+  await enter(option("Moved by"), "120,0");
+  await refused("The plate has no room for the figure there: it stays where it is.");
+  await enter(option("Moved by"), "1,0");
+  await untilGone();
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await untilReady(page);
+  while (await option("Outline").inputValue() !== "rectangle") await page.getByRole("button", {name: "Undo"}).click();
+});
+
+test("says without a break that a figure is dragged beyond its plate", {skip}, async () => {
+  const toast = page.locator("#toast"), shift = page.locator("#shift"), longer = "Longer side in mm";
+  const before = await text(longer);
+  await enter(page.getByLabel("Plate size", {exact: true}), "200x150");
+  await set(longer, 100);
+  await page.getByRole("radio", {name: "Place", exact: true}).click();
+  await untilReady(page);
+  const {x, y, width, height} = await page.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
+  await page.mouse.move(...middle);
+  await page.mouse.down();
+  await page.mouse.move(middle[0] + 0.4 * width, middle[1]);
+  await toast.getByText("The plate has no room for the figure there").waitFor();
+  await page.evaluate(() => {
+    window.hidden = 0;
+    new MutationObserver(() => (window.hidden += document.querySelector("#toast").hidden))
+      .observe(document.querySelector("#toast"), {attributeFilter: ["hidden"]});
+  });
+  for (let i = 0; i < 10; ++i) {
+    await page.mouse.move(middle[0] + 0.4 * width + i, middle[1]);
+    await page.waitForTimeout(50);
+  }
+  assert.ok(await toast.isVisible());
+  assert.equal(await page.evaluate(() => window.hidden), 0);
+  await page.mouse.up();
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await untilReady(page);
+  while (await shift.inputValue() || await text(longer) !== before)
+    await page.getByRole("button", {name: "Undo"}).click();
+});
+
 test("knows what a draft angle allows, and exports no piece that cannot be made", {skip}, async () => {
   const reach = page.locator("#reach"), dialog = page.getByRole("dialog", {name: "Export"});
   const option = (name) => page.getByLabel(name, {exact: true});
