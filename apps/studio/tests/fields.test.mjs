@@ -241,13 +241,16 @@ test("knows what a draft angle allows, and exports no piece that cannot be made"
 test("steps numbers of the plate by arrow keys", {skip}, async () => {
   const rim = page.getByLabel("Rim width", {exact: true});
   await enter(rim, "3");
-  const isTaken = (request) => request.url().endsWith("api/state") && request.postData().includes('"rim":3.09');
-  const taken = page.waitForRequest(isTaken); // in one step, when the keys rest
+  const kept = async () => {
+    const {steps, at} = (await engine.json("document", {input: {path: scan}})).kept;
+    return [steps[at - 1].options.rim, steps[at].options.rim];
+  };
+  await eventually(async () => assert.equal((await kept())[1], 3));
   await rim.press("ArrowUp");
   assert.equal(await rim.inputValue(), "3.1");
   await rim.press("Shift+ArrowDown");
   assert.equal(await rim.inputValue(), "3.09");
-  await taken;
+  await eventually(async () => assert.deepEqual(await kept(), [3, 3.09])); // in one step, when the keys rest
   await page.getByRole("button", {name: "Undo"}).click();
   assert.equal(await rim.inputValue(), "3");
   await page.getByRole("button", {name: "Undo"}).click();
