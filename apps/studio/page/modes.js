@@ -32,6 +32,7 @@ export class Modes {
   setTool(tool) {
     for (const button of $("#tools").children) check(button, button.dataset.tool === tool);
     $("#section").hidden = tool !== "section";
+    $("#place-hint").hidden = tool !== "place";
     this.cropFrame.show(tool === "crop");
     if (tool !== "light") this.setTable(false);
     this.stage.setTool(tool);

@@ -1,31 +1,70 @@
-// Two fingers on an element: calls begin() when the second is down, and move(from, to, ratio) with the middles between
-// them in pixels of the element, and by how much they went apart.
+// Two fingers on the relief: they move the picture and zoom, but with the tool Place they scale and turn the figure.
 
-export function takePinches(element, {begin, move}) {
+const SLACK = 8; // degrees by which fingers turn that only scale
+
+const within180 = (angle) => angle - 360 * Math.round(angle / 360);
+
+// Calls begin() when the second finger is down, move(from, to, ratio, turn) with the middles between them in pixels of
+// the element, by how much they went apart, and by how many degrees to the left they turned, and end() when one is up.
+function takePinches(element, {begin, move, end}) {
   const fingers = new Map();
+  let last = null; // while there are two
   const measure = () => {
-    const [a, b] = fingers.values();
-    return {middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], apart: Math.max(1, Math.hypot(a[0] - b[0], a[1] - b[1]))};
+    if (fingers.size !== 2) return null;
+    const [a, b] = fingers.values(), [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+    return {middle: [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2], apart: Math.max(1, Math.hypot(dx, dy)),
+      angle: Math.atan2(-dy, dx) * 180 / Math.PI};
   };
   const place = ({clientX, clientY}) => {
     const {left, top} = element.getBoundingClientRect();
     return [clientX - left, clientY - top];
   };
-  let last = null;
   element.addEventListener("pointerdown", (event) => {
     if (event.pointerType !== "touch") return;
     fingers.set(event.pointerId, place(event));
-    last = fingers.size === 2 ? measure() : null;
+    last = measure();
     if (last) begin();
   });
   element.addEventListener("pointermove", (event) => {
     if (!fingers.has(event.pointerId)) return;
     fingers.set(event.pointerId, place(event));
-    if (fingers.size !== 2) return;
     const now = measure();
-    move(last.middle, now.middle, now.apart / last.apart);
+    if (now) move(last.middle, now.middle, now.apart / last.apart, within180(now.angle - last.angle));
     last = now;
   });
-  const end = (event) => fingers.delete(event.pointerId);
-  for (const type of ["pointerup", "pointercancel"]) element.addEventListener(type, end);
+  const lift = ({pointerId}) => {
+    if (!fingers.delete(pointerId)) return;
+    last = measure();
+    if (fingers.size === 1) end();
+  };
+  for (const type of ["pointerup", "pointercancel"]) element.addEventListener(type, lift);
+}
+
+// The figure is scaled at once, and turned when the fingers are up, as by a drag. All of it is one step.
+function placeFigure(stage, ratio, turn) {
+  const {drag, about} = stage, {placing} = stage.on;
+  if (drag?.tool !== "place") return; // the plate has no size, or Escape has ended it
+  drag.ratio *= ratio;
+  drag.turned += turn;
+  drag.angle = Math.abs(drag.turned) > SLACK ? drag.turned : 0;
+  placing.scale(drag.ratio, about.size_mm, drag.width);
+  stage.drawOverlay();
+}
+
+export function takeFingers(stage) {
+  takePinches(stage.element, {
+    begin() {
+      stage.takeBack(); // the first of them moved nothing
+      stage.release();
+      const {placing} = stage.on;
+      if (stage.tool === "place" && stage.about && placing.begin(stage.about.size_mm))
+        stage.drag = {tool: "place", ratio: 1, turned: 0, angle: 0, width: placing.shownWidth()};
+    },
+    move([fromX, fromY], [x, y], ratio, turn) {
+      if (stage.tool === "place") return placeFigure(stage, ratio, turn);
+      stage.zoomBy(ratio, x, y);
+      stage.shift((fromX - x) / stage.pixelsPerMm, (y - fromY) / stage.pixelsPerMm);
+    },
+    end: () => stage.release(),
+  });
 }

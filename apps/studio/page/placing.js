@@ -39,11 +39,11 @@ export class Placing {
     this.doc.change({options: {...this.part, shift: isMiddle ? "" : `${rounded(x)},${rounded(y)}`}}, "place");
   }
 
-  // Scales the figure on a piece of that size, which stays as large as it is.
-  scale(factor, size) {
+  // Scales the figure from a width on a piece of that size, which stays as large as it is.
+  scale(factor, size, width = this.shownWidth()) {
     if (!this.begin(size)) return;
-    if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "place");
-    this.setWidth(clamp(this.shownWidth() * factor, LEAST, MOST));
+    if (Object.keys(this.part).length > 0) this.doc.change({options: this.part}, "width");
+    this.setWidth(clamp(width * factor, LEAST, MOST)); // of the same stroke
   }
 
   // Turns the figure by degrees, to the left for positive ones, as seen.
@@ -51,7 +51,7 @@ export class Placing {
     const angle = Math.round(degrees / TURN_STEP) * TURN_STEP;
     if (angle === 0) return;
     const {options} = this.doc.now;
-    this.doc.change({options: viewTurned(options, this.isMirrored ? -angle : angle)});
+    this.doc.change({options: viewTurned(options, this.isMirrored ? -angle : angle)}, this.doc.stroke);
     if (options.crop) this.say("The crop frame stays upright, so that it may keep other parts now.");
   }
 

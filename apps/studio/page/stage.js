@@ -6,7 +6,7 @@ import {$, clamp, make} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
 import {Measure, onPlate} from "./measure.js";
-import {takePinches} from "./pinch.js";
+import {takeFingers} from "./pinch.js";
 import {takeKey} from "./stage_keys.js";
 import {Turning} from "./turning.js";
 
@@ -264,13 +264,14 @@ export class Stage {
     stage.ondblclick = () => this.fit();
     stage.addEventListener("wheel", (event) => this.zoom(event), {passive: false});
     stage.onkeydown = (event) => takeKey(this, event);
-    takePinches(stage, {begin: () => this.giveUp(), move: (...pinch) => this.pinch(...pinch)});
+    takeFingers(this);
     new ResizeObserver(() => this.invalidate()).observe(stage);
   }
 
   press(event) {
     const isOther = event.target.id === "split" || event.button > 1 || !event.isPrimary;
     if (isOther || this.drag || !this.about) return;
+    this.doc.endStroke(); // what keys or the wheel did before is another step
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const tool = event.button === 1 ? "pan" : this.tool;
@@ -368,17 +369,6 @@ export class Stage {
       this.invalidate();
     }
     return this.doc.cancelStroke() || isTurned;
-  }
-
-  // The first of two fingers moved nothing.
-  giveUp() {
-    this.takeBack();
-    this.release();
-  }
-
-  pinch([fromX, fromY], [x, y], ratio) {
-    this.zoomBy(ratio, x, y);
-    this.shift((fromX - x) / this.pixelsPerMm, (y - fromY) / this.pixelsPerMm);
   }
 
   zoom(event) {

@@ -200,6 +200,68 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}
   await touched.close();
 });
 
+test("scales and turns the figure by two fingers in one step, and tells how it is placed", {skip}, async (context) => {
+  await page.setViewportSize(SCREENS[0]);
+  const mouseHint = page.getByText("Drag the figure to move it, with Shift to turn it; the wheel scales it");
+  await page.getByRole("radio", {name: "Place"}).click();
+  await mouseHint.waitFor();
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await mouseHint.waitFor({state: "hidden"});
+  if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
+  const touched = await browser.newContext({viewport: SCREENS[2], hasTouch: true, isMobile: true});
+  const phone = await touched.newPage(), cdp = await touched.newCDPSession(phone);
+  phone.setDefaultTimeout(60000);
+  await phone.goto(engine.address);
+  await untilReady(phone);
+  const undo = phone.getByRole("button", {name: "Undo"}), longer = phone.locator('[data-option="width"]');
+  while (await undo.isEnabled()) await undo.click();
+  await phone.getByRole("radio", {name: "Place"}).click();
+  await phone.getByText("One finger moves the figure, two scale and turn it").waitFor();
+  assert.ok(!await phone.getByText("Drag the figure").isVisible());
+  await untilReady(phone);
+  const plate = () => phone.locator("#overlay line.dimension").evaluateAll((lines) =>
+    Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
+  const step = async () => {
+    const {kept: {steps, at}} = await engine.json("document", {input: {path: scan}});
+    return {at, ...steps[at].options};
+  };
+  const [whole, wide, before] = [Number(await longer.inputValue()), await plate(), await step()];
+  const {x, y, width, height} = await phone.locator("#stage").boundingBox();
+  const fingers = (apart, degrees) => [1, -1].map((side, id) => {
+    const angle = degrees * Math.PI / 180, [dx, dy] = [apart * Math.cos(angle), -apart * Math.sin(angle)];
+    return {x: x + width / 2 + side * dx, y: y + height / 2 + side * dy, id};
+  });
+  const send = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
+  const pinch = async (degrees) => { // from 100 pixels to 60, and to the left
+    await send("touchStart", fingers(100, 0).slice(0, 1));
+    await send("touchStart", fingers(100, 0));
+    for (let i = 1; i <= 8; ++i) await send("touchMove", fingers(100 - 5 * i, i * degrees / 8));
+  };
+  await pinch(4); // as fingers that scale turn a little
+  await send("touchEnd", []);
+  await eventually(async () => assert.ok(Math.abs((await step()).width / whole - 0.6) < 0.01, `${(await step()).width}`));
+  await untilReady(phone);
+  const scaled = await step();
+  assert.deepEqual([scaled.view, scaled.up, scaled.at], [before.view, before.up, before.at + 1]);
+  assert.ok(Math.abs(await plate() - wide) < 2, "the plate and the picture stay as they are");
+  await undo.click();
+  await eventually(async () => assert.equal((await step()).at, before.at));
+  await untilReady(phone);
+  assert.equal(Number(await longer.inputValue()), whole);
+  await pinch(40);
+  await phone.locator("#overlay").getByText("40° to the left", {exact: true}).waitFor();
+  await send("touchEnd", []);
+  await eventually(async () => assert.notEqual((await step()).up, before.up));
+  const turned = await step(), [upX, upY] = turned.up.split(",").map(Number);
+  assert.equal(before.view, "front");
+  assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up); // the viewer to the right
+  assert.equal(turned.at, before.at + 1);
+  assert.ok(Math.abs(turned.width / whole - 0.6) < 0.01, `${turned.width}`);
+  await undo.click();
+  await untilReady(phone);
+  await touched.close();
+});
+
 test("tells frames in a second while things move, and not at rest", {skip}, async () => {
   await page.setViewportSize(SCREENS[2]);
   await untilReady(page);
