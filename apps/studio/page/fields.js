@@ -15,7 +15,7 @@ const SLIDERS = {
   steps: {label: "Kept steps", hand: [0, 0.95], decimals: 2, spread: spread.linear, place: "#tuning"},
   margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
   corner: {label: "Corner radius", hand: [0.1, 100], decimals: 1, spread: spread.root, place: "#plate-sliders"},
-  thickness: {label: "Thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
+  thickness: {label: "Plate thickness", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
 };
 
 // The engine's units as the page shows them, and as it reads them out.

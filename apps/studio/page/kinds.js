@@ -11,19 +11,18 @@ const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", sh
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
 const circle = {...PLAIN, outline: "circle", width: null, margin: 1};
-const PLATE_NOTE = "Thickness is that of the plate, without the relief.";
 const RIM = ["rim", "rim-height", "rim-bevel"], PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
 // `part` are the options that a kind sets when it is chosen, `panel` those whose controls stand first then.
 export const KINDS = {
   relief: {label: "Plaque", title: "Plaque: 100 mm long, 5 mm high", part: plaque, material: "plaster",
-    panel: PLATE, note: PLATE_NOTE},
+    panel: PLATE},
   coin: {label: "Coin", title: "Coin or medal: 40 mm across, 1.6 mm high, with a rim", material: "silver",
     part: {...circle, diameter: 40, rim: 1.5, height: 1.6, thickness: 2},
-    panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"], note: PLATE_NOTE},
+    panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"]},
   wood: {label: "Carving", title: "Carving in wood: 180 mm long, 10 mm high", material: "walnut",
     part: {...plaque, outline: "round", corner: 12, width: 180, height: 10, margin: 12, thickness: 12},
-    panel: PLATE, note: PLATE_NOTE},
+    panel: PLATE},
   die: {label: "Seal", material: "bronze",
     title: "Seal or die: the negative of a piece 30 mm across, 1.2 mm deep, with walls that come off",
     part: {...circle, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
@@ -33,10 +32,11 @@ export const KINDS = {
   lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
     material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4},
     panel: ["thickness", "plate", "margin", "form"],
-    note: "Thickness is that of the brightest places, and height what the darkest add. Porcelain is lit from behind."},
+    note: "The plate is as thick as the brightest places, and height is what the darkest add. Porcelain is lit from " +
+      "behind."},
   shell: {label: "Bent", title: "Bent around a body, such as a vase or a ring", material: "plaster",
     part: {...plaque, wrap: "cylinder:turn=180"}, panel: ["wrap", "thickness", "plate", "margin", "form"],
-    note: "Thickness is that of the wall.",
+    note: "The plate is the wall.",
     camera: {yaw: -28, pitch: 18}},
 };
 

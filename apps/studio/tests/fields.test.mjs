@@ -354,6 +354,7 @@ test("tells the same height and thickness everywhere", {skip}, async () => {
   await set("Height in mm", 3.175);
   assert.equal(await text("Height in mm"), "3.175");
   await page.getByText(/height 3\.175 mm/).waitFor();
+  assert.equal(await text("Plate thickness in mm"), "3.0"); // below the relief
   assert.deepEqual(await toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
   await page.getByRole("radio", {name: "Measure"}).click();
   await page.locator("#overlay").getByText("6.18 mm thick").waitFor();

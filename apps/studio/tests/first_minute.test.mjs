@@ -172,6 +172,8 @@ test("says what the eye sees, and the paper's symbol in the tip", {skip}, async 
   for (const [name, symbol] of [["Fine detail", "γ"], ["Crispness", "β"]])
     assert.match(await page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));
   assert.match(await page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
+  const tip = await page.getByText("Plate thickness", {exact: true}).getAttribute("title");
+  assert.equal(tip, "Smallest thickness of the plate, without the relief");
 });
 
 const PANELS = {
