@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, removeFolder, savedFiles, showScan, temporaryFolder, type,
+import {enter, eventually, findBrowser, readStl, removeFolder, savedFiles, showScan, temporaryFolder, type,
   untilReady, writeSample} from "./support.mjs";
 
 const found = await findBrowser();
@@ -320,6 +320,22 @@ test("exports when Enter is pressed", {skip}, async () => {
   const [file] = await savedFiles(found, page, 1, () => enter(dialog.getByLabel("File name"), "medal"));
   assert.equal(file.name, "medal.stl");
   await dialog.waitFor({state: "hidden"});
+});
+
+test("names files for their form", {skip}, async () => {
+  const dialog = page.getByRole("dialog", {name: "Export"}), form = page.locator("#form");
+  for (const name of ["die", "lithophane"]) {
+    await form.selectOption(name);
+    await eventually(async () => assert.equal(await form.inputValue(), name));
+    await untilReady(page);
+    await page.keyboard.press("Control+e");
+    await dialog.getByText(/triangles$/).waitFor();
+    const [file] = await savedFiles(found, page, 1, () => dialog.getByRole("button", {name: "Export"}).click());
+    assert.equal(file.name, `scan-${name}.stl`);
+    assert.ok(readStl(file.bytes).isClosed);
+    await dialog.waitFor({state: "hidden"});
+    await page.getByRole("button", {name: "Undo"}).click();
+  }
 });
 
 test("says what was saved of an export that is cancelled", {skip}, async () => {

@@ -1,11 +1,11 @@
 // Every option of the engine's table has a control on the page, and what is set there reaches the engine.
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
-import {readFileSync, rmSync} from "node:fs";
+import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {EngineProcess, PROGRAM, areKindsDrawn, enter, eventually, findBrowser, removeFolder, temporaryFolder,
-  writeSample} from "./support.mjs";
+  untilReady, writeSample} from "./support.mjs";
 
 const found = await findBrowser();
 const skip = found.missing ? `${found.missing}: the page is not tested` : false;
@@ -238,6 +238,23 @@ test("opens a project with the paper's height coefficient", {skip}, async () => 
   const step = await page.evaluate(async () =>
     (await import(new URL("document.js", location))).stepOfProject({options: {alpha: 4, saturation: 0.5}}));
   assert.deepEqual([step.isHeightLocked, step.u, "alpha" in step.options], [false, 0.5, false]);
+});
+
+test("opens a project whose light is as far as numbers go", {skip}, async () => {
+  const file = path.join(folder, "light.relievo"), pixels = async (light) => {
+    writeFileSync(file, JSON.stringify({relievo: 1, input: {path: scan}, options: {}, studio: {light}}));
+    await page.locator("#file").setInputFiles(file);
+    await reaches((frame) => JSON.stringify(frame.light) === JSON.stringify(light));
+    await untilReady(page);
+    return page.locator("#picture").evaluate((canvas) => canvas.toDataURL());
+  };
+  const [aside, middle, far] = [await pixels([1, -1, 1]), await pixels([1, 1, 1]), await pixels([1e300, 1e300, 1e300])];
+  assert.equal(far, middle);
+  assert.notEqual(far, aside);
+  await page.locator("#stage").press("ArrowUp");
+  await reaches(({light}) => Math.abs(Math.hypot(...light) - 1) < 1e-3 && light[2] > Math.sin(38 * Math.PI / 180));
+  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  assert.ok(!await page.getByRole("alert").getByText(/expected/).isVisible());
 });
 
 test("opens a project without a width as one whose plate rules it", {skip}, async () => {

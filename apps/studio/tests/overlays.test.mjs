@@ -239,7 +239,11 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   };
   await pinch(4); // as fingers that scale turn a little
   await send("touchEnd", []);
-  await eventually(async () => assert.ok(Math.abs((await step()).width / whole - 0.6) < 0.01, `${(await step()).width}`));
+  const untilScaled = () => eventually(async () => {
+    const {width} = await step();
+    assert.ok(Math.abs(width / whole - 0.6) < 0.01, `${width} of ${whole}`);
+  });
+  await untilScaled();
   await untilReady(phone);
   const scaled = await step();
   assert.deepEqual([scaled.view, scaled.up, scaled.at], [before.view, before.up, before.at + 1]);
@@ -256,7 +260,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   assert.equal(before.view, "front");
   assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up); // the viewer to the right
   assert.equal(turned.at, before.at + 1);
-  assert.ok(Math.abs(turned.width / whole - 0.6) < 0.01, `${turned.width}`);
+  await untilScaled();
   await undo.click();
   await untilReady(phone);
   await touched.close();
