@@ -216,7 +216,9 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
     EXPECT_EQ(check_rim(options, 2).has_value(), share > 1);
     const auto made = make_relief(*model, options);
     ASSERT_EQ(made.has_value(), share > 1);
-    if (!made) EXPECT_EQ(made.error().input, "rim-bevel");
+    if (!made) {
+      EXPECT_EQ(made.error().input, "rim-bevel");
+    }
   }
 }
 
