@@ -246,7 +246,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await untilScaled();
   await untilReady(phone);
   const scaled = await step();
-  assert.deepEqual([scaled.view, scaled.up, scaled.at], [before.view, before.up, before.at + 1]);
+  assert.deepEqual([scaled.view, scaled.up, scaled.at], ["front", "", before.at + 1]);
   assert.ok(Math.abs(await plate() - wide) < 2, "the plate and the picture stay as they are");
   await undo.click();
   await eventually(async () => assert.equal((await step()).at, before.at));
@@ -255,9 +255,8 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   await pinch(40);
   await phone.locator("#overlay").getByText("40° to the left", {exact: true}).waitFor();
   await send("touchEnd", []);
-  await eventually(async () => assert.notEqual((await step()).up, before.up));
+  await eventually(async () => assert.notEqual((await step()).up, ""));
   const turned = await step(), [upX, upY] = turned.up.split(",").map(Number);
-  assert.equal(before.view, "front");
   assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up); // the viewer to the right
   assert.equal(turned.at, before.at + 1);
   await untilScaled();

@@ -102,7 +102,7 @@ test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
   for (const each of [tab, other]) await each.close();
 });
 
-test("comes back to each scan as it was left, with curve, view and steps, and to recent ones", {skip}, async () => {
+test("comes back to each scan as it was left, with curve, view and steps, and shows recent ones", {skip}, async () => {
   const tab = await newTab(), {document} = await engine.json("document", {input: {path: scan}});
   await tab.goto(`${engine.address}#${document}`);
   await tab.reload();
