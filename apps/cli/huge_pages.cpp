@@ -1,5 +1,6 @@
 #include "cli/huge_pages.h"
 
+#include <sys/auxv.h>
 #include <unistd.h>
 
 #include <cstdlib>
@@ -10,6 +11,7 @@
 namespace relievo::app::cli {
 
 void restart_with_huge_pages(char** argv) {
+  if (::getauxval(AT_SECURE) != 0) return;  // the variable would be gone after each start
   constexpr const char *name = "GLIBC_TUNABLES", *request = "glibc.malloc.hugetlb=1";
   if (const char* const given = std::getenv(name)) {
     if (given == std::string_view(request)) ::unsetenv(name);  // programs that this one starts do not get it
@@ -17,7 +19,8 @@ void restart_with_huge_pages(char** argv) {
   }
   std::error_code failed;
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", failed);
-  if (failed || ::setenv(name, request, 1) != 0) return;
+  const bool is_loader = program.filename().string().starts_with("ld-");  // started as "ld-linux.so relievo"
+  if (failed || is_loader || ::setenv(name, request, 1) != 0) return;
   ::execv(program.c_str(), argv);
   ::unsetenv(name);
 }

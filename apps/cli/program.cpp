@@ -119,7 +119,8 @@ ProgramEnd parse(CLI::App& program, std::vector<std::string> arguments) {
     return {2, message.str()};
   } catch (const std::bad_alloc&) {
     return {1, "expected more free memory for so many points", true};
-  } catch (const std::system_error&) {
+  } catch (const std::system_error& error) {
+    if (error.code() != std::errc::resource_unavailable_try_again) throw;
     return {1, "expected more threads than the system gives; ulimit -u and ulimit -v limit them", true};
   }
   return {};

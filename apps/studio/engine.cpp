@@ -313,7 +313,9 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
   return drawing->picture(request);
 }
 
-Result<std::vector<float>> Engine::profile(const PictureRequest& request, const SectionLine& line) {
+Result<std::vector<float>> Engine::profile(PictureRequest request, const SectionLine& line) {
+  if (request.options.rim_mm)  // whose bevel leans enough, or not, by the height that the draft angle allows
+    if (auto known = find_draft_limit(request); !known) RELIEVO_CHECK(unless_cancelled(known.error()));
   const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();

@@ -82,7 +82,7 @@ class Engine {
   // made first; any other picture cancels that, so that nobody waits for it, and one that is not fine cancels all fine ones.
   // Errors: also those of piece().
   Result<PictureAnswer> picture(PictureRequest request);
-  Result<std::vector<float>> profile(const PictureRequest& request, const SectionLine& line);
+  Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
   // Returns the height in mm of the highest relief that the options allow, their draft angle included. Finding that of a
   // draft angle takes as long as a piece does, and is given up as pieces for pictures are. Errors: those of

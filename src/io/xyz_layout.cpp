@@ -113,7 +113,8 @@ char likely_separator(std::string_view line) {
   return plain.contains(',') && !is_between_tabs(line) ? ',' : ' ';
 }
 
-// Returns whether the first column is a name, which begins with a letter, and three numbers follow.
+// Returns whether the first column is a name, which begins with a letter, and three numbers follow. Between blanks the
+// numbers are those of whole vectors, three or six or nine: else "Point 1 10 20 30" would have its number as x.
 bool begins_with_name(std::string_view line) {
   XyzLayout layout;
   layout.separator = likely_separator(line);
@@ -124,11 +125,10 @@ bool begins_with_name(std::string_view line) {
     return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || static_cast<unsigned char>(c) >= 0x80;
   };
   if (!name || name->empty() || !is_letter(name->front()) || parse_number(*name)) return false;
-  for (int i = 0; i < 3; ++i) {
-    const auto field = fields.next();
-    if (!field || !parse_field(*field, layout)) return false;
-  }
-  return true;
+  std::size_t count = 0;
+  for (; const auto field = fields.next(); ++count)
+    if (count < 3 && !parse_field(*field, layout)) return false;
+  return count >= 3 && (layout.separator != ' ' || count % 3 == 0);
 }
 
 // Reads the lines before the first line of data.

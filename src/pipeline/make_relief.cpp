@@ -120,6 +120,7 @@ Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Pr
 }
 
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
+  RELIEVO_CHECK(check(asked));
   RELIEVO_TRY(ReliefOptions options, with_width(model.surface(), asked));
   options.height_mm.reset();
   RELIEVO_TRY(const Relief relief, shape_relief(model, options, uncompressed(shape_of(options)), progress));

@@ -103,8 +103,9 @@ export class PieceRows {
     const label = UNITS[unit] === "°" ? `${LABELS[name]} (°)` : LABELS[name];
     const element = make("label", {class: "pair", title: sentence(help)}, make("span", {}, label), input);
     input.onchange = () => this.take(name);
+    input.oninput = ({isTrusted}) => isTrusted && clearTimeout(this.rows[name].rest); // typing follows the keys
     input.onkeydown = (event) => {
-      if (event.key === "Escape") this.show();
+      if (event.key === "Escape") clearTimeout(this.rows[name].rest), this.show();
       if (event.key in UPWARDS) this.step(event, name);
     };
     return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
@@ -125,7 +126,8 @@ export class PieceRows {
 
   // Takes what was chosen or typed, unless it is no number where one is wanted.
   take(name) {
-    const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
+    const {input, isNumber, unit, min, max, rest} = this.rows[name], text = input.value.trim();
+    clearTimeout(rest);
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
     if (isNumber && text !== "" && value === null) return this.show();

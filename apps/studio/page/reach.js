@@ -5,7 +5,7 @@ import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {withUnit} from "./lengths.js";
 
-// Changes that may let a relief be higher, with the words for what limits it, in the order of their asking.
+// Changes that may let a relief be higher, with the words for what limits it, the draft angle first, as without it the answer takes no time.
 const LOOSER = [
   {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},
@@ -15,11 +15,12 @@ const WORTH = 1.02; // so many times the height
 
 export class Reach {
   constructor({engine, doc, slider, chooseView}) {
-    Object.assign(this, {engine, doc, slider, chooseView, key: ""});
+    Object.assign(this, {engine, doc, slider, chooseView, key: "", turn: 0});
   }
 
   clear() {
     this.key = "";
+    ++this.turn;
     this.slider().showMark(null);
     this.slider().complain("");
     $("#reach").replaceChildren();
@@ -34,33 +35,32 @@ export class Reach {
     if (frame.is_height_met) $("#reach").replaceChildren();
     if (this.doc.now.options.form === "lithophane") return this.clear(); // has any height
     const {height, ...rest} = shownOptions(this.doc.now), key = `${model} ${JSON.stringify(rest)}`;
-    if (key !== this.key) {
-      this.key = key;
-      try {
-        const reach = await this.engine.reach({...rest, height});
-        if (key !== this.key) return;
-        this.reach = reach;
-      } catch {
-        return this.clear(); // another view is being prepared
-      }
+    const turn = ++this.turn; // whoever waits longer than until the next picture says nothing
+    if (key !== this.key) this.answer = this.engine.reach({...rest, height});
+    this.key = key;
+    try {
+      this.reach = await this.answer;
+    } catch {
+      return turn === this.turn ? this.clear() : undefined; // another view is being prepared
     }
+    if (turn !== this.turn) return;
     // What a draft angle allows is known to pictures later, and steps at depth jumps do not raise it.
     const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
     const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";
     this.slider().showMark(most, `${name}: ${withUnit(most)}`);
     if (isMet) return;
-    await this.explain(most, {...rest, height}, key);
+    await this.explain(most, turn);
   }
 
-  async explain(most, options, key) {
+  async explain(most, turn) {
     let best = null;
     for (const looser of LOOSER) {
       const isLoose = ([name, value]) => (this.doc.now.options[name] ?? "") === (value ?? "");
       if (Object.entries(looser.part).every(isLoose)) continue;
       const changed = shownOptions({...this.doc.now, options: {...this.doc.now.options, ...looser.part}});
-      const reach = await this.engine.reach(changed).catch(() => 0);
-      if (key !== this.key) return; // something else is shown, perhaps another document
+      const reach = await this.engine.reach(changed).catch(() => null);
+      if (reach === null || turn !== this.turn) return; // something else is shown, perhaps another document
       if (reach > this.reach * WORTH) {
         best = looser;
         break;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "io/faces.h"
 #include "io/formats.h"
@@ -15,6 +16,8 @@ namespace {
 using Transform = Eigen::Affine3d;
 
 constexpr std::size_t most_vertices = 100'000'000;  // a small file can ask for more: nodes may repeat a mesh
+
+constexpr std::array placements = {"TRANSLATION", "ROTATION", "SCALE"};  // of copies, applied in this order
 
 constexpr std::size_t points_mode = 0, triangles_mode = 4, strip_mode = 5, fan_mode = 6;
 
@@ -52,7 +55,8 @@ std::optional<Transform> transform_of(const Json& node) {
 bool is_readable_with(std::string_view extension) {
   for (const char* const known :
        {"KHR_mesh_quantization", "KHR_meshopt_compression", "EXT_meshopt_compression",
-        "EXT_mesh_gpu_instancing", "EXT_mesh_features", "EXT_structural_metadata"})
+        "EXT_mesh_gpu_instancing", "EXT_mesh_features", "EXT_structural_metadata", "KHR_techniques_webgl",
+        "MSFT_packing_occlusionRoughnessMetallic", "MSFT_packing_normalRoughnessMetallic"})
     if (extension == known) return true;
   for (const char* const look : {"material", "texture", "light", "animation", "xmp", "audio"})
     if (extension.contains(look)) return true;
@@ -186,9 +190,10 @@ class GltfReader {
     const Json* attributes = &node;
     for (const char* const name : {"extensions", "EXT_mesh_gpu_instancing", "attributes"})
       if (attributes) attributes = object_in(*attributes, name);
+    const auto is_placed = [&](const char* name) { return attributes->contains(name); };
+    if (!attributes || std::ranges::none_of(placements, is_placed)) return std::vector{transform};
     std::vector<Transform> copies;
-    if (!attributes) return std::vector{transform};
-    for (const char* const name : {"TRANSLATION", "ROTATION", "SCALE"}) {
+    for (const char* const name : placements) {
       if (!attributes->contains(name)) continue;
       const std::size_t needed = name == std::string_view("ROTATION") ? 4 : 3;
       RELIEVO_TRY(const AccessorValues values, attribute(*attributes, name, needed, place));
