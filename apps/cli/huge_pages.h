@@ -1,4 +1,4 @@
-// Pages of 2 MB instead of 4 KB for all large memory.
+// Has the system give this program its memory in pages of 2 MB instead of 4 KB.
 #pragma once
 
 namespace relievo::app::cli {

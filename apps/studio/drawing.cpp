@@ -152,8 +152,8 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
 PieceHeight Drawing::height_of(const PictureRequest& request, const CachedFrame& cached) const {
   const Frame& frame = *cached.frame;
   const double height = frame.height * cached.stretch * mm_per_unit(request.options);
-  if (!request.most_height_mm || height <= *request.most_height_mm) return {height, frame.is_height_met};
-  return {*request.most_height_mm, false};
+  if (!request.draft_limit_mm || height <= *request.draft_limit_mm) return {height, frame.is_height_met};
+  return {*request.draft_limit_mm, false};
 }
 
 // A piece has the height of the frame, which is met or the largest that can be reached.

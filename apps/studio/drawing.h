@@ -36,7 +36,7 @@ struct PictureRequest {
   std::string key;             // the options as text: equal for equal options
   std::string key_but_height;  // the same without the height
   std::optional<double>
-      most_height_mm;  // that the draft angle allows; nothing without one, or if it is not known
+      draft_limit_mm;  // height that the draft angle allows; nothing without one, or while it is not known
   std::optional<View>
       turned;                // the view that is shown while the model is turned, in place of the one prepared
   std::optional<double> u;   // of the compression, in place of a height, which then follows the shape

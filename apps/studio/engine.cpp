@@ -141,6 +141,10 @@ struct Engine::State {
     return models ? Result<void>{} : std::unexpected(models.error());
   }
 
+  NumberedModel shown_model() const {
+    return shared.with([](const Shared& s) { return NumberedModel(s.shown); });
+  }
+
   // Returns the scan that was read last. If no relief came of it, that becomes the one that is shown.
   LoadedScan scan_in_use() {
     const SessionStatus status = session.status();
@@ -257,9 +261,9 @@ Result<ModelFacts> Engine::facts() {
 // Finds the height that the draft angle of the options allows, if they have one, while other pictures are drawn.
 Result<void> Engine::find_draft_limit(PictureRequest& request) {
   if (!request.options.draft_deg) return {};
-  const NumberedModel shown = state_->shared.with([](const Shared& s) { return NumberedModel(s.shown); });
+  const NumberedModel shown = state_->shown_model();
   if (!shown.model) return nothing_open();
-  RELIEVO_TRY(request.most_height_mm,
+  RELIEVO_TRY(request.draft_limit_mm,
               state_->maker.draft_limit(shown, request.options, request.key_but_height));
   return {};
 }
@@ -269,6 +273,7 @@ Result<void> Engine::finish(PictureRequest& request) {
   // Another model is prepared, or about to be, whose piece will be asked for.
   if (request.turned || state_->session.status().is_preparing) return {};
   if (auto known = find_draft_limit(request); !known) return unless_cancelled(known.error());
+  RELIEVO_CHECK(check_cancelled(request.progress.get()));  // while it waited for another piece
   std::optional<PieceOrder> order;
   std::uint64_t model = 0;
   {
@@ -298,9 +303,9 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
     RELIEVO_CHECK(finish(request));
   } else {
     state_->maker.cancel_for_picture();
-    const NumberedModel shown = state_->shared.with([](const Shared& s) { return NumberedModel(s.shown); });
+    const NumberedModel shown = state_->shown_model();
     if (request.options.draft_deg)
-      request.most_height_mm = state_->maker.known_draft_limit(shown, request.key_but_height);
+      request.draft_limit_mm = state_->maker.known_draft_limit(shown, request.key_but_height);
   }
   const Lock lock(state_->drawing_mutex);
   RELIEVO_CHECK(check_cancelled(request.progress.get()));
@@ -331,7 +336,7 @@ Result<double> Engine::reachable_height(PictureRequest request) {
     RELIEVO_TRY(height_mm, drawing->reachable_height(request.options));
   }
   RELIEVO_CHECK(find_draft_limit(request));
-  return std::min(height_mm, request.most_height_mm.value_or(height_mm));
+  return std::min(height_mm, request.draft_limit_mm.value_or(height_mm));
 }
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {

@@ -58,7 +58,7 @@ struct NumberedModel {
   std::uint64_t number = 0;
 };
 
-// What a piece is made for: a picture gives it up when another picture is asked for.
+// The use of a piece. One for a picture is given up when another picture is asked for.
 enum class PieceUse { file, picture };
 
 // Makes finished pieces, one at a time, while other pictures are drawn. Every method may be called from any thread.
@@ -86,8 +86,10 @@ class PieceMaker {
   // Returns what draft_limit() returned for that model and key; nothing if it is not known.
   std::optional<double> known_draft_limit(const NumberedModel& shown, const std::string& key) const;
 
-  // Ends what is being made, or that alone which is made for a picture.
+  // Ends what is being made.
   void cancel();
+
+  // Ends what is being made for a picture.
   void cancel_for_picture();
 
  private:

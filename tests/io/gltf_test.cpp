@@ -265,6 +265,9 @@ TEST(Gltf, PutsCopiesOfAMeshWhereInstancingSaysSo) {
     EXPECT_LE((file->mesh.points[i] - expected[i]).norm(), 1e-5) << i;
   EXPECT_EQ(file->mesh.triangles.size(), 8U);
   EXPECT_EQ(file->mesh.triangles[4], (Triangle{4, 6, 5}));
+  const auto numbered = read(glb_of(json(R"("_ID":2)"), buffer), "a.glb");
+  ASSERT_TRUE(numbered) << numbered.error().message();
+  EXPECT_EQ(numbered->mesh.points.size(), 4U) << "copies without a place are one";
   EXPECT_EQ(message_of(glb_of(json(R"("ROTATION":2)"), buffer), "a.glb"),
             "a.glb, node 1: expected vectors of 4 numbers as ROTATION, found vectors of 3");
   EXPECT_EQ(message_of(glb_of(json(R"("TRANSLATION":2,"SCALE":0)"), buffer), "a.glb"),
@@ -278,7 +281,7 @@ TEST(Gltf, ReadsWhatRequiresExtensionsThatLeaveShapesAlone) {
   for (const char* name :
        {"KHR_mesh_quantization", "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness",
         "KHR_texture_transform", "KHR_texture_basisu", "EXT_texture_webp", "KHR_lights_punctual",
-        "EXT_lights_image_based", "EXT_meshopt_compression"}) {
+        "EXT_lights_image_based", "EXT_meshopt_compression", "KHR_techniques_webgl"}) {
     const auto file = read(with("\"" + std::string(name) + "\""), "a.glb");
     ASSERT_TRUE(file) << name << file.error().message();
     EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);

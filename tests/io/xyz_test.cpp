@@ -240,6 +240,10 @@ TEST(Xyz, TheFirstColumnMayBeANameWithoutAHeader) {
   EXPECT_EQ(message_of("none,2,3,255\n4,5,6,255\n", "scan.xyz"),
             "scan.xyz, line 1: expected a number in column 1, found 'none'")
       << "a missing coordinate is no name";
+  EXPECT_EQ(
+      message_of("Point 1 10 20 30\nPoint 2 11 20 30\n", "scan.xyz"),
+      "scan.xyz, line 1: expected numbers, or names of columns with x, y and z, found 'Point 1 10 20 30'")
+      << "its number is no coordinate";
   EXPECT_EQ(message_of("1.o,2,3,255\n", "scan.xyz"),
             "scan.xyz, line 1: expected numbers, or names of columns with x, y and z, found '1.o,2,3,255'");
 }

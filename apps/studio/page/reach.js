@@ -44,7 +44,7 @@ export class Reach {
       return turn === this.turn ? this.clear() : undefined; // another view is being prepared
     }
     if (turn !== this.turn) return;
-    // What a draft angle allows is known to pictures later, and steps at depth jumps do not raise it.
+    // A picture is drawn before the engine knows how high its draft angle lets a relief be, which no steps raise.
     const isTooHigh = rest.draft && frame.height_mm > this.reach, isMet = frame.is_height_met && !isTooHigh;
     const most = isTooHigh ? this.reach : isMet ? Math.max(this.reach, frame.height_mm) : frame.height_mm;
     const name = most === this.reach ? "Reachable without steps at depth jumps" : "Reached with steps at depth jumps";

@@ -361,14 +361,14 @@ export class Stage {
 
   // Takes back what the running drag has changed; the rest of it changes nothing. Returns whether there was anything.
   takeBack() {
-    const isTurned = this.drag?.tool === "turn" || Boolean(this.drag?.angle);
-    if (isTurned) {
+    const isEnded = ["turn", "place"].includes(this.drag?.tool);
+    if (isEnded) {
       Object.assign(this.drag, {tool: "none", angle: 0});
       this.turning.await(this.isAwaiting);
       this.drawOverlay();
       this.invalidate();
     }
-    return this.doc.cancelStroke() || isTurned;
+    return this.doc.cancelStroke() || isEnded;
   }
 
   zoom(event) {

@@ -231,7 +231,12 @@ test("knows what a draft angle allows, and exports no piece that cannot be made"
   assert.ok(await dialog.getByText(`relief ${reached} high,`).isVisible());
   assert.ok(await dialog.getByRole("button", {name: "Export", exact: true}).isEnabled());
   await dialog.getByRole("button", {name: "Cancel"}).click();
-  await enter(option("Rim width"), "3");
+  const bevel = 1.1 * parseFloat(reached) * Math.tan(Math.PI / 3); // leans enough for the height that is reached
+  await enter(option("Rim width"), (bevel + 1).toFixed(2));
+  await enter(option("Rim bevel"), bevel.toFixed(2));
+  await untilReady(page);
+  assert.equal(await option("Rim bevel").inputValue(), bevel.toFixed(2));
+  await page.getByRole("button", {name: "Undo"}).click();
   await enter(option("Rim bevel"), "0.3");
   await page.getByText(/^Rim bevel: expected at least [\d.]+ mm, so that the rim of/).waitFor();
   assert.equal(await option("Rim bevel").inputValue(), "");
