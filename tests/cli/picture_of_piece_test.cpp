@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -80,13 +81,43 @@ double similarity(const Image8& picture, const Image8& other) {
   return sum / windows;
 }
 
+// A height map of a hill beside a hollow.
+std::shared_ptr<const Image<float>> hill_and_hollow() {
+  Image<float> image = filled_image(64, 48, 0.F);
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x)
+      image.at(x, y) = std::sin(static_cast<float>(x) * .1F) * std::sin(static_cast<float>(y) * .065F);
+  return std::make_shared<const Image<float>>(std::move(image));
+}
+
+// Takes from a piece what is none of its options: where it is looked at from.
+Camera take_camera(nlohmann::json& piece) {
+  Camera camera;
+  camera.yaw_deg = piece.value("yaw", 0.);
+  camera.pitch_deg = piece.value("pitch", 0.);
+  piece.erase("yaw");
+  piece.erase("pitch");
+  return camera;
+}
+
+// Takes its base from a piece. An image cannot stand in the piece's text.
+BaseOptions take_base(nlohmann::json& piece) {
+  BaseOptions base = *parse_base(piece.value("base", "plane"));
+  if (base.kind == BaseKind::image) base.image = hill_and_hollow();
+  piece.erase("base");
+  return base;
+}
+
 class PictureOfPiece : public testing::TestWithParam<const char*> {};
 
 TEST_P(PictureOfPiece, IsThatOfTheFile) {
   nlohmann::json json = nlohmann::json::parse(GetParam());
   json["height"] = json.value("height", 4.0);
-  const ReliefOptions options = *app::options_from_json(json, "options");
   app::studio::PictureRequest request;
+  request.render.camera = take_camera(json);
+  const BaseOptions base = take_base(json);
+  ReliefOptions options = *app::options_from_json(json, "options");
+  options.base = base;
   request.options = options;
   request.key = json.dump();
   request.render.width = 480;
@@ -126,9 +157,14 @@ INSTANTIATE_TEST_SUITE_P(
         R"({"form": "die", "outline": "circle", "rim": 3})", R"({"form": "lithophane", "height": 2.4})",
         R"({"base": "dome:height=8", "outline": "circle"})", R"({"base": "wave:height=4,length=40"})",
         R"({"base": "fold:angle=15"})", R"({"base": "cylinder:diameter=200", "form": "mirror"})",
-        R"({"wrap": "cylinder:turn=120"})", R"({"wrap": "cone:turn=90,angle=8"})",
+        R"({"base": "image:height=6", "outline": "round"})", R"({"wrap": "cylinder:turn=120"})",
+        R"({"wrap": "cone:turn=90,angle=8"})", R"({"wrap": "sphere:turn=100", "outline": "circle"})",
         R"({"draft": 20, "outline": "ellipse", "rim": 3})", R"({"tolerance": 0.02, "outline": "round"})",
-        R"({"triangles": 20000, "outline": "circle"})", R"({"tool": "ball:2", "finish": "reachable"})"));
+        R"({"triangles": 20000, "outline": "circle"})", R"({"tool": "ball:2", "finish": "reachable"})",
+        R"({"yaw": 35, "pitch": 20, "outline": "circle", "rim": 3, "rim-height": 2})",
+        R"({"yaw": -50, "pitch": -15, "base": "wave:height=4,length=40"})",
+        R"({"yaw": 30, "pitch": 30, "wrap": "cylinder:turn=120"})",
+        R"({"yaw": 20, "pitch": -40, "form": "die", "outline": "ellipse"})"));
 
 }  // namespace
 }  // namespace relievo
