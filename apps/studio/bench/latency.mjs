@@ -1,8 +1,10 @@
 // Milliseconds from an event of the mouse to the picture on screen that shows it, in Chromium at 1280 x 800.
-//   node apps/studio/bench/latency.mjs SCAN...
+//   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
+// With the page in one file, the engine is the one inside it.
 // A movement is a drag of 4 seconds with 60 events a second, which waits for no picture: what comes while a picture is
 // made is shown by the next one.
 import path from "node:path";
+import {pathToFileURL} from "node:url";
 import {EngineProcess, areKindsDrawn, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
@@ -19,16 +21,17 @@ const found = await findBrowser();
 if (found.missing) throw new Error(found.missing);
 const browser = await found.launch();
 const row = (cells) => console.log(`| ${cells.join(" | ")} |`);
+const isPage = (file) => path.extname(file) === ".html";
+const [html] = process.argv.slice(2).filter(isPage);
 const columns = ["scan, visible points", "movement", "p50", "p95", "pictures/s", "pixels"];
 row(columns);
 row(columns.map(() => "---"));
-for (const scan of process.argv.slice(2)) await measure(scan);
+for (const scan of process.argv.slice(2).filter((file) => !isPage(file))) await measure(scan);
 await browser.close();
 
 async function measure(scan) {
-  const state = temporaryFolder(), engine = await new EngineProcess(state, path.resolve(scan)).ready();
   const page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
-  await page.goto(engine.address);
+  const end = await (html ? openInPage(page, scan) : openInProgram(page, scan));
   await page.getByText(/points.*height/).waitFor({timeout: 120000});
   await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
   await page.waitForFunction(areKindsDrawn, null, {timeout: 120000});
@@ -41,8 +44,23 @@ async function measure(scan) {
       (pictures.length / SECONDS).toFixed(0), pixels]);
   }
   await page.close();
-  await engine.stop();
-  removeFolder(state);
+  await end();
+}
+
+// Both open a scan, and return what ends its engine.
+async function openInPage(page, scan) {
+  await page.goto(pathToFileURL(html).href);
+  await page.locator("#file").setInputFiles(scan);
+  return () => {};
+}
+
+async function openInProgram(page, scan) {
+  const state = temporaryFolder(), engine = await new EngineProcess(state, path.resolve(scan)).ready();
+  await page.goto(engine.address);
+  return async () => {
+    await engine.stop();
+    removeFolder(state);
+  };
 }
 
 async function drag(page, {slider, tool, from, to}) {

@@ -8,6 +8,7 @@
 //   addressOf(file)             -> the address of one of the page's pictures
 //   takesSeveral                   whether upload() takes several files together, of which one refers to the others
 //   drawsMeanwhile                 whether pictures are drawn while a piece is made
+//   slowMs                         of a frame: frames that take longer are drawn with fewer pixels
 //   follow(onStatus, onLost, say)  calls back with each new status of each open document, in all tabs, and once with
 //                                  {run} alone when an engine is found; onLost when it has gone; say with a text for
 //                                  people
@@ -71,6 +72,7 @@ export class Engine {
   document = "";
   takesSeveral = false;
   drawsMeanwhile = true;
+  slowMs = 55;
 
   addressOf(file) {
     return file;

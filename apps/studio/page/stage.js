@@ -14,7 +14,6 @@ const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
 const FINISH_MS = 500; // and after which the finished piece is made
 const MOST_PIXELS = 7.9e6; // a little less than the engine draws: a window on a screen of 5,120 x 2,880 has more
-const SLOW_MS = 55, FAST_MS = 28; // frames that take longer are drawn with fewer pixels, quick ones with more
 
 export function paint(canvas, image) {
   if (canvas.width !== image.width) canvas.width = image.width;
@@ -179,10 +178,12 @@ export class Stage {
     }
   }
 
+  // Draws slow frames with fewer pixels from now on, and quick ones with more.
   adapt(ms) {
+    const {slowMs} = this.engine;
     this.mean = this.mean ? 0.7 * this.mean + 0.3 * ms : ms;
-    if (this.mean > SLOW_MS && this.share > 0.5) this.share = Math.max(0.5, this.share - 0.25);
-    else if (this.mean < FAST_MS && this.share < 1) this.share = Math.min(1, this.share + 0.25);
+    if (this.mean > slowMs && this.share > 0.5) this.share = Math.max(0.5, this.share - 0.25);
+    else if (this.mean < slowMs / 2 && this.share < 1) this.share = Math.min(1, this.share + 0.25);
     else return;
     this.mean = 0;
   }

@@ -24,6 +24,7 @@ const LIMITS = [
 export class Engine {
   document = "";
   takesSeveral = true;
+  slowMs = 31; // so that 30 are drawn in a second
   #store = new BrowserStore();
   #module = null;
   #pictures = null; // of the page, by name
