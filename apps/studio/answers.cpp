@@ -17,6 +17,8 @@ int status_of(ErrorKind kind) {
       return 422;
     case ErrorKind::output:
       return 500;
+    case ErrorKind::cancelled:
+      return 202;
     default:
       return 409;
   }

@@ -21,7 +21,7 @@ struct Answer {
 void answer(Answer& to, const nlohmann::json& json, int status = 200);
 
 // The status says whose fault it is: 400 and 422 the request's, 409 that the engine has nothing to answer with, 500 the
-// disk's.
+// disk's. What was cancelled is nobody's fault: 202, which browsers do not complain about.
 void answer(Answer& to, const Error& error);
 
 // The pixels are the body; what is said about them stands in the header X-Relievo.

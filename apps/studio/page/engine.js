@@ -34,6 +34,8 @@ import {EngineError, TAB} from "./engine_base.js";
 
 export {EngineError, TAB};
 
+const CANCELLED = 202; // the status of an answer
+
 async function complain(response) {
   let error = {kind: "request", text: `The engine answered ${response.status}.`};
   try {
@@ -52,7 +54,7 @@ async function send(path, options) {
     if (options?.signal?.aborted) throw new EngineError("cancelled", "Cancelled.");
     throw new EngineError("lost", "The engine does not answer. Start relievo studio again.");
   }
-  if (!response.ok) await complain(response);
+  if (!response.ok || response.status === CANCELLED) await complain(response);
   return response;
 }
 
