@@ -30,11 +30,9 @@
 //   keep(document, state, isMoving), keepPicture(document, picture), leave()
 // and throws EngineError with a text for people.
 
-import {EngineError, TAB} from "./engine_base.js";
+import {CANCELLED, EngineError, TAB} from "./engine_base.js";
 
 export {EngineError, TAB};
-
-const CANCELLED = 202; // the status of an answer
 
 async function complain(response) {
   let error = {kind: "request", text: `The engine answered ${response.status}.`};

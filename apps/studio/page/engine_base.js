@@ -7,4 +7,6 @@ export class EngineError extends Error {
   }
 }
 
+export const CANCELLED = 202; // the status of an answer that was given up
+
 export const TAB = Math.random().toString(36).slice(2); // the name of this page among those that are open

@@ -1,7 +1,7 @@
 // The engine of the page that is one file: WebAssembly in a worker, and work that the browser keeps. The interface is that
 // of apps/studio/page/engine.js, whose place this file takes.
 import {compile} from "../../../npm/src/compile.js";
-import {EngineError, TAB} from "../../studio/page/engine_base.js";
+import {CANCELLED, EngineError, TAB} from "../../studio/page/engine_base.js";
 import {BASE_IMAGE, bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
 
@@ -101,7 +101,7 @@ export class Engine {
     const waiting = this.#waiting.get(id);
     this.#waiting.delete(id);
     if (isOver) this.#failed(new EngineError(error.kind, error.text));
-    if (error ?? status >= 400) {
+    if (error ?? (status >= 400 || status === CANCELLED)) {
       const {kind, text} = error ?? body.error;
       return waiting?.reject(new EngineError(kind, text));
     }
