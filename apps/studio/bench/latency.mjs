@@ -15,6 +15,7 @@ const MOVEMENTS = {
   width: {slider: /^(Longer side|Width)$/, from: 0.5, to: 0.65},
   light: {tool: "Light", from: 0.3, to: 0.7},
   orbit: {tool: "Orbit", from: 0.45, to: 0.6},
+  turn: {tool: "Turn", from: 0.45, to: 0.6},
 };
 
 const found = await findBrowser();
