@@ -62,17 +62,24 @@ bool are_numbers(std::string_view text) {
   return true;
 }
 
-// Returns the line without what stands in quotation marks, in which separators separate nothing.
+// Returns where the quoted text ends with which a line begins, 0 if it begins with none. Two quotation marks stand for one.
+std::size_t end_of_quoted(std::string_view line) {
+  std::size_t at = 0;
+  while (at < line.size() && is_blank(line[at])) ++at;
+  if (at == line.size() || line[at] != '"') return 0;
+  for (at = line.find('"', at + 1); at < line.size(); at = line.find('"', at + 2))
+    if (line.substr(at + 1, 1) != "\"") return at + 1;
+  return 0;
+}
+
+// Returns the line without its quoted fields, in which separators separate nothing.
 std::string without_quoted(std::string_view line) {
   std::string plain;
-  bool is_quoted = false;
-  for (const char c : line) {
-    if (!is_quoted || c == '"') plain += c;
-    if (c != '"') continue;
-    const std::size_t before = plain.find_last_not_of(' ', plain.size() - 2);
-    const bool may_open =
-        plain.size() == 1 || before > plain.size() || std::string_view(",;\t\"").contains(plain[before]);
-    is_quoted = !is_quoted && may_open;
+  for (std::size_t at = 0; at < line.size();) {
+    const bool begins_field = at == 0 || std::string_view(",;\t").contains(line[at - 1]);
+    const std::size_t quoted = begins_field ? end_of_quoted(line.substr(at)) : 0;
+    if (quoted == 0) plain += line[at];
+    at += std::max<std::size_t>(quoted, 1);
   }
   return plain;
 }
@@ -210,16 +217,6 @@ Result<char> find_separator(const Source& source, std::string_view line, std::si
   if (separator != ',' || !has_decimal_commas(line)) return separator;
   return source.error_in_line(
       number, "expected numbers with a decimal point, separated in one way, found " + in_quotes(line));
-}
-
-// Returns where the quoted text ends with which a line begins, 0 if it begins with none. Two quotation marks stand for one.
-std::size_t end_of_quoted(std::string_view line) {
-  std::size_t at = 0;
-  while (at < line.size() && is_blank(line[at])) ++at;
-  if (at == line.size() || line[at] != '"') return 0;
-  for (at = line.find('"', at + 1); at < line.size(); at = line.find('"', at + 2))
-    if (line.substr(at + 1, 1) != "\"") return at + 1;
-  return 0;
 }
 
 }  // namespace
