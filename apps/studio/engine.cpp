@@ -259,12 +259,12 @@ Result<ModelFacts> Engine::facts() {
 }
 
 // Finds the height that the draft angle of the options allows, if they have one, while other pictures are drawn.
-Result<void> Engine::find_draft_limit(PictureRequest& request) {
+Result<void> Engine::find_draft_limit(PictureRequest& request, PieceUse use) {
   if (!request.options.draft_deg) return {};
   const NumberedModel shown = state_->shown_model();
   if (!shown.model) return nothing_open();
   RELIEVO_TRY(request.draft_limit_mm,
-              state_->maker.draft_limit(shown, request.options, request.key_but_height));
+              state_->maker.draft_limit(use, shown, request.options, request.key_but_height));
   return {};
 }
 
@@ -272,7 +272,8 @@ Result<void> Engine::find_draft_limit(PictureRequest& request) {
 Result<void> Engine::finish(PictureRequest& request) {
   // Another model is prepared, or about to be, whose piece will be asked for.
   if (request.turned || state_->session.status().is_preparing) return {};
-  if (auto known = find_draft_limit(request); !known) return unless_cancelled(known.error());
+  if (auto known = find_draft_limit(request, PieceUse::picture); !known)
+    return unless_cancelled(known.error());
   RELIEVO_CHECK(check_cancelled(request.progress.get()));  // while it waited for another piece
   std::optional<PieceOrder> order;
   std::uint64_t model = 0;
@@ -320,7 +321,8 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
 
 Result<std::vector<float>> Engine::profile(PictureRequest request, const SectionLine& line) {
   if (request.options.rim_mm)  // whose bevel leans enough, or not, by the height that the draft angle allows
-    if (auto known = find_draft_limit(request); !known) RELIEVO_CHECK(unless_cancelled(known.error()));
+    if (auto known = find_draft_limit(request, PieceUse::entry); !known)
+      RELIEVO_CHECK(unless_cancelled(known.error()));
   const Lock lock(state_->drawing_mutex);
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
@@ -335,7 +337,7 @@ Result<double> Engine::reachable_height(PictureRequest request) {
     if (!drawing) return nothing_open();
     RELIEVO_TRY(height_mm, drawing->reachable_height(request.options));
   }
-  RELIEVO_CHECK(find_draft_limit(request));
+  RELIEVO_CHECK(find_draft_limit(request, PieceUse::picture));
   return std::min(height_mm, request.draft_limit_mm.value_or(height_mm));
 }
 

@@ -107,7 +107,7 @@ class Engine {
 
  private:
   struct State;
-  Result<void> find_draft_limit(PictureRequest& request);
+  Result<void> find_draft_limit(PictureRequest& request, PieceUse use);
   Result<void> finish(PictureRequest& request);
 
   std::unique_ptr<State> state_;

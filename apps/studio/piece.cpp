@@ -80,11 +80,11 @@ Result<std::shared_ptr<const MadeRelief>> PieceMaker::piece(const NumberedModel&
   return made_;
 }
 
-Result<double> PieceMaker::draft_limit(const NumberedModel& shown, const ReliefOptions& options,
+Result<double> PieceMaker::draft_limit(PieceUse use, const NumberedModel& shown, const ReliefOptions& options,
                                        const std::string& key) {
   const Lock lock(mutex_);
   if (const auto known = known_draft_limit(shown, key)) return *known;
-  RELIEVO_TRY(const double height_mm, watched(PieceUse::picture, [&](Progress* progress) {
+  RELIEVO_TRY(const double height_mm, watched(use, [&](Progress* progress) {
                 return highest_with_draft(*shown.model, options, progress);
               }));
   draft_limits_.with([&](auto& limits) {

@@ -58,8 +58,9 @@ struct NumberedModel {
   std::uint64_t number = 0;
 };
 
-// The use of a piece. One for a picture is given up when another picture is asked for.
-enum class PieceUse { file, picture };
+// The use of a piece, or of the height that its draft angle allows: for an export, for an entry that is tried, or for a
+// picture, which is given up when another one is asked for.
+enum class PieceUse { file, entry, picture };
 
 // Makes finished pieces, one at a time, while other pictures are drawn. Every method may be called from any thread.
 class PieceMaker {
@@ -80,7 +81,7 @@ class PieceMaker {
 
   // Returns highest_with_draft(), and keeps it for the next call with that model and key. Errors: those of
   // highest_with_draft(); kind cancelled after cancel().
-  Result<double> draft_limit(const NumberedModel& shown, const ReliefOptions& options,
+  Result<double> draft_limit(PieceUse use, const NumberedModel& shown, const ReliefOptions& options,
                              const std::string& key);
 
   // Returns what draft_limit() returned for that model and key; nothing if it is not known.

@@ -61,7 +61,18 @@ export class Document {
     if (this.append(part, stroke)) this.onChange(before);
   }
 
-  // The same without a call of onChange(). Returns whether anything is new.
+  // Changes the document as it was `at` a step that was the newest then: what was changed since comes after it.
+  changeAt(at, part) {
+    if (at >= this.at) return this.change(part);
+    const before = this.now, changed = (step) => ({...step, ...part, options: {...step.options, ...part.options}});
+    this.steps = [...this.steps.slice(0, at + 1), ...this.steps.slice(at, this.at + 1).map(changed)];
+    this.at = this.steps.length - 1;
+    if (this.stroke !== null) this.beforeStroke = {steps: this.steps.slice(0, -1), at: this.at - 1};
+    this.stamp();
+    this.onChange(before);
+  }
+
+  // The same as change() without a call of onChange(). Returns whether anything is new.
   append(part, stroke = null) {
     if (stroke !== null && stroke === this.cancelled) return false;
     const next = {...this.now, ...part, options: {...this.now.options, ...part.options}};

@@ -1,8 +1,8 @@
-// The panel of the kind of work: the controls that matter for it, together and first. Those of the other options stay
-// in the panels below.
+// The panel of the kind of work: the controls that matter for it, together and first, with those of a rim that is there.
+// Those of the other options stay in the panels below.
 
 import {$} from "./controls.js";
-import {KINDS, kindOf} from "./kinds.js";
+import {KINDS, RIM, kindOf} from "./kinds.js";
 
 const HOMES = ["#piece", "#plate-sliders", "#making"];
 
@@ -14,10 +14,11 @@ export class KindPanel {
   }
 
   show() {
-    const kind = kindOf(this.doc.now);
-    if (kind === this.shown) return; // this runs for each event of a drag
-    this.shown = kind;
-    const {label, panel, note = ""} = KINDS[kind], mine = panel.map((name) => this.elements[name]);
+    const kind = kindOf(this.doc.now), hasRim = Boolean(this.doc.now.options.rim);
+    if (kind === this.shown && hasRim === this.hasRim) return; // this runs for each event of a drag
+    Object.assign(this, {shown: kind, hasRim});
+    const {label, panel, note = ""} = KINDS[kind], names = hasRim ? [...new Set([...panel, ...RIM])] : panel;
+    const mine = names.map((name) => this.elements[name]);
     const focused = document.activeElement; // which loses the focus where it is moved
     $("#kind-title").textContent = label;
     $("#kind-note").textContent = note;

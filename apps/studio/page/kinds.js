@@ -11,7 +11,8 @@ const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", sh
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
 const circle = {...PLAIN, outline: "circle", width: null, margin: 1};
-const RIM = ["rim", "rim-height", "rim-bevel"], PLATE = ["plate", "outline", "corner", "margin", "thickness"];
+export const RIM = ["rim", "rim-height", "rim-bevel"];
+const PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
 // `part` are the options that a kind sets when it is chosen, `panel` those whose controls stand first then.
 export const KINDS = {

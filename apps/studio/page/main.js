@@ -269,7 +269,8 @@ async function arrived(status) {
 
 let reopening = 0;
 function failed(error) {
-  if (error.kind === "geometry" && opened.status.busy) return; // not ready yet: the next status will show it
+  const isReady = opened.isReady && !opened.status.busy;
+  if (error.kind === "geometry" && !isReady) return; // the next status will show it
   if (placing.fit(error, last)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return (error.kind === "lost" ? toast : refuse)(inWords(error.message));
@@ -321,7 +322,7 @@ async function showRecentNow() {
 function wire() {
   keepPanels(document.querySelectorAll(".inspector details"), localStorage);
   const click = (selector, action) => ($(selector).onclick = action);
-  click("#undo", () => doc.undo());
+  click("#undo", undo);
   click("#redo", () => doc.redo());
   click("#open", () => $("#file").click());
   click("#drop", () => $("#file").click());
@@ -346,10 +347,13 @@ function wire() {
   });
 }
 
+// An entry that is still being tried is the newest change.
+const undo = () => pieces.withdraw() || doc.undo();
+
 // Nothing that is not shown changes by a key.
 const ofDocument = (act) => () => $("#studio").hidden || act();
 const COMMANDS = {
-  z: ofDocument(() => doc.undo()), Z: ofDocument(() => doc.redo()), y: ofDocument(() => doc.redo()),
+  z: ofDocument(undo), Z: ofDocument(() => doc.redo()), y: ofDocument(() => doc.redo()),
   s: ofDocument(() => facts && saveProject()), e: ofDocument(() => facts && exporting.open()),
   o: () => $("#file").click(),
 };

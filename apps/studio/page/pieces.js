@@ -48,8 +48,17 @@ const asShown = (name, text) => pairText(name, text, (side) => Number(shortLengt
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
+// Returns the changes besides that of the outline: one that cannot have the size that is given is as large as the relief
+// needs, and a rim lies along an outline.
+function besidesOutline(value, {diameter, plate}, shownWidth) {
+  const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
+  const isRound = value === "circle", hasSides = ["rectangle", "round", "ellipse"].includes(value);
+  const hasSize = (!diameter || isRound) && (!plate || hasSides);
+  return hasSize ? rim : {...rim, diameter: null, plate: "", shift: "", width: shownWidth};
+}
+
 // Returns the changes besides the option's own: a plate of a given size decides how wide the relief is, unless a width
-// was chosen; an outline that cannot have that size is as large as the relief needs.
+// was chosen.
 function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   if (name === "base") return withoutImage(value);
   if ((name === "diameter" || name === "plate") && value) {
@@ -57,9 +66,7 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
     const straight = name === "plate" && outline === "circle" ? {outline: "rectangle"} : {};
     return {width: isChosen(width) ? width : null, ...circle, ...straight};
   }
-  const isFree = {diameter: value === "circle", plate: ["rectangle", "round", "ellipse"].includes(value)};
-  if (name === "outline" && ((diameter && !isFree.diameter) || (plate && !isFree.plate)))
-    return {diameter: null, plate: "", shift: "", width: shownWidth};
+  if (name === "outline") return besidesOutline(value, {diameter, plate}, shownWidth);
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
@@ -70,7 +77,7 @@ export const inWords = (message) =>
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, say, shownWidth, redraw}) {
-    Object.assign(this, {engine, doc, say, shownWidth, rows: {}, tried: Promise.resolve()});
+    Object.assign(this, {engine, doc, say, shownWidth, rows: {}, waiting: [], tried: Promise.resolve()});
     for (const name of ROWS) {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
       $(placeOf(name)).append(this.rows[name].element);
@@ -136,27 +143,45 @@ export class PieceRows {
 
   // Changes an option when all changes before have been tried; `change` makes its new value of the present one.
   set(name, change) {
-    const {document} = this.engine;
-    this.tried = this.tried.then(() => this.tryChange(name, change, document));
+    const entry = {name, change, document: this.engine.document, at: this.doc.at};
+    this.waiting.push(entry);
+    this.rows[name].element.ariaBusy = "true";
+    this.tried = this.tried.then(() => this.tryEntry(entry)).finally(() => this.end(entry));
     return this.tried;
   }
 
-  // Takes a value, unless the engine cannot read it or make a piece of it, or the document or its value is another one
-  // by then.
-  async tryChange(name, change, document) {
-    if (document !== this.engine.document) return;
+  // Takes an entry, unless the engine cannot read it or make a piece of it, or the document or its value is another one
+  // by then. It comes before what was changed while it was tried.
+  async tryEntry(entry) {
+    const {name, change, document} = entry;
+    const isMeant = () => document === this.engine.document && this.waiting.includes(entry);
+    if (!isMeant()) return;
     const {options} = this.doc.now, value = change(options[name]);
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
     try {
       const step = {...this.doc.now, options: {...options, ...part}};
       await this.engine.check(engineOptions(step));
       if (SHAPES[name] || !this.rows[name].input.matches("select")) await this.tryOut(step);
-      const isStill = document === this.engine.document && this.doc.now.options[name] === options[name];
-      if (isStill) this.doc.change({options: part});
+      if (!isMeant() || this.doc.now.options[name] !== options[name]) return;
+      for (const other of this.waiting) if (other !== entry) other.at += 1;
+      this.doc.changeAt(entry.at, {options: part});
     } catch (error) {
-      this.say(inWords(error.message));
+      if (isMeant()) this.say(inWords(error.message));
     }
+  }
+
+  // Forgets an entry that was tried or is not to be tried.
+  end(entry) {
+    this.waiting = this.waiting.filter((other) => other !== entry);
+    if (this.waiting.every(({name}) => name !== entry.name)) this.rows[entry.name].element.ariaBusy = null;
     this.show();
+  }
+
+  // Takes back the newest entry if it is still being tried and nothing was changed since. Returns whether there was one.
+  withdraw() {
+    const entry = this.waiting.at(-1), isNewest = entry?.at === this.doc.at;
+    if (isNewest) this.end(entry);
+    return isNewest;
   }
 
   // Throws what the engine says of options of which no piece can be made, by asking for one of its heights. A width
@@ -167,7 +192,7 @@ export class PieceRows {
     });
   }
 
-  // Shows the document's values, but not in a field in which something is typed.
+  // Shows the document's values, but not in a field in which something is typed or whose entry is being tried.
   show() {
     const {options} = this.doc.now;
     for (const name of Object.keys(SHAPES)) this.rows[name].show(options[name]);
@@ -175,7 +200,7 @@ export class PieceRows {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;
-      if (!isUnfinished(input)) input.value = shown;
+      if (!isUnfinished(input) && !element.ariaBusy) input.value = shown;
       if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
         element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
     }
