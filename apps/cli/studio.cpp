@@ -18,7 +18,7 @@ namespace {
 struct StudioArguments {
   std::string input, page, state;
   int port = 0, linger_s = 15;
-  bool is_browser_wanted = true;
+  bool has_no_browser = false;
 };
 
 // Asks the desktop to show the page; without a desktop the printed address must do.
@@ -62,7 +62,7 @@ Result<void> studio(const StudioArguments& arguments) {
                 tunnel.c_str());
   std::fflush(stdout);
   if (!store.notice().empty()) std::fprintf(stderr, "relievo: %s\n", store.notice().c_str());
-  if (arguments.is_browser_wanted) show(*address);
+  if (!arguments.has_no_browser) show(*address);
   server.run();
   return {};
 }
@@ -79,7 +79,7 @@ void add_studio(CLI::App& program, Result<void>& result) {
       ->check(CLI::Range(0, 65535).description(""))
       ->type_name("N")
       ->capture_default_str();
-  command.add_flag("!--no-browser", arguments->is_browser_wanted, "print the address only");
+  command.add_flag("--no-browser", arguments->has_no_browser, "print the address only");
   command.add_option("--state", arguments->state, "folder for what is kept between runs")->type_name("DIR");
   command
       .add_option("--linger", arguments->linger_s, "seconds to go on after the page has gone [0 to 86400]")

@@ -18,6 +18,10 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Pro
   const bool has_image = order.base_image || !order.base_image_path.empty();
   if (has_image && texts.base == OptionTexts{}.base && !is_given("base")) texts.base = "image";
   RELIEVO_TRY(ReliefOptions options, parse_options(texts));
+  if (is_given("outline")) {  // a diameter turns the rectangle that nobody asked for into a circle
+    RELIEVO_TRY(options.outline, parse_outline(texts.outline));
+    RELIEVO_CHECK(check(options));
+  }
   RELIEVO_TRY(
       std::shared_ptr<const Image<float>> image,
       order.base_image ? order.base_image : base_image_for(options.base, order.base_image_path, project));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <filesystem>
 #include <map>
 
@@ -60,7 +61,7 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
       cat(image.values.width, " x ", image.values.height, " depths, ", made.missing, " missing");
   if (made.background > 0) line += cat(", ", made.background, " points of background taken out");
   if (made.cut > 0) line += cat(", ", made.cut, " blurred across depth jumps taken out");
-  return line + cat(", smoothed within ", made.noise, " pixels");
+  return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 
 Result<LoadedFile> read_depths(std::span<const std::byte> bytes, const std::string& path,

@@ -114,7 +114,7 @@ RenderOptions Drawing::render_options(const PictureRequest& request) const {
   RenderOptions render = request.render;
   render.mm_per_unit = mm_per_unit(request.options);
   render.margin_mm = request.options.margin_mm;
-  render.thickness_mm = request.options.thickness_mm;
+  render.thickness_mm = request.options.effective_thickness_mm();
   return render;
 }
 

@@ -23,6 +23,9 @@ double saturation_of(const ReliefOptions& options) {
 double detail_of(const ReliefOptions& options) {
   return options.effective_detail();
 }
+double thickness_of(const ReliefOptions& options) {
+  return options.effective_thickness_mm();
+}
 double boundary_of(const ReliefOptions& options) {
   return options.effective_boundary_width();
 }
@@ -190,8 +193,10 @@ std::vector<ReliefField> plate_rows() {
                    .otherwise = "0,0"},
                   &OptionTexts::shift},
       ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5}, &OptionTexts::margin_mm},
-      ReliefField{{"thickness", "MM", "smallest thickness of the plate, without the relief", .01, 1e5},
-                  &OptionTexts::thickness_mm},
+      ReliefField{{"thickness", "MM", "smallest thickness of the plate, without the relief", .01, 1e5,
+                   "3; 0.8 for a lithophane"},
+                  &OptionTexts::thickness_mm,
+                  thickness_of},
       ReliefField{{"rim", "MM",
                    "width of a raised edge along the outline, as coins have; in a die, of the groove that "
                    "it fits",
