@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "core/quantile.h"
 #include "relievo/core/parallel.h"
 #include "relievo/plate/solid.h"
 #include "relievo/scan/surface.h"
@@ -11,7 +14,10 @@
 namespace relievo {
 namespace {
 
-constexpr double darkest = .1;  // of the brightest; there and below the plate is thickest
+// The plate is thinnest for the brightest 2 % of the points, as a few highlights would else leave the rest dark. It is
+// thickest where points are a tenth as bright as these, and for the darkest tenth of the points where that is darker still.
+constexpr double bright_share = .98, dark_share = .1;
+constexpr double dark_of_bright = .1, least_dark_of_bright = 1e-3;
 
 // Returns the relative luminance of an sRGB colour (IEC 61966-2-1, Rec. 709 weights).
 double luminance(const Colour& colour) {
@@ -28,6 +34,20 @@ double shade(const Vec3f& normal) {
   const Vec3f lamp = Vec3f(-1, 1, 1.6F).normalized();
   const double facing = std::max(0.F, normal.dot(lamp));
   return .25 + .75 * facing;
+}
+
+struct Range {
+  double darkest, brightest;
+};
+
+// Returns the brightness where the plate is thickest and that where it is thinnest, of points that are not on the outline.
+Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_boundary) {
+  std::vector<double> inside;
+  for (std::size_t i = 0; i < bright.size(); ++i)
+    if (!is_boundary[i]) inside.push_back(bright[i]);
+  if (inside.empty()) return {0, 0};
+  const double brightest = quantile(inside, bright_share), dark = quantile(inside, dark_share);
+  return {std::clamp(dark, least_dark_of_bright * brightest, dark_of_bright * brightest), brightest};
 }
 
 }  // namespace
@@ -54,14 +74,16 @@ HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double he
   parallel_for(bright.size(), [&](std::size_t i) {
     bright[i] = shade(surface.normals[i]) * (surface.colours.empty() ? 1 : luminance(surface.colours[i]));
   });
-  const double brightest = *std::ranges::max_element(bright);
+  const auto [darkest, brightest] = range_of(bright, surface.boundary.is_boundary);
   HeightFieldMesh front{std::vector<Vec3>(bright.size()), surface.triangulation.triangles,
                         surface.triangulation.hull, height_mm, surface.colours};
   parallel_for(bright.size(), [&](std::size_t i) {
     const bool is_dark = surface.boundary.is_boundary[i] || !(brightest > 0);
-    const double share = is_dark ? darkest : std::clamp(bright[i] / brightest, darkest, 1.0);
+    const double share = is_dark ? 1
+                                 : std::log(std::clamp(bright[i], darkest, brightest) / brightest) /
+                                       std::log(darkest / brightest);
     const Vec2 place = mm_per_unit * surface.points[i].head<2>();
-    front.points[i] = {place.x(), place.y(), height_mm * std::log(share) / std::log(darkest)};
+    front.points[i] = {place.x(), place.y(), height_mm * share};
   });
   return front;
 }
