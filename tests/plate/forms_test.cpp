@@ -1,8 +1,12 @@
 #include "relievo/plate/forms.h"
+#include "core/quantile.h"
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"
 
 #include <gtest/gtest.h>
+
+#include <array>
+#include <vector>
 
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
@@ -111,7 +115,7 @@ TEST(Forms, ALithophaneIsThickWhereTheModelIsDark) {
 TEST(Forms, ColoursDarkenALithophane) {
   Cloud cloud = test::sphere(20000, 1);
   for (const Vec3& p : cloud.points) {
-    const std::uint8_t grey = p.y() > 0 ? 255 : 128;
+    const std::uint8_t grey = p.y() > 0 ? 255 : 200;
     cloud.colours.push_back({grey, grey, grey});
   }
   const Surface surface = *find_surface(cloud, *parse_view("front"));
@@ -122,8 +126,43 @@ TEST(Forms, ColoursDarkenALithophane) {
     if ((p.head<2>() - Vec2(-1, .5)).norm() < .4) bright += p.z(), ++bright_count;
     if ((p.head<2>() - Vec2(-1, -.5)).norm() < .4) dark += p.z(), ++dark_count;
   }
-  // Grey 128 passes 21.6 % of the light: 4 ln(1 / .216) / ln 10 = 2.66 mm more.
-  EXPECT_NEAR(dark / dark_count - bright / bright_count, 2.66, .3);
+  // Grey 200 passes 57.8 % of the light: 4 ln(1 / .578) / ln 10 = .95 mm more.
+  EXPECT_NEAR(dark / dark_count - bright / bright_count, .95, .15);
+}
+
+// Returns the middle height of the points in the middle of a ball that is dark but for a highlight of that grey.
+double middle_of_dark_ball(std::uint8_t highlight) {
+  Cloud cloud = test::sphere(20000, 1);
+  for (const Vec3& p : cloud.points) {
+    const bool is_light = (p.head<2>() - Vec2(-.3, .3)).norm() < .05;
+    const std::uint8_t grey = is_light ? highlight : 60;
+    cloud.colours.push_back({grey, grey, grey});
+  }
+  std::vector<double> heights;
+  for (const Vec3& p : lithophane(*find_surface(cloud, *parse_view("front")), 10, 4).points)
+    if (p.head<2>().norm() < 5) heights.push_back(p.z());
+  return median(heights);
+}
+
+TEST(Forms, AHighlightDarkensNothingElseOfALithophane) {
+  const double plain = middle_of_dark_ball(60);
+  EXPECT_LT(plain, 1);
+  EXPECT_NEAR(middle_of_dark_ball(255), plain, .05);
+}
+
+TEST(Forms, ALithophaneShowsWhatIsDarkerThanATenth) {
+  Cloud cloud = test::sphere(20000, 1);  // in three greys, of which two are darker than a tenth
+  for (const Vec3& p : cloud.points) {
+    const std::uint8_t grey = p.y() > .3 ? 255 : p.y() > -.3 ? 60 : 30;
+    cloud.colours.push_back({grey, grey, grey});
+  }
+  std::array<std::vector<double>, 3> heights;
+  for (const Vec3& p : lithophane(*find_surface(cloud, *parse_view("front")), 10, 4).points)
+    for (std::size_t i = 0; i < 3; ++i)
+      if ((p.head<2>() - Vec2(-1, 5 - 5 * static_cast<double>(i))).norm() < 1) heights[i].push_back(p.z());
+  const double light = median(heights[0]), dark = median(heights[1]), darkest = median(heights[2]);
+  EXPECT_LT(light + 1, dark);
+  EXPECT_LT(dark + .5, darkest);
 }
 
 TEST(Forms, AToleranceMakesTheFrontSimplerAndTellsItsError) {
