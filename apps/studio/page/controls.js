@@ -196,9 +196,11 @@ export class Slider {
     this.number.setAttribute("aria-invalid", text !== "");
   }
 
-  set disabled(is) {
-    this.range.disabled = this.number.disabled = is;
-    this.element.classList.toggle("disabled", is);
+  // Takes no entries, for the reason that is given; takes them again without one.
+  disable(why) {
+    this.range.disabled = this.number.disabled = Boolean(why);
+    this.element.classList.toggle("disabled", Boolean(why));
+    this.element.title = why;
   }
 }
 

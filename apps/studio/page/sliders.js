@@ -75,10 +75,11 @@ export class Sliders {
     for (const [name, slider] of Object.entries(this.all)) slider.show(options[name] ?? this.shownWidth());
     this.showWidth();
     $("#method").value = options.method;
-    for (const name of SHAPING) this.all[name].disabled = !isShaped;
-    this.all.saturation.disabled = !isShaped || options.tone !== "";
+    const noShape = isShaped ? "" : "A lithophane shows light and colours of the scan, whatever the heights";
+    for (const name of SHAPING) this.all[name].disable(noShape);
+    this.all.saturation.disable(noShape || (options.tone !== "" ? "The tone curve takes its place" : ""));
     this.all.corner.element.hidden = options.outline !== "round";
-    this.all.margin.disabled = options.outline === "none";
+    this.all.margin.disable(options.outline === "none" ? "There is no plate around the relief" : "");
     this.lock.setAttribute("aria-pressed", isHeightLocked);
   }
 }
