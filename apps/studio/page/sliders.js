@@ -6,7 +6,7 @@ import {FIRST} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
 
-const SHAPING = ["detail", "boundary", "steepest", "steps"]; // of which a lithophane has none: depth alone makes it
+const SHAPING = ["detail", "boundary", "steepest", "steps"]; // of which a lithophane has none: light and colours make it
 
 export class Sliders {
   // `frame` returns the numbers of the newest picture, or null; `say` takes a line for people.
