@@ -343,10 +343,13 @@ Result<double> Engine::reachable_height(PictureRequest request) {
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   const Lock lock(state_->drawing_mutex);
-  const auto cloud = state_->scan_in_use().cloud();
-  if (!cloud) return nothing_open();
-  if (cloud != state_->drawn_cloud) state_->cloud_renderer.emplace(*cloud);
-  state_->drawn_cloud = cloud;
+  const LoadedScan scan = state_->scan_in_use();
+  if (!scan.cloud()) return nothing_open();
+  if (scan.cloud() != state_->drawn_cloud) {
+    RELIEVO_TRY(const auto points, scan.all_sides());
+    state_->cloud_renderer.emplace(*points);
+    state_->drawn_cloud = scan.cloud();
+  }
   Picture picture;
   state_->cloud_renderer->render(view, width, height, picture);
   return picture;

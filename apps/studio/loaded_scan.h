@@ -17,13 +17,14 @@ class LoadedScan {
 
   const ScanSource& input() const { return input_; }
 
-  // Returns the points to show while a view is chosen: all models as they stand seen from the front, without
-  // outliers; of meshes their corners. Null if no scan was read.
+  // Returns the points that views are ranked by: all models as they stand seen from the front, without outliers; of
+  // meshes their corners. Null if no scan was read.
   const std::shared_ptr<const Cloud>& cloud() const { return cloud_; }
 
   const Scene& scene() const { return scene_; }
 
-  // Returns points of all sides, for turning: those of cloud(), of a mesh evenly scattered ones.
+  // Returns points of all sides, for turning and for the choice of a view: those of cloud(), of a mesh evenly scattered
+  // ones.
   Result<std::shared_ptr<const Cloud>> all_sides() const;
 
   // Returns the number of outliers: points of clouds that lie far outside.
