@@ -362,7 +362,7 @@ const KEYS = {
   h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
   m: () => modes.setTool("measure"), x: () => modes.setTool("crop"), f: () => stage.fit(),
   t: () => modes.toggleTable(),
-  Escape: () => cropFrame.giveUp() || stage.takeBack() || modes.setTable(false),
+  Escape: () => cropFrame.giveUp() || stage.takeBack() || modes.leave(),
   c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
   ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),
 };

@@ -48,11 +48,21 @@ export class Modes {
     this.setTable(!isPressed("#light-table"));
   }
 
-  toggleComparing() {
-    const isComparing = !isPressed("#compare");
+  setComparing(isComparing) {
+    if (isComparing === isPressed("#compare")) return;
     $("#compare").setAttribute("aria-pressed", isComparing);
     $("#split").hidden = $("#labels").hidden = !isComparing;
     this.stage.comparing.set({isComparing});
+  }
+
+  toggleComparing() {
+    this.setComparing(!isPressed("#compare"));
+  }
+
+  // Leaves the light table and the comparison.
+  leave() {
+    this.setTable(false);
+    this.setComparing(false);
   }
 
   showMaterial(material) {

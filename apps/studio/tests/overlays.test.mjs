@@ -155,7 +155,8 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
       assert.ok(off[2] <= 2, `${kind}: ${off}`);
     });
   }
-  await page.getByRole("button", {name: "Compare"}).click();
+  await page.locator("#stage").press("Escape");
+  await page.getByRole("button", {name: "Compare", pressed: false}).waitFor();
   await page.locator('[data-kind="relief"]').click();
 });
 
