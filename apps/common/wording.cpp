@@ -89,7 +89,7 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
   if (report.simplification_error_mm)
     lines.push_back(cat("the front has ", report.front_triangles, " triangles, the full relief ",
                         report.full_triangles, ", and is off by at most ",
-                        std::round(1e4 * *report.simplification_error_mm) / 1e4, " mm"));
+                        std::ceil(1e4 * *report.simplification_error_mm) / 1e4, " mm"));
   if (report.wrap) lines.push_back(wrap_text(*report.wrap));
   for (const SampleNote& note : report.sample)
     lines.push_back(note.model.empty() ? text_of(note) : cat(note.model, ": ", text_of(note)));

@@ -75,9 +75,14 @@ std::size_t end_of_quoted(std::string_view line) {
 // Returns the line without its quoted fields, in which separators separate nothing.
 std::string without_quoted(std::string_view line) {
   std::string plain;
+  bool begins_field = true;
   for (std::size_t at = 0; at < line.size();) {
-    const bool begins_field = at == 0 || std::string_view(",;\t").contains(line[at - 1]);
-    const std::size_t quoted = begins_field ? end_of_quoted(line.substr(at)) : 0;
+    const bool may_open = begins_field && line[at] == '"';
+    const std::size_t quoted = may_open ? end_of_quoted(line.substr(at)) : 0;
+    if (std::string_view(",;\t").contains(line[at]))
+      begins_field = true;
+    else if (!is_blank(line[at]))
+      begins_field = false;
     if (quoted == 0) plain += line[at];
     at += std::max<std::size_t>(quoted, 1);
   }

@@ -36,6 +36,7 @@ export class Document {
     Object.assign(this, {onChange, onStrokeEnd});
     this.steps = [FIRST];
     this.at = 0;
+    this.forgotten = 0; // steps before the first one
     this.changedAt = 0; // in milliseconds since 1970: of two states of a document the one that changed last wins
   }
 
@@ -61,13 +62,21 @@ export class Document {
     if (this.append(part, stroke)) this.onChange(before);
   }
 
-  // Changes the document as it was `at` a step that was the newest then: what was changed since comes after it.
-  changeAt(at, part) {
+  // Returns the place of the present step among all, forgotten ones too.
+  get position() {
+    return this.forgotten + this.at;
+  }
+
+  // Changes the document as it was at a position that was the newest then: what was changed since comes after it. The
+  // part has nothing that was changed since.
+  changeAt(position, part) {
+    const at = Math.max(0, position - this.forgotten);
     if (at >= this.at) return this.change(part);
     const before = this.now, changed = (step) => ({...step, ...part, options: {...step.options, ...part.options}});
     this.steps = [...this.steps.slice(0, at + 1), ...this.steps.slice(at, this.at + 1).map(changed)];
     this.at = this.steps.length - 1;
-    if (this.stroke !== null) this.beforeStroke = {steps: this.steps.slice(0, -1), at: this.at - 1};
+    if (this.stroke !== null)
+      this.beforeStroke = {steps: this.steps.slice(0, -1), at: this.at - 1, forgotten: this.forgotten};
     this.stamp();
     this.onChange(before);
   }
@@ -80,8 +89,10 @@ export class Document {
     if (stroke !== null && stroke === this.stroke) {
       this.steps[this.at] = next;
     } else {
-      this.beforeStroke = {steps: this.steps, at: this.at};
-      this.steps = [...this.steps.slice(Math.max(0, this.at + 2 - MOST_STEPS), this.at + 1), next];
+      const {steps, at, forgotten} = this, excess = Math.max(0, at + 2 - MOST_STEPS);
+      this.beforeStroke = {steps, at, forgotten};
+      this.forgotten += excess;
+      this.steps = [...steps.slice(excess, at + 1), next];
       this.at = this.steps.length - 1;
     }
     this.stroke = stroke;
@@ -192,14 +203,16 @@ const isDirection = (light) =>
 
 const BY_METHOD = ["saturation", "detail", "boundary"]; // whose defaults differ
 
-// Returns the height that `relievo make` gives a relief without one.
+// Returns the thickness and the height that `relievo make` gives a relief without them.
+const usualThickness = ({form}) => (form === "lithophane" ? 0.8 : FIRST.options.thickness);
 const usualHeight = ({form, width}) => (form === "lithophane" ? 2.4 : 0.05 * (width ?? defaultOf("width") ?? 100));
 
 // Returns the step that a project file describes, as the engine has read it.
 export function stepOfProject({input, options: {alpha, ...options} = {}, studio = {}}) {
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
   const rules = Object.fromEntries(BY_METHOD.map((name) => [name, defaultOf(name, method)]));
-  const usual = {...FIRST.options, ...rules, method, width: null, height: usualHeight(options)};
+  const usual = {...FIRST.options, ...rules, method, width: null, height: usualHeight(options),
+    thickness: usualThickness(options)};
   const step = {...FIRST, input, options: {...usual, ...options}};
   if (options.height === undefined && method === "paper") {
     step.isHeightLocked = false;

@@ -48,8 +48,8 @@ const asShown = (name, text) => pairText(name, text, (side) => Number(shortLengt
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
-// Returns the changes besides that of the outline: one that cannot have the size that is given is as large as the relief
-// needs, and a rim lies along an outline.
+// Returns the changes besides that of the outline: a size that the new outline cannot have is dropped, and so is the rim of
+// a piece without an outline.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
   const isRound = value === "circle", hasSides = ["rectangle", "round", "ellipse"].includes(value);
@@ -141,20 +141,24 @@ export class PieceRows {
     return this.set(name, () => (PAIRS[name] ? inMm(name, value ?? "") : value));
   }
 
+  // Returns the entries of this document that are being tried.
+  get pending() {
+    return this.waiting.filter(({document}) => document === this.engine.document);
+  }
+
   // Changes an option when all changes before have been tried; `change` makes its new value of the present one.
   set(name, change) {
-    const entry = {name, change, document: this.engine.document, at: this.doc.at};
+    const entry = {name, change, document: this.engine.document, position: this.doc.position};
     this.waiting.push(entry);
-    this.rows[name].element.ariaBusy = "true";
+    this.show();
     this.tried = this.tried.then(() => this.tryEntry(entry)).finally(() => this.end(entry));
     return this.tried;
   }
 
-  // Takes an entry, unless the engine cannot read it or make a piece of it, or the document or its value is another one
-  // by then. It comes before what was changed while it was tried.
+  // Takes an entry, unless the engine cannot read it or make a piece of it, or the document or what the entry changes is
+  // another by then. It comes before what was changed while it was tried.
   async tryEntry(entry) {
-    const {name, change, document} = entry;
-    const isMeant = () => document === this.engine.document && this.waiting.includes(entry);
+    const {name, change} = entry, isMeant = () => this.pending.includes(entry);
     if (!isMeant()) return;
     const {options} = this.doc.now, value = change(options[name]);
     const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
@@ -162,24 +166,30 @@ export class PieceRows {
       const step = {...this.doc.now, options: {...options, ...part}};
       await this.engine.check(engineOptions(step));
       if (SHAPES[name] || !this.rows[name].input.matches("select")) await this.tryOut(step);
-      if (!isMeant() || this.doc.now.options[name] !== options[name]) return;
-      for (const other of this.waiting) if (other !== entry) other.at += 1;
-      this.doc.changeAt(entry.at, {options: part});
+      if (!isMeant()) return;
+      const isSame = Object.keys(part).every((key) => this.doc.now.options[key] === options[key]);
+      isSame ? this.insert(part, entry) : this.say(`${LABELS[name]}: the piece has changed meanwhile; enter it again.`);
     } catch (error) {
       if (isMeant()) this.say(inWords(error.message));
     }
   }
 
+  // All other entries were made after this one.
+  insert(part, entry) {
+    const before = this.doc.position;
+    this.doc.changeAt(entry.position, {options: part});
+    for (const other of this.pending) other.position += this.doc.position - before;
+  }
+
   // Forgets an entry that was tried or is not to be tried.
   end(entry) {
     this.waiting = this.waiting.filter((other) => other !== entry);
-    if (this.waiting.every(({name}) => name !== entry.name)) this.rows[entry.name].element.ariaBusy = null;
     this.show();
   }
 
   // Takes back the newest entry if it is still being tried and nothing was changed since. Returns whether there was one.
   withdraw() {
-    const entry = this.waiting.at(-1), isNewest = entry?.at === this.doc.at;
+    const entry = this.pending.at(-1), isNewest = entry?.position === this.doc.position;
     if (isNewest) this.end(entry);
     return isNewest;
   }
@@ -194,13 +204,14 @@ export class PieceRows {
 
   // Shows the document's values, but not in a field in which something is typed or whose entry is being tried.
   show() {
-    const {options} = this.doc.now;
+    const {options} = this.doc.now, tried = new Set(this.pending.map(({name}) => name));
+    for (const [name, {element}] of Object.entries(this.rows)) element.ariaBusy = tried.has(name) ? "true" : null;
     for (const name of Object.keys(SHAPES)) this.rows[name].show(options[name]);
     for (const [name, {element, input, unit}] of Object.entries(this.rows).filter(([name]) => !SHAPES[name])) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
       const shown = isNumber && unit === "mm" ? shortLength(value) : text;
-      if (!isUnfinished(input) && !element.ariaBusy) input.value = shown;
+      if (!isUnfinished(input) && !tried.has(name)) input.value = shown;
       if (this.shownUnit !== lengthUnit.unit && (unit === "mm" || PAIRS[name]))
         element.firstChild.textContent = `${LABELS[name]} (${lengthUnit.unit})`;
     }

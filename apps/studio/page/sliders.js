@@ -75,7 +75,7 @@ export class Sliders {
     for (const [name, slider] of Object.entries(this.all)) slider.show(options[name] ?? this.shownWidth());
     this.showWidth();
     $("#method").value = options.method;
-    const noShape = isShaped ? "" : "A lithophane shows light and colours of the scan, whatever the heights";
+    const noShape = isShaped ? "" : "A lithophane is made from light and colours, not from heights";
     for (const name of SHAPING) this.all[name].disable(noShape);
     this.all.saturation.disable(noShape || (options.tone !== "" ? "The tone curve takes its place" : ""));
     this.all.corner.element.hidden = options.outline !== "round";

@@ -117,8 +117,14 @@ test("undoes entries in the order in which they were made, also one that is stil
   assert.equal(await plate.inputValue(), "");
   await page.waitForTimeout(2000); // until it would have come
   assert.deepEqual([await plate.inputValue(), await text("Height in mm")], ["", "4.50"]);
+  await enter(plate, "210x140");
+  await isTried.waitFor();
+  await page.getByRole("radio", {name: "Coin"}).click();
+  await page.getByText("Plate size: the piece has changed meanwhile; enter it again.").waitFor();
+  assert.ok(await page.getByRole("radio", {name: "Coin"}).isChecked());
+  assert.equal(await plate.inputValue(), "");
   await page.unroute("**/api/profile");
-  await undo.click();
+  for (let step = 0; step < 2; ++step) await undo.click();
 });
 
 test("keeps the controls of a rim with it, and takes it off a piece without an outline", {skip}, async () => {

@@ -226,11 +226,12 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
 test("opens a project without a height as make makes it", {skip}, async () => {
   const steps = await page.evaluate(async () => {
     const {stepOfProject} = await import(new URL("document.js", location));
-    return [{width: 60}, {method: "paper"}, {alpha: 2}].map((options) => stepOfProject({options}));
+    return [{width: 60}, {method: "paper"}, {alpha: 2}, {form: "lithophane"}].map(
+      (options) => stepOfProject({options}));
   });
-  assert.deepEqual(steps.map(({options: {height, method, detail}}) => [height, method, detail]),
-    [[3, "layered", 0.04], [5, "paper", 0.02], [5, "paper", 0.02]]);
-  assert.deepEqual(steps.map(({isHeightLocked}) => isHeightLocked), [true, false, false]);
+  assert.deepEqual(steps.map(({options: {height, thickness, method, detail}}) => [height, thickness, method, detail]),
+    [[3, 3, "layered", 0.04], [5, 3, "paper", 0.02], [5, 3, "paper", 0.02], [2.4, 0.8, "layered", 0.04]]);
+  assert.deepEqual(steps.map(({isHeightLocked}) => isHeightLocked), [true, false, false, true]);
   assert.ok(Math.abs(steps[1].u / 4 ** -0.01 - 1) < 1e-12 && Math.abs(steps[2].u / 2 ** -0.01 - 1) < 1e-12);
 });
 
