@@ -206,7 +206,7 @@ export class PieceRows {
   show() {
     const {options} = this.doc.now, tried = new Set(this.pending.map(({name}) => name));
     for (const [name, {element}] of Object.entries(this.rows)) element.ariaBusy = tried.has(name) ? "true" : null;
-    for (const name of Object.keys(SHAPES)) this.rows[name].show(options[name]);
+    for (const name of Object.keys(SHAPES)) if (!tried.has(name)) this.rows[name].show(options[name]);
     for (const [name, {element, input, unit}] of Object.entries(this.rows).filter(([name]) => !SHAPES[name])) {
       const value = options[name] ?? "", isNumber = typeof value === "number";
       const text = PAIRS[name] ? asShown(name, value) : value;
