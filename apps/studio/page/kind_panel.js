@@ -1,5 +1,5 @@
-// The panel of the kind of work: the controls that matter for it, together and first, with those of a rim that is there.
-// Those of the other options stay in the panels below.
+// The panel of the kind of work: the controls that matter for it, together and first, with those of a rim if there is
+// one. Those of the other options stay in the panels below.
 
 import {$} from "./controls.js";
 import {KINDS, RIM, kindOf} from "./kinds.js";

@@ -48,8 +48,8 @@ const asShown = (name, text) => pairText(name, text, (side) => Number(shortLengt
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
-// Returns the changes besides that of the outline: a size that the new outline cannot have is dropped, and so is the rim of
-// a piece without an outline.
+// Returns the changes besides that of the outline: a size that the new outline cannot have is dropped, and so is the rim
+// of a piece without an outline.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
   const isRound = value === "circle", hasSides = ["rectangle", "round", "ellipse"].includes(value);
@@ -155,8 +155,8 @@ export class PieceRows {
     return this.tried;
   }
 
-  // Takes an entry, unless the engine cannot read it or make a piece of it, or the document or what the entry changes is
-  // another by then. It comes before what was changed while it was tried.
+  // Takes an entry, unless the engine cannot read it or make a piece of it, or the document or what the entry changes
+  // is another by then. It comes before what was changed while it was tried.
   async tryEntry(entry) {
     const {name, change} = entry, isMeant = () => this.pending.includes(entry);
     if (!isMeant()) return;
@@ -187,7 +187,8 @@ export class PieceRows {
     this.show();
   }
 
-  // Takes back the newest entry if it is still being tried and nothing was changed since. Returns whether there was one.
+  // Takes back the newest entry if it is still being tried and nothing was changed since. Returns whether there was
+  // one.
   withdraw() {
     const entry = this.pending.at(-1), isNewest = entry?.position === this.doc.position;
     if (isNewest) this.end(entry);

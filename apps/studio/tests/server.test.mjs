@@ -456,7 +456,8 @@ test("opens a mesh and looks at it from where the view is", async () => {
 });
 
 test("shows a mesh of few corners without holes while a view is chosen", async () => {
-  const cube = path.join(folder, "cube.obj"), faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
+  const cube = path.join(folder, "cube.obj");
+  const faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
   const corners = Array.from({length: 8}, (_, i) => `v ${i & 1} ${i >> 1 & 1} ${i >> 2}`);
   writeFileSync(cube, [...corners, ...faces.map((face) => `f ${face}`)].join("\n"));
   const other = await new EngineProcess(path.join(folder, "cube")).ready();
@@ -465,7 +466,8 @@ test("shows a mesh of few corners without holes while a view is chosen", async (
     {width: size, height: size, towards: [1, 1, 1], up: [0, 1, 0], options: OPTIONS});
   assert.equal(status, 200, String(body).slice(0, 200));
   const opaque = (x, y) => body[4 * (y * size + x) + 3] > 0;
-  for (let i = -20; i <= 20; ++i) assert.ok(opaque(size / 2 + i, size / 2) && opaque(size / 2, size / 2 + i), `at ${i}`);
+  for (let i = -20; i <= 20; ++i)
+    assert.ok(opaque(size / 2 + i, size / 2) && opaque(size / 2, size / 2 + i), `at ${i}`);
   await other.stop();
 });
 
