@@ -50,6 +50,13 @@ Range range_of(std::span<const double> bright, std::span<const std::uint8_t> is_
   return {std::clamp(dark, least_dark_of_bright * brightest, dark_of_bright * brightest), brightest};
 }
 
+// Returns 0 for the brightest points and 1 for the darkest; between them it is linear in the logarithm.
+double darkness(double bright, const Range& range) {
+  if (!(range.brightest > 0)) return 1;
+  const double within = std::clamp(bright, range.darkest, range.brightest);
+  return std::log(within / range.brightest) / std::log(range.darkest / range.brightest);
+}
+
 }  // namespace
 
 Result<Form> parse_form(std::string_view name) {
@@ -74,14 +81,11 @@ HeightFieldMesh lithophane(const Surface& surface, double mm_per_unit, double he
   parallel_for(bright.size(), [&](std::size_t i) {
     bright[i] = shade(surface.normals[i]) * (surface.colours.empty() ? 1 : luminance(surface.colours[i]));
   });
-  const auto [darkest, brightest] = range_of(bright, surface.boundary.is_boundary);
+  const Range range = range_of(bright, surface.boundary.is_boundary);
   HeightFieldMesh front{std::vector<Vec3>(bright.size()), surface.triangulation.triangles,
                         surface.triangulation.hull, height_mm, surface.colours};
   parallel_for(bright.size(), [&](std::size_t i) {
-    const bool is_dark = surface.boundary.is_boundary[i] || !(brightest > 0);
-    const double share = is_dark ? 1
-                                 : std::log(std::clamp(bright[i], darkest, brightest) / brightest) /
-                                       std::log(darkest / brightest);
+    const double share = surface.boundary.is_boundary[i] ? 1 : darkness(bright[i], range);
     const Vec2 place = mm_per_unit * surface.points[i].head<2>();
     front.points[i] = {place.x(), place.y(), height_mm * share};
   });
