@@ -10,7 +10,6 @@
 #include "cli/terminal.h"
 #include "common/export_file.h"
 #include "common/files.h"
-#include "common/make_order.h"
 #include "common/make_report.h"
 #include "common/project.h"
 #include "common/project_file.h"
@@ -59,7 +58,7 @@ Result<MakeOrder> order_of(MakeArguments arguments, const CLI::App& command) {
   RELIEVO_TRY(order.project, take_project(arguments, command));
   const bool has_base = command.count("--base") > 0 || arguments.relief.base != OptionTexts{}.base;
   if (!arguments.base_image.empty() && !has_base) arguments.relief.base = "image";
-  RELIEVO_TRY(order.relief, parse_with_outline(arguments.relief, command.count("--outline") > 0));
+  RELIEVO_TRY(order.relief, parse_options(arguments.relief));
   std::optional<Project> project;
   if (order.project) project = order.project->project;
   RELIEVO_TRY(std::shared_ptr<const Image<float>> base_image,

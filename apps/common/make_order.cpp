@@ -11,21 +11,13 @@
 
 namespace relievo::app {
 
-Result<ReliefOptions> parse_with_outline(const OptionTexts& texts, bool is_outline_given) {
-  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
-  if (!is_outline_given) return options;
-  RELIEVO_TRY(options.outline, parse_outline(texts.outline));
-  RELIEVO_CHECK(check(options));
-  return options;
-}
-
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Project>& project) {
   OptionTexts texts = order.texts;
   const auto is_given = [&](std::string_view name) { return order.given.contains(std::string(name)); };
   if (project) texts = with_given(project->options, order.texts, is_given);
   const bool has_image = order.base_image || !order.base_image_path.empty();
   if (has_image && texts.base == OptionTexts{}.base && !is_given("base")) texts.base = "image";
-  RELIEVO_TRY(ReliefOptions options, parse_with_outline(texts, is_given("outline")));
+  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
   RELIEVO_TRY(
       std::shared_ptr<const Image<float>> image,
       order.base_image ? order.base_image : base_image_for(options.base, order.base_image_path, project));

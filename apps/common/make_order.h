@@ -27,10 +27,6 @@ struct MakeOrder {
   std::shared_ptr<const Image<float>> base_image = nullptr;
 };
 
-// Returns the options that the texts say. A diameter makes a circle of the rectangle that is the usual outline, but not of
-// one that was asked for, which is an error. Errors: kind option.
-Result<ReliefOptions> parse_with_outline(const OptionTexts& texts, bool is_outline_given);
-
 // Returns the options as values, those of a project included. Errors: those of parse_options() and take_base_image().
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Project>& project);
 

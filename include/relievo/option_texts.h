@@ -32,13 +32,13 @@ struct OptionTexts : NumericOptions, ViewTexts {
   std::string method;  // empty: see ReliefOptions
   std::string tone;    // see parse_tone_curve(); empty: none
   std::string mode = "exact";
-  std::string outline = "rectangle";  // see outline.h; with a diameter it is a circle
-  std::string plate;                  // see parse_plate_size(); empty: none
-  std::string shift;                  // see parse_shift(); empty: none
-  std::string base = "plane";         // see parse_base()
-  std::string wrap = "none";          // see parse_wrap()
-  std::string form = "relief";        // see forms.h
-  std::string tool;                   // see parse_tool(); empty: none
+  std::string outline;          // see outline.h; empty: rectangle, or circle with a diameter
+  std::string plate;            // see parse_plate_size(); empty: none
+  std::string shift;            // see parse_shift(); empty: none
+  std::string base = "plane";   // see parse_base()
+  std::string wrap = "none";    // see parse_wrap()
+  std::string form = "relief";  // see forms.h
+  std::string tool;             // see parse_tool(); empty: none
   std::string finish = "full";
 };
 

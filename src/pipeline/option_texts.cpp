@@ -169,6 +169,7 @@ std::vector<ReliefField> plate_rows() {
                    .unit = "SHAPE",
                    .help = "outline of the plate; round has round corners, none is "
                            "the relief alone, cut out along its silhouette",
+                   .otherwise = "rectangle; circle with a diameter",
                    .choices = names_of(outline_choices)},
                   &OptionTexts::outline},
       ReliefField{{"corner", "MM", "radius of the corners of outline round", .01, 1e5},
@@ -314,8 +315,11 @@ Result<ReliefOptions> parse_options(const OptionTexts& texts) {
   }
   RELIEVO_TRY(options.mode, parse_mode(texts.mode));
   RELIEVO_TRY(options.view, parse_view(static_cast<const ViewTexts&>(texts)));
-  RELIEVO_TRY(options.outline, parse_outline(texts.outline));
-  if (options.diameter_mm && options.outline == Outline::rectangle) options.outline = Outline::circle;
+  if (!texts.outline.empty()) {
+    RELIEVO_TRY(options.outline, parse_outline(texts.outline));
+  } else if (options.diameter_mm) {
+    options.outline = Outline::circle;
+  }
   if (!texts.plate.empty()) {
     Result<Vec2> size = parse_plate_size(texts.plate);
     if (!size) return option_error("plate", size.error().expected);
