@@ -48,8 +48,8 @@ const asShown = (name, text) => pairText(name, text, (side) => Number(shortLengt
 const isChosen = (width) =>
   width !== FIRST.options.width && Object.values(KINDS).every(({part}) => part.width !== width);
 
-// Returns the changes besides that of the outline: a size that the new outline cannot have is dropped, and so is the rim
-// of a piece without an outline.
+// Returns the changes besides that of the outline: a size that the new outline cannot have is dropped, and so is the
+// rim of a piece without an outline.
 function besidesOutline(value, {diameter, plate}, shownWidth) {
   const rim = value === "none" ? {rim: null, "rim-height": null, "rim-bevel": null} : {};
   const isRound = value === "circle", hasSides = ["rectangle", "round", "ellipse"].includes(value);

@@ -6,7 +6,8 @@ import {FIRST} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
 
-const SHAPING = ["detail", "boundary", "steepest", "steps"]; // of which a lithophane has none: light and colours make it
+// What shapes heights: a lithophane, which is made from light and colours, has none of it.
+const SHAPING = ["detail", "boundary", "steepest", "steps"];
 
 export class Sliders {
   // `frame` returns the numbers of the newest picture, or null; `say` takes a line for people.
