@@ -4,11 +4,11 @@
 import {about, defaultOf} from "./about.js";
 
 // The options whose first value in the page differs from the engine's default.
-const START = {view: "auto", height: 5, method: "layered",
+const START = {view: "auto", height: 5, method: "layered", outline: "rectangle",
   mode: "auto", tone: "", "base-image": "", up: "", crop: "", crumbs: "drop", plane: "keep", denoise: "auto"};
 
 // The options that the page changes besides.
-const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "outline", "corner",
+const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "corner",
   "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "shift", "base", "wrap", "form",
   "tool", "finish", "points", "resolution", "tolerance", "triangles", "draft"];
 
