@@ -76,9 +76,9 @@ TEST_F(CliRefusals, LeavesNothingHalfWrittenOnAFullDisk) {
 // The limit lets the solid pass and stops the height map, which is larger.
 TEST_F(CliRefusals, WritesAllFilesOrNone) {
   const std::string limit = "trap '' XFSZ; ulimit -f 4000;";
-  EXPECT_EQ(run("make torus.ply -o t.stl --resolution 1", limit).exit_code, 0);
+  EXPECT_EQ(run("make torus.ply -o t.stl --resolution 2", limit).exit_code, 0);
   fs::remove(folder_ / "t.stl");
-  expect_refusal("make torus.ply -o t.stl --resolution 1 --heightmap h.png --heightmap-size 4096", "h.png",
+  expect_refusal("make torus.ply -o t.stl --resolution 2 --heightmap h.png --heightmap-size 4096", "h.png",
                  limit);
 }
 

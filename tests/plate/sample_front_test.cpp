@@ -56,6 +56,17 @@ TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
     }
 }
 
+TEST(SampleFront, LiesOnItWithFourSamplesInASquareToo) {
+  const HeightFieldMesh front = front_of(dome);
+  const HeightFieldMesh coarse = sample_front(front, all_of(front, 1), {.2, .1}).value();
+  const HeightFieldMesh fine = sample_front(front, all_of(front, 1), {.2, .004}).value();
+  EXPECT_GT(fine.points.size(), 2 * coarse.points.size());
+  for (const Vec3& p : fine.points)
+    if ((p.head<2>() - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .4 * side) {
+      EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
+    }
+}
+
 TEST(SampleFront, IsFinerWhereAskedAndCoarserWherePlane) {
   const HeightFieldMesh curved = front_of([](const Vec2&p) { return std::sin(p.x()) * std::cos(p.y()); }),
                         plane = front_of([](const Vec2&p) { return .1 * p.x(); });

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/groups.h"
+#include "geometry/plane.h"
 #include "geometry/point_set.h"
 #include "geometry/segment_grid.h"
 #include "geometry/smooth_surface.h"
 #include "plate/front/diagonals.h"
 #include "plate/front/sample_grid.h"
+#include "plate/front/sample_squares.h"
 #include "plate/front/silhouette.h"
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"
@@ -16,11 +19,11 @@
 namespace relievo {
 namespace {
 
-constexpr int band_rings = 3;      // of triangles beside creases that keep their points
-constexpr int coarsest_level = 3;  // squares have sides of 1, 2, 4 or 8 steps
+constexpr int band_rings = 3;  // of triangles beside creases that keep their points
 constexpr int most_divisions = 16;
 // Least distances of samples from the band's points, and between these but on creases, in steps.
 constexpr double apart = .6, apart_in_band = .3;
+constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 
 // Marks the triangles that are not smooth, and those up to some rings of smooth triangles beside them and the hull.
 std::vector<std::uint8_t> band_triangles(const HeightFieldMesh& front,
@@ -40,22 +43,6 @@ std::vector<std::uint8_t> band_triangles(const HeightFieldMesh& front,
   return is_band;
 }
 
-// Least and greatest slope in a square.
-struct SlopeRange {
-  Eigen::Vector2f least = Eigen::Vector2f::Constant(std::numeric_limits<float>::infinity());
-  Eigen::Vector2f most = -least;
-
-  void extend(const SlopeRange& other) {
-    least = least.cwiseMin(other.least);
-    most = most.cwiseMax(other.most);
-  }
-  // Returns an upper bound of the angle between two normals in the square, about.
-  float turn() const {
-    const Eigen::Vector2f middle = (least + most) / 2;
-    return (most - least).norm() / (1 + middle.squaredNorm());
-  }
-};
-
 class Sampler {
  public:
   Sampler(const HeightFieldMesh& front, std::span<const std::uint8_t> is_smooth, const FrontSampling& options)
@@ -64,7 +51,12 @@ class Sampler {
         options_(options),
         surface_(front.points, front.triangles, is_smooth),
         is_band_(band_triangles(front, is_smooth)),
-        grid_(sample_grid(front, options.resolution_mm, 1 << coarsest_level)) {}
+        grid_(sample_grid(front, options.resolution_mm, largest_square)),
+        band_points_(apart_in_band * grid_.step),
+        around_(grouped<Index>(front.points.size(), [&](auto&& use) {
+          for (Index t = 0; t < front.triangles.size(); ++t)
+            for (const Index i : front.triangles[t]) use(i, t);
+        })) {}
 
   Result<HeightFieldMesh> make(const Progress* progress) {
     RELIEVO_CHECK(check_cancelled(progress));
@@ -117,7 +109,7 @@ class Sampler {
     for (Index i = 0; i < is_kept.size(); ++i) {
       if (!is_kept[i]) continue;
       out_.points.push_back(front_.points[i]);
-      slopes_.push_back(Vec2f::Constant(std::numeric_limits<float>::quiet_NaN()));
+      slopes_.push_back(Vec2f::Constant(no_slope));
       is_fixed_.push_back(is_fixed[i]);
       if (!front_.colours.empty()) out_.colours.push_back(front_.colours[i]);
     }
@@ -188,13 +180,12 @@ class Sampler {
   // Points of a scan may nearly coincide as seen. Those of creases stay all, of others one in each place.
   void thin_out_band() {
     const double least = apart_in_band * options_.resolution_mm;
-    PointSet taken(least);
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
     for (std::size_t i = 0; i < out_.points.size(); ++i)
-      if (is_fixed_[i]) taken.add(plane(i), 0);
+      if (is_fixed_[i]) band_points_.add(plane(i), 0);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < out_.points.size(); ++i) {
-      if (!is_fixed_[i] && !taken.add(plane(i), least)) continue;
+      if (!is_fixed_[i] && !band_points_.add(plane(i), least)) continue;
       out_.points[kept] = out_.points[i];
       slopes_[kept] = slopes_[i];
       if (!out_.colours.empty()) out_.colours[kept] = out_.colours[i];
@@ -209,71 +200,70 @@ class Sampler {
     return t != no_index && is_smooth_[t] && !is_band_[t];
   }
 
-  // Adds a place near the middle of each square. A square is one step wide, or more if all of it is nearly plane.
-  // Neighbouring squares differ by a factor of two at most.
+  // Adds a place near the middle of each square outside the band.
   void add_squares() {
     const int width = grid_.input.width, height = grid_.input.height;
-    std::vector<Image<std::uint8_t>> is_whole;  // per level: the square is not divided
-    Image<SlopeRange> ranges = filled_image(width, height, SlopeRange());
-    is_whole.push_back(filled_image(width, height, std::uint8_t{0}));
+    Image<Vec2f> slopes = filled_image(width, height, Vec2f(Vec2f::Constant(no_slope)));
     parallel_for(
         static_cast<std::size_t>(height),
         [&](std::size_t row) {
           const int y = static_cast<int>(row);
-          for (int x = 0; x < width; ++x) {
-            if (!is_open(x, y)) continue;
-            const Eigen::Vector2f slope =
-                surface_.at(grid_.triangle.at(x, y), grid_.place(x, y)).slope.cast<float>();
-            ranges.at(x, y) = {slope, slope};
-            is_whole[0].at(x, y) = 1;
-          }
+          for (int x = 0; x < width; ++x)
+            if (is_open(x, y))
+              slopes.at(x, y) = surface_.at(grid_.triangle.at(x, y), grid_.place(x, y)).slope.cast<float>();
         },
         16);
-    for (int level = 1; level <= coarsest_level; ++level) ranges = merge(ranges, is_whole);
     const std::vector<std::uint8_t> is_taken = taken_cells();
-    for (int level = 0; level <= coarsest_level; ++level) {
-      const Image<std::uint8_t>& squares = is_whole[static_cast<std::size_t>(level)];
-      for (int y = 0; y < squares.height; ++y)
-        for (int x = 0; x < squares.width; ++x)
-          if (squares.at(x, y)) add_square(x, y, level, is_taken);
+    for (const SampleSquare& square : sample_squares(slopes, static_cast<float>(options_.facet_angle))) {
+      if (square.is_quartered)
+        add_quarters(square);
+      else if (square.side > 1 || !is_taken[grid_.triangle.index(square.x, square.y)])
+        add_middle(square);
     }
   }
 
-  // Adds the next level: squares of four whole ones that are plane together, if all squares around are whole or
-  // larger. Their parts are no longer whole.
-  Image<SlopeRange> merge(const Image<SlopeRange>& fine, std::vector<Image<std::uint8_t>>& is_whole) const {
-    const int width = fine.width / 2, height = fine.height / 2;
-    const Image<std::uint8_t>& parts = is_whole.back();
-    Image<SlopeRange> ranges = filled_image(width, height, SlopeRange());
-    Image<std::uint8_t> can_merge = filled_image(width, height, std::uint8_t{0});
-    const auto most = static_cast<float>(options_.plane_angle) * 2;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        bool are_whole = true;
-        for (int k = 0; k < 4; ++k) {
-          const int px = 2 * x + k % 2, py = 2 * y + k / 2;
-          are_whole &= parts.at(px, py) != 0;
-          ranges.at(x, y).extend(fine.at(px, py));
-        }
-        can_merge.at(x, y) = are_whole && ranges.at(x, y).turn() < most;
-      }
-    // A square next to smaller ones than its parts would differ by a factor of four.
-    Image<std::uint8_t> whole = filled_image(width, height, std::uint8_t{0});
-    for (int y = 1; y + 1 < height; ++y)
-      for (int x = 1; x + 1 < width; ++x) {
-        bool fits = can_merge.at(x, y);
-        for (int k = 0; k < 9 && fits; ++k) {
-          const int nx = x + k % 3 - 1, ny = y + k / 3 - 1;
-          for (int part = 0; part < 4; ++part) fits &= parts.at(2 * nx + part % 2, 2 * ny + part / 2) != 0;
-        }
-        whole.at(x, y) = fits;
-      }
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x)
-        if (whole.at(x, y))
-          for (int k = 0; k < 4; ++k) is_whole.back().at(2 * x + k % 2, 2 * y + k / 2) = 0;
-    is_whole.push_back(std::move(whole));
-    return ranges;
+  void add_middle(const SampleSquare& square) {
+    const int x = square.x + square.side / 2, y = square.y + square.side / 2;
+    const Index t = grid_.triangle.at(x, y);
+    const Vec2 place = grid_.place(x, y);
+    add(t, place, surface_.at(t, place));
+  }
+
+  // Adds the middles of the quarters of a square that are not next to a point of the band.
+  void add_quarters(const SampleSquare& square) {
+    for (int k = 0; k < 4; ++k) {
+      const Vec2 place = grid_.place(Vec2(square.x + .25 + .5 * (k % 2), square.y + .25 + .5 * (k / 2)));
+      if (band_points_.is_near(place, apart * grid_.step / 2)) continue;
+      const Index t = triangle_at(grid_.triangle.at(square.x, square.y), place);
+      if (t != no_index) add(t, place, surface_.at(t, place));
+    }
+  }
+
+  // Returns the triangle that a place lies in, walking there from one nearby; no_index if the way is long or leads
+  // outside.
+  Index triangle_at(Index t, const Vec2& place) const {
+    constexpr int longest_way = 64;
+    for (int step = 0; step < longest_way && t != no_index; ++step) {
+      const Triangle& corners = front_.triangles[t];
+      std::size_t i = 0;
+      while (i < 3 && !is_right_of(corners[i], corners[(i + 1) % 3], place)) ++i;
+      if (i == 3) return t;
+      t = across(t, corners[i], corners[(i + 1) % 3]);
+    }
+    return no_index;
+  }
+
+  bool is_right_of(Index from, Index to, const Vec2& place) const {
+    const Vec2 start = front_.points[from].head<2>();
+    return cross(front_.points[to].head<2>() - start, place - start) < 0;
+  }
+
+  // Returns the other triangle with a side between two points.
+  Index across(Index t, Index a, Index b) const {
+    for (const Index other : around_[a])
+      if (other != t && std::ranges::find(front_.triangles[other], b) != front_.triangles[other].end())
+        return other;
+    return no_index;
   }
 
   // Returns the cells of the grid near points of the band.
@@ -288,15 +278,6 @@ class Sampler {
             is_taken[grid_.triangle.index(x, y)] = 1;
     }
     return is_taken;
-  }
-
-  void add_square(int x, int y, int level, const std::vector<std::uint8_t>& is_taken) {
-    const int side = 1 << level, left = x * side, top = y * side;
-    if (level == 0 && is_taken[grid_.triangle.index(left, top)]) return;
-    const int middle_x = left + side / 2, middle_y = top + side / 2;
-    const Vec2 place = grid_.place(middle_x, middle_y);
-    const Index t = grid_.triangle.at(middle_x, middle_y);
-    add(t, place, surface_.at(t, place));
   }
 
   void keep_within_range() {
@@ -346,6 +327,8 @@ class Sampler {
   SmoothSurface surface_;
   std::vector<std::uint8_t> is_band_;
   SampleGrid grid_;
+  PointSet band_points_;
+  Groups<Index> around_;  // per point of the front: its triangles
   HeightFieldMesh out_;
   std::vector<Vec2f> slopes_;           // of the points of out_; not numbers for those of the given front
   std::vector<std::uint8_t> is_fixed_;  // per point of the band: it stays

@@ -11,8 +11,9 @@ namespace relievo {
 struct FrontSampling {
   // Longest step between samples, > 0, where the surface is not plane.
   double resolution_mm = .15;
-  // Samples are up to 8 steps apart if the surface turns by less than this, in radians, from one to the next.
-  double plane_angle = .012;
+  // Facets may turn by this much from one to the next, in radians, where the surface turns evenly: samples are up to 8
+  // steps apart where it turns less, and half a step where it turns more.
+  double facet_angle = .034;
 };
 
 // Returns a front over the same hull whose points lie on the smooth surface through the given one: on a grid of

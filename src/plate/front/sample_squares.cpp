@@ -1,0 +1,120 @@
+#include "plate/front/sample_squares.h"
+
+#include <limits>
+
+namespace relievo {
+namespace {
+
+// A turn is even if it changes from one cell to the next by at most this share of itself. Where it does not, as on rough
+// surfaces, facets do not show.
+constexpr float most_change = .25F;
+// So many facet angles make a crease, which finer facets would not round.
+constexpr float crease = 3;
+
+// The angle between the normals of two slopes, about, in radians.
+float turn_between(const Vec2f& a, const Vec2f& b) {
+  return (a - b).norm() / (1 + (a + b).squaredNorm() / 4);
+}
+
+// Returns whether the surface turns evenly, and by more than facets may, from one cell over the next to a third.
+bool turns_evenly(const Vec2f& before, const Vec2f& middle, const Vec2f& after, float facet_angle) {
+  const float turn = turn_between(before, after) / 2, change = turn_between(before + after - middle, middle);
+  return turn > facet_angle && turn < crease * facet_angle && change < most_change * turn;
+}
+
+// Least and greatest slope in a square.
+struct SlopeRange {
+  Vec2f least = Vec2f::Constant(std::numeric_limits<float>::infinity()), most = -least;
+
+  void extend(const SlopeRange& other) {
+    least = least.cwiseMin(other.least);
+    most = most.cwiseMax(other.most);
+  }
+  float turn() const { return turn_between(least, most); }
+};
+
+// The squares of one side: their slopes, and which are in use.
+struct Level {
+  Image<SlopeRange> ranges;
+  Image<std::uint8_t> is_used;
+
+  Level(int width, int height)
+      : ranges(filled_image(width, height, SlopeRange())),
+        is_used(filled_image(width, height, std::uint8_t{0})) {}
+};
+
+Level cells_of(const Image<Vec2f>& slopes) {
+  Level cells(slopes.width, slopes.height);
+  for (std::size_t i = 0; i < slopes.pixels.size(); ++i) {
+    const Vec2f& slope = slopes.pixels[i];
+    if (!slope.allFinite()) continue;
+    cells.ranges.pixels[i] = {slope, slope};
+    cells.is_used.pixels[i] = 1;
+  }
+  return cells;
+}
+
+// Returns whether all squares in and around a square of twice their side are in use. Next to smaller ones, it would
+// differ from them by a factor of four.
+bool can_be_joined(const Level& parts, int x, int y) {
+  for (int py = 2 * y - 2; py < 2 * y + 4; ++py)
+    for (int px = 2 * x - 2; px < 2 * x + 4; ++px)
+      if (!parts.is_used.at(px, py)) return false;
+  return true;
+}
+
+// Joins four squares each to one of the next level where all of it turns by at most `most`; they are not in use then.
+Level joined(Level& parts, float most) {
+  Level whole(parts.ranges.width / 2, parts.ranges.height / 2);
+  Image<std::uint8_t> can_join = whole.is_used;
+  for (int y = 0; y < whole.ranges.height; ++y)
+    for (int x = 0; x < whole.ranges.width; ++x) {
+      bool are_used = true;
+      for (int k = 0; k < 4; ++k) {
+        whole.ranges.at(x, y).extend(parts.ranges.at(2 * x + k % 2, 2 * y + k / 2));
+        are_used &= parts.is_used.at(2 * x + k % 2, 2 * y + k / 2) != 0;
+      }
+      can_join.at(x, y) = are_used && whole.ranges.at(x, y).turn() < most;
+    }
+  for (int y = 1; y + 1 < whole.ranges.height; ++y)
+    for (int x = 1; x + 1 < whole.ranges.width; ++x)
+      whole.is_used.at(x, y) = can_join.at(x, y) && can_be_joined(parts, x, y);
+  for (int y = 0; y < whole.ranges.height; ++y)
+    for (int x = 0; x < whole.ranges.width; ++x)
+      if (whole.is_used.at(x, y))
+        for (int k = 0; k < 4; ++k) parts.is_used.at(2 * x + k % 2, 2 * y + k / 2) = 0;
+  return whole;
+}
+
+bool is_quartered(const Image<Vec2f>& slopes, int x, int y, float facet_angle) {
+  if (x == 0 || y == 0 || x + 1 == slopes.width || y + 1 == slopes.height) return false;
+  const auto slope = [&](int dx, int dy) -> const Vec2f& { return slopes.at(x + dx, y + dy); };
+  const auto is_even = [&](int dx, int dy) {
+    return turns_evenly(slope(-dx, -dy), slope(0, 0), slope(dx, dy), facet_angle);
+  };
+  return is_even(1, 0) || is_even(0, 1);
+}
+
+}  // namespace
+
+std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle) {
+  std::vector<Level> levels;
+  levels.push_back(cells_of(slopes));
+  for (int side = 2; side <= largest_square; side *= 2) {
+    // The slopes are those of the cells' middles, which do not reach as far as the square.
+    const float reach = static_cast<float>(side - 1) / static_cast<float>(side);
+    levels.push_back(joined(levels.back(), reach * facet_angle));
+  }
+  std::vector<SampleSquare> squares;
+  int side = 1;
+  for (const Level& level : levels) {
+    for (int y = 0; y < level.is_used.height; ++y)
+      for (int x = 0; x < level.is_used.width; ++x)
+        if (level.is_used.at(x, y))
+          squares.push_back({x * side, y * side, side, side == 1 && is_quartered(slopes, x, y, facet_angle)});
+    side *= 2;
+  }
+  return squares;
+}
+
+}  // namespace relievo

@@ -1,0 +1,88 @@
+// The solid of a shape that is smooth but for its silhouette and one depth jump: a button with a smaller one before it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "relievo/make_relief.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double face = 1, rounding = .15, width_mm = 100;
+constexpr double silhouette_mm = width_mm / 2, jump_mm = silhouette_mm / 2;
+
+Cloud two_buttons(std::size_t n) {
+  return test::joined(test::button(4 * n / 5, face, rounding),
+                      test::button(n / 5, face / 2, rounding / 2, .5));
+}
+
+// Returns the angles in degrees between the facets of the front that share a side inside, but not on the silhouette and
+// the jump.
+std::vector<double> facet_angles(const Solid& solid, double rho_mm) {
+  const auto normal = [&](std::size_t t) -> Vec3 {
+    const auto& [a, b, c] = solid.triangles[t];
+    return (solid.points[b] - solid.points[a]).cross(solid.points[c] - solid.points[a]).normalized();
+  };
+  const Vec2 middle = solid.shift.head<2>();
+  std::map<std::pair<Index, Index>, std::size_t> sides;
+  std::vector<double> angles;
+  for (std::size_t t = 0; t < solid.front_triangles; ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index a = solid.triangles[t][i], b = solid.triangles[t][(i + 1) % 3];
+      const auto [other, is_new] = sides.emplace(std::minmax(a, b), t);
+      const double r = ((solid.points[a] + solid.points[b]).head<2>() / 2 - middle).norm();
+      const bool is_inside = r < silhouette_mm - .1 * rho_mm && std::abs(r - jump_mm) > .5 * rho_mm;
+      if (is_new || !is_inside) continue;
+      const double cosine = normal(t).dot(normal(other->second));
+      angles.push_back(std::acos(std::min(cosine, 1.)) * 180 / std::numbers::pi);
+    }
+  return angles;
+}
+
+double quantile(std::vector<double> values, double share) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, at);
+  return *at;
+}
+
+MadeRelief made_of(const Cloud& cloud) {
+  ReliefOptions options;
+  options.width_mm = width_mm;
+  options.height_mm = 3;
+  return make_relief(cloud, options).value();
+}
+
+// A scan of so many points, and how much the facets of its solid may turn.
+struct ScanSize {
+  std::size_t points;
+  double most_deg;  // that 99 % do not exceed
+};
+
+class SmoothSolid : public testing::TestWithParam<ScanSize> {};
+
+// The edge of the small button turns by 14 degrees from one of 20,000 points to the next, and by 3 of 250,000.
+TEST_P(SmoothSolid, HasNoFacetsThatShow) {
+  const MadeRelief made = made_of(two_buttons(GetParam().points));
+  const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
+  EXPECT_LT(quantile(angles, .99), GetParam().most_deg);
+}
+
+INSTANTIATE_TEST_SUITE_P(Points, SmoothSolid,
+                         testing::Values(ScanSize{20000, 5}, ScanSize{100000, 2.5}, ScanSize{250000, 2}));
+// This takes long, and runs with --gtest_also_run_disabled_tests alone.
+INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2}));
+
+TEST(SilhouetteOfASolid, HasNoBendBesideIt) {
+  // The slope grows from row to row of points, as that of the button does.
+  const MadeRelief made = made_of(two_buttons(250000));
+  const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
+  EXPECT_LT(quantile(angles, .999), 4);
+}
+
+}  // namespace
+}  // namespace relievo

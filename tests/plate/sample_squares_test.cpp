@@ -1,0 +1,78 @@
+#include "plate/front/sample_squares.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace relievo {
+namespace {
+
+constexpr float angle = .03F, none = std::numeric_limits<float>::quiet_NaN();
+
+// Slopes of a grid of 64 x 64 cells.
+template <typename Slope>
+Image<Vec2f> grid_of(Slope slope) {
+  Image<Vec2f> slopes = filled_image(64, 64, Vec2f(Vec2f::Zero()));
+  for (int y = 0; y < slopes.height; ++y)
+    for (int x = 0; x < slopes.width; ++x) slopes.at(x, y) = slope(x, y);
+  return slopes;
+}
+
+// A surface that turns by that angle from one cell to the next, along x.
+Image<Vec2f> cylinder(float turn) {
+  return grid_of([&](int x, int) { return Vec2f(std::tan(turn * static_cast<float>(x - 32)), 0); });
+}
+
+// Returns the number of squares over each cell.
+Image<int> cover(const std::vector<SampleSquare>& squares) {
+  Image<int> covered = filled_image(64, 64, 0);
+  for (const SampleSquare& s : squares)
+    for (int y = s.y; y < s.y + s.side; ++y)
+      for (int x = s.x; x < s.x + s.side; ++x) ++covered.at(x, y);
+  return covered;
+}
+
+std::size_t quartered(const std::vector<SampleSquare>& squares) {
+  return static_cast<std::size_t>(std::ranges::count_if(squares, &SampleSquare::is_quartered));
+}
+
+TEST(SampleSquares, CoverEachCellWithASlopeOnce) {
+  const Image<Vec2f> disc = grid_of([](int x, int y) {
+    const float r = std::hypot(static_cast<float>(x - 32), static_cast<float>(y - 32));
+    return r < 30 ? Vec2f(.0005F * r * r, 0) : Vec2f(none, none);
+  });
+  const Image<int> covered = cover(sample_squares(disc, angle));
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) EXPECT_EQ(covered.at(x, y), disc.at(x, y).allFinite() ? 1 : 0);
+}
+
+TEST(SampleSquares, AreLargeOnAPlane) {
+  const std::vector<SampleSquare> squares = sample_squares(cylinder(0), angle);
+  const auto large = std::ranges::count(squares, largest_square, &SampleSquare::side);
+  EXPECT_EQ(large, 16);  // smaller ones lie around them, at the edge of the grid
+  EXPECT_EQ(quartered(squares), 0);
+}
+
+TEST(SampleSquares, TurnByNoMoreThanTheAngle) {
+  for (const float turn : {.005F, .01F, .02F}) {
+    const std::vector<SampleSquare> squares = sample_squares(cylinder(turn), angle);
+    int widest = 1;
+    for (const SampleSquare& s : squares) widest = std::max(widest, s.side);
+    EXPECT_LE(static_cast<float>(widest) * turn, angle) << turn;
+    EXPECT_GT(static_cast<float>(2 * widest) * turn, angle) << turn;
+    EXPECT_EQ(quartered(squares), 0) << turn;
+  }
+}
+
+TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
+  EXPECT_GT(quartered(sample_squares(cylinder(.035F), angle)), 64 * 50);
+  // The same turn to and fro is grain, and three times the angle a crease.
+  const Image<Vec2f> grain = grid_of([](int x, int) { return Vec2f(.04F * static_cast<float>(x % 2), 0); });
+  EXPECT_EQ(quartered(sample_squares(grain, angle)), 0);
+  const Image<Vec2f> crease = grid_of([](int x, int) { return Vec2f(x < 32 ? 0.F : .5F, 0); });
+  EXPECT_EQ(quartered(sample_squares(crease, angle)), 0);
+}
+
+}  // namespace
+}  // namespace relievo
