@@ -133,7 +133,7 @@ double ReliefOptions::effective_detail() const {
 }
 
 double ReliefOptions::effective_boundary_width() const {
-  return boundary_width.value_or(effective_method() == Method::layered ? .5 : 2);
+  return boundary_width.value_or(effective_method() == Method::layered ? .3 : 2);
 }
 
 Result<void> check(const ReliefOptions& options) {

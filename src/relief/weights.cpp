@@ -74,7 +74,7 @@ double saturation_scale(const Compression& compression) {
 Shape layered_shape() {
   Shape shape{{1, 0}, .04};
   shape.style = Style::layered;
-  shape.boundary_width = .5;
+  shape.boundary_width = .3;
   return shape;
 }
 
