@@ -8,6 +8,7 @@
 
 #include "relief/height_search.h"
 #include "relief/jump_lift.h"
+#include "relief/layered_slopes.h"
 #include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relief/vertex_normals.h"
@@ -74,7 +75,7 @@ struct FrameMaker::Packed {
     const Stopwatch watch;
     with_style(frame.options.shape, [&](const auto& style) {
       weight.fill(input.delta, style.weighted());
-      write_slopes<float>(input, style, weight, slopes);
+      write_slopes(input, style, weight, std::span<Vec2f>(slopes));
     });
     system.solve(slopes, frame.heights, std::get<HeightSystem::Workspace>(workspace));
     frame.times.heights_s += watch.seconds();

@@ -102,9 +102,14 @@ class PaperStyle {
 class LayeredStyle {
  public:
   explicit LayeredStyle(const Shape& shape)
-      : shape_(shape), weights_(layer_weights(shape)), scale_(saturation_scale(shape.compression)) {}
+      : shape_(shape), weights_(relievo::layer_weights(shape)), scale_(saturation_scale(shape.compression)) {}
 
   Compression weighted() const { return saturation_alone(shape_.compression); }
+
+  // What slope() uses, for the slopes of many points at a time.
+  const LayerWeights& layer_weights() const { return weights_; }
+  double scale() const { return scale_; }
+  double max_slope() const { return shape_.max_slope; }
 
   template <typename Real>
   Eigen::Vector2<Real> slope(const SlopeInput& input, std::size_t i, Real w_k, Real w_b) const {

@@ -1,0 +1,62 @@
+#include "relief/layered_slopes.h"
+
+#include <gtest/gtest.h>
+
+#include "core/simd.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+// Points of all kinds: steep, level and beyond the steepest slope, in a number that eight does not divide.
+struct Points {
+  std::vector<Vec3f> normals;
+  std::vector<float> k, boundary_weight;
+  std::vector<PointLayers> layers;
+  SlopeInput input;
+
+  explicit Points(std::size_t n) {
+    test::Random random(5);
+    const auto xy = [&] {
+      return Vec2f(static_cast<float>(random.uniform(-.7, .7)), static_cast<float>(random.uniform(-.7, .7)));
+    };
+    for (std::size_t i = 0; i < n; ++i) {
+      normals.emplace_back(0, 0, 1);
+      k.push_back(i % 10 == 0 ? 0 : static_cast<float>(random.uniform(-1, 1)));
+      boundary_weight.push_back(static_cast<float>(random.uniform()));
+      layers.push_back(i % 7 == 0 ? PointLayers{} : PointLayers{xy(), xy(), xy(), xy()});
+    }
+    input = {normals, k, boundary_weight, .3, layers};
+  }
+};
+
+// Point by point, as layered_slope() tells.
+void expect_slopes_of_single_points(const Shape& shape) {
+  const Points points(10003);
+  const LayeredStyle style(shape);
+  WeightTable weight;
+  weight.fill(points.input.delta, style.weighted());
+  std::vector<Vec2f> single(points.k.size()), many(single);
+  write_slopes<float>(points.input, style, weight, std::span<Vec2f>(single));
+  for (const bool is_wide : {true, false}) {
+    allow_avx2(is_wide);
+    write_slopes(points.input, style, weight, std::span<Vec2f>(many));
+    EXPECT_EQ(many, single);
+  }
+  allow_avx2(true);
+}
+
+TEST(LayeredSlopes, AreThoseOfSinglePointsToTheLastBit) {
+  Shape shape = layered_shape();
+  for (const double share : {0., .7, 1.}) {
+    shape.membrane = MembraneParams{};
+    shape.membrane->height_share = share;
+    expect_slopes_of_single_points(shape);
+  }
+  shape.compression = {.5, 1.5};
+  shape.max_slope = .6;
+  expect_slopes_of_single_points(shape);
+}
+
+}  // namespace
+}  // namespace relievo
