@@ -49,9 +49,10 @@ class StatusStream {
   // Returns the events since the last call. A comment in place of none finds out whether the page is still there.
   std::string next() {
     std::string text = is_new_ ? cat("retry: 300\ndata: ", Json{{"run", run_name_}}.dump(), "\n\n") : ":\n";
-    is_new_ = false;
+    is_new_ = is_busy_ = false;
     for (Json& status : actions_.statuses()) {
       const std::string document = status["document"];
+      is_busy_ |= status.value("busy", false);
       status["run"] = run_name_;
       std::string line = status.dump(-1, ' ', false, Json::error_handler_t::replace);
       if (last_[document] == line) continue;
@@ -61,11 +62,14 @@ class StatusStream {
     return text;
   }
 
+  // Returns how long to wait for the next: what is being prepared is shown as soon as it is there.
+  std::chrono::milliseconds pause() const { return is_busy_ ? 15ms : 80ms; }
+
  private:
   ScopedCount count_;
   Actions& actions_;
   std::string run_name_;
-  bool is_new_ = true;
+  bool is_new_ = true, is_busy_ = false;     // busy: a document was, when events were asked for last
   std::map<std::string, std::string> last_;  // by document
 };
 
@@ -122,7 +126,7 @@ struct Server::State {
                                             if (is_stopping) return false;
                                             const std::string text = stream->next();
                                             const bool is_sent = sink.write(text.data(), text.size());
-                                            std::this_thread::sleep_for(80ms);
+                                            std::this_thread::sleep_for(stream->pause());
                                             return is_sent;
                                           });
   }

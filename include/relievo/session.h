@@ -39,6 +39,9 @@ struct Preparation {
   // right for clouds; points of a mesh are samples of one view.
   std::function<Points(Progress&)> all_sides = {};
 
+  // Whether turn() will be asked for this view as soon as points are measured, if there is no model before.
+  bool has_first_relief = false;
+
   // Called with the model just before status() says that it is ready. It must not call the session.
   std::function<void(const Model&)> ready = {};
 

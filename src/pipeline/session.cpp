@@ -26,6 +26,10 @@ struct Shared {
   std::optional<double> denoise;               // of the view that was prepared last
   std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
+  // The relief of the measured points in first_view, until there is a model; while it is made, nothing is turned.
+  std::optional<TurnedRelief> first;
+  View first_view;
+  bool makes_first = false;
 
   void cancel_turning() {
     if (turning) turning->cancel();
@@ -37,6 +41,7 @@ struct Shared {
     measured = {};
     all_sides = nullptr;
     turntable = nullptr;
+    first.reset();
   }
 };
 
@@ -76,6 +81,7 @@ struct Session::State {
       }
       s.status.fraction = 1;
       s.model = *made;
+      s.first.reset();
       if (wanted.ready) wanted.ready(*made);
     });
   }
@@ -84,16 +90,45 @@ struct Session::State {
     RELIEVO_TRY(const std::shared_ptr<const Cloud> cloud, wanted.points(progress));
     const View view = wanted.chosen_view ? wanted.chosen_view() : wanted.view;
     RELIEVO_TRY(const auto measured, measure(cloud, view, progress));
+    const auto turning = std::make_shared<Progress>();
     shared.with([&](Shared& s) {
       if (s.measured.cloud == measured || progress.is_cancelled()) return;
       s.measured = {cloud, measured};
       s.all_sides = wanted.all_sides;
       s.denoise = view.denoise;
       s.turntable = nullptr;
+      s.makes_first = wanted.has_first_relief && !s.model;
+      if (s.makes_first) s.turning = turning;
     });
+    make_first(view, turning);
+    RELIEVO_CHECK(check_cancelled(&progress));
     RELIEVO_TRY(Surface surface, find_surface(*measured, view, {}, &progress));
     RELIEVO_TRY(ReliefModel model, ReliefModel::prepare(std::move(surface), &progress, wanted.mode));
     return std::make_shared<const ReliefModel>(std::move(model));
+  }
+
+  // Makes what turn() will be asked for next, if that is wanted, before the model: both together would take longer.
+  void make_first(const View& view, const std::shared_ptr<Progress>& progress) {
+    if (!shared.with([](const Shared& s) { return s.makes_first; })) return;
+    Result<TurnedRelief> made = turned(view, nullptr, progress);
+    shared.with([&](Shared& s) {
+      if (made) s.first = std::move(*made), s.first_view = view;
+      s.makes_first = false;
+    });
+  }
+
+  Result<TurnedRelief> turned(const View& view, const ReliefModel* like,
+                              const std::shared_ptr<Progress>& progress) {
+    Result<TurnedRelief> made = cancelled();
+    if (const auto table = turntable(view, *progress); !table)
+      made = std::unexpected(table.error());
+    else
+      made = (*table)->turn(view, like, progress.get());
+    shared.with([&](Shared& s) {
+      if (s.turning == progress) s.turning = nullptr;
+    });
+    if (progress->is_cancelled()) return cancelled();
+    return made;
   }
 
   // Measures the points, unless they were measured last for a view that asks for the same.
@@ -148,6 +183,7 @@ Session::~Session() {
 void Session::open(Preparation preparation) {
   state_->shared.with([&](Shared& s) {
     if (s.progress) s.progress->cancel();
+    if (s.makes_first) s.cancel_turning();
     s.waiting = std::move(preparation);
     s.status = {true, "waiting", 0, std::nullopt};
   });
@@ -169,27 +205,20 @@ void Session::cancel() {
 
 Result<TurnedRelief> Session::turn(const View& view) {
   const auto progress = std::make_shared<Progress>();
-  const auto like = state_->shared.with([&](Shared& s) {
+  const auto [like, first] = state_->shared.with([&](Shared& s) {
     s.cancel_turning();
-    s.turning = progress;
-    return s.model;
+    const auto first = s.first_view == view ? s.first : std::nullopt;
+    s.turning = first ? nullptr : progress;
+    return std::pair(s.model, first);
   });
-  Result<TurnedRelief> turned = cancelled();
-  if (const auto turntable = state_->turntable(view, *progress); !turntable)
-    turned = std::unexpected(turntable.error());
-  else
-    turned = (*turntable)->turn(view, like.get(), progress.get());
-  state_->shared.with([&](Shared& s) {
-    if (s.turning == progress) s.turning = nullptr;
-  });
-  if (progress->is_cancelled()) return cancelled();
-  return turned;
+  if (first) return *first;
+  return state_->turned(view, like.get(), progress);
 }
 
 SessionStatus Session::status() const {
   return state_->shared.with([](const Shared& s) {
     SessionStatus status = s.status;
-    status.can_turn = s.measured.cloud != nullptr;
+    status.can_turn = s.measured.cloud != nullptr && !s.makes_first;
     return status;
   });
 }

@@ -1,4 +1,5 @@
-// Milliseconds from an event of the mouse to the picture on screen that shows it, in Chromium at 1280 x 800.
+// Milliseconds from an event of the mouse to the picture on screen that shows it, in Chromium at 1280 x 800; and from the
+// choice of a file to the first relief, and to that of all points.
 //   node apps/studio/bench/latency.mjs [relievo.html] SCAN...
 // With the page in one file, the engine is the one inside it.
 // A movement is a drag of 4 seconds with 60 events a second, which waits for no picture: what comes while a picture is
@@ -31,7 +32,8 @@ for (const scan of process.argv.slice(2).filter((file) => !isPage(file))) await 
 await browser.close();
 
 async function measure(scan) {
-  const page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
+  if (!html) await measureOpening(scan);
+  const page = await newPage();
   const end = await (html ? openInPage(page, scan) : openInProgram(page, scan));
   await page.getByText(/points.*height/).waitFor({timeout: 120000});
   await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
@@ -46,6 +48,31 @@ async function measure(scan) {
   }
   await page.close();
   await end();
+}
+
+async function newPage() {
+  return (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
+}
+
+// The median of five openings, each by an engine that was just started.
+async function measureOpening(scan) {
+  const first = [], exact = [];
+  for (let i = 0; i < 5; ++i) {
+    const page = await newPage(), state = temporaryFolder(), engine = await new EngineProcess(state).ready();
+    await page.goto(engine.address);
+    await page.getByRole("button", {name: "Open", exact: true}).waitFor();
+    await page.evaluate(listen, "change");
+    await page.locator("#file").setInputFiles(scan);
+    await page.getByText(/points.*height/).waitFor({timeout: 120000});
+    const [facts, {events, pictures}] = await page.evaluate(() => [performance.now(), window.heard]);
+    first.push(pictures[0].at - events[0]);
+    exact.push(facts - events[0]);
+    await page.close();
+    await engine.stop();
+    removeFolder(state);
+  }
+  const median = (times) => times.sort((a, b) => a - b)[2].toFixed(0);
+  row([path.basename(scan, path.extname(scan)), "open: first, exact relief", median(first), median(exact), "", ""]);
 }
 
 // Both open a scan, and return what ends its engine.

@@ -1,0 +1,206 @@
+// Sessions while their model is turned.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <semaphore>
+#include <thread>
+
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
+#include "relievo/session.h"
+#include "support/preparations.h"
+
+namespace relievo {
+namespace {
+
+using namespace std::chrono_literals;
+using test::preparation_of, test::Stuck;
+
+View view_to(const char* direction) {
+  return parse_view(direction).value();
+}
+
+TEST(Session, TurnsWhatWasPrepared) {
+  Session session;
+  session.open(preparation_of(20'000));
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  const auto model = session.model();
+  const auto turned = session.turn(view_to("1,1,1"));
+  ASSERT_TRUE(turned) << turned.error().message();
+  EXPECT_EQ(turned->model->surface().view, view_to("1,1,1"));
+  EXPECT_EQ(turned->model->membrane_at(1), model->membrane_at(1));
+  EXPECT_EQ(session.model(), model);
+}
+
+TEST(Session, HasNothingToTurnAtFirst) {
+  Session session;
+  EXPECT_FALSE(session.status().can_turn);
+  EXPECT_EQ(session.turn({}).error().kind, ErrorKind::geometry);
+}
+
+TEST(Session, TurnsWhatIsMeasuredBeforeTheFirstModel) {
+  Session session;
+  std::binary_semaphore has_measured{0}, may_go_on{0};
+  Preparation preparation = preparation_of(20'000);
+  preparation.changed = [&] {
+    if (session.status().stage != "visible points") return;
+    has_measured.release();
+    may_go_on.acquire();
+  };
+  session.open(preparation);
+  has_measured.acquire();
+  EXPECT_TRUE(session.status().can_turn);
+  EXPECT_EQ(session.model(), nullptr);
+  const auto turned = session.turn({});
+  may_go_on.release();
+  EXPECT_TRUE(turned);
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  EXPECT_NE(session.model(), nullptr);
+}
+
+// Returns whether both calls of turn() before the first model gave the same relief.
+bool turns_once(bool has_first_relief) {
+  Session session;
+  std::binary_semaphore has_measured{0}, may_go_on{0};
+  Preparation preparation = preparation_of(20'000);
+  preparation.has_first_relief = has_first_relief;
+  preparation.changed = [&] {
+    if (session.status().stage != "visible points") return;
+    has_measured.release();
+    may_go_on.acquire();
+  };
+  session.open(preparation);
+  has_measured.acquire();
+  const auto first = session.turn({}), second = session.turn({}), other = session.turn(view_to("1,0,1"));
+  EXPECT_TRUE(first && second && other);
+  EXPECT_EQ(other->model->surface().view, view_to("1,0,1"));
+  may_go_on.release();
+  EXPECT_TRUE(session.wait_until_idle(60s));
+  EXPECT_NE(session.turn({})->model, first->model);  // it takes over the tuning of the model now
+  return first->model == second->model;
+}
+
+TEST(Session, HasTheFirstReliefBeforeItIsAskedFor) {
+  EXPECT_TRUE(turns_once(true));
+  EXPECT_FALSE(turns_once(false));
+}
+
+TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
+  Session session;
+  std::binary_semaphore has_begun{0};
+  Preparation preparation = preparation_of(20'000);
+  preparation.has_first_relief = true;
+  std::atomic<int> asked = 0;
+  preparation.all_sides = [&](Progress& progress) -> Preparation::Points {
+    ++asked;
+    has_begun.release();
+    while (!progress.is_cancelled()) std::this_thread::sleep_for(1ms);
+    return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  };
+  session.open(preparation);
+  has_begun.acquire();
+  EXPECT_FALSE(session.status().can_turn);
+  session.open(preparation_of(5000));
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  EXPECT_NE(session.model(), nullptr);
+  EXPECT_EQ(asked, 1);
+}
+
+// A picture of the model while it is turned may be asked for late, when the view in which it rests is being prepared.
+TEST(Session, TurningLeavesThePreparationAlone) {
+  Session session;
+  session.open(preparation_of());
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  Stuck stuck;
+  session.open(stuck.preparation());
+  stuck.has_begun.acquire();
+  EXPECT_TRUE(session.turn(view_to("1,0,1")));
+  EXPECT_TRUE(session.status().is_preparing);
+  EXPECT_FALSE(stuck.has_ended);
+  session.cancel();
+  ASSERT_TRUE(session.wait_until_idle(60s));
+}
+
+// Points of all sides that come only when the turn that waits for them has been cancelled.
+struct StuckTurn {
+  std::binary_semaphore has_begun{0};
+  std::atomic<bool> is_first = true, has_ended = false;
+  Session session;
+
+  StuckTurn() {
+    Preparation preparation = preparation_of();
+    preparation.all_sides = [this](Progress& progress) -> Preparation::Points {
+      if (is_first.exchange(false)) {
+        has_begun.release();
+        while (!progress.is_cancelled()) std::this_thread::yield();
+      }
+      return std::make_shared<const Cloud>(test::torus(3000, 1, .4));
+    };
+    session.open(preparation);
+    EXPECT_TRUE(session.wait_until_idle(60s));
+  }
+
+  // Calls turn() in a thread, then `end`, and returns the error.
+  template <typename F>
+  std::optional<ErrorKind> error_after(F&& end) {
+    std::optional<ErrorKind> error;
+    std::thread thread([&] {
+      const auto turned = session.turn(view_to("1,1,1"));
+      has_ended = true;
+      if (!turned) error = turned.error().kind;
+    });
+    has_begun.acquire();
+    end();
+    thread.join();
+    return error;
+  }
+};
+
+TEST(Session, TheNewestTurnWins) {
+  StuckTurn stuck;
+  bool has_turned = false;
+  EXPECT_EQ(stuck.error_after([&] { has_turned = stuck.session.turn(view_to("1,2,3")).has_value(); }),
+            ErrorKind::cancelled);
+  EXPECT_TRUE(has_turned);
+}
+
+TEST(Session, TurningCanBeCancelled) {
+  StuckTurn stuck;
+  EXPECT_EQ(stuck.error_after([&] { stuck.session.cancel(); }), ErrorKind::cancelled);
+  EXPECT_TRUE(stuck.session.turn(view_to("1,1,1")));
+}
+
+// The view in which a drag rests is opened while the last picture of the drag is still drawn.
+TEST(Session, AnOpeningLeavesTurningAlone) {
+  StuckTurn stuck;
+  EXPECT_EQ(stuck.error_after([&] {
+    stuck.session.open(preparation_of(4000));
+    EXPECT_TRUE(stuck.session.wait_until_idle(60s));
+    EXPECT_FALSE(stuck.has_ended);
+    stuck.session.cancel();
+  }),
+            ErrorKind::cancelled);
+}
+
+TEST(Session, ManyThreadsMayTurn) {
+  Session session;
+  session.open(preparation_of(3000));
+  ASSERT_TRUE(session.wait_until_idle(60s));
+  std::atomic<int> turned = 0;
+  std::vector<std::thread> threads;
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 8; ++i) {
+        View view = view_from_euler(.1 * i, .2 * t);
+        if (i == 3) session.open(preparation_of(2000 + static_cast<std::size_t>(t)));
+        const auto made = session.turn(view);
+        turned += made.has_value();
+        EXPECT_EQ(made.has_value() ? ErrorKind::cancelled : made.error().kind, ErrorKind::cancelled);
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_GE(turned, 1);
+}
+
+}  // namespace
+}  // namespace relievo

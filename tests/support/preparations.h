@@ -1,0 +1,35 @@
+// Preparations for tests of sessions.
+#pragma once
+
+#include <atomic>
+#include <semaphore>
+#include <thread>
+
+#include "relievo/session.h"
+#include "support/shapes.h"
+
+namespace relievo::test {
+
+// Returns one of a torus of so many points.
+inline Preparation preparation_of(std::size_t points = 5000) {
+  return {.points = [points](Progress&) -> Preparation::Points {
+    return std::make_shared<const Cloud>(test::torus(points, 1, .4));
+  }};
+}
+
+// A preparation whose points come only when it has been cancelled.
+struct Stuck {
+  std::binary_semaphore has_begun{0};
+  std::atomic<bool> has_ended = false;
+
+  Preparation preparation() {
+    return {.points = [this](Progress& progress) -> Preparation::Points {
+      has_begun.release();
+      while (!progress.is_cancelled()) std::this_thread::yield();
+      has_ended = true;
+      return std::make_shared<const Cloud>(test::torus(5000, 1, .4));
+    }};
+  }
+};
+
+}  // namespace relievo::test
