@@ -62,14 +62,14 @@ class StatusStream {
     return text;
   }
 
-  // Returns how long to wait for the next: what is being prepared is shown as soon as it is there.
+  // Returns the pause before the next call. It is shorter while something is prepared, so that this is shown at once.
   std::chrono::milliseconds pause() const { return is_busy_ ? 15ms : 80ms; }
 
  private:
   ScopedCount count_;
   Actions& actions_;
   std::string run_name_;
-  bool is_new_ = true, is_busy_ = false;     // busy: a document was, when events were asked for last
+  bool is_new_ = true, is_busy_ = false;     // whether a document was being prepared at the last call
   std::map<std::string, std::string> last_;  // by document
 };
 

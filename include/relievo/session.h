@@ -19,8 +19,9 @@ struct SessionStatus {
   std::string stage;    // of the preparation, see Progress
   double fraction = 0;  // of the preparation that is done, in [0, 1]
   std::optional<Error>
-      error;              // why the last preparation failed or that it was cancelled; none while one runs
-  bool can_turn = false;  // whether points were measured, which comes long before their first model
+      error;  // why the last preparation failed or that it was cancelled; none while one runs
+  // Whether points were measured, which comes long before their first model, and the first relief was made if wanted.
+  bool can_turn = false;
 };
 
 // One model to prepare. Its functions are called in the session's own thread.
@@ -35,11 +36,12 @@ struct Preparation {
   // Called after points() where it is set: returns the view, if that depends on what was read.
   std::function<View()> chosen_view = {};
 
-  // Called by turn() where it is set: returns the points of all sides. Without it, those of points() are turned, which is
+  // Called for coarse reliefs where it is set: returns the points of all sides. Without it, those of points() are turned, which is
   // right for clouds; points of a mesh are samples of one view.
   std::function<Points(Progress&)> all_sides = {};
 
-  // Whether turn() will be asked for this view as soon as points are measured, if there is no model before.
+  // If set, and there is no model yet, the session's thread makes the coarse relief of this view as soon as the points are
+  // measured, and turn() returns it.
   bool has_first_relief = false;
 
   // Called with the model just before status() says that it is ready. It must not call the session.

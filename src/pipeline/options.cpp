@@ -133,7 +133,7 @@ double ReliefOptions::effective_detail() const {
 }
 
 double ReliefOptions::effective_boundary_width() const {
-  return boundary_width.value_or(effective_method() == Method::layered ? .3 : 2);
+  return boundary_width.value_or(default_shape(effective_method()).boundary_width);
 }
 
 Result<void> check(const ReliefOptions& options) {

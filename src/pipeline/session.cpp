@@ -26,13 +26,17 @@ struct Shared {
   std::optional<double> denoise;               // of the view that was prepared last
   std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
-  // The relief of the measured points in first_view, until there is a model; while it is made, nothing is turned.
-  std::optional<TurnedRelief> first;
+  std::optional<TurnedRelief> first;           // of the measured points in first_view, until there is a model
   View first_view;
-  bool makes_first = false;
+  std::shared_ptr<Progress>
+      making_first;  // while the session's thread makes it; status() offers no turn() then
 
   void cancel_turning() {
     if (turning) turning->cancel();
+  }
+
+  void cancel_first() {
+    if (making_first) making_first->cancel();
   }
 
   // Frees the points if no model was made of them. If there is a model, its next view may need them.
@@ -90,17 +94,19 @@ struct Session::State {
     RELIEVO_TRY(const std::shared_ptr<const Cloud> cloud, wanted.points(progress));
     const View view = wanted.chosen_view ? wanted.chosen_view() : wanted.view;
     RELIEVO_TRY(const auto measured, measure(cloud, view, progress));
-    const auto turning = std::make_shared<Progress>();
     shared.with([&](Shared& s) {
-      if (s.measured.cloud == measured || progress.is_cancelled()) return;
-      s.measured = {cloud, measured};
-      s.all_sides = wanted.all_sides;
-      s.denoise = view.denoise;
-      s.turntable = nullptr;
-      s.makes_first = wanted.has_first_relief && !s.model;
-      if (s.makes_first) s.turning = turning;
+      if (progress.is_cancelled()) return;
+      if (s.measured.cloud != measured) {
+        s.measured = {cloud, measured};
+        s.all_sides = wanted.all_sides;
+        s.denoise = view.denoise;
+        s.turntable = nullptr;
+        s.first.reset();
+      }
+      const bool has_first = s.first && s.first_view == view;
+      if (wanted.has_first_relief && !s.model && !has_first) s.making_first = std::make_shared<Progress>();
     });
-    make_first(view, turning);
+    make_first(view);
     RELIEVO_CHECK(check_cancelled(&progress));
     RELIEVO_TRY(Surface surface, find_surface(*measured, view, {}, &progress));
     RELIEVO_TRY(ReliefModel model, ReliefModel::prepare(std::move(surface), &progress, wanted.mode));
@@ -108,12 +114,13 @@ struct Session::State {
   }
 
   // Makes what turn() will be asked for next, if that is wanted, before the model: both together would take longer.
-  void make_first(const View& view, const std::shared_ptr<Progress>& progress) {
-    if (!shared.with([](const Shared& s) { return s.makes_first; })) return;
+  void make_first(const View& view) {
+    const auto progress = shared.with([](const Shared& s) { return s.making_first; });
+    if (!progress) return;
     Result<TurnedRelief> made = turned(view, nullptr, progress);
     shared.with([&](Shared& s) {
       if (made) s.first = std::move(*made), s.first_view = view;
-      s.makes_first = false;
+      s.making_first = nullptr;
     });
   }
 
@@ -183,7 +190,7 @@ Session::~Session() {
 void Session::open(Preparation preparation) {
   state_->shared.with([&](Shared& s) {
     if (s.progress) s.progress->cancel();
-    if (s.makes_first) s.cancel_turning();
+    s.cancel_first();
     s.waiting = std::move(preparation);
     s.status = {true, "waiting", 0, std::nullopt};
   });
@@ -193,6 +200,7 @@ void Session::open(Preparation preparation) {
 void Session::cancel() {
   state_->shared.with([](Shared& s) {
     s.cancel_turning();
+    s.cancel_first();
     if (s.status.is_preparing) s.status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
     if (s.progress)
       s.progress->cancel();
@@ -218,7 +226,7 @@ Result<TurnedRelief> Session::turn(const View& view) {
 SessionStatus Session::status() const {
   return state_->shared.with([](const Shared& s) {
     SessionStatus status = s.status;
-    status.can_turn = s.measured.cloud != nullptr && !s.makes_first;
+    status.can_turn = s.measured.cloud && !s.making_first;
     return status;
   });
 }

@@ -71,11 +71,14 @@ struct FrameMaker::Packed {
     });
   }
 
+  void write_slopes_of(const PaperStyle& style) { write_slopes<float>(input, style, weight, slopes); }
+  void write_slopes_of(const LayeredStyle& style) { write_slopes_by_eight(input, style, weight, slopes); }
+
   void solve_system(const HeightSystem& system, Frame& frame) {
     const Stopwatch watch;
     with_style(frame.options.shape, [&](const auto& style) {
       weight.fill(input.delta, style.weighted());
-      write_slopes(input, style, weight, std::span<Vec2f>(slopes));
+      write_slopes_of(style);
     });
     system.solve(slopes, frame.heights, std::get<HeightSystem::Workspace>(workspace));
     frame.times.heights_s += watch.seconds();

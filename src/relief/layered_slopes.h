@@ -1,4 +1,4 @@
-// The slopes of the layered style for frames: those of write_slopes() to the last bit, of eight points at a time.
+// The slopes of the layered style for frames, of eight points at a time.
 // Tested by tests/relief/layered_slopes_test.cpp.
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace relievo {
 
-// Writes the target slope of every point, with w_k = weight(k).
-void write_slopes(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
-                  std::span<Vec2f> slopes);
+// Writes the same bits as write_slopes().
+void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
+                           std::span<Vec2f> slopes);
 
 }  // namespace relievo

@@ -106,7 +106,7 @@ class LayeredStyle {
 
   Compression weighted() const { return saturation_alone(shape_.compression); }
 
-  // What slope() uses, for the slopes of many points at a time.
+  // The parameters of slope(), for write_slopes_by_eight().
   const LayerWeights& layer_weights() const { return weights_; }
   double scale() const { return scale_; }
   double max_slope() const { return shape_.max_slope; }

@@ -74,7 +74,7 @@ double saturation_scale(const Compression& compression) {
 Shape layered_shape() {
   Shape shape{{1, 0}, .04};
   shape.style = Style::layered;
-  shape.boundary_width = .3;
+  shape.boundary_width = .3;  // a wider one bends the surface at silhouettes, see docs/decisions/layers.md
   return shape;
 }
 

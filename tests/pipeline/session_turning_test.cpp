@@ -14,7 +14,7 @@ namespace relievo {
 namespace {
 
 using namespace std::chrono_literals;
-using test::preparation_of, test::Stuck;
+using test::HeldAtPoints, test::preparation_of, test::Stuck;
 
 View view_to(const char* direction) {
   return parse_view(direction).value();
@@ -40,49 +40,59 @@ TEST(Session, HasNothingToTurnAtFirst) {
 
 TEST(Session, TurnsWhatIsMeasuredBeforeTheFirstModel) {
   Session session;
-  std::binary_semaphore has_measured{0}, may_go_on{0};
-  Preparation preparation = preparation_of(20'000);
-  preparation.changed = [&] {
-    if (session.status().stage != "visible points") return;
-    has_measured.release();
-    may_go_on.acquire();
-  };
-  session.open(preparation);
-  has_measured.acquire();
+  HeldAtPoints held{session};
+  session.open(held.preparation(20'000));
+  held.has_measured.acquire();
   EXPECT_TRUE(session.status().can_turn);
   EXPECT_EQ(session.model(), nullptr);
   const auto turned = session.turn({});
-  may_go_on.release();
+  held.may_go_on.release();
   EXPECT_TRUE(turned);
   ASSERT_TRUE(session.wait_until_idle(60s));
   EXPECT_NE(session.model(), nullptr);
 }
 
+std::shared_ptr<const ReliefModel> turned_model(Session& session, const View& view = {}) {
+  const auto turned = session.turn(view);
+  EXPECT_TRUE(turned);
+  return turned ? turned->model : nullptr;
+}
+
 // Returns whether both calls of turn() before the first model gave the same relief.
 bool turns_once(bool has_first_relief) {
   Session session;
-  std::binary_semaphore has_measured{0}, may_go_on{0};
-  Preparation preparation = preparation_of(20'000);
+  HeldAtPoints held{session};
+  Preparation preparation = held.preparation(20'000);
   preparation.has_first_relief = has_first_relief;
-  preparation.changed = [&] {
-    if (session.status().stage != "visible points") return;
-    has_measured.release();
-    may_go_on.acquire();
-  };
   session.open(preparation);
-  has_measured.acquire();
-  const auto first = session.turn({}), second = session.turn({}), other = session.turn(view_to("1,0,1"));
-  EXPECT_TRUE(first && second && other);
-  EXPECT_EQ(other->model->surface().view, view_to("1,0,1"));
-  may_go_on.release();
+  held.has_measured.acquire();
+  const auto first = turned_model(session), second = turned_model(session);
+  EXPECT_NE(turned_model(session, view_to("1,0,1")), first);
+  held.may_go_on.release();
   EXPECT_TRUE(session.wait_until_idle(60s));
-  EXPECT_NE(session.turn({})->model, first->model);  // it takes over the tuning of the model now
-  return first->model == second->model;
+  EXPECT_NE(turned_model(session), first);  // it takes over the tuning of the model now
+  return first == second;
 }
 
 TEST(Session, HasTheFirstReliefBeforeItIsAskedFor) {
   EXPECT_TRUE(turns_once(true));
   EXPECT_FALSE(turns_once(false));
+}
+
+TEST(Session, ForgetsTheFirstReliefOfOtherPoints) {
+  Session session;
+  HeldAtPoints old{session}, held{session};
+  Preparation with_first = old.preparation(20'000);
+  with_first.has_first_relief = true;
+  session.open(with_first);
+  old.has_measured.acquire();
+  const auto first = turned_model(session);
+  session.open(held.preparation(10'000));
+  old.may_go_on.release();
+  held.has_measured.acquire();
+  EXPECT_NE(turned_model(session), first);
+  held.may_go_on.release();
+  ASSERT_TRUE(session.wait_until_idle(60s));
 }
 
 TEST(Session, CancelsTheFirstReliefWithItsPreparation) {

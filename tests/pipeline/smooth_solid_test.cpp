@@ -1,6 +1,7 @@
 // The solid of a shape that is smooth but for its silhouette and one depth jump: a button with a smaller one before it.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -60,29 +61,25 @@ MadeRelief made_of(const Cloud& cloud) {
 // A scan of so many points, and how much the facets of its solid may turn.
 struct ScanSize {
   std::size_t points;
-  double most_deg;  // that 99 % do not exceed
+  double most_deg, rare_deg;  // what 99 % and 99.9 % do not exceed
 };
 
 class SmoothSolid : public testing::TestWithParam<ScanSize> {};
 
-// The edge of the small button turns by 14 degrees from one of 20,000 points to the next, and by 3 of 250,000.
+// The edge of the small button turns by 14 degrees from one of 20,000 points to the next, and by 3 of 250,000. Where the
+// boundary weight is wide, the surface bends by 13 degrees all along the silhouette.
 TEST_P(SmoothSolid, HasNoFacetsThatShow) {
   const MadeRelief made = made_of(two_buttons(GetParam().points));
   const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
   EXPECT_LT(quantile(angles, .99), GetParam().most_deg);
+  EXPECT_LT(quantile(angles, .999), GetParam().rare_deg);
 }
 
 INSTANTIATE_TEST_SUITE_P(Points, SmoothSolid,
-                         testing::Values(ScanSize{20000, 5}, ScanSize{100000, 2.5}, ScanSize{250000, 2}));
+                         testing::Values(ScanSize{20000, 5, 9}, ScanSize{100000, 2.5, 6},
+                                         ScanSize{250000, 2, 4}));
 // This takes long, and runs with --gtest_also_run_disabled_tests alone.
-INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2}));
-
-TEST(SilhouetteOfASolid, HasNoBendBesideIt) {
-  // The slope grows from row to row of points, as that of the button does.
-  const MadeRelief made = made_of(two_buttons(250000));
-  const std::vector<double> angles = facet_angles(made.solid, made.report.rho * made.report.scale);
-  EXPECT_LT(quantile(angles, .999), 4);
-}
+INSTANTIATE_TEST_SUITE_P(DISABLED_Large, SmoothSolid, testing::Values(ScanSize{1000000, 2, 13}));
 
 }  // namespace
 }  // namespace relievo

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -67,11 +68,41 @@ TEST(SampleSquares, TurnByNoMoreThanTheAngle) {
 
 TEST(SampleSquares, AreQuarteredWhereTheSurfaceTurnsEvenlyByMore) {
   EXPECT_GT(quartered(sample_squares(cylinder(.035F), angle)), 64 * 50);
-  // The same turn to and fro is grain, and three times the angle a crease.
-  const Image<Vec2f> grain = grid_of([](int x, int) { return Vec2f(.04F * static_cast<float>(x % 2), 0); });
-  EXPECT_EQ(quartered(sample_squares(grain, angle)), 0);
-  const Image<Vec2f> crease = grid_of([](int x, int) { return Vec2f(x < 32 ? 0.F : .5F, 0); });
-  EXPECT_EQ(quartered(sample_squares(crease, angle)), 0);
+  const Image<Vec2f> grain = grid_of([](int x, int) {
+    return Vec2f(std::tan(.05F * static_cast<float>(x - 32)) + .02F * static_cast<float>(x % 2), 0);
+  });
+  EXPECT_LT(quartered(sample_squares(grain, angle)), 64 * 10);
+  EXPECT_EQ(quartered(sample_squares(cylinder(.04F), .01F)), 0);  // creases
+}
+
+TEST(SampleSquares, TurnAsMuchWhereTheSlopeTurnsAside) {
+  // On a steep cone slopes turn about the axis, by which normals turn more than along the slope.
+  const auto cone = [](float steepness) {
+    return grid_of([&](int x, int y) {
+      return Vec2f(steepness *
+                   Vec2f(static_cast<float>(x) + 100.5F, static_cast<float>(y) - 31.5F).normalized());
+    });
+  };
+  const auto largest = [](const std::vector<SampleSquare>& squares) {
+    return std::ranges::max(squares, {}, &SampleSquare::side).side;
+  };
+  EXPECT_GT(largest(sample_squares(cone(.5F), angle)), largest(sample_squares(cone(4), angle)));
+}
+
+TEST(SampleSquares, DifferByAFactorOfTwoAtMostFromTheirNeighbours) {
+  const std::vector<SampleSquare> squares = sample_squares(
+      grid_of([](int x, int) { return Vec2f(1e-5F * static_cast<float>(x * x * x), 0); }), angle);
+  Image<int> side = filled_image(64, 64, 0);
+  for (const SampleSquare& s : squares)
+    for (int k = 0; k < s.side * s.side; ++k) side.at(s.x + k % s.side, s.y + k / s.side) = s.side;
+  int steps = 0;
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x + 1 < 64; ++x) {
+      const auto [small, large] = std::minmax(side.at(x, y), side.at(x + 1, y));
+      EXPECT_LE(large, 2 * small);
+      steps += large > small;
+    }
+  EXPECT_GT(steps, 0);
 }
 
 }  // namespace

@@ -32,4 +32,20 @@ struct Stuck {
   }
 };
 
+// A preparation that is held when its points have been measured.
+struct HeldAtPoints {
+  const Session& session;
+  std::binary_semaphore has_measured{0}, may_go_on{0};
+
+  Preparation preparation(std::size_t points) {
+    Preparation made = preparation_of(points);
+    made.changed = [this] {
+      if (session.status().stage != "visible points") return;
+      has_measured.release();
+      may_go_on.acquire();
+    };
+    return made;
+  }
+};
+
 }  // namespace relievo::test

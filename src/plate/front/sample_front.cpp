@@ -21,7 +21,7 @@ namespace {
 
 constexpr int band_rings = 3;  // of triangles beside creases that keep their points
 constexpr int most_divisions = 16;
-// Least distances of samples from the band's points, and between these but on creases, in steps.
+// Least distances of samples from the band's points, half of it in quarters, and between these but on creases, in steps.
 constexpr double apart = .6, apart_in_band = .3;
 constexpr float no_slope = std::numeric_limits<float>::quiet_NaN();
 
@@ -52,11 +52,7 @@ class Sampler {
         surface_(front.points, front.triangles, is_smooth),
         is_band_(band_triangles(front, is_smooth)),
         grid_(sample_grid(front, options.resolution_mm, largest_square)),
-        band_points_(apart_in_band * grid_.step),
-        around_(grouped<Index>(front.points.size(), [&](auto&& use) {
-          for (Index t = 0; t < front.triangles.size(); ++t)
-            for (const Index i : front.triangles[t]) use(i, t);
-        })) {}
+        band_points_(apart_in_band * grid_.step) {}
 
   Result<HeightFieldMesh> make(const Progress* progress) {
     RELIEVO_CHECK(check_cancelled(progress));
@@ -214,7 +210,9 @@ class Sampler {
         },
         16);
     const std::vector<std::uint8_t> is_taken = taken_cells();
-    for (const SampleSquare& square : sample_squares(slopes, static_cast<float>(options_.facet_angle))) {
+    const auto squares = sample_squares(slopes, static_cast<float>(options_.facet_angle));
+    if (std::ranges::any_of(squares, &SampleSquare::is_quartered)) find_triangles_around();
+    for (const SampleSquare& square : squares) {
       if (square.is_quartered)
         add_quarters(square);
       else if (square.side > 1 || !is_taken[grid_.triangle.index(square.x, square.y)])
@@ -237,6 +235,13 @@ class Sampler {
       const Index t = triangle_at(grid_.triangle.at(square.x, square.y), place);
       if (t != no_index) add(t, place, surface_.at(t, place));
     }
+  }
+
+  void find_triangles_around() {
+    around_ = grouped<Index>(front_.points.size(), [&](auto&& use) {
+      for (Index t = 0; t < front_.triangles.size(); ++t)
+        for (const Index i : front_.triangles[t]) use(i, t);
+    });
   }
 
   // Returns the triangle that a place lies in, walking there from one nearby; no_index if the way is long or leads
@@ -328,7 +333,7 @@ class Sampler {
   std::vector<std::uint8_t> is_band_;
   SampleGrid grid_;
   PointSet band_points_;
-  Groups<Index> around_;  // per point of the front: its triangles
+  Groups<Index> around_;  // per point of the front: its triangles, where squares are quartered
   HeightFieldMesh out_;
   std::vector<Vec2f> slopes_;           // of the points of out_; not numbers for those of the given front
   std::vector<std::uint8_t> is_fixed_;  // per point of the band: it stays

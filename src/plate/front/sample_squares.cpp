@@ -1,19 +1,22 @@
 #include "plate/front/sample_squares.h"
 
+#include <cmath>
 #include <limits>
 
 namespace relievo {
 namespace {
 
-// A turn is even if it changes from one cell to the next by at most this share of itself. Where it does not, as on rough
-// surfaces, facets do not show.
+// A turn is even if it changes from one cell to the next by at most this share of itself. Where it does not, as on
+// rough surfaces, facets do not show.
 constexpr float most_change = .25F;
 // So many facet angles make a crease, which finer facets would not round.
 constexpr float crease = 3;
 
-// The angle between the normals of two slopes, about, in radians.
+// Returns the sine of the angle between the normals of two slopes.
 float turn_between(const Vec2f& a, const Vec2f& b) {
-  return (a - b).norm() / (1 + (a + b).squaredNorm() / 4);
+  const float across = a.x() * b.y() - a.y() * b.x();
+  return std::sqrt(((a - b).squaredNorm() + across * across) /
+                   ((1 + a.squaredNorm()) * (1 + b.squaredNorm())));
 }
 
 // Returns whether the surface turns evenly, and by more than facets may, from one cell over the next to a third.
@@ -66,19 +69,12 @@ bool can_be_joined(const Level& parts, int x, int y) {
 // Joins four squares each to one of the next level where all of it turns by at most `most`; they are not in use then.
 Level joined(Level& parts, float most) {
   Level whole(parts.ranges.width / 2, parts.ranges.height / 2);
-  Image<std::uint8_t> can_join = whole.is_used;
   for (int y = 0; y < whole.ranges.height; ++y)
-    for (int x = 0; x < whole.ranges.width; ++x) {
-      bool are_used = true;
-      for (int k = 0; k < 4; ++k) {
-        whole.ranges.at(x, y).extend(parts.ranges.at(2 * x + k % 2, 2 * y + k / 2));
-        are_used &= parts.is_used.at(2 * x + k % 2, 2 * y + k / 2) != 0;
-      }
-      can_join.at(x, y) = are_used && whole.ranges.at(x, y).turn() < most;
-    }
+    for (int x = 0; x < whole.ranges.width; ++x)
+      for (int k = 0; k < 4; ++k) whole.ranges.at(x, y).extend(parts.ranges.at(2 * x + k % 2, 2 * y + k / 2));
   for (int y = 1; y + 1 < whole.ranges.height; ++y)
     for (int x = 1; x + 1 < whole.ranges.width; ++x)
-      whole.is_used.at(x, y) = can_join.at(x, y) && can_be_joined(parts, x, y);
+      whole.is_used.at(x, y) = whole.ranges.at(x, y).turn() <= most && can_be_joined(parts, x, y);
   for (int y = 0; y < whole.ranges.height; ++y)
     for (int x = 0; x < whole.ranges.width; ++x)
       if (whole.is_used.at(x, y))

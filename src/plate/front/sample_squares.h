@@ -17,8 +17,8 @@ struct SampleSquare {
 // Cells on a side of the largest square; width and height of the grid are multiples of it.
 constexpr int largest_square = 8;
 
-// Returns squares that cover the cells of a grid that have a slope, not NaN. Across a square the surface turns by no more
-// than `facet_angle`, in radians, if it has more than one cell; a cell is quartered where the surface turns evenly by more.
+// Returns squares that cover the cells of a grid that have a slope, not NaN. Across a square of several cells the surface
+// turns by no more than `facet_angle`, in radians, about; a cell is quartered where the surface turns evenly by more.
 // Next to a square lie none of less than half its side, quarters aside.
 std::vector<SampleSquare> sample_squares(const Image<Vec2f>& slopes, float facet_angle);
 
