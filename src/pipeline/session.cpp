@@ -215,9 +215,9 @@ Result<TurnedRelief> Session::turn(const View& view) {
   const auto progress = std::make_shared<Progress>();
   const auto [like, first] = state_->shared.with([&](Shared& s) {
     s.cancel_turning();
-    const auto first = s.first_view == view ? s.first : std::nullopt;
-    s.turning = first ? nullptr : progress;
-    return std::pair(s.model, first);
+    const auto made = s.first_view == view ? s.first : std::nullopt;
+    s.turning = made ? nullptr : progress;
+    return std::pair(s.model, made);
   });
   if (first) return *first;
   return state_->turned(view, like.get(), progress);
