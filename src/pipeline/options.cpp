@@ -5,6 +5,7 @@
 
 #include "relievo/core/text.h"
 #include "relievo/option_texts.h"
+#include "relievo/relief/shape.h"
 
 namespace relievo {
 namespace {
