@@ -3,9 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
-#include "core/groups.h"
-#include "geometry/plane.h"
 #include "geometry/point_set.h"
 #include "geometry/segment_grid.h"
 #include "geometry/smooth_surface.h"
@@ -211,10 +210,13 @@ class Sampler {
         16);
     const std::vector<std::uint8_t> is_taken = taken_cells();
     const auto squares = sample_squares(slopes, static_cast<float>(options_.facet_angle));
-    if (std::ranges::any_of(squares, &SampleSquare::is_quartered)) find_triangles_around();
+    std::optional<SampleGrid> quarters;
+    if (std::ranges::any_of(squares, &SampleSquare::is_quartered))
+      quarters = sample_grid(front_, grid_.step / 2, 2 * largest_square);
+    const bool has_quarters = quarters && quarters->step == grid_.step / 2;  // grids have a largest size
     for (const SampleSquare& square : squares) {
-      if (square.is_quartered)
-        add_quarters(square);
+      if (square.is_quartered && has_quarters)
+        add_quarters(square, *quarters);
       else if (square.side > 1 || !is_taken[grid_.triangle.index(square.x, square.y)])
         add_middle(square);
     }
@@ -227,48 +229,16 @@ class Sampler {
     add(t, place, surface_.at(t, place));
   }
 
-  // Adds the middles of the quarters of a square that are not next to a point of the band.
-  void add_quarters(const SampleSquare& square) {
+  // Adds the middles of the quarters of a square that are not next to a point of the band. They are those of four squares of
+  // a grid twice as fine.
+  void add_quarters(const SampleSquare& square, const SampleGrid& quarters) {
     for (int k = 0; k < 4; ++k) {
-      const Vec2 place = grid_.place(Vec2(square.x + .25 + .5 * (k % 2), square.y + .25 + .5 * (k / 2)));
-      if (band_points_.is_near(place, apart * grid_.step / 2)) continue;
-      const Index t = triangle_at(grid_.triangle.at(square.x, square.y), place);
-      if (t != no_index) add(t, place, surface_.at(t, place));
+      const int x = 2 * square.x + k % 2, y = 2 * square.y + k / 2;
+      const Vec2 place = quarters.place(x, y);
+      const Index t = quarters.triangle.at(x, y);
+      if (t == no_index || band_points_.is_near(place, apart * grid_.step / 2)) continue;
+      add(t, place, surface_.at(t, place));
     }
-  }
-
-  void find_triangles_around() {
-    around_ = grouped<Index>(front_.points.size(), [&](auto&& use) {
-      for (Index t = 0; t < front_.triangles.size(); ++t)
-        for (const Index i : front_.triangles[t]) use(i, t);
-    });
-  }
-
-  // Returns the triangle that a place lies in, walking there from one nearby; no_index if the way is long or leads
-  // outside.
-  Index triangle_at(Index t, const Vec2& place) const {
-    constexpr int longest_way = 64;
-    for (int step = 0; step < longest_way && t != no_index; ++step) {
-      const Triangle& corners = front_.triangles[t];
-      std::size_t i = 0;
-      while (i < 3 && !is_right_of(corners[i], corners[(i + 1) % 3], place)) ++i;
-      if (i == 3) return t;
-      t = across(t, corners[i], corners[(i + 1) % 3]);
-    }
-    return no_index;
-  }
-
-  bool is_right_of(Index from, Index to, const Vec2& place) const {
-    const Vec2 start = front_.points[from].head<2>();
-    return cross(front_.points[to].head<2>() - start, place - start) < 0;
-  }
-
-  // Returns the other triangle with a side between two points.
-  Index across(Index t, Index a, Index b) const {
-    for (const Index other : around_[a])
-      if (other != t && std::ranges::find(front_.triangles[other], b) != front_.triangles[other].end())
-        return other;
-    return no_index;
   }
 
   // Returns the cells of the grid near points of the band.
@@ -333,7 +303,6 @@ class Sampler {
   std::vector<std::uint8_t> is_band_;
   SampleGrid grid_;
   PointSet band_points_;
-  Groups<Index> around_;  // per point of the front: its triangles, where squares are quartered
   HeightFieldMesh out_;
   std::vector<Vec2f> slopes_;           // of the points of out_; not numbers for those of the given front
   std::vector<std::uint8_t> is_fixed_;  // per point of the band: it stays

@@ -14,10 +14,7 @@ struct SampleGrid {
   RasterInput input;
   Image<Index> triangle;  // no_index beside the front
 
-  Vec2 place(const Vec2& pixel) const {
-    return {corner.x() + pixel.x() * step, corner.y() - pixel.y() * step};
-  }
-  Vec2 place(int x, int y) const { return place(Vec2(x + .5, y + .5)); }
+  Vec2 place(int x, int y) const { return {corner.x() + (x + .5) * step, corner.y() - (y + .5) * step}; }
   Vec2 pixel(const Vec2& p) const { return Vec2(p.x() - corner.x(), corner.y() - p.y()) / step; }
 };
 
