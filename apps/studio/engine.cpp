@@ -99,7 +99,7 @@ struct Engine::State {
     preparation.all_sides = [this](Progress&) -> Preparation::Points {
       return shared.with([](const Shared& s) { return s.scan; }).all_sides();
     };
-    preparation.has_first_relief = !changed;  // with one thread, the page does not ask for it
+    preparation.makes_first_relief = !changed;  // with one thread, the page does not ask for it
     preparation.mode = parse_mode(texts.mode).value_or(Mode::automatic);
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });

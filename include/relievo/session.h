@@ -36,13 +36,13 @@ struct Preparation {
   // Called after points() where it is set: returns the view, if that depends on what was read.
   std::function<View()> chosen_view = {};
 
-  // Called for coarse reliefs where it is set: returns the points of all sides. Without it, those of points() are turned, which is
-  // right for clouds; points of a mesh are samples of one view.
+  // Called for coarse reliefs where it is set: returns the points of all sides. Without it, those of points() are turned,
+  // which is right for clouds; points of a mesh are samples of one view.
   std::function<Points(Progress&)> all_sides = {};
 
   // If set, and there is no model yet, the session's thread makes the coarse relief of this view as soon as the points are
   // measured, and turn() returns it.
-  bool has_first_relief = false;
+  bool makes_first_relief = false;
 
   // Called with the model just before status() says that it is ready. It must not call the session.
   std::function<void(const Model&)> ready = {};

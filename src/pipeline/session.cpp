@@ -28,8 +28,7 @@ struct Shared {
   std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
   std::optional<TurnedRelief> first;           // of the measured points in first_view, until there is a model
   View first_view;
-  std::shared_ptr<Progress>
-      making_first;  // while the session's thread makes it; status() offers no turn() then
+  std::shared_ptr<Progress> making_first;  // while `first` is made; status() offers no turn() then
 
   void cancel_turning() {
     if (turning) turning->cancel();
@@ -104,7 +103,7 @@ struct Session::State {
         s.first.reset();
       }
       const bool has_first = s.first && s.first_view == view;
-      if (wanted.has_first_relief && !s.model && !has_first) s.making_first = std::make_shared<Progress>();
+      if (wanted.makes_first_relief && !s.model && !has_first) s.making_first = std::make_shared<Progress>();
     });
     make_first(view);
     RELIEVO_CHECK(check_cancelled(&progress));

@@ -59,11 +59,11 @@ std::shared_ptr<const ReliefModel> turned_model(Session& session, const View& vi
 }
 
 // Returns whether both calls of turn() before the first model gave the same relief.
-bool turns_once(bool has_first_relief) {
+bool turns_once(bool makes_first_relief) {
   Session session;
   HeldAtPoints held{session};
   Preparation preparation = held.preparation(20'000);
-  preparation.has_first_relief = has_first_relief;
+  preparation.makes_first_relief = makes_first_relief;
   session.open(preparation);
   held.has_measured.acquire();
   const auto first = turned_model(session), second = turned_model(session);
@@ -83,7 +83,7 @@ TEST(Session, ForgetsTheFirstReliefOfOtherPoints) {
   Session session;
   HeldAtPoints old{session}, held{session};
   Preparation with_first = old.preparation(20'000);
-  with_first.has_first_relief = true;
+  with_first.makes_first_relief = true;
   session.open(with_first);
   old.has_measured.acquire();
   const auto first = turned_model(session);
@@ -99,7 +99,7 @@ TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
   Session session;
   std::binary_semaphore has_begun{0};
   Preparation preparation = preparation_of(20'000);
-  preparation.has_first_relief = true;
+  preparation.makes_first_relief = true;
   std::atomic<int> asked = 0;
   preparation.all_sides = [&](Progress& progress) -> Preparation::Points {
     ++asked;
