@@ -56,8 +56,7 @@ struct LayerWeights {
   static LayerWeights of(double u, double detail, double height_share);
 };
 
-// Returns the weighted sum of a point's layers. It handles all eight numbers at once, because a frame calls it
-// for every point.
+// Returns the weighted sum of a point's layers. It handles all eight numbers at once.
 inline Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
   const auto parts = std::bit_cast<std::array<std::int16_t, 8>>(layers);
   const std::array<float, 8> weights{w.fine,   w.fine,   w.middle, w.middle,
