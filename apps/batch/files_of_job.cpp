@@ -13,30 +13,25 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-std::string text_of(const std::string& path) {
-  const Result<std::vector<std::byte>> bytes = read_file(path);
-  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
-}
-
 // Adds the file, and those that it names.
 void add_file(const std::string& path, std::vector<std::string>& files) {
   files.push_back(path);
   const std::string ending = ending_of(path);
   const fs::path folder = fs::path(path).parent_path();
   if (ending == "json") {
-    const auto entries = read_scene_file(text_of(path), path);
+    const auto entries = read_scene_file(text_of_file(path), path);
     for (std::size_t i = 0; entries && i < entries->size(); ++i)
       if (ending_of((*entries)[i].path) != "json") add_file((*entries)[i].path, files);
   }
   if (ending == "relievo") {
-    const auto project = read_project(text_of(path), path);
+    const auto project = read_project(text_of_file(path), path);
     if (project && project->input.sample.empty() && ending_of(project->input.path) != "relievo")
       add_file((folder / project->input.path).string(), files);
     if (project && !project->base_image_path.empty())
       files.push_back((folder / project->base_image_path).string());
   }
   if (ending == "gltf") {
-    const Json json = Json::parse(text_of(path), nullptr, false);
+    const Json json = Json::parse(text_of_file(path), nullptr, false);
     if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return;
     for (const Json& buffer : json["buffers"]) {
       const Json uri = buffer.is_object() ? buffer.value("uri", Json()) : Json();

@@ -12,20 +12,13 @@
 #include <cstdio>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <span>
 
+#include "common/descriptor.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app::batch {
 namespace {
-
-void write_all(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(descriptor, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
 
 std::string read_all(int descriptor) {
   std::string text;
@@ -45,7 +38,9 @@ std::string read_all(int descriptor) {
   const Performed end = perform(work, workshop, threads);
   nlohmann::json json = to_json(end.record);
   json["is_kept"] = end.is_kept;
-  write_all(result, json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  (void)write_all(result,
+                  std::as_bytes(std::span(text)));  // without all of it the parent tells of a lost process
   std::fflush(stderr);
   ::_exit(0);  // without the ends of static objects, which belong to the parent
 }

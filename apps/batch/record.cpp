@@ -97,7 +97,7 @@ Records read_journals(const std::string& outputs) {
     if (entry->path().extension() != ".jsonl") continue;
     const auto bytes = read_file(entry->path().string());
     if (!bytes) continue;
-    std::string_view rest(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    std::string_view rest = text_in(*bytes);
     while (!rest.empty()) {
       const std::string_view line = rest.substr(0, rest.find('\n'));
       rest.remove_prefix(std::min(rest.size(), line.size() + 1));

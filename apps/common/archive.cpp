@@ -97,7 +97,7 @@ Result<std::vector<std::byte>> Archive::content(const std::string& name) const {
 
 bool is_archive(std::span<const std::byte> bytes) {
   constexpr std::string_view mark = "PK\x03\x04";
-  return std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with(mark);
+  return text_in(bytes).starts_with(mark);
 }
 
 Result<std::string> find_model(const std::vector<std::string>& names, std::string_view archive) {

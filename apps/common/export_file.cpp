@@ -4,6 +4,7 @@
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "common/files.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 #include "relievo/io/write.h"
@@ -12,10 +13,6 @@
 
 namespace relievo::app {
 namespace {
-
-std::string text_of(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
 
 std::vector<std::byte> as_3mf(const Solid& solid) {
   const std::pair<std::string, std::string> metadata[] = {{"Title", "Relief"},
@@ -72,7 +69,7 @@ ExportedFile export_file(const MadeRelief& made, const FileFormat& format, const
     if (format.name == "preview") return write_png(render_preview(made.solid, {.material = order.material}));
     return height_map_file(made, {order.heightmap_px, format.name == "tiff"});
   };
-  return {text_of(bytes()), std::string(format.type)};
+  return {std::string(text_in(bytes())), std::string(format.type)};
 }
 
 std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order) {

@@ -237,10 +237,6 @@ Result<std::string> hash_of_file(const std::string& path) {
 
 namespace {
 
-std::unexpected<Error> unwanted() {
-  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
-}
-
 Scene scene_of(const std::string& name, CloudFile file) {
   return {{{name, std::make_shared<const CloudFile>(std::move(file))}}};
 }
@@ -249,11 +245,11 @@ Scene scene_of(const std::string& name, CloudFile file) {
 
 Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
                         const std::function<bool()>& is_unwanted) {
-  const std::string hash = hash_of({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string hash = hash_of(text_in(bytes));
   if (!input.hash.empty() && input.hash != hash)
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
-  if (is_unwanted && is_unwanted()) return unwanted();
+  if (is_unwanted && is_unwanted()) return cancelled_error();
   if (is_scene_file(path)) {
     Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
     if (!read) return std::unexpected(read.error());
@@ -274,7 +270,7 @@ Result<Scene> load_input(ScanSource& input, const std::string& folder,
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = read_file(path);
   if (!bytes) return std::unexpected(bytes.error());
-  if (is_unwanted && is_unwanted()) return unwanted();
+  if (is_unwanted && is_unwanted()) return cancelled_error();
   return load_scan(input, *bytes, path, is_unwanted);
 }
 

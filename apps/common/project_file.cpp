@@ -58,11 +58,11 @@ Result<std::shared_ptr<const Image<float>>> read_base_image_of(const Project& pr
 }  // namespace
 
 Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string_view name) {
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string_view text = text_in(bytes);
   if (!text.starts_with("PK")) return ProjectFile{std::string(text), nullptr, nullptr};
   RELIEVO_TRY(const Archive archive, Archive::open(bytes, name));
   RELIEVO_TRY(const std::vector<std::byte> json, archive.content(project_name));
-  ProjectFile file{{reinterpret_cast<const char*>(json.data()), json.size()}, nullptr, nullptr};
+  ProjectFile file{std::string(text_in(json)), nullptr, nullptr};
   RELIEVO_TRY(file.scan, file_in(archive, scan_folder));
   RELIEVO_TRY(file.base_image, file_in(archive, base_folder));
   return file;

@@ -49,7 +49,7 @@ Result<std::optional<DepthCamera>> read_camera(const std::string& camera) {
   if (is_there(camera)) {
     const auto bytes = read_file(camera);
     if (!bytes) return std::unexpected(bytes.error());
-    text.assign(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+    text = text_in(*bytes);
   }
   const auto parsed = parse_camera(text);
   if (!parsed) return std::unexpected(parsed.error());
@@ -143,7 +143,7 @@ Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths
   if (paths.size() == 1 && is_scene_file(paths[0])) {
     const auto bytes = read_file(paths[0]);
     if (!bytes) return std::unexpected(bytes.error());
-    return read_scene_file({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, paths[0]);
+    return read_scene_file(text_in(*bytes), paths[0]);
   }
   std::vector<SceneEntry> entries;
   for (const std::string& path : paths) {

@@ -58,16 +58,6 @@ class FileChange {
   sigset_t former_{};
 };
 
-bool write_all(int descriptor, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(written));
-  }
-  return true;
-}
-
 // The mode that a plain open() for writing would have given.
 mode_t new_file_mode() {
   const mode_t mask = ::umask(0);

@@ -164,7 +164,7 @@ void Actions::save(const Json& json, Answer& to) {
   const auto file = pack_project(project.dump(1) + "\n", {input->name, std::move(*scan)},
                                  image_path.empty() ? nullptr : &image);
   if (!file) return answer(to, file.error());
-  to = {200, "application/zip", {reinterpret_cast<const char*>(file->data()), file->size()}};
+  to = {200, "application/zip", std::string(text_in(*file))};
 }
 
 void Actions::take_scan(const std::string& name, const BodyReader& read, Answer& to) {
@@ -190,7 +190,7 @@ void Actions::take_project(const std::string& name, const BodyReader& read, Answ
 // Keeps a file that was part of a project.
 Result<ScanSource> Actions::kept(const PackedFile& file) {
   const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.name);
-  RELIEVO_CHECK(scan->append({reinterpret_cast<const char*>(file.bytes.data()), file.bytes.size()}));
+  RELIEVO_CHECK(scan->append(text_in(file.bytes)));
   return store_.keep(*scan);
 }
 

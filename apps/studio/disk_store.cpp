@@ -28,11 +28,6 @@ constexpr int most_studios = 9;  // that keep their work side by side
 constexpr const char* unfinished_name = "upload";
 constexpr const char* documents = "documents";  // the folder
 
-std::string read_text(const fs::path& path) {
-  const auto bytes = read_file(path.string());
-  return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : std::string();
-}
-
 std::string variable(const char* name) {
   const char* const value = std::getenv(name);
   return value ? value : "";
@@ -110,7 +105,7 @@ Result<void> DiskStore::write(const std::string& name, std::string_view text, bo
 }
 
 std::string DiskStore::document(const std::string& id) const {
-  return is_document(id) ? read_text(fs::path(folder_) / documents / (id + ".json")) : std::string();
+  return is_document(id) ? text_of_file(fs::path(folder_) / documents / (id + ".json")) : std::string();
 }
 
 Result<void> DiskStore::keep_document(const std::string& id, std::string_view state, bool is_moving) {
@@ -150,7 +145,7 @@ std::vector<KeptDocument> DiskStore::recent() const {
     if (!input) continue;
     std::error_code ignored;
     const bool is_there = !input->sample.empty() || fs::exists(input->path, ignored);
-    all.push_back({id, *input, is_there, read_text(fs::path(folder_) / documents / (id + ".picture"))});
+    all.push_back({id, *input, is_there, text_of_file(fs::path(folder_) / documents / (id + ".picture"))});
   }
   return all;
 }
@@ -158,7 +153,7 @@ std::vector<KeptDocument> DiskStore::recent() const {
 // Versions before kept one document only.
 void DiskStore::take_former_state() {
   const fs::path former = fs::path(folder_) / "state.json";
-  const std::string state = read_text(former);
+  const std::string state = text_of_file(former);
   const std::optional<ScanSource> input = input_of(state);
   if (!input || !keep_document(document_of(*input), state, false)) return;
   std::error_code ignored;
@@ -166,7 +161,7 @@ void DiskStore::take_former_state() {
 }
 
 StudioAddress DiskStore::address() const {
-  const Json json = Json::parse(read_text(fs::path(folder_) / "address.json"), nullptr, false);
+  const Json json = Json::parse(text_of_file(fs::path(folder_) / "address.json"), nullptr, false);
   if (!json.is_object() || !json.value("port", Json()).is_number_integer() ||
       !json.value("token", Json()).is_string())
     return {};
@@ -212,7 +207,7 @@ void DiskStore::remove_old_scans() const {
       used.insert(fs::path(image).parent_path());
     if (path.extension() != ".json") continue;
     const auto models =
-        read_scene_file(read_text(path), path.string());  // of several files that were dropped
+        read_scene_file(text_of_file(path), path.string());  // of several files that were dropped
     for (const SceneEntry& model : models.value_or(std::vector<SceneEntry>()))
       used.insert(fs::path(model.path).parent_path());
   }

@@ -138,7 +138,7 @@ struct Engine::State {
       if (scan) s.scan = std::move(*scan);
       return true;
     });
-    if (!is_wanted) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+    if (!is_wanted) return cancelled_error();
     return models ? Result<void>{} : std::unexpected(models.error());
   }
 

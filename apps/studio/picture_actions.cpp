@@ -23,8 +23,7 @@ static Json models_of(const ScanSource& input) {
   if (!input.sample.empty() || ending_of(input.path) != "json") return models;
   const auto bytes = read_file(input.path);
   if (!bytes) return models;
-  const auto entries =
-      read_scene_file({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, input.path);
+  const auto entries = read_scene_file(text_in(*bytes), input.path);
   for (const auto& [path, pose] : entries.value_or(std::vector<SceneEntry>())) {
     const Vec3& turn = pose.rotate_deg;
     models.push_back({{"file", path},

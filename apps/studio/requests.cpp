@@ -272,8 +272,7 @@ Json stage_list() {
 }
 
 Json error_json(const Error& error) {
-  constexpr std::array kinds{"input", "option", "geometry", "cancelled", "output"};
-  return {{"kind", kinds[static_cast<std::size_t>(error.kind)]}, {"text", error.message()}};
+  return {{"kind", name_of(error.kind)}, {"text", error.message()}};
 }
 
 }  // namespace relievo::app::studio

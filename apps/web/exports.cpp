@@ -22,8 +22,7 @@ struct AnswerView {
 };
 
 Json error_json(const relievo::Error& error) {
-  constexpr std::array kinds{"input", "option", "geometry", "cancelled", "output"};
-  return {{"kind", kinds[static_cast<std::size_t>(error.kind)]},
+  return {{"kind", name_of(error.kind)},
           {"input", error.input},
           {"place", error.place},
           {"expected", error.expected},

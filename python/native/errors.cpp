@@ -3,26 +3,6 @@
 #include "native/options.h"
 
 namespace relievo::python {
-namespace {
-
-constexpr std::string_view name_of(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::input:
-      return "input";
-    case ErrorKind::option:
-      return "option";
-    case ErrorKind::geometry:
-      return "geometry";
-    case ErrorKind::cancelled:
-      return "cancelled";
-    case ErrorKind::output:
-      return "output";
-  }
-  return "input";
-}
-
-}  // namespace
-
 std::string path_of(py::handle path) {
   const auto bytes = py::reinterpret_steal<py::bytes>(PyUnicode_EncodeFSDefault(path.ptr()));
   if (!bytes) throw py::error_already_set();

@@ -30,7 +30,7 @@ void Progress::finish() {
 
 Result<void> check_cancelled(const Progress* progress) {
   if (!progress || !progress->is_cancelled()) return {};
-  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  return cancelled_error();
 }
 
 }  // namespace relievo

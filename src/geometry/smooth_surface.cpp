@@ -16,7 +16,7 @@ constexpr double most_over = 1.25, most_over_at_edges = 3;
 
 Vec2 plane_slope(const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 u = b - a, v = c - a;
-  const double twice_area = u.x() * v.y() - u.y() * v.x();
+  const double twice_area = cross(u.head<2>(), v.head<2>());
   if (!(twice_area > 0)) return Vec2::Zero();
   return Vec2(u.z() * v.y() - v.z() * u.y(), u.x() * v.z() - v.x() * u.z()) / twice_area;
 }

@@ -12,7 +12,7 @@ namespace {
 
 // The numbers that follow the position of a vertex, by the keyword [ST][C][N]OFF.
 struct Kind {
-  bool has_texture = false, has_colours = false, has_normals = false;
+  bool has_colours = false, has_normals = false;
 };
 
 std::optional<Kind> parse_keyword(std::string_view word) {
@@ -22,7 +22,7 @@ std::optional<Kind> parse_keyword(std::string_view word) {
     if (is_there) word.remove_prefix(prefix.size());
     return is_there;
   };
-  kind.has_texture = take("ST");
+  take("ST");
   kind.has_colours = take("C");
   kind.has_normals = take("N");
   return word == "OFF" ? std::optional(kind) : std::nullopt;

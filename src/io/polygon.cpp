@@ -10,6 +10,8 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/plane.h"
+
 namespace relievo::io {
 namespace {
 
@@ -35,10 +37,6 @@ Vec3 area_of(std::span<const Vec3> corners) {
   Vec3 area = Vec3::Zero();
   for (std::size_t i = 2; i < corners.size(); ++i) area += fan_area(corners, i);
   return area;
-}
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 // Cuts ears off a polygon in the plane that runs counter-clockwise.

@@ -88,9 +88,9 @@ void paint(const Canvas& canvas, Image8& picture) {
 
 }  // namespace
 
-CloudRenderer::CloudRenderer(const Cloud& cloud, std::size_t most_points) {
-  const std::size_t step =
-      std::max<std::size_t>(1, (cloud.size() + most_points - 1) / std::max<std::size_t>(1, most_points));
+CloudRenderer::CloudRenderer(const Cloud& cloud) {
+  constexpr std::size_t most_points = 250'000;
+  const std::size_t step = std::max<std::size_t>(1, (cloud.size() + most_points - 1) / most_points);
   for (std::size_t i = 0; i < cloud.size(); i += step) {
     cloud_.points.push_back(cloud.points[i]);
     if (cloud.has_normals()) cloud_.normals.push_back(cloud.normals[i]);

@@ -9,8 +9,6 @@
 namespace relievo {
 namespace {
 
-constexpr int largest_side = 8192;
-
 // The longer side, in pixels, of the heights that a profile is read from: finer than a display shows it.
 constexpr int profile_px = 1400;
 
@@ -44,7 +42,7 @@ Shown FrameRenderer::original() const {
 
 void FrameRenderer::render(const Shown& shown, const RenderOptions& options, Picture& picture,
                            const Progress* progress) {
-  if (options.width < 1 || options.height < 1 || std::max(options.width, options.height) > largest_side) {
+  if (!options.has_size()) {
     picture = {};
     return;
   }

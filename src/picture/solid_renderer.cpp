@@ -35,8 +35,7 @@ SolidRenderer::SolidRenderer(SolidRenderer&&) noexcept = default;
 SolidRenderer::~SolidRenderer() = default;
 
 void SolidRenderer::render(const RenderOptions& options, Picture& picture, const Progress* progress) {
-  constexpr int largest_side = 8192;
-  if (options.width < 1 || options.height < 1 || std::max(options.width, options.height) > largest_side) {
+  if (!options.has_size()) {
     picture = {};
     return;
   }

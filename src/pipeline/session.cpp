@@ -48,10 +48,6 @@ struct Shared {
   }
 };
 
-std::unexpected<Error> cancelled() {
-  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
-}
-
 }  // namespace
 
 struct Session::State {
@@ -125,7 +121,7 @@ struct Session::State {
 
   Result<TurnedRelief> turned(const View& view, const ReliefModel* like,
                               const std::shared_ptr<Progress>& progress) {
-    Result<TurnedRelief> made = cancelled();
+    Result<TurnedRelief> made = cancelled_error();
     if (const auto table = turntable(view, *progress); !table)
       made = std::unexpected(table.error());
     else
@@ -133,7 +129,7 @@ struct Session::State {
     shared.with([&](Shared& s) {
       if (s.turning == progress) s.turning = nullptr;
     });
-    if (progress->is_cancelled()) return cancelled();
+    if (progress->is_cancelled()) return cancelled_error();
     return made;
   }
 
@@ -200,7 +196,7 @@ void Session::cancel() {
   state_->shared.with([](Shared& s) {
     s.cancel_turning();
     s.cancel_first();
-    if (s.status.is_preparing) s.status.error = Error{ErrorKind::cancelled, {}, {}, "cancelled"};
+    if (s.status.is_preparing) s.status.error = cancelled_error().error();
     if (s.progress)
       s.progress->cancel();
     else

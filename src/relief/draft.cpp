@@ -51,7 +51,7 @@ class Limiter {
     const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
     if (auto built = build_nearest(); !built) return built;
     nearest_->apply(relief.heights, is_cancelled);
-    if (is_cancelled()) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+    if (is_cancelled()) return cancelled_error();
     for (int tries = 0; tries < most_tries; ++tries) {
       std::vector<double> whole = with_base(relief.heights);
       const bool is_flat = limit_slopes(field(), kept_share * options_.max_slope, Rounding::none, whole);

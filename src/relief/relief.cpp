@@ -252,7 +252,7 @@ Result<Relief> ReliefModel::make_at_height(double height, Shape shape, double un
       return raised_height();
     });
   }
-  if (is_cancelled) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  if (is_cancelled) return cancelled_error();
   if (!is_met) return out_of_reach(relief.height * unit_mm, height * unit_mm);
   maker.finish(relief);
   // The search ends within a part in 10^5 of the height; scaling makes it exact.

@@ -203,10 +203,6 @@ void disturb(double noise, double spacing, Random& random, Vec3& p, Vec3f& norma
 
 }  // namespace
 
-Vec3 outward_normal(const Solid& solid, const Vec3& p) {
-  return unit_gradient(solid, p, solid.value(p));
-}
-
 Cloud scatter(const Solid& solid, const Scatter& how) {
   Cloud cloud{std::vector<Vec3>(how.points), std::vector<Vec3f>(how.points)};
   const double spacing = fill(solid, cover(solid), how.seed, cloud);

@@ -27,8 +27,4 @@ struct Scatter {
 // points. The same arguments give the same bits. The solid must have a surface.
 Cloud scatter(const Solid& solid, const Scatter& how);
 
-// Returns the unit vector of steepest ascent of the field at p, by forward differences; its error is about
-// 1e-6 times the curvature.
-Vec3 outward_normal(const Solid& solid, const Vec3& p);
-
 }  // namespace relievo::field

@@ -1,6 +1,7 @@
-// Elements of a list by their numbers. Tested by tests/scan/surface_test.cpp.
+// Elements of a contiguous list by their numbers. Tested by tests/scan/surface_test.cpp.
 #pragma once
 
+#include <ranges>
 #include <span>
 #include <vector>
 
@@ -10,11 +11,10 @@
 namespace relievo {
 
 // Returns the elements numbered by `order`; nothing of an empty list.
-template <typename T>
-std::vector<T> pick(const std::vector<T>& from, std::span<const Index> order) {
-  if (from.empty()) return {};
-  std::vector<T> out(order.size());
-  parallel_for(order.size(), [&](std::size_t i) { out[i] = from[order[i]]; });
+template <typename List>
+auto pick(const List& from, std::span<const Index> order) {
+  std::vector<std::ranges::range_value_t<List>> out(from.empty() ? 0 : order.size());
+  parallel_for(out.size(), [&](std::size_t i) { out[i] = from[order[i]]; });
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include "core/angle.h"
 #include "core/quantile.h"
 #include "core/random.h"
+#include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
@@ -158,7 +159,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
     for (const Vec2& p : points) {
       const auto turns_right = [&] {
         const Vec2 u = hull.back() - hull[hull.size() - 2], v = p - hull.back();
-        return u.x() * v.y() - u.y() * v.x() <= 0;
+        return cross(u, v) <= 0;
       };
       while (hull.size() >= first + 2 && turns_right()) hull.pop_back();
       hull.push_back(p);
@@ -172,7 +173,7 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
 bool is_within(const std::vector<Vec2>& hull, const Vec2& p) {
   for (std::size_t i = 0; i < hull.size(); ++i) {
     const Vec2 a = hull[i], side = hull[(i + 1) % hull.size()] - a, to = p - a;
-    if (side.x() * to.y() - side.y() * to.x() < 0) return false;
+    if (cross(side, to) < 0) return false;
   }
   return true;
 }

@@ -187,10 +187,6 @@ struct Refinement {
         [&](Index i, float value) { solution[i] += unit * static_cast<double>(value); });
   }
 
-  void read(std::span<const double> x) const {
-    parallel_for(solution.size(), [&](std::size_t i) { solution[i] = x[factor.order[i]]; });
-  }
-
   void write(std::span<double> x) const {
     parallel_for(solution.size(), [&](std::size_t i) { x[factor.order[i]] = solution[i]; });
   }
@@ -220,13 +216,6 @@ Refinement refinement_in(Cholesky::Workspace::Storage& w, const Factor& factor) 
 }
 
 }  // namespace
-
-void Cholesky::refine(std::span<const double> b, std::span<double> x, Workspace& workspace) const {
-  const Refinement refinement = refinement_in(*workspace.storage_, *factor_);
-  refinement.read(x);
-  refinement.correct(refinement.find_residual(b));
-  refinement.write(x);
-}
 
 void Cholesky::solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const {
   const Refinement refinement = refinement_in(*workspace.storage_, *factor_);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 #include "support/shapes.h"
 
@@ -157,7 +158,6 @@ TEST(Lattice, FindsTheNodesAroundAPoint) {
 // The place of a node is where at() gives its column and row.
 TEST(Lattice, FindsTheNodesInATriangle) {
   const Scattered s;
-  const auto cross = [](const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); };
   for (Index first = 0; first + 2 < 300; first += 3) {
     Triangle t{first, first + 1, first + 2};
     if (cross(s.place(t[1]) - s.place(t[0]), s.place(t[2]) - s.place(t[0])) < 0) std::swap(t[1], t[2]);

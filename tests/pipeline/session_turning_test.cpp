@@ -105,7 +105,7 @@ TEST(Session, CancelsTheFirstReliefWithItsPreparation) {
     ++asked;
     has_begun.release();
     while (!progress.is_cancelled()) std::this_thread::sleep_for(1ms);
-    return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+    return cancelled_error();
   };
   session.open(preparation);
   has_begun.acquire();

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "geometry/plane.h"
 #include "relievo/geometry/triangulation.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"
@@ -43,7 +44,6 @@ double height_at(const HeightFieldMesh& front, const Vec2& place) {
   for (const auto& [a, b, c] : front.triangles) {
     const Vec2 p = front.points[a].head<2>() - place, q = front.points[b].head<2>() - place,
                r = front.points[c].head<2>() - place;
-    const auto cross = [](const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); };
     const double wa = cross(q, r), wb = cross(r, p), wc = cross(p, q);
     if (wa < 0 || wb < 0 || wc < 0 || wa + wb + wc <= 0) continue;
     return (wa * front.points[a].z() + wb * front.points[b].z() + wc * front.points[c].z()) / (wa + wb + wc);
@@ -124,8 +124,7 @@ TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   for (const auto& [a, b] : edges_of(full))
     for (const auto& [c, d] : edges_of(simpler->front)) {
       const Vec2 u = b - a, v = d - c, w = c - a;
-      const double area = u.x() * v.y() - u.y() * v.x(), share = (w.x() * v.y() - w.y() * v.x()) / area,
-                   other = (w.x() * u.y() - w.y() * u.x()) / area;
+      const double area = cross(u, v), share = cross(w, v) / area, other = cross(w, u) / area;
       if (share > 0 && share < 1 && other > 0 && other < 1) compare(a + share * u);
     }
   EXPECT_GT(largest, .1);

@@ -134,10 +134,5 @@ TEST(Scatter, ScattersOtherwiseWithAnotherSeed) {
   EXPECT_NE(scatter(sphere(), {1000, 0, 1}).points, scatter(sphere(), {1000, 0, 2}).points);
 }
 
-TEST(OutwardNormal, IsTheGradientOffTheSurfaceToo) {
-  const Vec3 p = centre + Vec3(0.3, -0.4, 1.2);
-  EXPECT_LT((outward_normal(sphere(), p) - (p - centre).normalized()).norm(), 1e-5);
-}
-
 }  // namespace
 }  // namespace relievo::field

@@ -184,18 +184,14 @@ TEST(Cholesky, DoesNotMindTheUnit) {
   EXPECT_EQ(solved(*factor, Eigen::VectorXd::Zero(900)), Eigen::VectorXd::Zero(900));
 }
 
-TEST(Cholesky, RefinementLowersTheResidual) {
+TEST(Cholesky, RefinementInDoubleLowersTheResidual) {
   const PlanarSystem system = jittered_grid(100, 100);
   const auto factor = Cholesky::factor(system.A, system.positions);
   const Eigen::VectorXd b = random_vector(10000);
   const auto residual = [&](const Eigen::VectorXd& x) {
     return (system.A.selfadjointView<Eigen::Lower>() * x - b).cwiseAbs().maxCoeff();
   };
-  Eigen::VectorXd x = solved_in_single(*factor, b).cast<double>();
-  const double before = residual(x);
-  Cholesky::Workspace workspace = factor->make_workspace();
-  factor->refine(span_of(b), span_of(x), workspace);
-  EXPECT_LT(residual(x), 1e-4 * before);
+  EXPECT_GT(residual(solved_in_single(*factor, b).cast<double>()), 1e-9);
   EXPECT_LT(residual(solved(*factor, b)), 1e-13);
 }
 

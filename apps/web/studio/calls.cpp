@@ -48,9 +48,7 @@ CallAnswer call_answer(const studio::Answer& from, Json about) {
 Result<CallAnswer> take_project(const Json& json) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
   studio::Answer answer;
-  const studio::BodyReader whole = [&](const auto& take) {
-    return take({reinterpret_cast<const char*>(bytes.data()), bytes.size()}).has_value();
-  };
+  const studio::BodyReader whole = [&](const auto& take) { return take(text_in(bytes)).has_value(); };
   the_studio().actions.take_project(json.value("name", ""), whole, answer);
   return call_answer(answer, Json::object());
 }

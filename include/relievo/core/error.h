@@ -3,6 +3,7 @@
 
 #include <expected>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace relievo {
@@ -14,6 +15,12 @@ enum class ErrorKind {
   cancelled,  // Progress::cancel() was called
   output,     // a file could not be written
 };
+
+// Returns the kind's name, as it stands in files and messages: "input", "option" and so on.
+constexpr std::string_view name_of(ErrorKind kind) {
+  constexpr std::string_view names[] = {"input", "option", "geometry", "cancelled", "output"};
+  return names[static_cast<int>(kind)];
+}
 
 // Describes what went wrong: in which input, where in it, and what was expected there.
 struct Error {
@@ -35,12 +42,15 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return an error of kind option or geometry, ready to be returned from a function that returns a Result.
+// Return an error of kind option, geometry or cancelled, ready to be returned from a function that returns a Result.
 inline std::unexpected<Error> option_error(std::string option, std::string expected) {
   return std::unexpected(Error{ErrorKind::option, std::move(option), {}, std::move(expected)});
 }
 inline std::unexpected<Error> geometry_error(std::string expected) {
   return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
+}
+inline std::unexpected<Error> cancelled_error() {
+  return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
 }
 
 // Macros, as only these can return from the function they stand in.

@@ -2,6 +2,7 @@
 // drawn on the CPU. For a picture of a finished solid see render_preview().
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <optional>
@@ -33,7 +34,7 @@ struct Camera {
 };
 
 struct RenderOptions {
-  int width = 800, height = 600;  // of the picture, in pixels, [1, 8192]
+  int width = 800, height = 600;  // of the picture, in pixels, see has_size()
   double mm_per_unit = 1;         // of the model
   double margin_mm = 5, thickness_mm = 3;
   Camera camera;
@@ -41,6 +42,9 @@ struct RenderOptions {
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate; not zero
   bool has_shadows = true;        // cast by the relief on itself, and darker hollows
   bool is_fine = false;           // nine samples per pixel and finer shadows, for about five times the time
+
+  // Returns whether width and height are in [1, 8192]: else the picture is empty.
+  bool has_size() const { return std::min(width, height) >= 1 && std::max(width, height) <= 8192; }
 
   bool operator==(const RenderOptions&) const = default;
 };
@@ -98,8 +102,8 @@ class FrameRenderer {
 // Draws a cloud from any side, for choosing a view: its points as discs that overlap.
 class CloudRenderer {
  public:
-  // Copies at most `most_points` of the cloud's points; estimates normals if there are none.
-  explicit CloudRenderer(const Cloud& cloud, std::size_t most_points = 250000);
+  // Copies at most 250,000 of the cloud's points; estimates normals if there are none.
+  explicit CloudRenderer(const Cloud& cloud);
 
   // Overwrites the picture of the cloud, seen in the view, on nothing.
   void render(const View& view, int width, int height, Picture& picture) const;

@@ -75,10 +75,6 @@ class Cholesky {
   void solve(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
   void solve(std::span<const double> b, std::span<double> x) const;
 
-  // One step of refinement of an x close to the solution: computes the residual in double precision and
-  // corrects x by a substitution in single precision. b and x must not be the same storage.
-  void refine(std::span<const double> b, std::span<double> x, Workspace& workspace) const;
-
  private:
   explicit Cholesky(std::unique_ptr<Factor> factor);
   std::unique_ptr<Factor> factor_;

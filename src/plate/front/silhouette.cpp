@@ -4,6 +4,7 @@
 
 #include "core/disjoint_sets.h"
 #include "geometry/compact.h"
+#include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
@@ -73,7 +74,7 @@ void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
 
 double area_of(const HeightFieldMesh& front, const Triangle& t) {
   const Vec3 u = front.points[t[1]] - front.points[t[0]], v = front.points[t[2]] - front.points[t[0]];
-  return (u.x() * v.y() - u.y() * v.x()) / 2;
+  return cross(u.head<2>(), v.head<2>()) / 2;
 }
 
 // Removes the connected pieces that are smaller than smallest_piece of the whole.

@@ -205,7 +205,7 @@ Result<MembraneTuning> tune_membrane(const TuningInput& input, const Progress* p
     spans[k] = search.span();
   };
   parallel_for(spans.size(), search_at, 1);
-  if (is_cancelled()) return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});
+  if (is_cancelled()) return cancelled_error();
   make_heights_grow(tuning, spans);
   return tuning;
 }

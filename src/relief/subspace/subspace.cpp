@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <ranges>
 
 #include "core/memory.h"
 #include "relief/style.h"
@@ -13,18 +12,12 @@
 #include "relievo/geometry/spline.h"
 #include "relievo/scan/surface.h"
 #include "scan/jumps.h"
+#include "scan/pick.h"
 
 namespace relievo {
 namespace {
 
 const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
-
-template <typename Range>
-auto pick(const Range& from, std::span<const Index> which) {
-  std::vector<std::ranges::range_value_t<Range>> out(which.size());
-  for (std::size_t i = 0; i < which.size(); ++i) out[i] = from[which[i]];
-  return out;
-}
 
 // Ratio and offset share their lattices, whose cells go from 12 radii of the control points down to 3/4 of one.
 // The ratio is fitted on the coarsest two, the offset on the others.
