@@ -1,8 +1,7 @@
 #include "relievo/scan/cloud.h"
 
-#include <algorithm>
-
 #include "core/quantile.h"
+#include "relievo/core/parallel.h"
 
 namespace relievo {
 
@@ -15,12 +14,15 @@ namespace {
 // Returns the median of each coordinate.
 Vec3 median_of(const Cloud& cloud) {
   Vec3 middle;
-  std::vector<double> values(cloud.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    std::transform(cloud.points.begin(), cloud.points.end(), values.begin(),
-                   [&](const Vec3& p) { return p[axis]; });
-    middle[axis] = quantile(values, .5);
-  }
+  parallel_for(
+      3,
+      [&](std::size_t axis) {
+        std::vector<double> values;
+        values.reserve(cloud.size());
+        for (const Vec3& p : cloud.points) values.push_back(p[static_cast<Eigen::Index>(axis)]);
+        middle[static_cast<Eigen::Index>(axis)] = quantile(values, .5);
+      },
+      1);
   return middle;
 }
 
@@ -30,8 +32,7 @@ std::vector<Index> outliers(const Cloud& cloud) {
   if (cloud.size() == 0) return {};
   const Vec3 middle = median_of(cloud);
   std::vector<double> distances(cloud.size());
-  std::transform(cloud.points.begin(), cloud.points.end(), distances.begin(),
-                 [&](const Vec3& p) { return (p - middle).norm(); });
+  parallel_for(cloud.size(), [&](std::size_t i) { distances[i] = (cloud.points[i] - middle).norm(); });
   // Generous enough for long and thin models, whose ends are far from the median: of points spread evenly
   // over a line, none is further away than 1.2 times this quantile.
   const double radius = 20 * quantile(std::vector(distances), .9);

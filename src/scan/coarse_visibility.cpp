@@ -3,36 +3,60 @@
 #include <algorithm>
 #include <cmath>
 
+#include "relievo/core/parallel.h"
+
 namespace relievo {
 namespace {
 
+constexpr double cells_along_diagonal = 160;
+
+// The nearest and the farthest point of a cell.
+struct Cell {
+  Index front = no_index;
+  double front_z = 0, back_z = 0;
+  Vec3f normal = Vec3f::Zero();  // of the front point, turned into the view
+
+  bool is_empty() const { return front == no_index; }
+
+  void take(Index i, double z) {
+    if (is_empty()) back_z = z;
+    back_z = std::min(back_z, z);
+    if (!is_empty() && z <= front_z) return;
+    front = i;
+    front_z = z;
+  }
+};
+
 class Grid {
  public:
-  Grid(const Cloud& cloud, int cells) : cloud_(cloud), box_(bounds(cloud)) {
+  Grid(const Cloud& cloud, const Mat3& R, NormalSigns signs) {
+    for (const Vec3& p : cloud.points) box_.extend(R * p);
     // Cells at least two spacings wide, or the back shows through gaps in the front. The factor 2 in the
     // spacing accounts for the points at the back.
     const Vec3 size = box_.size();
     const double spacing = std::sqrt(2 * size.x() * size.y() / static_cast<double>(cloud.size()));
-    cell_ = std::max({box_.diagonal() / cells, 2 * spacing, 1e-300});
-    columns_ = 1 + static_cast<std::size_t>(box_.size().x() / cell_);
-    rows_ = 1 + static_cast<std::size_t>(box_.size().y() / cell_);
-    front_.assign(columns_ * rows_, no_index);
-    back_ = front_;
+    width_ = std::max({box_.diagonal() / cells_along_diagonal, 2 * spacing, 1e-300});
+    columns_ = 1 + static_cast<std::size_t>(size.x() / width_);
+    rows_ = 1 + static_cast<std::size_t>(size.y() / width_);
+    cells_.resize(columns_ * rows_);
     for (Index i = 0; i < cloud.size(); ++i) {
-      const std::size_t cell = cell_of(cloud.points[i]);
-      Index &front = front_[cell], &back = back_[cell];
-      if (front == no_index || cloud.points[i].z() > cloud.points[front].z()) front = i;
-      if (back == no_index || cloud.points[i].z() < cloud.points[back].z()) back = i;
+      const Vec3 p = R * cloud.points[i];
+      cells_[cell_of(p)].take(i, p.z());
+    }
+    for (Cell& cell : cells_) {
+      if (cell.is_empty()) continue;
+      cell.normal = R.cast<float>() * cloud.normals[cell.front];
+      if (signs == NormalSigns::inward || (signs == NormalSigns::unknown && cell.normal.z() < 0))
+        cell.normal = -cell.normal;
     }
   }
 
   double facing_share() const {
     constexpr float edge_on = .1F;  // the sign of normals within 6 degrees of edge on is not reliable
     std::size_t facing = 0, away = 0;
-    for (const Index i : front_) {
-      if (i == no_index) continue;
-      facing += cloud_.normals[i].z() > edge_on;
-      away += cloud_.normals[i].z() < -edge_on;
+    for (const Cell& cell : cells_) {
+      facing += cell.normal.z() > edge_on;
+      away += cell.normal.z() < -edge_on;
     }
     return facing + away ? static_cast<double>(facing) / static_cast<double>(facing + away) : .5;
   }
@@ -40,10 +64,10 @@ class Grid {
   double one_layer() const {
     constexpr double thin = 6;  // cells: a surface of 80 degrees rises by as much in one
     std::size_t cells = 0, thin_cells = 0;
-    for (std::size_t cell = 0; cell < front_.size(); ++cell) {
-      if (front_[cell] == no_index) continue;
+    for (const Cell& cell : cells_) {
+      if (cell.is_empty()) continue;
       ++cells;
-      thin_cells += cloud_.points[front_[cell]].z() - cloud_.points[back_[cell]].z() < thin * cell_;
+      thin_cells += cell.front_z - cell.back_z < thin * width_;
     }
     return cells ? static_cast<double>(thin_cells) / static_cast<double>(cells) : 0;
   }
@@ -54,10 +78,10 @@ class Grid {
     } inside, outline;
     for (std::size_t row = 0; row < rows_; ++row)
       for (std::size_t column = 0; column < columns_; ++column) {
-        const Index i = front_[row * columns_ + column];
-        if (i == no_index) continue;
+        const Cell& cell = cells_[row * columns_ + column];
+        if (cell.is_empty()) continue;
         Mean& mean = is_on_outline(row, column) ? outline : inside;
-        mean.sum += cloud_.points[i].z();
+        mean.sum += cell.front_z;
         ++mean.count;
       }
     if (inside.count == 0 || outline.count == 0 || !(box_.diagonal() > 0)) return 0;
@@ -69,49 +93,62 @@ class Grid {
     for (std::size_t row = 0; row < rows_; ++row)
       for (std::size_t column = 0; column < columns_; ++column) {
         const std::size_t cell = row * columns_ + column;
-        if (column + 1 < columns_) sum += difference(front_[cell], front_[cell + 1]);
-        if (row + 1 < rows_) sum += difference(front_[cell], front_[cell + columns_]);
+        if (column + 1 < columns_) sum += difference(cells_[cell], cells_[cell + 1]);
+        if (row + 1 < rows_) sum += difference(cells_[cell], cells_[cell + columns_]);
       }
     return sum;
   }
 
  private:
   std::size_t cell_of(const Vec3& p) const {
-    const auto column = static_cast<std::size_t>((p.x() - box_.min.x()) / cell_);
-    const auto row = static_cast<std::size_t>((p.y() - box_.min.y()) / cell_);
+    const auto column = static_cast<std::size_t>((p.x() - box_.min.x()) / width_);
+    const auto row = static_cast<std::size_t>((p.y() - box_.min.y()) / width_);
     return std::min(row, rows_ - 1) * columns_ + std::min(column, columns_ - 1);
   }
 
   bool is_on_outline(std::size_t row, std::size_t column) const {
     if (row == 0 || column == 0 || row + 1 == rows_ || column + 1 == columns_) return true;
     const std::size_t cell = row * columns_ + column;
-    return front_[cell - 1] == no_index || front_[cell + 1] == no_index ||
-           front_[cell - columns_] == no_index || front_[cell + columns_] == no_index;
+    return cells_[cell - 1].is_empty() || cells_[cell + 1].is_empty() || cells_[cell - columns_].is_empty() ||
+           cells_[cell + columns_].is_empty();
   }
 
   // Returns the difference between the normals of two cells, 0 across depth jumps. At most 0.5: a sharp edge
   // shall not count for more than a rounded one.
-  double difference(Index a, Index b) const {
-    if (a == no_index || b == no_index) return 0;
-    const bool is_jump = std::abs(cloud_.points[a].z() - cloud_.points[b].z()) > 4 * cell_;
-    const bool faces_viewer = cloud_.normals[a].z() > 0 && cloud_.normals[b].z() > 0;
+  double difference(const Cell& a, const Cell& b) const {
+    if (a.is_empty() || b.is_empty()) return 0;
+    const bool is_jump = std::abs(a.front_z - b.front_z) > 4 * width_;
+    const bool faces_viewer = a.normal.z() > 0 && b.normal.z() > 0;
     if (is_jump || !faces_viewer) return 0;
-    return std::min(.5, static_cast<double>((cloud_.normals[a] - cloud_.normals[b]).norm()));
+    return std::min(.5, static_cast<double>((a.normal - b.normal).norm()));
   }
 
-  const Cloud& cloud_;
   Box box_;
-  double cell_ = 1;
+  double width_ = 1;  // of a cell
   std::size_t columns_ = 1, rows_ = 1;
-  std::vector<Index> front_, back_;
+  std::vector<Cell> cells_;
 };
 
 }  // namespace
 
-CoarseVisibility coarse_visibility(const Cloud& viewed, int cells) {
-  if (viewed.size() == 0 || !viewed.has_normals()) return {};
-  const Grid grid(viewed, cells);
-  return {grid.facing_share(), grid.normal_variation(), grid.one_layer(), grid.bulge()};
+std::vector<CoarseVisibility> coarse_visibility(const Cloud& cloud, std::span<const View> views,
+                                                NormalSigns signs) {
+  std::vector<CoarseVisibility> seen(views.size());
+  if (cloud.size() == 0 || !cloud.has_normals()) return seen;
+  parallel_for(
+      views.size(),
+      [&](std::size_t i) {
+        const Grid grid(cloud, views[i].R_view_model, signs);
+        seen[i] = {grid.facing_share(), grid.normal_variation(), grid.one_layer(), grid.bulge()};
+      },
+      1);
+  return seen;
+}
+
+bool normals_point_inward(std::span<const CoarseVisibility> sides) {
+  double facing = 0;
+  for (const CoarseVisibility& side : sides) facing += side.facing_share;
+  return facing < static_cast<double>(sides.size()) / 3;
 }
 
 }  // namespace relievo

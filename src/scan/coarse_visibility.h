@@ -1,8 +1,12 @@
-// A fast, coarse estimate of what is visible of a cloud from +Z, to rank views and check normals. It is too
-// coarse for reliefs. Tested by tests/scan/view_test.cpp and tests/scan/normals_test.cpp.
+// A fast, coarse estimate of what is visible of a cloud, to rank views and check normals. It is too coarse for reliefs.
+// Tested by tests/scan/view_ranking_test.cpp and tests/scan/normals_test.cpp.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "relievo/scan/cloud.h"
+#include "relievo/scan/view.h"
 
 namespace relievo {
 
@@ -17,9 +21,16 @@ struct CoarseVisibility {
   double bulge = 0;  // how much nearer the front is inside its outline than along it, over the box's diagonal
 };
 
-// Computes them from the front point, the one with the largest z, of each cell of a grid over a cloud in view
-// coordinates. The diagonal of the cloud's box is `cells` cells long. Without normals the result is the
-// default.
-CoarseVisibility coarse_visibility(const Cloud& viewed, int cells = 160);
+// What is known of the normals' signs. Unknown ones are taken to face the viewer.
+enum class NormalSigns { outward, inward, unknown };
+
+// Returns them for each view, whose crop is not looked at: from the front point, the one with the largest z, of each cell
+// of a grid over the cloud as the view turns it. The diagonal of the cloud's box is 160 cells long. Without normals the
+// results are the default.
+std::vector<CoarseVisibility> coarse_visibility(const Cloud& cloud, std::span<const View> views,
+                                                NormalSigns signs = NormalSigns::outward);
+
+// Returns whether normals point into a model that is seen so from the six sides along its axes, see normals.h.
+bool normals_point_inward(std::span<const CoarseVisibility> sides);
 
 }  // namespace relievo

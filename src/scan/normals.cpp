@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
@@ -88,10 +89,10 @@ void spread_normal_signs(Cloud& viewed, const Spacing& spacing, std::span<const 
 
 bool normals_point_inward(const Cloud& cloud) {
   if (!cloud.has_normals()) return false;
-  double facing = 0;
-  const std::array<const char*, 6> sides{"front", "back", "left", "right", "top", "bottom"};
-  for (const char* side : sides) facing += coarse_visibility(in_view(cloud, *parse_view(side))).facing_share;
-  return facing < sides.size() / 3.0;
+  std::vector<View> sides;
+  for (const char* side : {"front", "back", "left", "right", "top", "bottom"})
+    sides.push_back(*parse_view(side));
+  return normals_point_inward(coarse_visibility(cloud, sides));
 }
 
 void flip_normals(Cloud& cloud) {

@@ -45,14 +45,10 @@ bool stands_on_z(const Cloud& cloud) {
   return foot > wide && foot > wider * foot_along(cloud, box, 1);
 }
 
-std::vector<CoarseVisibility> seen_from(const Cloud& cloud, const Sides& sides, bool has_signs) {
-  std::vector<CoarseVisibility> seen;
-  for (const ViewGuess& side : sides) {
-    Cloud viewed = in_view(cloud, parse_view(side.name, side.up).value_or(View{}));
-    if (!has_signs) turn_to_viewer(viewed);
-    seen.push_back(coarse_visibility(viewed));
-  }
-  return seen;
+std::vector<CoarseVisibility> seen_from(const Sides& sides, const Cloud& cloud, NormalSigns signs) {
+  std::vector<View> views;
+  for (const ViewGuess& side : sides) views.push_back(parse_view(side.name, side.up).value_or(View{}));
+  return coarse_visibility(cloud, views, signs);
 }
 
 // Returns the first of the two opposite sides from one of which all was scanned; 6 if the cloud has several layers.
@@ -84,9 +80,13 @@ std::array<ViewGuess, 6> rank_views(const Cloud& all) {
   Cloud cloud = erase_points(all, outliers(all));
   const bool has_signs = cloud.has_normals();
   if (!has_signs) estimate_normals(cloud);
-  if (has_signs && normals_point_inward(cloud)) flip_normals(cloud);
+  NormalSigns signs = has_signs ? NormalSigns::outward : NormalSigns::unknown;
   Sides sides = y_up;
-  std::vector<CoarseVisibility> seen = seen_from(cloud, sides, has_signs);
+  std::vector<CoarseVisibility> seen = seen_from(sides, cloud, signs);
+  if (has_signs && normals_point_inward(seen)) {
+    signs = NormalSigns::inward;
+    seen = seen_from(sides, cloud, signs);
+  }
   const std::size_t scanned = scanned_axis(seen);
   if (scanned < 6) {
     const bool is_first = is_first_outside(seen[scanned], seen[scanned + 1], has_signs);
@@ -96,7 +96,7 @@ std::array<ViewGuess, 6> rank_views(const Cloud& all) {
   } else {
     if (stands_on_z(cloud)) {
       sides = z_up;
-      seen = seen_from(cloud, sides, has_signs);
+      seen = seen_from(sides, cloud, signs);
     }
     for (std::size_t i = 0; i < 6; ++i)
       sides[i].score =
