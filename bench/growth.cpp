@@ -23,7 +23,7 @@ Result<Measured> measure(std::size_t visible) {
   const Result<Cloud> cloud = make_sample("shell", {visible * 5 / 2});
   if (!cloud) return std::unexpected(cloud.error());
   Progress progress;
-  Result<Surface> surface = find_surface(*cloud, {}, {}, &progress);
+  Result<Surface> surface = find_surface(*cloud, {}, &progress);
   if (!surface) return std::unexpected(surface.error());
   const Result<ReliefModel> model = ReliefModel::prepare(std::move(*surface), &progress);
   if (!model) return std::unexpected(model.error());

@@ -72,7 +72,7 @@ Result<std::vector<Mode>> modes_of(const BenchArguments& arguments, const Surfac
 Result<BenchResult> measure(const BenchArguments& arguments) {
   Progress progress;
   RELIEVO_TRY(const SampledView seen, read_sample(arguments.scene, &progress));
-  RELIEVO_TRY(const Surface surface, find_surface(*seen.sample.cloud, seen.view, {}, &progress));
+  RELIEVO_TRY(const Surface surface, find_surface(*seen.sample.cloud, seen.view, &progress));
   progress.finish();
 
   BenchResult result{surface.input_points, surface.points.size(), progress.times(), {}, {}, {}};

@@ -115,7 +115,7 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 }
 
 Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {
-  RELIEVO_TRY(Surface surface, find_surface(points, view, {}, progress));
+  RELIEVO_TRY(Surface surface, find_surface(points, view, progress));
   return ReliefModel::prepare(std::move(surface), progress, mode);
 }
 

@@ -8,9 +8,13 @@
 #include "geometry/neighbours.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
+#include "scan/scan_limits.h"
 
 namespace relievo {
 namespace {
+
+// Radius in rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
+constexpr double gap = 3;
 
 // Returns infinity for a triangle without area.
 double circumradius(const Vec2& a, const Vec2& b, const Vec2& c) {
@@ -41,17 +45,17 @@ class BoundaryFinder {
     });
   }
 
-  std::vector<std::uint8_t> inside(double gap, double smallest_hole) const {
+  std::vector<std::uint8_t> inside() const {
     std::vector<std::uint8_t> is_inside(radius_.size());
     parallel_for(radius_.size(), [&](std::size_t t) { is_inside[t] = radius_[t] <= gap; });
-    close_narrow_holes(is_inside, smallest_hole);
+    close_narrow_holes(is_inside);
     return is_inside;
   }
 
  private:
   // Marks as inside each connected set of outside triangles that does not touch the hull and into which no
-  // circle of radius `smallest_hole` fits.
-  void close_narrow_holes(std::vector<std::uint8_t>& is_inside, double smallest_hole) const {
+  // circle of the radius of the largest hole fits.
+  void close_narrow_holes(std::vector<std::uint8_t>& is_inside) const {
     DisjointSets sets(is_inside.size());
     for (Index t = 0; t < is_inside.size(); ++t)
       for (const Index other : mesh_.neighbours[t])
@@ -60,7 +64,8 @@ class BoundaryFinder {
     for (Index t = 0; t < is_inside.size(); ++t) {
       const auto& around = mesh_.neighbours[t];
       const bool is_open = std::find(around.begin(), around.end(), no_index) != around.end();
-      if (!is_inside[t] && (is_open || radius_[t] > smallest_hole)) stays_outside[sets.find(t)] = 1;
+      if (!is_inside[t] && (is_open || radius_[t] > ScanLimits::largest_hole))
+        stays_outside[sets.find(t)] = 1;
     }
     for (Index t = 0; t < is_inside.size(); ++t)
       if (!is_inside[t]) is_inside[t] = !stays_outside[sets.find(t)];
@@ -100,15 +105,13 @@ std::vector<float> distances_to(std::span<const Vec2> points, const std::vector<
 }
 
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
-                                           double rho, const BoundaryOptions& options,
-                                           std::span<const float> spacing) {
-  return BoundaryFinder(points, triangulation, rho, spacing).inside(options.gap, options.smallest_hole);
+                                           double rho, std::span<const float> spacing) {
+  return BoundaryFinder(points, triangulation, rho, spacing).inside();
 }
 
-Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
-                       const BoundaryOptions& options, std::span<const float> spacing) {
+Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho) {
   Boundary boundary;
-  boundary.is_inside = inside_triangles(points, triangulation, rho, options, spacing);
+  boundary.is_inside = inside_triangles(points, triangulation, rho);
   boundary.is_boundary = boundary_points(points.size(), triangulation, boundary.is_inside);
   boundary.distance = distances_to(points, boundary.is_boundary);
   return boundary;

@@ -119,23 +119,19 @@ bool MeasuredCloud::serves(const View& view) const {
   return is_of_any_view || view.R_view_model == view_.R_view_model;
 }
 
-std::vector<double> MeasuredCloud::curvature(std::span<const Index> points, const CurvatureOptions& options,
-                                             const Progress* progress) const {
-  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  std::vector<double> k = known_.with([&](Known& known) {
-    if (known.curvature.empty() || known.options.scale != options.scale)
-      known = {options, std::vector<double>(cloud_.size(), unknown)};
-    return pick(known.curvature, points);
+std::vector<double> MeasuredCloud::curvature(std::span<const Index> points, const Progress* progress) const {
+  std::vector<double> k = curvature_.with([&](std::vector<double>& known) {
+    if (known.empty()) known.assign(cloud_.size(), std::numeric_limits<double>::quiet_NaN());
+    return pick(known, points);
   });
   std::vector<Index> missing, places;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (std::isnan(k[i])) missing.push_back(points[i]), places.push_back(static_cast<Index>(i));
-  const std::vector<double> found = mean_curvature({cloud_, spacing_, *tree_}, missing, options, progress);
+  const std::vector<double> found = mean_curvature({cloud_, spacing_, *tree_}, missing, {}, progress);
   for (std::size_t i = 0; i < missing.size(); ++i) k[places[i]] = found[i];
   if (progress && progress->is_cancelled()) return k;
-  known_.with([&](Known& known) {
-    if (known.options.scale != options.scale) return;
-    for (std::size_t i = 0; i < missing.size(); ++i) known.curvature[missing[i]] = found[i];
+  curvature_.with([&](std::vector<double>& known) {
+    for (std::size_t i = 0; i < missing.size(); ++i) known[missing[i]] = found[i];
   });
   return k;
 }

@@ -26,7 +26,6 @@ class MeasuredCloud {
   // makes all results independent of the file's order. Signs of estimated normals are arbitrary.
   const Cloud& cloud() const { return cloud_; }
   const Spacing& spacing() const { return spacing_; }
-  const KdTree<Vec3>& tree() const { return *tree_; }
 
   // Facts for the surfaces of all views.
   const Vec3& centre() const { return centre_; }
@@ -39,18 +38,12 @@ class MeasuredCloud {
 
   // Returns the mean curvature at points, for normals that point outwards. Values are kept, so that each point is
   // measured once. May be called concurrently.
-  std::vector<double> curvature(std::span<const Index> points, const CurvatureOptions& options,
-                                const Progress* progress) const;
+  std::vector<double> curvature(std::span<const Index> points, const Progress* progress) const;
 
  private:
   MeasuredCloud() = default;
   Result<void> measure_points(const View& view, Progress* progress);
   void remove_noise(const View& view, const Progress* progress);
-
-  struct Known {
-    CurvatureOptions options;
-    std::vector<double> curvature;  // per point; not a number where it is not measured yet
-  };
 
   View view_;  // that it was measured for
   Cloud cloud_;
@@ -61,12 +54,11 @@ class MeasuredCloud {
   std::size_t input_points_ = 0;
   bool has_estimated_normals_ = false, do_normals_point_inward_ = false;
   double measured_noise_ = 0, removed_noise_ = 0;
-  mutable Guarded<Known> known_;
+  mutable Guarded<std::vector<double>> curvature_;  // per point; not a number where it is not measured yet
 };
 
 // Returns the surface that a view shows, see the function of this name for a cloud. The view is one that the cloud was
 // measured for.
-Result<Surface> find_surface(const MeasuredCloud& measured, const View& view,
-                             const SurfaceOptions& options = {}, Progress* progress = nullptr);
+Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -92,10 +92,10 @@ ViewCloud look_at(const MeasuredCloud& measured, Surface& surface) {
 }
 
 std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index> visible,
-                                 const CurvatureOptions& options, const Progress* progress) {
+                                 const Progress* progress) {
   if (viewed.measured.has_estimated_normals())
-    return mean_curvature(viewed.cloud, viewed.spacing(), visible, options, progress);
-  std::vector<double> k = viewed.measured.curvature(visible, options, progress);
+    return mean_curvature(viewed.cloud, viewed.spacing(), visible, {}, progress);
+  std::vector<double> k = viewed.measured.curvature(visible, progress);
   for (double& each : k) each *= viewed.sign;
   return k;
 }
@@ -136,18 +136,17 @@ void leave_out(const SupportPlane& plane, Cloud& cloud, std::vector<Index>& visi
 }
 
 // Stages 3 and 4: sets the surface's points, normals and colours.
-Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& options, Surface& surface,
-                                  Progress* progress) {
+Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress* progress) {
   if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
   Cloud& cloud = viewed.cloud;
   const Spacing& spacing = viewed.spacing();
-  auto [visible, removed] = find_visible(cloud, spacing, options.visible);
+  auto [visible, removed] = find_visible(cloud, spacing);
   if (visible.size() < 4)
     return geometry_error(
         cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
   surface.removed_points = removed;
   RELIEVO_CHECK(check_cancelled(progress));
-  std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible, options.visible);
+  std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible);
   surface.plane = find_support_plane(cloud, visible, surface.rho);
   if (surface.plane && !surface.view.has_plane) {
     leave_out(*surface.plane, cloud, visible, hole_fill);
@@ -159,7 +158,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
 
   if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
   std::vector<double> k(cloud.size(), 0.0);
-  scatter(curvature_of(viewed, visible, options.curvature, progress), visible, k);
+  scatter(curvature_of(viewed, visible, progress), visible, k);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Index> shown = along_the_plane(cloud, merged(visible, hole_fill));
   surface.points = pick(cloud.points, shown);
@@ -169,14 +168,12 @@ Result<PointMeasures> find_points(ViewCloud& viewed, const SurfaceOptions& optio
 }
 
 // Stages 5 and 6, but for what put_points_on_outlines() would only replace: the boundary has `is_inside` alone.
-Result<void> triangulate(Surface& surface, const PointMeasures& measures, const BoundaryOptions& options,
-                         Progress* progress) {
+Result<void> triangulate(Surface& surface, const PointMeasures& measures, Progress* progress) {
   const std::vector<Vec2> xy = in_plane(surface.points);
   surface.triangulation = delaunay(xy);
   if (surface.triangulation.triangles.empty())
     return geometry_error("expected visible points that enclose an area, found all of them on one line");
-  surface.boundary = {
-      inside_triangles(xy, surface.triangulation, surface.rho, options, measures.spacing), {}, {}, {}};
+  surface.boundary = {inside_triangles(xy, surface.triangulation, surface.rho, measures.spacing), {}, {}, {}};
   return check_cancelled(progress);
 }
 
@@ -200,27 +197,24 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points) {
   return xy;
 }
 
-Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options,
-                             Progress* progress) {
+Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* progress) {
   RELIEVO_TRY(const auto measured, MeasuredCloud::measure(cloud, view, progress));
-  return find_surface(*measured, view, options, progress);
+  return find_surface(*measured, view, progress);
 }
 
-Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, const SurfaceOptions& options,
-                             Progress* progress) {
+Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Progress* progress) {
   Surface surface;
   surface.view = view;
   surface.centre = measured.centre();
   surface.diagonal = measured.diagonal();
   surface.input_points = measured.input_points();
   ViewCloud viewed = look_at(measured, surface);
-  RELIEVO_TRY(PointMeasures measures, find_points(viewed, options, surface, progress));
+  RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
 
   if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
-  RELIEVO_CHECK(triangulate(surface, measures, options.boundary, progress));
+  RELIEVO_CHECK(triangulate(surface, measures, progress));
   if (auto go = begin_stage(progress, "boundary", .65); !go) return std::unexpected(go.error());
-  if (drop_small_patches(surface, measures))
-    RELIEVO_CHECK(triangulate(surface, measures, options.boundary, progress));
+  if (drop_small_patches(surface, measures)) RELIEVO_CHECK(triangulate(surface, measures, progress));
   put_points_on_outlines(surface, measures, viewed.cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));
   const std::vector<Vec2> xy = in_plane(surface.points);

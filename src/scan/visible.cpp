@@ -7,27 +7,28 @@
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
 #include "scan/depth_buffer.h"
+#include "scan/scan_limits.h"
 
 namespace relievo {
 namespace {
 
 constexpr double pixel_side = 0.5;  // of the depth buffer, in rho: finer than the discs, which overlap
-// Limits of the local spacing, in rho. Near coincident points it is almost 0, which would let one look
-// through the surface; a lone point far from all others must not hide an area as large as its spacing.
-constexpr double least_spacing = .25, largest_spacing = 4;
+// In rho: among points closer to each other in the view plane only the one nearest to the viewer is kept.
+constexpr double coincidence_distance = .01;
+// Connected sets of fewer visible points are taken for floating noise.
+constexpr std::size_t smallest_fragment = 32;
 // Neighbours further apart than this, in local spacings, are not connected. A disc of this radius holds 9 pi
 // = 28 points.
 constexpr double connection_length = 3;
 // A fragment has at most the visible points divided by this, or a cloud of few points would be nothing else.
 constexpr std::size_t fragment_divisor = 8;
-constexpr double least_facing = .1;  // limits the tolerance along the view where a surface is seen edge on
 // Hole fill points come from well sampled surfaces only, and are this far apart, in rho.
 constexpr double sparsest_hole_fill = 1.5, hole_fill_spacing = .7;
 
 class Visibility {
  public:
-  Visibility(const Cloud& cloud, const Spacing& spacing, const VisibleOptions& options)
-      : cloud_(cloud), spacing_(spacing), options_(options), is_fragment_(cloud.size(), 0) {}
+  Visibility(const Cloud& cloud, const Spacing& spacing)
+      : cloud_(cloud), spacing_(spacing), is_fragment_(cloud.size(), 0) {}
 
   VisiblePoints find() {
     std::vector<Index> visible = in_front();
@@ -45,8 +46,8 @@ class Visibility {
  private:
   bool faces_viewer(Index i) const { return cloud_.normals[i].z() > 0 && !is_fragment_[i]; }
   double local_spacing(Index i) const {
-    return std::clamp(static_cast<double>(spacing_.local[i]), least_spacing * spacing_.rho,
-                      largest_spacing * spacing_.rho);
+    return std::clamp(static_cast<double>(spacing_.local[i]), ScanLimits::least_spacing * spacing_.rho,
+                      ScanLimits::largest_spacing * spacing_.rho);
   }
 
   std::vector<Index> in_front() const {
@@ -57,7 +58,7 @@ class Visibility {
       if (!faces_viewer(i)) continue;
       facing.push_back(i);
       box.extend(cloud_.points[i]);
-      discs.push_back({cloud_.points[i], cloud_.normals[i], options_.disc_radius * local_spacing(i)});
+      discs.push_back({cloud_.points[i], cloud_.normals[i], ScanLimits::disc_radius * local_spacing(i)});
     }
     DepthBuffer buffer(box, pixel_side * spacing_.rho);
     buffer.splat(discs);
@@ -76,8 +77,8 @@ class Visibility {
     const Vec3& p = cloud_.points[i];
     const Vec2 step = buffer.pixel_centre(p.x(), p.y()) - p.head<2>();
     const double depth = p.z() + depth_along_plane(cloud_.normals[i], step.x(), step.y());
-    const double nz = std::max(static_cast<double>(cloud_.normals[i].z()), least_facing);
-    const double tolerance = options_.depth_tolerance * local_spacing(i) / nz;
+    const double nz = std::max(static_cast<double>(cloud_.normals[i].z()), ScanLimits::least_facing);
+    const double tolerance = ScanLimits::depth_tolerance * local_spacing(i) / nz;
     return depth + tolerance >= static_cast<double>(buffer.depth(p.x(), p.y()));
   }
 
@@ -92,7 +93,7 @@ class Visibility {
         if (j != no_index && is_visible[j] && (cloud_.points[i] - cloud_.points[j]).norm() < radius)
           sets.join(i, j);
     }
-    const std::size_t least = std::min(options_.smallest_fragment, visible.size() / fragment_divisor);
+    const std::size_t least = std::min(smallest_fragment, visible.size() / fragment_divisor);
     std::size_t marked = 0;
     for (const Index i : visible)
       if (sets.size_of(i) < least) is_fragment_[i] = 1, ++marked;
@@ -109,7 +110,7 @@ class Visibility {
     const auto along = [&](Index i) { return .811 * at(i).x() + .585 * at(i).y(); };
     std::sort(visible.begin(), visible.end(),
               [&](Index a, Index b) { return std::pair(along(a), a) < std::pair(along(b), b); });
-    const double radius = options_.coincidence_distance * spacing_.rho;
+    const double radius = coincidence_distance * spacing_.rho;
     std::vector<std::uint8_t> is_hidden(visible.size(), 0);
     for (std::size_t a = 0; a < visible.size(); ++a)
       for (std::size_t b = a + 1; b < visible.size() && along(visible[b]) - along(visible[a]) <= radius;
@@ -127,7 +128,6 @@ class Visibility {
 
   const Cloud& cloud_;
   const Spacing& spacing_;
-  const VisibleOptions& options_;
   std::vector<std::uint8_t> is_fragment_;
 };
 
@@ -149,24 +149,23 @@ std::vector<Index> with_least_distance(const Cloud& cloud, std::vector<Index> po
 
 }  // namespace
 
-std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing,
-                                  const VisibleOptions& options) {
-  return find_visible(viewed, spacing, options).points;
+std::vector<Index> visible_points(const Cloud& viewed, const Spacing& spacing) {
+  return find_visible(viewed, spacing).points;
 }
 
-VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing, const VisibleOptions& options) {
+VisiblePoints find_visible(const Cloud& viewed, const Spacing& spacing) {
   if (!viewed.has_normals() || !(spacing.rho > 0)) return {};
-  return Visibility(viewed, spacing, options).find();
+  return Visibility(viewed, spacing).find();
 }
 
 std::vector<Index> hole_fill_points(const Cloud& viewed, const Spacing& spacing,
-                                    std::span<const Index> visible, const VisibleOptions& options) {
+                                    std::span<const Index> visible) {
   if (!viewed.has_normals()) return {};
   std::vector<Vec2> seen(visible.size());
   std::transform(visible.begin(), visible.end(), seen.begin(),
                  [&](Index i) { return viewed.points[i].head<2>(); });
   const KdTree<Vec2> tree(seen);
-  const double radius = options.hole_fill_distance * spacing.rho;
+  const double radius = ScanLimits::hole_fill_distance * spacing.rho;
   std::vector<std::uint8_t> is_far(viewed.size(), 0);
   parallel_for(viewed.size(), [&](std::size_t i) {
     Index nearest;

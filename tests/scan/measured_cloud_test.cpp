@@ -48,9 +48,9 @@ TEST(MeasuredCloud, KeepsAtMostEightPointsOfAPlace) {
 TEST(MeasuredCloud, KeepsTheCurvatureOfASphere) {
   const auto sphere = measured(test::sphere(20'000, 2));
   const std::vector<Index> some{3, 77, 1500};
-  const std::vector<double> first = sphere->curvature(some, {}, nullptr);
+  const std::vector<double> first = sphere->curvature(some, nullptr);
   for (const double k : first) EXPECT_NEAR(k, .5, .05);
-  EXPECT_EQ(sphere->curvature(some, {}, nullptr), first);
+  EXPECT_EQ(sphere->curvature(some, nullptr), first);
 }
 
 TEST(MeasuredCloud, ServesViewsThatAskForTheSameMeasures) {

@@ -87,7 +87,7 @@ TEST(Surface, RunsItsStagesInOrderAndCanBeCancelled) {
   std::vector<std::string> stages;
   Progress watched([&](std::string_view stage, double) { stages.emplace_back(stage); });
   const Cloud cloud = test::sphere(5000, 1);
-  ASSERT_TRUE(find_surface(cloud, {}, {}, &watched));
+  ASSERT_TRUE(find_surface(cloud, {}, &watched));
   EXPECT_EQ(stages, (std::vector<std::string>{"view", "spacing", "normals", "visible points", "curvature",
                                               "triangulation", "boundary"}));
   Progress* self = nullptr;
@@ -95,7 +95,7 @@ TEST(Surface, RunsItsStagesInOrderAndCanBeCancelled) {
     if (stage == "curvature") self->cancel();
   });
   self = &cancelled;
-  const auto surface = find_surface(cloud, {}, {}, &cancelled);
+  const auto surface = find_surface(cloud, {}, &cancelled);
   ASSERT_FALSE(surface);
   EXPECT_EQ(surface.error().kind, ErrorKind::cancelled);
 }

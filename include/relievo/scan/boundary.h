@@ -8,13 +8,6 @@
 
 namespace relievo {
 
-struct BoundaryOptions {
-  // Radius in rho. Larger empty circles are gaps outside the relief, smaller ones are due to sampling.
-  double gap = 3;
-  // Radius in rho. A hole inside the silhouette is closed if no larger empty circle fits into it.
-  double smallest_hole = 5;
-};
-
 enum class WallSide : std::uint8_t { none, front, back };
 
 struct Boundary {
@@ -31,22 +24,19 @@ struct Boundary {
   }
 };
 
-// Returns the boundary of points in the view plane, given their Delaunay triangulation and sampling distance
-// rho.
+// Returns for each triangle of points in the view plane whether it belongs to the relief, given their Delaunay
+// triangulation and sampling distance rho.
 //
-// A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds the gap,
-// unless it belongs to a narrow hole: a connected set of such triangles that does not touch the hull and has
-// no radius above smallest_hole. Boundary points are the corners of outside triangles and the hull, and
-// points that are in no inside triangle. Where the local spacing of all corners exceeds 2 rho, it stands for rho: the
-// scan is sparse there. `spacing` is Spacing::local of each point, for clouds of uneven density; in others that would
-// close gaps beside surfaces that are seen edge on.
-Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho,
-                       const BoundaryOptions& options = {}, std::span<const float> spacing = {});
-
-// Returns `is_inside` of find_boundary().
+// A triangle is outside if the radius of its circumcircle, which is empty by Delaunay, exceeds 3 rho, unless it belongs to
+// a narrow hole: a connected set of such triangles that does not touch the hull and has no radius above 5 rho. Where the
+// local spacing of all corners exceeds 2 rho, it stands for rho: the scan is sparse there. `spacing` is Spacing::local of
+// each point, for clouds of uneven density; in others that would close gaps beside surfaces that are seen edge on.
 std::vector<std::uint8_t> inside_triangles(std::span<const Vec2> points, const Triangulation& triangulation,
-                                           double rho, const BoundaryOptions& options = {},
-                                           std::span<const float> spacing = {});
+                                           double rho, std::span<const float> spacing = {});
+
+// Returns the boundary of such points, of even density. Boundary points are the corners of outside triangles and the hull,
+// and points that are in no inside triangle.
+Boundary find_boundary(std::span<const Vec2> points, const Triangulation& triangulation, double rho);
 
 // Returns for each of `points` points whether it is a corner of a triangle outside, on the hull, or in no triangle.
 std::vector<std::uint8_t> boundary_points(std::size_t points, const Triangulation& triangulation,

@@ -11,12 +11,6 @@
 
 namespace relievo {
 
-struct SurfaceOptions {
-  VisibleOptions visible;
-  CurvatureOptions curvature;
-  BoundaryOptions boundary;
-};
-
 // The visible points and the hole fill points between them, in view coordinates. They are in the order of a
 // space-filling curve, so that neighbours in the view plane are close in memory and the order of the cloud
 // has no influence.
@@ -56,7 +50,6 @@ std::vector<Vec2> in_plane(std::span<const Vec3> points);
 // Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
 // are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind
 // cancelled.
-Result<Surface> find_surface(const Cloud& cloud, const View& view, const SurfaceOptions& options = {},
-                             Progress* progress = nullptr);
+Result<Surface> find_surface(const Cloud& cloud, const View& view, Progress* progress = nullptr);
 
 }  // namespace relievo

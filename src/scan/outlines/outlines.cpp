@@ -9,13 +9,13 @@
 #include "relievo/core/parallel.h"
 #include "scan/jumps.h"
 #include "scan/linear_field.h"
+#include "scan/scan_limits.h"
 
 namespace relievo {
 namespace {
 
 // Lengths and areas in rho.
 constexpr double least_piece = 20, hole_area = 4;
-constexpr double crumb_share = .005;  // of the surface
 constexpr double point_spacing = .75, fair_window = 3;
 constexpr double shortest_jump = 6, least_occlusion = 3, least_exact_jump = .5;
 constexpr double lean_radius = 2.5, farthest_edge = 2;
@@ -276,7 +276,8 @@ bool drop_crumbs(Surface& surface) {
     largest = std::max(largest, pieces.area(t));
     all += area_of(surface, surface.triangulation.triangles[t]);
   }
-  const double least = std::max(least_piece * unit, surface.view.has_crumbs ? 0 : crumb_share * all);
+  const double least =
+      std::max(least_piece * unit, surface.view.has_crumbs ? 0 : ScanLimits::crumb_share * all);
   const double crumb = std::min(least, .5 * largest);
   for (Index t = 0; t < inside.size(); ++t)
     surface.crumbs += inside[t] && pieces.is_first(t) && pieces.area(t) < crumb;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/simd.h"
+#include "scan/scan_limits.h"
 
 namespace relievo {
 namespace {
@@ -13,8 +14,8 @@ constexpr int lanes = 8;
 // scattered points uncovered.
 constexpr float mean_radius = 1.5F;
 constexpr float least_mean_radius = .8F;  // in cells
-constexpr float depth_tolerance = 2;      // in spacings / n_z, as in VisibleOptions
-constexpr float least_facing = .1F;       // limits the tolerance where a surface is seen edge on
+constexpr float depth_tolerance{ScanLimits::depth_tolerance};
+constexpr auto least_facing = static_cast<float>(ScanLimits::least_facing);
 
 // Eight cells of one row: the steps to their centres from that of a disc, and how much higher its plane lies there.
 struct Steps {

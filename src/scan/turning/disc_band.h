@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "relievo/core/types.h"
+#include "scan/scan_limits.h"
 #include "scan/turning/front_cells.h"
 
 namespace relievo {
@@ -13,7 +14,7 @@ namespace relievo {
 // A point in view coordinates, in cells from the grid's corner.
 struct FrontDisc {
   // Radius of the discs that hide what is behind them, in spacings.
-  static constexpr float hiding_radius = 2;
+  static constexpr float hiding_radius{ScanLimits::disc_radius};
 
   Vec3f place;
   Vec3f normal;

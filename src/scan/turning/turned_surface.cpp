@@ -9,6 +9,7 @@
 #include "relievo/core/parallel.h"
 #include "scan/measured_cloud.h"
 #include "scan/pick.h"
+#include "scan/scan_limits.h"
 
 namespace relievo {
 namespace {
@@ -16,20 +17,16 @@ namespace {
 // Larger scans are drawn by every second point, every third ...: 600,000 points of all sides show a relief's detail at the
 // size of a screen.
 constexpr std::size_t most_drawn = 600'000;
-// Limits of the local spacing, in rho: see visible.cpp.
-constexpr double least_spacing = .25, largest_spacing = 4;
 constexpr std::size_t cells_per_point = 12;
-constexpr double largest_hole = 5;       // radius in spacings of holes that are closed: see BoundaryOptions
 constexpr std::size_t least_cells = 16;  // fewer show nothing
-// Smaller pieces are crumbs, as in find_surface(): share of the covered cells.
-constexpr double crumb_share = .005;
-constexpr float hole_fill_distance = 3;  // from what is visible, in spacings: see VisibleOptions
 
 // Chooses the cells whose centres are the points of a surface.
 class CellChoice {
  public:
   CellChoice(const FrontCells& front, std::size_t points, float spacing)
-      : front_(front), hole_reach_(static_cast<int>(std::ceil(hole_fill_distance * spacing / front.cell))) {
+      : front_(front),
+        hole_reach_(
+            static_cast<int>(std::ceil(float{ScanLimits::hole_fill_distance} * spacing / front.cell))) {
     const double cells = static_cast<double>(front.covered) / static_cast<double>(points);
     // Points in such rows are corners of about equilateral triangles. Two columns and one row are the black fields of a
     // chessboard.
@@ -202,8 +199,8 @@ TurningScan::TurningScan(const MeasuredCloud& measured)
   points.resize((cloud.size() + stride - 1) / stride);
   parallel_for(points.size(), [&](std::size_t i) {
     const std::size_t from = i * stride;
-    const double local = std::clamp(static_cast<double>(measured.spacing().local[from]), least_spacing * rho,
-                                    largest_spacing * rho);
+    const double local = std::clamp(static_cast<double>(measured.spacing().local[from]),
+                                    ScanLimits::least_spacing * rho, ScanLimits::largest_spacing * rho);
     points[i] = {cloud.points[from].cast<float>(), sign * cloud.normals[from],
                  static_cast<float>(local * sparser)};
   });
@@ -238,9 +235,9 @@ Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, 
     made.front = draw_front(scan.points, view, points * cells_per_point);
   RELIEVO_CHECK(check_cancelled(progress));
   if (!view.has_crumbs)
-    clear_small_pieces(made.front,
-                       static_cast<std::size_t>(crumb_share * static_cast<double>(made.front.covered)));
-  const double hole_radius = largest_hole * scan.rho / static_cast<double>(made.front.cell);
+    clear_small_pieces(made.front, static_cast<std::size_t>(ScanLimits::crumb_share *
+                                                            static_cast<double>(made.front.covered)));
+  const double hole_radius = ScanLimits::largest_hole * scan.rho / static_cast<double>(made.front.cell);
   fill_small_holes(made.front, static_cast<std::size_t>(std::numbers::pi * hole_radius * hole_radius));
   mark_edges(made.front);
   if (made.front.covered < least_cells)

@@ -1,0 +1,23 @@
+// Limits by which a scan's points are taken for what is seen, sampled or noise: for the surface of all points and for the
+// coarse one of a model that is turned alike.
+#pragma once
+
+namespace relievo {
+
+struct ScanLimits {
+  // Radius, in local spacings, of the disc with which a point hides what is behind it.
+  static constexpr double disc_radius = 2;
+  // Limits of the local spacing, in rho. Near coincident points it is almost 0, which would let one look through the
+  // surface; a lone point far from all others must not hide an area as large as its spacing.
+  static constexpr double least_spacing = .25, largest_spacing = 4;
+  // A point is visible if it lies behind the front by at most this, in local spacings / n_z.
+  static constexpr double depth_tolerance = 2;
+  static constexpr double least_facing = .1;  // limits the tolerance where a surface is seen edge on, as n_z
+  // Hole fill points are at least this far from the nearest visible point in the view plane, in rho.
+  static constexpr double hole_fill_distance = 3;
+  // Radius in rho. A hole inside the silhouette is closed if no larger empty circle fits into it.
+  static constexpr double largest_hole = 5;
+  static constexpr double crumb_share = .005;  // of what is seen: smaller pieces are crumbs
+};
+
+}  // namespace relievo
