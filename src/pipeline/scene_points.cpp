@@ -84,6 +84,7 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
     parts.left_out += outlying.size();
     parts.notes.push_back({SampleNote::Kind::outliers, model.name, outlying.size()});
   }
+  placed.cloud.is_height_field = false;  // others may stand before it
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);
   for (Vec3f& n : placed.cloud.normals) n = turn * n;

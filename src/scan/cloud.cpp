@@ -45,6 +45,7 @@ std::vector<Index> outliers(const Cloud& cloud) {
 Cloud erase_points(const Cloud& cloud, std::span<const Index> erased) {
   Cloud kept;
   kept.outlines = cloud.outlines;
+  kept.is_height_field = cloud.is_height_field;
   auto next = erased.begin();
   for (Index i = 0; i < cloud.size(); ++i) {
     if (next != erased.end() && *next == i) {

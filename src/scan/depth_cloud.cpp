@@ -109,6 +109,7 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
   const std::vector<std::uint8_t> is_hole = enclosed_holes(grid.bounds);
   fill(grid.bounds, is_hole, z);
   out.cloud = points_of(grid, z, is_hole);
+  out.cloud.is_height_field = true;
   return out;
 }
 

@@ -78,7 +78,8 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
   thin_out_coincident(measured->cloud_.points, order);
   RELIEVO_CHECK(check_cancelled(progress));
   measured->cloud_ = {pick(measured->cloud_.points, order), pick(measured->cloud_.normals, order),
-                      pick(measured->cloud_.colours, order), std::move(measured->cloud_.outlines)};
+                      pick(measured->cloud_.colours, order), std::move(measured->cloud_.outlines),
+                      cloud.is_height_field};
   RELIEVO_CHECK(measured->measure_points(view, progress));
   return measured;
 }

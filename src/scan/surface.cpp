@@ -42,6 +42,7 @@ Cloud turned(const Cloud& cloud, const Mat3& R) {
   parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });
   for (const OutlineSegment& s : cloud.outlines)
     out.outlines.push_back({Vec3(R * s.from), Vec3(R * s.to), s.is_jump});
+  out.is_height_field = cloud.is_height_field && R == Mat3::Identity();
   return out;
 }
 

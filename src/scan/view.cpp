@@ -117,6 +117,7 @@ Cloud cropped(const Cloud& cloud, const View& view) {
     return (p.array() >= least.array()).all() && (p.array() <= most.array()).all();
   };
   Cloud part;
+  part.is_height_field = cloud.is_height_field;
   for (const OutlineSegment& s : cloud.outlines)
     if (is_part(s.from) && is_part(s.to)) part.outlines.push_back(s);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -141,6 +142,7 @@ Cloud in_view(const Cloud& cloud, const View& view) {
   out.points.resize(cloud.size());
   out.normals.resize(cloud.normals.size());
   out.colours = cloud.colours;
+  out.is_height_field = cloud.is_height_field && view.R_view_model == Mat3::Identity();
   parallel_for(cloud.size(),
                [&](std::size_t i) { out.points[i] = view.R_view_model * (cloud.points[i] - centre); });
   parallel_for(cloud.normals.size(), [&](std::size_t i) { out.normals[i] = rotation * cloud.normals[i]; });

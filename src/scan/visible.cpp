@@ -60,6 +60,7 @@ class Visibility {
       box.extend(cloud_.points[i]);
       discs.push_back({cloud_.points[i], cloud_.normals[i], ScanLimits::disc_radius * local_spacing(i)});
     }
+    if (cloud_.is_height_field) return facing;
     DepthBuffer buffer(box, pixel_side * spacing_.rho);
     buffer.splat(discs);
     std::vector<std::uint8_t> is_front(facing.size());

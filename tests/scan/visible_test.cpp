@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "relievo/scan/view.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -106,6 +107,19 @@ TEST(Visible, IsTheSameForAnyOrder) {
   for (Index& i : reversed) i = static_cast<Index>(cloud.size()) - 1 - i;
   std::sort(reversed.begin(), reversed.end());
   EXPECT_EQ(found, reversed);
+}
+
+// A ledge that begins at the edge of a depth image, as narrow as a pixel: its points there have no near neighbours, and
+// would hide much.
+TEST(Visible, OfAHeightFieldIsAll) {
+  Cloud steps;
+  for (int y = 0; y < 60; ++y)
+    for (int x = 0; x < 60; ++x) test::add(steps, Vec3(x, y, 4 * x < y - 20 ? 30 : 0), Vec3::UnitZ());
+  EXPECT_LT(visible(steps).size(), steps.size() - 20);
+  steps.is_height_field = true;
+  EXPECT_EQ(visible(steps).size(), steps.size());
+  const Cloud turned = in_view(steps, *parse_view("1,0,3"));
+  EXPECT_FALSE(turned.is_height_field);
 }
 
 // A box whose front has a hole: through it one sees the inside of its back, which faces away.

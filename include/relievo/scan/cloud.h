@@ -25,6 +25,8 @@ struct Cloud {
   std::vector<Colour> colours = {};
   // The exact outlines of the mesh that the points are samples of, in the view they were sampled for; else empty.
   std::vector<OutlineSegment> outlines = {};
+  // No point hides another that is seen from +Z, as in a depth image.
+  bool is_height_field = false;
 
   std::size_t size() const { return points.size(); }
   bool has_normals() const { return !normals.empty(); }
