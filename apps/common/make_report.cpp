@@ -36,7 +36,7 @@ std::vector<double> as_list(const Vec3& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-nlohmann::json plane_json(const std::optional<ReliefReport::FoundPlane>& plane) {
+nlohmann::json plane_json(const std::optional<ScanReport::FoundPlane>& plane) {
   if (!plane) return {};
   return {{"kind", name_in(plane_kinds, plane->kind)},
           {"share", plane->share},

@@ -42,7 +42,7 @@ std::string wrap_text(const ReliefReport::Wrapped& wrap) {
              " degrees and has ", wrap.mm_per_degree, " mm in a degree");
 }
 
-std::string plane_text(const ReliefReport::FoundPlane& plane) {
+std::string plane_text(const ScanReport::FoundPlane& plane) {
   const std::string what = cat("a ", name_in(plane_kinds, plane.kind), ", ", std::lround(100 * plane.share),
                                " % of the visible points");
   return plane.is_left_out ? cat("left out ", what, "; with plane 'keep' it stays")
@@ -51,21 +51,22 @@ std::string plane_text(const ReliefReport::FoundPlane& plane) {
 
 }  // namespace
 
-std::vector<std::string> remarks_on(const ScanFacts& facts) {
+std::vector<std::string> remarks_on(const ScanReport& scan, std::size_t outliers) {
   std::vector<std::string> lines;
-  if (facts.has_estimated_normals) lines.push_back("the scan has no normals: they were estimated");
-  if (facts.has_turned_normals) lines.push_back("the scan's normals point inwards: they were turned");
-  if (facts.left_out > 0) lines.push_back(left_out(facts.left_out));
-  const std::size_t facing = facts.visible_points + facts.removed_points;
-  if (50 * facts.removed_points > facing)
-    lines.push_back(cat("left out ", 100 * facts.removed_points / facing,
+  if (scan.has_estimated_normals) lines.push_back("the scan has no normals: they were estimated");
+  if (scan.has_turned_normals) lines.push_back("the scan's normals point inwards: they were turned");
+  if (outliers > 0) lines.push_back(left_out(outliers));
+  const std::size_t facing = scan.visible_points + scan.removed_points;
+  if (50 * scan.removed_points > facing)
+    lines.push_back(cat("left out ", 100 * scan.removed_points / facing,
                         " % of the points that face the viewer, as small groups far from others"));
-  if (facts.crumbs > 0)
-    lines.push_back(cat("left out ", facts.crumbs, facts.crumbs == 1 ? " small piece" : " small pieces",
+  if (scan.crumbs > 0)
+    lines.push_back(cat("left out ", scan.crumbs, scan.crumbs == 1 ? " small piece" : " small pieces",
                         " of the surface; with crumbs 'keep' only single specks are left out"));
-  if (facts.plane) lines.push_back(plane_text(*facts.plane));
-  if (facts.removed_noise > 0 && facts.removed_noise == facts.measured_noise)
-    lines.push_back(cat("removed noise of ", std::round(100 * facts.removed_noise) / 100,
+  if (scan.plane) lines.push_back(plane_text(*scan.plane));
+  if (scan.lacks_plane) lines.push_back("found no table or background to leave out");
+  if (scan.removed_noise > 0 && scan.removed_noise == scan.measured_noise)
+    lines.push_back(cat("removed noise of ", std::round(100 * scan.removed_noise) / 100,
                         " sampling distances; with denoise '0' it stays"));
   return lines;
 }
@@ -81,10 +82,7 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
   if (report.has_needed_steps)
     lines.push_back(cat("slopes alone do not reach the height: depth jumps take ",
                         std::lround(100 * report.steps), " % of it"));
-  for (const std::string& line : remarks_on(ScanFacts{
-           report.has_estimated_normals, report.has_turned_normals, 0, report.visible_points,
-           report.removed_points, report.crumbs, report.measured_noise, report.removed_noise, report.plane}))
-    lines.push_back(line);
+  for (const std::string& line : remarks_on(static_cast<const ScanReport&>(report))) lines.push_back(line);
   if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
   if (report.simplification_error_mm)
     lines.push_back(cat("the front has ", report.front_triangles, " triangles, the full relief ",

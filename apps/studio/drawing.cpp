@@ -22,33 +22,20 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
   return counts;
 }
 
-std::vector<std::string> sentences_on(const Surface& surface, std::size_t left_out) {
-  std::vector<std::string> sentences;
-  const ScanFacts facts{
-      surface.has_estimated_normals, surface.has_flipped_normals, left_out,
-      surface.visible_points,        surface.removed_points,      surface.crumbs,
-      surface.measured_noise,        surface.removed_noise,       ReliefReport::FoundPlane::of(surface)};
-  for (const std::string& line : remarks_on(facts)) sentences.push_back(as_sentence(line));
-  return sentences;
-}
-
-ModelFacts facts_of(const Surface& surface, std::size_t left_out) {
+ModelFacts facts_of(const Surface& surface, std::size_t outliers) {
   const Box box = Box::of(surface.points);
-  return {.input_points = surface.input_points,
-          .visible_points = surface.visible_points,
-          .points = surface.points.size(),
-          .triangles = surface.triangulation.triangles.size(),
-          .hull = surface.triangulation.hull.size(),
-          .size = box.size().head<2>(),
-          .corner = box.min.head<2>(),
-          .noise = surface.removed_noise,
-          .crumbs = surface.crumbs,
-          .plane = ReliefReport::FoundPlane::of(surface),
-          .rho = surface.rho,
-          .delta = surface.curvature.delta,
-          .rotation = surface.view.R_view_model,
-          .remarks = sentences_on(surface, left_out),
-          .histogram = histogram_of(surface.curvature.k)};
+  ModelFacts facts{.scan = ScanReport::of(surface),
+                   .points = surface.points.size(),
+                   .triangles = surface.triangulation.triangles.size(),
+                   .hull = surface.triangulation.hull.size(),
+                   .size = box.size().head<2>(),
+                   .corner = box.min.head<2>(),
+                   .delta = surface.curvature.delta,
+                   .rotation = surface.view.R_view_model,
+                   .remarks = {},
+                   .histogram = histogram_of(surface.curvature.k)};
+  for (const std::string& line : remarks_on(facts.scan, outliers)) facts.remarks.push_back(as_sentence(line));
+  return facts;
 }
 
 }  // namespace
@@ -90,11 +77,11 @@ Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const Relie
   return sized;
 }
 
-Drawing::Drawing(TurnedRelief shown, std::size_t left_out)
+Drawing::Drawing(TurnedRelief shown, std::size_t outliers)
     : model_(std::move(shown.model)),
       detail_(std::move(shown.detail)),
       spacing_ratio_(shown.spacing_ratio),
-      facts_(facts_of(model_->surface(), left_out)),
+      facts_(facts_of(model_->surface(), outliers)),
       renderer_(model_),
       frames_(*model_, detail_ != nullptr),
       piece_(model_) {}

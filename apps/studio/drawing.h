@@ -20,12 +20,10 @@ namespace relievo::app::studio {
 
 // Facts about a model that hold as long as it is shown.
 struct ModelFacts {
-  std::size_t input_points = 0, visible_points = 0, points = 0, triangles = 0, hull = 0;
+  ScanReport scan = {};
+  std::size_t points = 0, triangles = 0, hull = 0;
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // of the relief's box, in the scan's units
-  double noise = 0;                                 // that was removed, in sampling distances
-  std::size_t crumbs = 0;                           // small pieces that were left out
-  std::optional<ReliefReport::FoundPlane> plane = {};
-  double rho = 0, delta = 0;
+  double delta = 0;
   Mat3 rotation = Mat3::Identity();
   std::vector<std::string> remarks;
   std::vector<std::size_t> histogram;  // of sqrt(|k|), from 0 to 1
@@ -104,9 +102,9 @@ class SharedToneCurve {
 // Everything that needs a walk over all points is computed once, here. Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `left_out` is the
-  // number of the scan's outliers.
-  Drawing(TurnedRelief shown, std::size_t left_out);
+  // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `outliers` is the
+  // number of those that were left out of the scan.
+  Drawing(TurnedRelief shown, std::size_t outliers);
 
   const ModelFacts& facts() const { return facts_; }
 

@@ -200,19 +200,20 @@ Json to_json(const EngineStatus& status) {
 }
 
 Json to_json(const ModelFacts& facts) {
+  const ScanReport& scan = facts.scan;
   Json plane;
-  if (facts.plane) plane = {{"share", facts.plane->share}, {"is_left_out", facts.plane->is_left_out}};
+  if (scan.plane) plane = {{"share", scan.plane->share}, {"is_left_out", scan.plane->is_left_out}};
   std::vector<double> rotation;
   for (int i = 0; i < 9; ++i) rotation.push_back(facts.rotation(i / 3, i % 3));
-  return {{"input_points", facts.input_points},
-          {"visible_points", facts.visible_points},
+  return {{"input_points", scan.input_points},
+          {"visible_points", scan.visible_points},
           {"points", facts.points},
           {"triangles", facts.triangles},
           {"hull", facts.hull},
           {"size", {facts.size.x(), facts.size.y()}},
-          {"rho", facts.rho},
-          {"noise", facts.noise},
-          {"crumbs", facts.crumbs},
+          {"rho", scan.rho},
+          {"noise", scan.removed_noise},
+          {"crumbs", scan.crumbs},
           {"plane", plane},
           {"delta", facts.delta},
           {"rotation", rotation},

@@ -19,23 +19,31 @@ struct CloudFile;
 struct Shape;
 struct Surface;
 
-// Facts about the relief that was made and the options that ruled it.
-struct ReliefReport {
+// Facts about the points of a scan and what is seen of them.
+struct ScanReport {
   std::size_t input_points = 0, visible_points = 0, removed_points = 0, crumbs = 0;  // see Surface
   double measured_noise = 0, removed_noise = 0;                                      // see Surface
+  double rho = 0;       // sampling distance, in the cloud's units
+  double diagonal = 0;  // L_d: diagonal of the cloud's box, in its units
 
   // The table or background that was found.
   struct FoundPlane {
     PlaneKind kind = PlaneKind::background;
     double share = 0;          // of the visible points that belong to it
     bool is_left_out = false;  // as the view asked for
-
-    // Returns what is known of the plane of a surface; nothing where it has none.
-    static std::optional<FoundPlane> of(const Surface& surface);
   };
   std::optional<FoundPlane> plane;
-  double rho = 0;                 // sampling distance, in the cloud's units
-  double diagonal = 0;            // L_d: diagonal of the cloud's box, in its units
+
+  bool lacks_plane = false;            // one was to be left out, but none was found
+  bool has_estimated_normals = false;  // the points had none
+  bool has_turned_normals = false;     // they pointed inwards
+
+  // Returns what is known of the points of a surface.
+  static ScanReport of(const Surface& surface);
+};
+
+// Facts about the relief that was made and the options that ruled it.
+struct ReliefReport : ScanReport {
   Method method = Method::paper;  // alpha, beta, gamma and u mean nothing where it has no shape
   double alpha = 0;  // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
   double beta = 0, gamma = 0;
@@ -71,11 +79,9 @@ struct ReliefReport {
   std::optional<Wrapped> wrap;  // offset and scale are then those of the flat plate
 
   // Facts that a user may want to be warned of.
-  bool has_idle_alpha = false;    // an alpha was given, which has no effect
-  bool has_needed_steps = false;  // depth jumps take more than asked for, as slopes do not reach the height
-  bool has_estimated_normals = false;  // the points had none
-  bool has_turned_normals = false;     // they pointed inwards
-  std::vector<SampleNote> sample;      // none for a model that the caller prepared
+  bool has_idle_alpha = false;     // an alpha was given, which has no effect
+  bool has_needed_steps = false;   // depth jumps take more than asked for, as slopes do not reach the height
+  std::vector<SampleNote> sample;  // none for a model that the caller prepared
 };
 
 struct MadeRelief {

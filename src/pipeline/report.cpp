@@ -11,26 +11,6 @@
 namespace relievo {
 namespace {
 
-double lowest_visible(const Surface& surface) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vec3& p : surface.points) lowest = std::min(lowest, p.z());
-  return lowest;
-}
-
-void report_surface(const Surface& surface, ReliefReport& report) {
-  report.input_points = surface.input_points;
-  report.visible_points = surface.visible_points;
-  report.removed_points = surface.removed_points;
-  report.crumbs = surface.crumbs;
-  report.measured_noise = surface.measured_noise;
-  report.removed_noise = surface.removed_noise;
-  report.plane = ReliefReport::FoundPlane::of(surface);
-  report.rho = surface.rho;
-  report.diagonal = surface.diagonal;
-  report.has_estimated_normals = surface.has_estimated_normals;
-  report.has_turned_normals = surface.has_flipped_normals;
-}
-
 void report_shape(const Shape& shape, const ReliefOptions& options, ReliefReport& report) {
   const Compression& compression = shape.compression;
   // A given alpha is reported as it was given: computed from u it would have a rounding error.
@@ -83,21 +63,34 @@ void report_place(const ReliefFacts& facts, ReliefReport& report) {
   const Vec3 sign(is_mirrored(form) ? -1 : 1, 1, form == Form::die ? -1 : 1);
   report.scale = mm_per_unit(facts.surface, facts.options);
   report.rotation = sign.asDiagonal() * facts.surface.view.R_view_model;
-  const Vec3 ground(0, 0,
-                    facts.formed.front.ground_mm - report.scale * sign.z() * lowest_visible(facts.surface));
+  const double lowest = Box::of(facts.surface.points).min.z();
+  const Vec3 ground(0, 0, facts.formed.front.ground_mm - report.scale * sign.z() * lowest);
   report.offset = facts.body.plate().shift + ground - report.scale * report.rotation * facts.surface.centre;
 }
 
 }  // namespace
 
-std::optional<ReliefReport::FoundPlane> ReliefReport::FoundPlane::of(const Surface& surface) {
-  if (!surface.plane) return std::nullopt;
-  return FoundPlane{surface.plane->kind, surface.plane->share, !surface.view.has_plane};
+ScanReport ScanReport::of(const Surface& surface) {
+  ScanReport report;
+  report.input_points = surface.input_points;
+  report.visible_points = surface.visible_points;
+  report.removed_points = surface.removed_points;
+  report.crumbs = surface.crumbs;
+  report.measured_noise = surface.measured_noise;
+  report.removed_noise = surface.removed_noise;
+  report.rho = surface.rho;
+  report.diagonal = surface.diagonal;
+  const bool has_plane = surface.view.has_plane;
+  if (surface.plane) report.plane = {surface.plane->kind, surface.plane->share, !has_plane};
+  report.lacks_plane = !surface.plane && !has_plane;
+  report.has_estimated_normals = surface.has_estimated_normals;
+  report.has_turned_normals = surface.has_flipped_normals;
+  return report;
 }
 
 ReliefReport report_on(const ReliefFacts& facts) {
   ReliefReport report;
-  report_surface(facts.surface, report);
+  static_cast<ScanReport&>(report) = ScanReport::of(facts.surface);
   report_shape(facts.relief.shape, facts.options, report);
   report_body(facts.body, facts.formed, facts.options, report);
   report_place(facts, report);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <unordered_map>
 
 #include "core/disjoint_sets.h"
 #include "core/memory.h"
@@ -101,26 +102,39 @@ std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index>
   return k;
 }
 
-// Leaves out what is left of a plane: pieces that stay low over it. A depth camera bends tables, and boards have ridges.
+// Connected points that a plane leaves of a scan: the box of all, and how many stand high over the plane.
+struct LeftPiece {
+  Box box;
+  std::size_t high = 0;
+};
+
+// Leaves out what is left of a plane: pieces that stay low over it, for their size. A depth camera bends tables, and
+// boards have ridges.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
   constexpr double low = 4;          // in tolerances
+  constexpr double flat = .05;       // of the diagonal of their box
   constexpr double connected = 3;    // in local spacings, as for floating noise: see visible.cpp
   constexpr double high_share = .1;  // of a figure's points
   std::vector<std::uint8_t> is_left(cloud.size(), 0);
   for (const Index i : visible) is_left[i] = 1;
-  DisjointSets pieces(cloud.size());
+  DisjointSets sets(cloud.size());
   for (const Index i : visible)
     for (const Index j : spacing.nearest[i])
       if (j != no_index && is_left[j] &&
           (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
-        pieces.join(i, j);
-  std::vector<Index> high(cloud.size(), 0);
-  for (const Index i : visible)
-    high[pieces.find(i)] += plane.normal.dot(cloud.points[i]) - plane.offset > low * plane.tolerance;
+        sets.join(i, j);
+  std::unordered_map<Index, LeftPiece> pieces;
+  for (const Index i : visible) pieces[sets.find(i)].box.extend(cloud.points[i]);
+  for (const Index i : visible) {
+    LeftPiece& piece = pieces[sets.find(i)];
+    const double height = plane.normal.dot(cloud.points[i]) - plane.offset;
+    piece.high += height > std::max(low * plane.tolerance, flat * piece.box.diagonal());
+  }
   std::vector<Index> rest;
   for (const Index i : visible)
-    if (high[pieces.find(i)] >= high_share * static_cast<double>(pieces.size_of(i))) rest.push_back(i);
+    if (static_cast<double>(pieces[sets.find(i)].high) >= high_share * static_cast<double>(sets.size_of(i)))
+      rest.push_back(i);
   if (!rest.empty()) visible = std::move(rest);
 }
 

@@ -222,6 +222,19 @@ TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
   }
 }
 
+TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
+  const Cloud ring = test::torus(8000, 1.5, .4);
+  for (const bool has_plane : {true, false}) {
+    View view;
+    view.has_plane = has_plane;
+    const auto model = prepare(ring, view);
+    const auto made = make_relief(*model, {});
+    ASSERT_TRUE(made) << made.error().message();
+    EXPECT_FALSE(made->report.plane);
+    EXPECT_EQ(made->report.lacks_plane, !has_plane);
+  }
+}
+
 // Its box moves by as much, and no part of it comes nearer to the plate's edge than the margin.
 TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
   const auto model = prepare(test::torus(8000, 1.5, .4), View{});
