@@ -289,11 +289,7 @@ std::span<const ReliefField> option_fields() {
 }
 
 Result<View> parse_view(const ViewTexts& texts) {
-  const bool is_best = texts.view == "auto";
-  if (is_best && !texts.up.empty())
-    return option_error("up", "expected no direction with view auto, which finds it");
-  RELIEVO_TRY(View view, parse_view(is_best ? "front" : std::string_view(texts.view), texts.up));
-  view.is_best = is_best;
+  RELIEVO_TRY(View view, parse_view(texts.view, texts.up));
   RELIEVO_TRY(view.crop, parse_crop(texts.crop));
   RELIEVO_TRY(view.has_crumbs, parse_choice("crumbs", texts.crumbs, keep_choices));
   RELIEVO_TRY(view.has_plane, parse_choice("plane", texts.plane, keep_choices));

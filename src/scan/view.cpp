@@ -54,6 +54,10 @@ Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up) {
 }
 
 Result<View> parse_view(std::string_view text, std::string_view up) {
+  if (text == "auto") {
+    if (!up.empty()) return option_error("up", "expected no direction with view auto, which finds it");
+    return View{.is_best = true};
+  }
   NamedView wanted{text, {}, {0, 1, 0}};
   const auto named = std::find_if(named_views().begin(), named_views().end(),
                                   [&](const NamedView& view) { return view.name == text; });
@@ -62,8 +66,8 @@ Result<View> parse_view(std::string_view text, std::string_view up) {
   } else {
     const std::optional<Vec3> direction = parse_triple(text);
     if (!direction)
-      return option_error("view",
-                          cat("expected front, back, left, right, top, bottom or X,Y,Z, found '", text, "'"));
+      return option_error(
+          "view", cat("expected front, back, left, right, top, bottom, X,Y,Z or auto, found '", text, "'"));
     wanted.towards_viewer = *direction;
   }
   if (!up.empty()) {

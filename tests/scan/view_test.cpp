@@ -61,6 +61,12 @@ TEST(View, RefusesWhatIsNoDirection) {
   EXPECT_EQ(parse_view("up").error().kind, ErrorKind::option);
 }
 
+TEST(View, TheBestSideIsChosenLaterAndTakesNoUp) {
+  EXPECT_TRUE(parse_view("auto")->is_best);
+  EXPECT_FALSE(parse_view("front")->is_best);
+  EXPECT_EQ(parse_view("auto", "0,0,1").error().input, "up");
+}
+
 TEST(View, EulerAnglesAreEquationOne) {
   const double x = .3, y = -.8;
   Mat3 Rx, Ry;

@@ -43,8 +43,8 @@ Result<View> view_towards(const Vec3& towards_viewer, const Vec3& up = Vec3::Uni
 
 // Returns the view called "front", "back", "left", "right", "top" or "bottom", or towards "X,Y,Z". The front
 // is +Z, the right side +X and the top +Y. Without `up`, -Z and +Z point upwards in the views from the top
-// and the bottom, +Y in all others. Errors: kind option for any other text, and for an `up` that is
-// parallel to the view.
+// and the bottom, +Y in all others. "auto" is the best side, still to be chosen (View::is_best), and takes no `up`.
+// Errors: kind option for any other text, and for an `up` that is parallel to the view.
 Result<View> parse_view(std::string_view text, std::string_view up = {});
 
 // Returns the part of a model that "X0,Y0,X1,Y1" or "X0,Y0,X1,Y1,NEAR,FAR" names, all of it for an empty text. Errors:
