@@ -57,7 +57,7 @@ Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const Relie
   const Vec2 plate = options.plate_mm.value_or(Vec2::Constant(options.diameter_mm.value_or(0)));
   const std::vector<double> sizes{plate.x(),
                                   plate.y(),
-                                  options.margin_mm,
+                                  options.effective_margin_mm(),
                                   options.rim_mm.value_or(0),
                                   options.corner_mm,
                                   static_cast<double>(options.outline),
@@ -100,7 +100,7 @@ double Drawing::mm_per_unit(const ReliefOptions& options) const {
 RenderOptions Drawing::render_options(const PictureRequest& request) const {
   RenderOptions render = request.render;
   render.mm_per_unit = mm_per_unit(request.options);
-  render.margin_mm = request.options.margin_mm;
+  render.margin_mm = request.options.effective_margin_mm();
   render.thickness_mm = request.options.effective_thickness_mm();
   return render;
 }

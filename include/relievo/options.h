@@ -29,7 +29,7 @@ struct NumericOptions {
   std::optional<double> boundary_width;  // of (7), in sampling distances; see effective_boundary_width()
   double steps = 0;                      // least share of the height that depth jumps take, see Shape
   double corner_mm = 5;                  // radius of the corners of Outline::round
-  double margin_mm = 5;                  // least flat ground around the relief
+  std::optional<double> margin_mm;       // least flat ground around the relief; see effective_margin_mm()
   std::optional<double> thickness_mm;    // smallest thickness of the plate; see effective_thickness_mm()
   std::optional<double> rim_mm;          // width of a raised edge along the outline; none
   std::optional<double> rim_height_mm;   // above the ground; the relief's height, as far as the bevel fits
@@ -71,6 +71,8 @@ struct ReliefOptions : NumericOptions {
   // is a share of the width, or the largest that the view reaches.
   std::optional<double> effective_height_mm() const;
   double effective_alpha() const { return alpha.value_or(4); }
+  // Little within a given diameter, as on coins.
+  double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
   // Little for a lithophane, through whose thinnest places the light is to come.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }
   double effective_saturation() const;

@@ -91,8 +91,12 @@ Vec2 plate_size_of(const ReliefOptions& options) {
 }
 
 PlateOptions plate_of(const ReliefOptions& options, double relief_mm) {
-  PlateOptions plate{options.margin_mm, options.effective_thickness_mm(), options.outline,
-                     options.corner_mm, formed_rim(options, relief_mm),   formed_base(options),
+  PlateOptions plate{options.effective_margin_mm(),
+                     options.effective_thickness_mm(),
+                     options.outline,
+                     options.corner_mm,
+                     formed_rim(options, relief_mm),
+                     formed_base(options),
                      options.wrap};
   plate.size_mm = plate_size_of(options);
   plate.shift_mm = options.shift_mm;

@@ -23,6 +23,9 @@ double saturation_of(const ReliefOptions& options) {
 double detail_of(const ReliefOptions& options) {
   return options.effective_detail();
 }
+double margin_of(const ReliefOptions& options) {
+  return options.effective_margin_mm();
+}
 double thickness_of(const ReliefOptions& options) {
   return options.effective_thickness_mm();
 }
@@ -193,7 +196,9 @@ std::vector<ReliefField> plate_rows() {
                            "given, and above it",
                    .otherwise = "0,0"},
                   &OptionTexts::shift},
-      ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5}, &OptionTexts::margin_mm},
+      ReliefField{{"margin", "MM", "least flat ground around the relief", .01, 1e5, "5; 1 with a diameter"},
+                  &OptionTexts::margin_mm,
+                  margin_of},
       ReliefField{{"thickness", "MM", "smallest thickness of the plate, without the relief", .01, 1e5,
                    "3; 0.8 for a lithophane"},
                   &OptionTexts::thickness_mm,

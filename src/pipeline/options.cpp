@@ -102,7 +102,7 @@ Result<void> check_plate_size(const ReliefOptions& options) {
     return option_error("plate", cat("expected outline rectangle, round or ellipse, found ",
                                      name_in(outline_choices, options.outline)));
   const auto [name, least_mm] = size_of_plate(options);
-  const double edge_mm = 2 * (options.margin_mm + options.rim_mm.value_or(0));
+  const double edge_mm = 2 * (options.effective_margin_mm() + options.rim_mm.value_or(0));
   if (least_mm > edge_mm) return {};
   return option_error(
       name, cat("expected more than ", edge_mm, " mm, which margin and rim take, found ", least_mm, " mm"));

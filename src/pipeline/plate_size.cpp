@@ -29,7 +29,7 @@ Vec2 middle_of(const std::vector<Vec2>& polygon) {
 // Returns the largest width of a relief that keeps margin and rim from all sides of the plate. Its hull and the plate's
 // outline have one middle, so that each side limits the scale by itself.
 double largest_width_mm(const Surface& surface, const ReliefOptions& options) {
-  const double edge_mm = options.margin_mm + options.rim_mm.value_or(0);
+  const double edge_mm = options.effective_margin_mm() + options.rim_mm.value_or(0);
   const std::vector<Vec2> hull = unit_hull(surface);
   const std::vector<Vec2> outline =
       outline_around(hull, {options.outline, options.corner_mm, edge_mm, plate_size_of(options)});

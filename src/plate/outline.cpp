@@ -53,16 +53,26 @@ std::vector<Vec2> directions(int steps_per_quarter) {
   return all;
 }
 
-// Approximates the centre of the smallest enclosing circle, in a plane stretched by 1 / scale, by steps of
-// 1 / (i + 1) of the way to the farthest point (Bădoiu and Clarkson, Smaller core-sets for balls, 2003).
-Vec2 round_centre(Points points, Vec2 centre, const Vec2& scale) {
-  const int steps = 4000;  // leaves the radius at most 1 % too large
-  for (int i = 1; i <= steps; ++i) {
-    const Vec2 far = *std::ranges::max_element(
-        points, {}, [&](const Vec2& p) { return (p - centre).cwiseQuotient(scale).squaredNorm(); });
-    centre += (far - centre) / (i + 1);
+// Returns the centre in the middle between left and right from which the farthest point is nearest, in a plane stretched by
+// 1 / scale. The smallest circle of all would leave a figure beside the middle, which shows.
+Vec2 round_centre(Points points, const Vec2& scale) {
+  const Frame frame = frame_around(points);
+  const auto farthest = [&](double y) {
+    double distance_sq = 0;
+    for (const Vec2& p : points)
+      distance_sq = std::max(distance_sq, (p - Vec2(frame.centre.x(), y)).cwiseQuotient(scale).squaredNorm());
+    return distance_sq;
+  };
+  double low = frame.centre.y() - frame.half.y(), high = frame.centre.y() + frame.half.y();
+  const int steps = 100;  // each leaves two thirds
+  for (int i = 0; i < steps; ++i) {
+    const double third = (high - low) / 3;
+    if (farthest(low + third) > farthest(high - third))
+      low += third;
+    else
+      high -= third;
   }
-  return centre;
+  return {frame.centre.x(), (low + high) / 2};
 }
 
 std::vector<Side> sides_of_rectangle(const Frame& frame, const OutlineOptions& options, double corner) {
@@ -143,7 +153,7 @@ std::vector<Vec2> round_rectangle_around(Points points, const OutlineOptions& op
 // An ellipse with axes in the ratio of `shape`.
 std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, const OutlineOptions& options) {
   const Frame frame = frame_around(points);
-  const Vec2 centre = round_centre(points, frame.centre, shape), wanted = options.size_mm / 2;
+  const Vec2 centre = round_centre(points, shape), wanted = options.size_mm / 2;
   if (wanted.x() > 0) return to_polygon(sides_of_ellipse(wanted, wanted.maxCoeff()), centre, 1);
   const Vec2 half = frame.half + Vec2::Constant(options.margin_mm);
   // Twice the box's diagonal is longer than any circle or ellipse that fits the points.
@@ -163,7 +173,7 @@ std::vector<Vec2> ellipse_around(Points points, const OutlineOptions& options) {
 
 std::vector<Vec2> hexagon_around(Points points, const OutlineOptions& options) {
   const double margin = options.margin_mm;
-  const Vec2 centre = round_centre(points, frame_around(points).centre, Vec2(1, 1));
+  const Vec2 centre = round_centre(points, Vec2(1, 1));
   const std::vector<Side> flat = sides_of_hexagon(false), pointed = sides_of_hexagon(true);
   const bool is_pointed =
       size_around(points, centre, pointed, margin) < size_around(points, centre, flat, margin);
@@ -208,6 +218,9 @@ Result<Outline> parse_outline(std::string_view name) {
 }
 
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
+  constexpr std::string_view cross_sign = "\u00d7";  // as people write it
+  if (const std::size_t at = text.find(cross_sign); at != std::string_view::npos)
+    return parse_plate_size(cat(text.substr(0, at), "x", text.substr(at + cross_sign.size())), bare);
   const std::optional<Vec2> size = parse_pair(text, 'x', bare);
   if (size && size->minCoeff() > 0) return *size;
   return std::unexpected(

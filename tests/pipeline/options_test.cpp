@@ -82,7 +82,7 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   EXPECT_EQ(complaint(options), "diameter: expected outline circle, found rectangle");
   options.outline = Outline::circle;
   EXPECT_EQ(complaint(options), "");
-  options.rim_mm = 35;
+  options.rim_mm = 39;  // and 1 mm of margin
   EXPECT_EQ(complaint(options), "diameter: expected more than 80 mm, which margin and rim take, found 80 mm");
   options.plate_mm = Vec2(80, 80);
   EXPECT_EQ(complaint(options), "plate: expected either plate or diameter, found both");

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/plane.h"
 #include "relievo/make_relief.h"
 #include "relievo/plate/forms.h"
 #include "relievo/plate/simplify.h"
@@ -16,10 +17,6 @@
 
 namespace relievo {
 namespace {
-
-double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 // Least distance from the points to the lines of the polygon's edges; negative if one lies outside.
 double least_ground(const std::vector<Vec2>& polygon, const std::vector<Vec2>& points) {
@@ -96,7 +93,8 @@ TEST(OutlineAround, HasTheSizeAskedForAndItsCentre) {
 }
 
 TEST(PlateSize, IsTwoLengthsOfAnyUnit) {
-  for (const char* const text : {"200x150", "20cm x 15cm", "20x15cm", "200 mmx150mm", "100+100x150,0"})
+  for (const char* const text :
+       {"200x150", "20cm x 15cm", "20x15cm", "200\u00d7150", "200 mmx150mm", "100+100x150,0"})
     EXPECT_EQ(parse_plate_size(text).value_or(Vec2::Zero()), Vec2(200, 150)) << text;
   for (const LengthUnit bare : {LengthUnit::inch, LengthUnit::mm})
     EXPECT_EQ(parse_plate_size("8x6in", bare).value_or(Vec2::Zero()), 25.4 * Vec2(8, 6));

@@ -203,16 +203,20 @@ const isDirection = (light) =>
 
 const BY_METHOD = ["saturation", "detail", "boundary"]; // whose defaults differ
 
-// Returns the thickness and the height that `relievo make` gives a relief without them.
-const usualThickness = ({form}) => (form === "lithophane" ? 0.8 : FIRST.options.thickness);
-const usualHeight = ({form, width}) => (form === "lithophane" ? 2.4 : 0.05 * (width ?? defaultOf("width") ?? 100));
+// What `relievo make` gives reliefs without margin, thickness and height.
+export const LITHOPHANE = Object.freeze({form: "lithophane", thickness: 0.8, height: 2.4});
+export const MARGIN_IN_DIAMETER = 1;
+const usualHeight = ({width}) => 0.05 * (width ?? defaultOf("width") ?? 100);
+const usualSize = (options) => ({
+  margin: options.diameter ? MARGIN_IN_DIAMETER : FIRST.options.margin,
+  ...(options.form === LITHOPHANE.form ? LITHOPHANE : {height: usualHeight(options)}),
+});
 
 // Returns the step that a project file describes, as the engine has read it.
 export function stepOfProject({input, options: {alpha, ...options} = {}, studio = {}}) {
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
   const rules = Object.fromEntries(BY_METHOD.map((name) => [name, defaultOf(name, method)]));
-  const usual = {...FIRST.options, ...rules, method, width: null, height: usualHeight(options),
-    thickness: usualThickness(options)};
+  const usual = {...FIRST.options, ...rules, method, width: null, ...usualSize(options)};
   const step = {...FIRST, input, options: {...usual, ...options}};
   if (options.height === undefined && method === "paper") {
     step.isHeightLocked = false;

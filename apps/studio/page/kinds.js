@@ -1,7 +1,7 @@
 // The kinds of work, as pictures of this scan: each sets the piece, its size and its material.
 
 import {$, check, make} from "./controls.js";
-import {FIRST, shownOptions} from "./document.js";
+import {FIRST, LITHOPHANE, MARGIN_IN_DIAMETER, shownOptions} from "./document.js";
 import {takeArrowKeys} from "./inputs.js";
 import {paint} from "./stage.js";
 
@@ -10,7 +10,7 @@ const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", sh
   "rim-height": null, "rim-bevel": null, base: "plane", "base-image": "", wrap: "none", form: "relief", draft: null});
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
-const circle = {...PLAIN, outline: "circle", width: null, margin: 1};
+const circle = {...PLAIN, outline: "circle", width: null, margin: MARGIN_IN_DIAMETER};
 export const RIM = ["rim", "rim-height", "rim-bevel"];
 const PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
@@ -31,7 +31,7 @@ export const KINDS = {
     note: "The diameter is that of what it shapes: the die is wider, by a rim of its own. Walls that lean by the " +
       "draft angle let it come off."},
   lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
-    material: "porcelain", part: {...plaque, form: "lithophane", thickness: 0.8, height: 2.4},
+    material: "porcelain", part: {...plaque, ...LITHOPHANE},
     panel: ["thickness", "plate", "margin", "form"],
     note: "The plate is as thick as the brightest places, and height is what the darkest add. Porcelain is lit from " +
       "behind."},

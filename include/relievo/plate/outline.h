@@ -59,9 +59,9 @@ bool is_box(Outline outline);
 
 // Returns the outline around points of the plane: a convex polygon, counter-clockwise, whose edges are at
 // least the margin away from every point. A curve becomes a polygon around it, as wide and as high as the
-// curve and nowhere further than 0.01 mm from it. Outlines are centred on the points' box (rectangle, round)
-// or on the smallest enclosing circle or ellipse (others, approximated, so at most 1 % too large), and all
-// but `round` are as small as their centre allows. Rounded corners that would cut into the margin move the
+// curve and nowhere further than 0.01 mm from it. Outlines are centred on the points' box; circles, ellipses and hexagons
+// from left to right alone, and as high as makes the circle or ellipse smallest. All but `round` are as small as their
+// centre allows. Rounded corners that would cut into the margin move the
 // sides out. With a size, the outline has that size and keeps its centre. The result is empty for no points and for
 // `none`.
 std::vector<Vec2> outline_around(std::span<const Vec2> points, const OutlineOptions& options);
