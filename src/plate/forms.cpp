@@ -28,12 +28,12 @@ double luminance(const Colour& colour) {
   return .2126 * linear(colour[0]) + .7152 * linear(colour[1]) + .0722 * linear(colour[2]);
 }
 
-// Returns the brightness of a white surface under a lamp from the upper left, with a quarter of ambient light
-// so that surfaces that face away still show their form.
+// Returns the brightness of a white surface under a large lamp at the upper left, whose light goes around edges, so that
+// surfaces that face away still show their form.
 double shade(const Vec3f& normal) {
   const Vec3f lamp = Vec3f(-1, 1, 1.6F).normalized();
-  const double facing = std::max(0.F, normal.dot(lamp));
-  return .25 + .75 * facing;
+  const double facing = .5 + .5 * static_cast<double>(normal.dot(lamp));
+  return .1 + .9 * facing * facing;
 }
 
 struct Range {
