@@ -162,8 +162,12 @@ class TableJobs {
 Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
                                        const std::function<bool(const std::string&)>& is_option) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(catalogue.path));
-  RELIEVO_TRY(const Table table,
-              read_table({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, catalogue.path));
+  const std::string_view text = text_in(bytes);
+  const std::string ending = ending_of(catalogue.path);
+  if (is_scan_name(catalogue.path) && ending != "csv" && ending != "txt")
+    return fail(catalogue.path, {},
+                "expected a folder of scans or a table of them, found a scan; see relievo make");
+  RELIEVO_TRY(const Table table, read_table(text, catalogue.path));
   if (std::ranges::find(table.columns, "file") == table.columns.end())
     return fail(catalogue.path, "line 1", "expected a column 'file', found none");
   for (const std::string& column : table.columns)

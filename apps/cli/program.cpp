@@ -44,7 +44,9 @@ std::string nearest_name(const CLI::App& app, const std::string& typed) {
   std::string nearest;
   std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
   const auto consider = [&](const std::string& name) {
-    if (const std::size_t distance = edit_distance(typed, name); distance < least)
+    const bool is_begun =
+        typed.size() > 3 && name.starts_with(typed);  // "--out" is nearer to --output than to --up
+    if (const std::size_t distance = is_begun ? 1 : edit_distance(typed, name); distance < least)
       least = distance, nearest = name;
   };
   for (const CLI::Option* option : app.get_options())
@@ -53,15 +55,17 @@ std::string nearest_name(const CLI::App& app, const std::string& typed) {
   return nearest;
 }
 
-// CLI11 lists what it does not know from the end, with the values of unknown options.
-std::string words_of_unknown(const CLI::App& app, const std::string& list) {
-  std::istringstream words(list);
-  std::string word, first;
-  while (words >> word)
-    if (word.starts_with('-') || !first.starts_with('-')) first = word;
-  const std::string nearest = nearest_name(app, first);
-  return cat("expected only known options, found '", first, "'",
-             nearest.empty() ? "" : cat(", the nearest is ", nearest));
+// Returns the name, and the known one that is nearest to it.
+std::string unknown_name(const CLI::App& app, const std::string& typed) {
+  const std::string nearest = nearest_name(app, typed);
+  return cat("found '", on_one_line(typed), "'", nearest.empty() ? "" : cat(", the nearest is ", nearest));
+}
+
+// Returns the first option that CLI11 does not know, or the first such word if none begins with a dash.
+std::string first_unknown(const CLI::App& app) {
+  const std::vector<std::string> words = app.remaining();
+  const auto option = std::ranges::find_if(words, [](const auto& word) { return word.starts_with('-'); });
+  return words.empty() ? std::string() : option != words.end() ? *option : words.front();
 }
 
 // Returns what CLI11 found wrong, in the words of all other messages.
@@ -77,7 +81,8 @@ std::string words_of(const CLI::Error& error, const CLI::App& app) {
                between(": Value ", " "));
   if (text.starts_with("Could not convert: "))
     return cat(between("convert: ", " ="), ": expected a number, found '", between(" = ", "\n"), "'");
-  if (text.contains(" not expected: ")) return words_of_unknown(app, between(" not expected: ", "\n"));
+  if (const std::string unknown = first_unknown(app); !unknown.empty())
+    return cat("expected only known options, ", unknown_name(app, unknown));
   if (text == "A subcommand is required") return "expected a command such as make, found none";
   if (text.ends_with(" is required")) return cat("expected ", between("", " is required"), ", found none");
   return text;
@@ -135,8 +140,8 @@ ProgramEnd run_program(std::vector<std::string> arguments) {
   const std::string first = arguments.empty() ? "" : arguments[0];
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == first; };
   if (!first.empty() && first[0] != '-' && program.get_subcommands(is_asked_for).empty())
-    return {2, cat("expected make, studio, info, sample, batch, bench or compare, found '",
-                   on_one_line(first), "'; see relievo --help")};
+    return {2, cat("expected make, studio, info, sample, batch, bench or compare, ",
+                   unknown_name(program, first), "; see relievo --help")};
   const ProgramEnd end = parse(program, std::move(arguments));
   if (end.exit_code != 0 || result) return end;
   const ErrorKind kind = result.error().kind;

@@ -21,8 +21,9 @@ Result<DepthCamera> parse_camera(std::string_view text) {
   for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
     const auto number = io::parse_number(word);
     if (!number || !std::isfinite(*number) || n.size() == 9)
-      return camera_error("expected FX,FY,CX,CY or the nine numbers of a camera matrix, found " +
-                          io::in_quotes(text));
+      return camera_error(
+          "expected FX,FY,CX,CY, the nine numbers of a camera matrix or a file with either, found " +
+          io::in_quotes(text));
     n.push_back(*number);
   }
   if (n.size() == 9) n = {n[0], n[4], n[2], n[5]};

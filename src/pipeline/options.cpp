@@ -12,8 +12,9 @@ namespace {
 
 Result<void> check_range(const OptionField& field, double value) {
   if (value >= field.min && value <= field.max) return {};
+  const std::string_view hint = value == 0 && field.otherwise == "none" ? "; leave it out for none" : "";
   return option_error(std::string(field.name),
-                      cat("expected a number from ", field.min, " to ", field.max, ", found ", value));
+                      cat("expected a number from ", field.min, " to ", field.max, ", found ", value, hint));
 }
 
 struct RangeCheck {
