@@ -43,11 +43,14 @@ std::vector<std::uint8_t> smooth_triangles(const Surface& surface) {
 }
 
 // At arm's length the eye separates about a 700th of a plate that it sees as a whole.
-double sample_step(const Surface& surface, const ReliefOptions& options) {
-  constexpr double samples = 700;
-  const double finest =
-      std::min(options.effective_width_mm() / samples, surface.rho * mm_per_unit(surface, options));
-  return options.resolution_mm.value_or(finest);
+Result<double> sample_step(const Surface& surface, const ReliefOptions& options) {
+  constexpr double samples = 700, most_samples = 10'000;
+  const double width_mm = options.effective_width_mm(), least_mm = width_mm / most_samples;
+  if (options.resolution_mm && *options.resolution_mm < least_mm)
+    return option_error("resolution", cat("expected at least ", least_mm, " mm, a ", most_samples,
+                                          "th of the width, found ", *options.resolution_mm, " mm"));
+  return options.resolution_mm.value_or(
+      std::min(width_mm / samples, surface.rho * mm_per_unit(surface, options)));
 }
 
 }  // namespace
@@ -76,7 +79,8 @@ Result<FormedFront> full_front(const Surface& surface, const Relief& relief, con
   }
   if (options.outline == Outline::none) made.front.is_relief = surface.boundary.is_inside;
   if (is_sampled(options)) {
-    const FrontSampling sampling{sample_step(surface, options)};
+    RELIEVO_TRY(const double step_mm, sample_step(surface, options));
+    const FrontSampling sampling{step_mm};
     RELIEVO_TRY(made.front, sample_front(made.front, smooth_triangles(surface), sampling, progress));
   }
   made.full_triangles = made.front.triangles.size();

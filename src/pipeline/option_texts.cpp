@@ -266,7 +266,7 @@ std::vector<ReliefField> body_rows() {
 // Returns the rows by which the solid's triangles are chosen.
 std::vector<ReliefField> triangle_rows() {
   return {
-      ReliefField{{"resolution", "MM", "step of the samples of which the solid is made", 1e-3, 100,
+      ReliefField{{"resolution", "MM", "finest step of the samples of which the solid is made", 1e-3, 100,
                    "a 700th of the width, or the sampling distance if that is less"},
                   &OptionTexts::resolution_mm},
       ReliefField{{"tolerance", "MM", "fewer triangles, nowhere further than this from the full relief", 1e-4,

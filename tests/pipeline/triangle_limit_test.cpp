@@ -103,5 +103,13 @@ TEST(TriangleLimit, RefusesFewerThanTheOutlineNeeds) {
   EXPECT_NE(made.error().message().find("expected at least"), std::string::npos);
 }
 
+TEST(Resolution, RefusesMoreThanTenThousandSamplesAcross) {
+  ReliefOptions options = options_with(1e6);
+  options.resolution_mm = .0049;
+  const auto made = make_relief(model(), options);
+  ASSERT_FALSE(made);
+  EXPECT_EQ(made.error().input, "resolution");
+}
+
 }  // namespace
 }  // namespace relievo
