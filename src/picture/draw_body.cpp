@@ -76,6 +76,7 @@ class Painter {
     lit.place.z() = height_mm(body_, seen);
     lit.height = body_.span_mm() > 0 ? (lit.place.z() - body_.lowest_mm()) / body_.span_mm() : 0;
     lit.light = light_.at(lit.place);
+    if (seen.part == Part::curved) lit.light = faded(lit.light, lit.normal);
     return tint_(shader_.colour(lit), lit.place);
   }
 
@@ -93,6 +94,13 @@ class Painter {
     }
     normal.head<2>() *= body_.stretch;
     return normal.normalized();
+  }
+
+  // The light map sees the body from the front: little of the sides of one that is bent around, nothing of its back.
+  static Light faded(const Light& light, const Vec3f& normal) {
+    constexpr float hardly_seen = .35F, well_seen = .65F;
+    const float share = std::clamp((normal.z() - hardly_seen) / (well_seen - hardly_seen), 0.F, 1.F);
+    return {1 + share * (light.lamp - 1), 1 + share * (light.sky - 1)};
   }
 
   Vec3f corner_normal(const VisiblePoint& seen) const {
