@@ -7,7 +7,7 @@ import {$, clamp, make} from "./controls.js";
 const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
 const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // where handles stand while the formula rules
 
-export const PRESETS = [
+const PRESETS = [
   {name: "The paper's formula (6)", tone: ""},
   {name: "Even", tone: "0,1;1,1"},
   {name: "Fine detail first", tone: "0,1;0.35,0.9;0.7,0.6;1,0.5"},

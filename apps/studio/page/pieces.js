@@ -28,7 +28,7 @@ const PLACEHOLDERS = {up: "automatic", diameter: "as needed", plate: "as needed"
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
-export const ROWS = Object.keys(LABELS);
+const ROWS = Object.keys(LABELS);
 const LEAST_STEP = 0.001, REST_MS = 400; // of arrow keys
 
 // The options of two lengths, by what stands between them.

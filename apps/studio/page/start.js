@@ -3,7 +3,7 @@
 import {about, engine} from "./about.js";
 import {$, make} from "./controls.js";
 
-export const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
+const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
 
 export const nameOf = (input) => (input?.sample ? sampleName(input.sample) : input?.name ?? "");
 

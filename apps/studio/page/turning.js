@@ -16,14 +16,14 @@ export function directionsOf({view, up}) {
 }
 
 // Returns the view as options: a side by its name, others by their directions.
-export function optionsOf({towards, up}) {
+function optionsOf({towards, up}) {
   const isAt = ([, side]) => dot(side.towards, towards) > 1 - 1e-9 && dot(side.up, up) > 1 - 1e-9;
   const side = Object.entries(SIDES).find(isAt);
   return side ? {view: side[0], up: ""} : {view: text(towards), up: text(up)};
 }
 
 // Returns the nearest side if the view is near to one, else the same view without its roll if that is small.
-export function snapped({towards, up}) {
+function snapped({towards, up}) {
   for (const side of Object.values(SIDES)) {
     if (dot(side.towards, towards) < NEAR) continue;
     const axes = [side.up, cross(side.towards, side.up)].flatMap((a) => [a, a.map((x) => -x)]);

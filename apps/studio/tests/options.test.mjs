@@ -7,9 +7,7 @@ import {after, before, test} from "node:test";
 import {EngineProcess, PROGRAM, areKindsDrawn, enter, eventually, findBrowser, removeFolder, temporaryFolder,
   untilReady, writeSample} from "./support.mjs";
 
-const found = await findBrowser();
-const skip = found.missing ? `${found.missing}: the page is not tested` : false;
-if (skip) console.log(`SKIPPED: ${skip}`);
+const found = await findBrowser(), {skip} = found;
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
 let browser, engine, page, options;

@@ -5,9 +5,7 @@ import {after, before, test} from "node:test";
 import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
   writeSample} from "./support.mjs";
 
-const found = await findBrowser();
-const skip = found.missing ? `${found.missing}: the page is not tested` : false;
-if (skip) console.log(`SKIPPED: ${skip}`);
+const found = await findBrowser(), {skip} = found;
 
 const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
 const SCREENS = [{width: 1280, height: 800}, {width: 820, height: 1180}, {width: 390, height: 844}];

@@ -7,9 +7,7 @@ import {after, before, test} from "node:test";
 import {EngineProcess, PROGRAM, doubleClick, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
   temporaryFolder, type, untilReady, writeSample} from "./support.mjs";
 
-const found = await findBrowser();
-const skip = found.missing ? `${found.missing}: the page is not tested` : false;
-if (skip) console.log(`SKIPPED: ${skip}`);
+const found = await findBrowser(), {skip} = found;
 
 const folder = temporaryFolder(), state = path.join(folder, "state"), scan = path.join(folder, "scan.ply");
 let browser, engine, page;

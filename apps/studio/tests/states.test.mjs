@@ -5,9 +5,7 @@ import {after, before, test} from "node:test";
 import {STATES, openPanels, showScene} from "./states.mjs";
 import {EngineProcess, findBrowser, removeFolder, temporaryFolder, untilReady, writeSample} from "./support.mjs";
 
-const found = await findBrowser();
-const skip = found.missing ? `${found.missing}: the page is not tested` : false;
-if (skip) console.log(`SKIPPED: ${skip}`);
+const found = await findBrowser(), {skip} = found;
 
 const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
 const missing = axe ? false : "axe-core is not installed (npm ci --prefix apps/studio/tests)";

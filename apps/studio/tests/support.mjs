@@ -160,13 +160,20 @@ export async function eventually(check) {
   }
 }
 
-// Returns {launch} of the browser that the environment names, Chromium otherwise, or {missing}: a text that says what
+// Says what is missing, and returns it as the reason for which tests of the page are skipped.
+function without(missing) {
+  const skip = `${missing}: the page is not tested`;
+  console.log(`SKIPPED: ${skip}`);
+  return {skip};
+}
+
+// Returns {launch, skip} of the browser that the environment names, Chromium otherwise; `skip` is false, or says what
 // is missing. Firefox is driven by WebDriver BiDi, which the channel stands for.
 export async function findBrowser(name = process.env.BROWSER || "chromium") {
   const isFirefox = name === "firefox";
   const executablePath = (isFirefox ? FIREFOX : CHROMIUM).find((candidate) => candidate && existsSync(candidate));
   if (!executablePath)
-    return {missing: `${name} is not installed (apt-get install ${isFirefox ? "firefox-esr" : "chromium"})`};
+    return without(`${name} is not installed (apt-get install ${isFirefox ? "firefox-esr" : "chromium"})`);
   try {
     const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
     const folder = isFirefox ? temporaryFolder() : null; // of downloads
@@ -175,9 +182,9 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
     const launch = () => (isFirefox
       ? firefox.launch({executablePath, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
       : chromium.launch({executablePath, args: CHROMIUM_FLAGS}));
-    return {name, folder, launch};
+    return {name, folder, launch, skip: false};
   } catch {
-    return {missing: "playwright-core is not installed (npm ci --prefix apps/studio/tests)"};
+    return without("playwright-core is not installed (npm ci --prefix apps/studio/tests)");
   }
 }
 

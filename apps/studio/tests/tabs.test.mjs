@@ -6,9 +6,7 @@ import {after, before, test} from "node:test";
 import {EngineProcess, enter, eventually, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder, untilReady,
   writeSample} from "./support.mjs";
 
-const found = await findBrowser();
-const skip = found.missing ? `${found.missing}: the page is not tested` : false;
-if (skip) console.log(`SKIPPED: ${skip}`);
+const found = await findBrowser(), {skip} = found;
 
 const folder = temporaryFolder(), state = path.join(folder, "state"), scan = path.join(folder, "scan.ply");
 const fileOf = (sample) => (sample === "still_life" ? scan : path.join(folder, `${sample}.ply`));

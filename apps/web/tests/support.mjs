@@ -9,7 +9,7 @@ import {pathToFileURL} from "node:url";
 import zlib from "node:zlib";
 
 const tests = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../../studio/tests/");
-export const pageFolder = process.env.PAGE ?? path.resolve("build/web/page");
+const pageFolder = process.env.PAGE ?? path.resolve("build/web/page");
 const driver = path.join(tests, "node_modules/playwright-core");
 
 // Debian's browsers. Stock Firefox speaks WebDriver BiDi, which tells nothing of downloads from memory.
@@ -41,7 +41,7 @@ export const fileAddress = pathToFileURL(file).href;
 const TYPES = {".html": "text/html; charset=utf-8", ".js": "text/javascript", ".webmanifest": "application/manifest+json"};
 
 // The policy that docs/web.md names for servers, with the hashes of this page.
-export function serverPolicy() {
+function serverPolicy() {
   const own = fs.readFileSync(file, "utf8").match(/http-equiv="Content-Security-Policy" content="([^"]*)"/)[1];
   const [script] = own.match(/script-src ('sha256-\S+')/).slice(1), [style] = own.match(/style-src ('sha256-[^']+')/).slice(1);
   return `default-src 'none'; script-src 'self' 'wasm-unsafe-eval' ${script}; style-src ${style}; ` +
