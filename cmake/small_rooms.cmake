@@ -11,7 +11,8 @@ list(FILTER small_sources EXCLUDE REGEX "/src/(core|geometry|scan|solver|relief|
 get_target_property(fast_sources relievo SOURCES)
 set(brief_sources ${fast_sources})
 set(brief "core/(choice|json_place|length)" "picture/(height_map|preview)" "relief/(gradient_slopes|method|nearest_draft)"
-    "relief/(step_heights|tone_curve)" "scan/(depth_cloud|depth_image|support_plane|view|view_ranking)")
+    "relief/(step_heights|tone_curve)" "scan/(depth_cloud|depth_image|leave_out_plane|support_plane|view)"
+    "scan/view_ranking")
 list(JOIN brief "|" brief)
 list(FILTER brief_sources INCLUDE REGEX "/(${brief})[.]cpp$")
 list(APPEND small_sources ${brief_sources})

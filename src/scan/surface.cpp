@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <iterator>
-#include <unordered_map>
 
-#include "core/disjoint_sets.h"
 #include "core/memory.h"
 #include "geometry/hilbert.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/normals.h"
+#include "scan/leave_out_plane.h"
 #include "scan/measured_cloud.h"
 #include "scan/noise/noise.h"
 #include "scan/orient_normals.h"
@@ -102,54 +101,6 @@ std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index>
   return k;
 }
 
-// Connected points that a plane leaves of a scan: the box of all, and how many stand high over the plane.
-struct LeftPiece {
-  Box box;
-  std::size_t high = 0;
-};
-
-// Leaves out what is left of a plane: pieces that stay low over it, for their size. A depth camera bends tables, and
-// boards have ridges.
-void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
-                     std::vector<Index>& visible) {
-  constexpr double low = 4;          // in tolerances
-  constexpr double flat = .05;       // of the diagonal of their box
-  constexpr double connected = 3;    // in local spacings, as for floating noise: see visible.cpp
-  constexpr double high_share = .1;  // of a figure's points
-  std::vector<std::uint8_t> is_left(cloud.size(), 0);
-  for (const Index i : visible) is_left[i] = 1;
-  DisjointSets sets(cloud.size());
-  for (const Index i : visible)
-    for (const Index j : spacing.nearest[i])
-      if (j != no_index && is_left[j] &&
-          (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
-        sets.join(i, j);
-  std::unordered_map<Index, LeftPiece> pieces;
-  for (const Index i : visible) pieces[sets.find(i)].box.extend(cloud.points[i]);
-  for (const Index i : visible) {
-    LeftPiece& piece = pieces[sets.find(i)];
-    const double height = plane.normal.dot(cloud.points[i]) - plane.offset;
-    piece.high += height > std::max(low * plane.tolerance, flat * piece.box.diagonal());
-  }
-  std::vector<Index> rest;
-  for (const Index i : visible)
-    if (static_cast<double>(pieces[sets.find(i)].high) >= high_share * static_cast<double>(sets.size_of(i)))
-      rest.push_back(i);
-  if (!rest.empty()) visible = std::move(rest);
-}
-
-// Leaves out the plane that the figure stands on or before: points of it, and exact outlines.
-void leave_out(const SupportPlane& plane, Cloud& cloud, std::vector<Index>& visible,
-               std::vector<Index>& hole_fill) {
-  const auto is_taken = [&](Index i) { return plane.takes(cloud.points[i], cloud.normals[i]); };
-  std::erase_if(visible, is_taken);
-  std::erase_if(hole_fill, is_taken);
-  const Vec3f normal = plane.normal.cast<float>();
-  std::erase_if(cloud.outlines, [&](const OutlineSegment& s) {
-    return plane.takes(s.from, normal) && plane.takes(s.to, normal);
-  });
-}
-
 // Stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress* progress) {
   if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
@@ -163,10 +114,8 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   RELIEVO_CHECK(check_cancelled(progress));
   std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible);
   surface.plane = find_support_plane(cloud, visible, surface.rho);
-  if (surface.plane && !surface.view.has_plane) {
-    leave_out(*surface.plane, cloud, visible, hole_fill);
-    drop_low_pieces(*surface.plane, cloud, spacing, visible);
-  }
+  if (surface.plane && !surface.view.has_plane)
+    leave_out_plane(*surface.plane, spacing, cloud, {visible, hole_fill});
   surface.visible_points = visible.size();
   // Flat, as nothing is known of the front there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();

@@ -1,0 +1,70 @@
+#include "scan/leave_out_plane.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/disjoint_sets.h"
+
+namespace relievo {
+namespace {
+
+// Connected points that a plane leaves of a scan: the box of all, and how many stand high over the plane.
+struct LeftPiece {
+  Box box;
+  std::size_t high = 0;
+};
+
+// Leaves out what is left of a plane: pieces that stay low over it, for their size. A depth camera bends tables, and
+// boards have ridges.
+void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
+                     std::vector<Index>& visible) {
+  constexpr double low = 4;          // in tolerances
+  constexpr double flat = .05;       // of the diagonal of their box
+  constexpr double connected = 3;    // in local spacings, as for floating noise: see visible.cpp
+  constexpr double high_share = .1;  // of a figure's points
+  std::vector<std::uint8_t> is_left(cloud.size(), 0);
+  for (const Index i : visible) is_left[i] = 1;
+  DisjointSets sets(cloud.size());
+  for (const Index i : visible)
+    for (const Index j : spacing.nearest[i])
+      if (j != no_index && is_left[j] &&
+          (cloud.points[i] - cloud.points[j]).norm() < connected * static_cast<double>(spacing.local[i]))
+        sets.join(i, j);
+  std::vector<LeftPiece> pieces;
+  std::vector<Index> numbers(cloud.size(), no_index);  // of the pieces, by their representatives
+  const auto piece_of = [&](Index i) -> LeftPiece& {
+    Index& number = numbers[sets.find(i)];
+    if (number == no_index) {
+      number = static_cast<Index>(pieces.size());
+      pieces.emplace_back();
+    }
+    return pieces[number];
+  };
+  for (const Index i : visible) piece_of(i).box.extend(cloud.points[i]);
+  for (const Index i : visible) {
+    LeftPiece& piece = piece_of(i);
+    const double height = plane.normal.dot(cloud.points[i]) - plane.offset;
+    piece.high += height > std::max(low * plane.tolerance, flat * piece.box.diagonal());
+  }
+  std::vector<Index> rest;
+  for (const Index i : visible)
+    if (static_cast<double>(piece_of(i).high) >= high_share * static_cast<double>(sets.size_of(i)))
+      rest.push_back(i);
+  if (!rest.empty()) visible = std::move(rest);
+}
+
+}  // namespace
+
+void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
+                     const ShownPoints& shown) {
+  const auto is_taken = [&](Index i) { return plane.takes(cloud.points[i], cloud.normals[i]); };
+  std::erase_if(shown.visible, is_taken);
+  std::erase_if(shown.hole_fill, is_taken);
+  const Vec3f normal = plane.normal.cast<float>();
+  std::erase_if(cloud.outlines, [&](const OutlineSegment& s) {
+    return plane.takes(s.from, normal) && plane.takes(s.to, normal);
+  });
+  drop_low_pieces(plane, cloud, spacing, shown.visible);
+}
+
+}  // namespace relievo
