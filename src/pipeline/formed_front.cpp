@@ -6,6 +6,7 @@
 #include "pipeline/body.h"
 #include "plate/front/sample_front.h"
 #include "plate/front/silhouette.h"
+#include "relievo/core/text.h"
 #include "relievo/make_relief.h"
 #include "relievo/plate/simplify.h"
 #include "relievo/relief/relief.h"
