@@ -89,7 +89,7 @@ TEST(Options, PlatesHaveASizeThatTheirOutlineCanHave) {
   options.diameter_mm.reset();
   EXPECT_EQ(complaint(options), "plate: expected outline rectangle, round or ellipse, found circle");
   options.outline = Outline::ellipse;
-  options.plate_mm = Vec2(200, 81);
+  options.plate_mm = Vec2(200, 89);  // with 5 mm of margin
   options.shift_mm = Vec2(5, 0);
   EXPECT_EQ(complaint(options), "");
   options.plate_mm.reset();
