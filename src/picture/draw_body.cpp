@@ -33,6 +33,9 @@ constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
 constexpr float wall_height = .55F;  // porcelain walls let light through as a plate of about mean thickness
 
+// Plates that are deeper than this share of their longer side are bent around a body.
+constexpr double bent_depth = .25;
+
 // Returns how the detail at a place differs from the surface's own normal there; bilinear between the cells' centres.
 Vec2f fine_part(const SurfaceDetail& detail, const Vec2f& place, const Vec2f& own) {
   const Vec2f at = (place - detail.corner) / detail.cell - Vec2f::Constant(.5F);
@@ -57,7 +60,8 @@ class Painter {
         middle_(body.front.centre().head<2>().cast<float>()),
         half_side_mm_(std::max(1e-6F, static_cast<float>(body.front.longer_side()) / 2)),
         shader_(params.material, direction_of(params.light), to_viewer_),
-        tint_(params.reach, body.front) {}
+        tint_(params.reach, body.front),
+        is_bent_(body.front.size().z() > bent_depth * body.front.longer_side()) {}
 
   // Linear; the place is in pixels of the transform.
   Vec3f colour(const VisiblePoint& seen, float x, float y) const {
@@ -76,7 +80,7 @@ class Painter {
     lit.place.z() = height_mm(body_, seen);
     lit.height = body_.span_mm() > 0 ? (lit.place.z() - body_.lowest_mm()) / body_.span_mm() : 0;
     lit.light = light_.at(lit.place);
-    if (seen.part == Part::curved) lit.light = faded(lit.light, lit.normal);
+    if (is_bent_ && seen.part == Part::curved) lit.light = faded(lit.light, lit.normal);
     return tint_(shader_.colour(lit), lit.place);
   }
 
@@ -116,6 +120,7 @@ class Painter {
   float half_side_mm_;
   Shader shader_;
   ReachTint tint_;
+  bool is_bent_;
 };
 
 void store(const Vec3f& colour, float coverage, const DisplayTable& display, std::uint8_t* rgba) {
