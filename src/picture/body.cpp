@@ -64,6 +64,8 @@ PlateParts plate_parts(const Solid& solid) {
   const auto is_curved = [&](std::size_t t, Region region) {
     return out.parts[t] == Part::curved && region_of(solid, t) == region;
   };
+  for (std::size_t t = 0; t < count && !out.has_curved_ground; ++t)
+    out.has_curved_ground = is_curved(t, Region::ground);
   add([&](std::size_t t) { return is_curved(t, Region::ground); });
   add([&](std::size_t t) { return is_curved(t, Region::bevel); });
   add([&](std::size_t t) { return out.parts[t] == Part::wall; });

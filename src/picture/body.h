@@ -27,6 +27,7 @@ struct PlateParts {
   std::vector<Index> corners_at;                     // per triangle: its place below, or no_index
   std::vector<std::array<Vec3f, 3>> corner_normals;  // unit length
   std::size_t front_triangles = 0;                   // which come first
+  bool has_curved_ground = false;  // that of a base or of a body around which the plate is bent
 };
 
 // Returns the parts of a solid. Corner normals are smooth where triangles of one part meet at less than 20

@@ -33,9 +33,6 @@ constexpr Light wall_light{.8F, 1};
 constexpr float wall_lean = .8F;
 constexpr float wall_height = .55F;  // porcelain walls let light through as a plate of about mean thickness
 
-// Plates that are deeper than this share of their longer side are bent around a body.
-constexpr double bent_depth = .25;
-
 // Returns how the detail at a place differs from the surface's own normal there; bilinear between the cells' centres.
 Vec2f fine_part(const SurfaceDetail& detail, const Vec2f& place, const Vec2f& own) {
   const Vec2f at = (place - detail.corner) / detail.cell - Vec2f::Constant(.5F);
@@ -60,8 +57,7 @@ class Painter {
         middle_(body.front.centre().head<2>().cast<float>()),
         half_side_mm_(std::max(1e-6F, static_cast<float>(body.front.longer_side()) / 2)),
         shader_(params.material, direction_of(params.light), to_viewer_),
-        tint_(params.reach, body.front),
-        is_bent_(body.front.size().z() > bent_depth * body.front.longer_side()) {}
+        tint_(params.reach, body.front) {}
 
   // Linear; the place is in pixels of the transform.
   Vec3f colour(const VisiblePoint& seen, float x, float y) const {
@@ -80,7 +76,7 @@ class Painter {
     lit.place.z() = height_mm(body_, seen);
     lit.height = body_.span_mm() > 0 ? (lit.place.z() - body_.lowest_mm()) / body_.span_mm() : 0;
     lit.light = light_.at(lit.place);
-    if (is_bent_ && seen.part == Part::curved) lit.light = faded(lit.light, lit.normal);
+    if (body_.parts.has_curved_ground) lit.light = faded(lit.light, lit.normal);
     return tint_(shader_.colour(lit), lit.place);
   }
 
@@ -100,7 +96,8 @@ class Painter {
     return normal.normalized();
   }
 
-  // The light map sees the body from the front: little of the sides of one that is bent around, nothing of its back.
+  // Returns the light with less of the map's shadows the more the surface turns away from the front. The map is made of
+  // the body as seen from there, so that it is wrong on the sides and the back of a bent one.
   static Light faded(const Light& light, const Vec3f& normal) {
     constexpr float hardly_seen = .35F, well_seen = .65F;
     const float share = std::clamp((normal.z() - hardly_seen) / (well_seen - hardly_seen), 0.F, 1.F);
@@ -120,7 +117,6 @@ class Painter {
   float half_side_mm_;
   Shader shader_;
   ReachTint tint_;
-  bool is_bent_;
 };
 
 void store(const Vec3f& colour, float coverage, const DisplayTable& display, std::uint8_t* rgba) {

@@ -8,7 +8,10 @@
 #include <functional>
 
 #include "relievo/core/parallel.h"
+#include "relievo/make_relief.h"
+#include "relievo/picture/solid_renderer.h"
 #include "support/plate_fronts.h"
+#include "support/shapes.h"
 
 namespace relievo {
 namespace {
@@ -216,6 +219,35 @@ TEST(Preview, ALampBesideThePlateLightsOneSide) {
     EXPECT_GT(grey(30 + at, 30), grey(30 - at, 30) + 20) << at;
     EXPECT_NEAR(grey(30 + at, 30 - 2), grey(30 + at, 30 + 2), 4) << at;
   }
+}
+
+// Shadows are computed from the front, where the sides of a half cylinder are seen edge on: 2 % of its width beside each
+// edge lean by 74 degrees or more.
+TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
+  ReliefOptions options;
+  options.height_mm = 4;
+  options.wrap = *parse_wrap("cylinder:turn=180");
+  const auto made = make_relief(test::sphere(20000, 1), options);
+  ASSERT_TRUE(made) << made.error().message();
+  SolidRenderer renderer(std::make_shared<const Solid>(made->solid));
+  RenderOptions looks;
+  looks.width = 500;
+  Picture shaded, plain;
+  renderer.render(looks, shaded);
+  looks.has_shadows = false;
+  renderer.render(looks, plain);
+  const auto column_differs = [&](int column) {
+    for (int row = 0; row < looks.height; ++row)
+      if (!std::equal(&shaded.image.at(column, row), &shaded.image.at(column, row) + 3,
+                      &plain.image.at(column, row)))
+        return true;
+    return false;
+  };
+  const double half = made->report.wrap->diameter_mm / 2 * shaded.pixels_per_mm;
+  for (const int side : {-1, 1})
+    for (const double share : {.97, .98, .99})
+      EXPECT_FALSE(column_differs(static_cast<int>(looks.width / 2. + side * share * half))) << side * share;
+  EXPECT_TRUE(column_differs(looks.width / 2));
 }
 
 TEST(Pictures, AreTheSameBitsForAnyNumberOfThreads) {
