@@ -161,13 +161,13 @@ class TableJobs {
 
 Result<std::vector<Job>> jobs_of_table(const Catalogue& catalogue,
                                        const std::function<bool(const std::string&)>& is_option) {
-  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(catalogue.path));
-  const std::string_view text = text_in(bytes);
   const std::string ending = ending_of(catalogue.path);
-  if (is_scan_name(catalogue.path) && ending != "csv" && ending != "txt")
+  const bool may_be_table = ending == "csv" || ending == "txt";  // scans may have these endings, too
+  if (is_scan_name(catalogue.path) && !may_be_table)
     return fail(catalogue.path, {},
                 "expected a folder of scans or a table of them, found a scan; see relievo make");
-  RELIEVO_TRY(const Table table, read_table(text, catalogue.path));
+  RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(catalogue.path));
+  RELIEVO_TRY(const Table table, read_table(text_in(bytes), catalogue.path));
   if (std::ranges::find(table.columns, "file") == table.columns.end())
     return fail(catalogue.path, "line 1", "expected a column 'file', found none");
   for (const std::string& column : table.columns)

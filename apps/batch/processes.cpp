@@ -39,8 +39,8 @@ std::string read_all(int descriptor) {
   nlohmann::json json = to_json(end.record);
   json["is_kept"] = end.is_kept;
   const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  (void)write_all(result,
-                  std::as_bytes(std::span(text)));  // without all of it the parent tells of a lost process
+  // If this fails, the parent finds no record and says how the process ended.
+  (void)write_all(result, std::as_bytes(std::span(text)));
   std::fflush(stderr);
   ::_exit(0);  // without the ends of static objects, which belong to the parent
 }
