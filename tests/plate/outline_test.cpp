@@ -66,6 +66,15 @@ TEST(OutlineAround, ASquareHasAKnownCircleEllipseAndHexagon) {
   EXPECT_NEAR(width, 2 * (10 * std::sqrt(.75) + 5 + 2), .05);
 }
 
+// The smallest circle of all around this triangle would have its centre at (6.3, -2), beside the middle of the box.
+TEST(OutlineAround, ACircleIsInTheMiddleBetweenLeftAndRight) {
+  const std::vector<Vec2> triangle = {{-10, 0}, {10, -18}, {10, 14}};
+  const std::vector<Vec2> circle = outline_around(triangle, {Outline::circle, 5, 2});
+  const Vec2 centre = (circle[0] + circle[circle.size() / 2]) / 2;
+  EXPECT_LT((centre - Vec2(0, -2)).norm(), 1e-6);
+  EXPECT_NEAR(size_of(circle).x() / 2, std::hypot(10, 16) + 2, .01);
+}
+
 TEST(OutlineAround, ACirclesPolygonLiesWithinAHundredthOfIt) {
   for (const double size : {.5, 40.0, 900.0}) {
     const std::vector<Vec2> square = {{-size, -size}, {size, -size}, {size, size}, {-size, size}};
