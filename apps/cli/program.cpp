@@ -44,8 +44,8 @@ std::string nearest_name(const CLI::App& app, const std::string& typed) {
   std::string nearest;
   std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
   const auto consider = [&](const std::string& name) {
-    const bool is_begun =
-        typed.size() > 3 && name.starts_with(typed);  // "--out" is nearer to --output than to --up
+    // Users who type "--out" mean --output, though --up has fewer letters that differ.
+    const bool is_begun = typed.size() > 3 && name.starts_with(typed);
     if (const std::size_t distance = is_begun ? 1 : edit_distance(typed, name); distance < least)
       least = distance, nearest = name;
   };
@@ -55,8 +55,8 @@ std::string nearest_name(const CLI::App& app, const std::string& typed) {
   return nearest;
 }
 
-// Returns the name, and the known one that is nearest to it.
-std::string unknown_name(const CLI::App& app, const std::string& typed) {
+// Returns the part of a message that tells which name the user typed and which known name is nearest to it.
+std::string found_name(const CLI::App& app, const std::string& typed) {
   const std::string nearest = nearest_name(app, typed);
   return cat("found '", on_one_line(typed), "'", nearest.empty() ? "" : cat(", the nearest is ", nearest));
 }
@@ -82,7 +82,7 @@ std::string words_of(const CLI::Error& error, const CLI::App& app) {
   if (text.starts_with("Could not convert: "))
     return cat(between("convert: ", " ="), ": expected a number, found '", between(" = ", "\n"), "'");
   if (const std::string unknown = first_unknown(app); !unknown.empty())
-    return cat("expected only known options, ", unknown_name(app, unknown));
+    return cat("expected only known options, ", found_name(app, unknown));
   if (text == "A subcommand is required") return "expected a command such as make, found none";
   if (text.ends_with(" is required")) return cat("expected ", between("", " is required"), ", found none");
   return text;
@@ -141,7 +141,7 @@ ProgramEnd run_program(std::vector<std::string> arguments) {
   const auto is_asked_for = [&](const CLI::App* command) { return command->get_name() == first; };
   if (!first.empty() && first[0] != '-' && program.get_subcommands(is_asked_for).empty())
     return {2, cat("expected make, studio, info, sample, batch, bench or compare, ",
-                   unknown_name(program, first), "; see relievo --help")};
+                   found_name(program, first), "; see relievo --help")};
   const ProgramEnd end = parse(program, std::move(arguments));
   if (end.exit_code != 0 || result) return end;
   const ErrorKind kind = result.error().kind;

@@ -26,12 +26,12 @@ std::optional<std::uint64_t> file_size(const std::string& path);
 // Returns the text as the content of a file.
 std::vector<std::byte> bytes_of(std::string_view text);
 
-// Returns the content of a file as text; a view of the bytes.
+// Returns the bytes of a file as text, which is valid as long as they are.
 inline std::string_view text_in(std::span<const std::byte> bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-// Returns the content of a file; nothing if it cannot be read.
+// Returns the text of a file; an empty one if the file cannot be read.
 inline std::string text_of_file(const std::string& path) {
   const auto bytes = read_file(path);
   return std::string(bytes ? text_in(*bytes) : std::string_view());

@@ -34,7 +34,7 @@ struct ScanReport {
   };
   std::optional<FoundPlane> plane;
 
-  bool lacks_plane = false;            // one was to be left out, but none was found
+  bool lacks_plane = false;            // a plane was to be left out, but none was found
   bool has_estimated_normals = false;  // the points had none
   bool has_turned_normals = false;     // they pointed inwards
 

@@ -71,7 +71,7 @@ struct ReliefOptions : NumericOptions {
   // is a share of the width, or the largest that the view reaches.
   std::optional<double> effective_height_mm() const;
   double effective_alpha() const { return alpha.value_or(4); }
-  // Little within a given diameter, as on coins.
+  // The margin is small where a diameter is given, as on coins.
   double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
   // Little for a lithophane, through whose thinnest places the light is to come.
   double effective_thickness_mm() const { return thickness_mm.value_or(form == Form::lithophane ? .8 : 3); }

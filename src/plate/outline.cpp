@@ -218,7 +218,7 @@ Result<Outline> parse_outline(std::string_view name) {
 }
 
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
-  constexpr std::string_view cross_sign = "\u00d7";  // as people write it
+  constexpr std::string_view cross_sign = "\u00d7";  // people write it as well as x
   if (const std::size_t at = text.find(cross_sign); at != std::string_view::npos)
     return parse_plate_size(cat(text.substr(0, at), "x", text.substr(at + cross_sign.size())), bare);
   const std::optional<Vec2> size = parse_pair(text, 'x', bare);

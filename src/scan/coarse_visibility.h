@@ -21,12 +21,13 @@ struct CoarseVisibility {
   double bulge = 0;  // how much nearer the front is inside its outline than along it, over the box's diagonal
 };
 
-// What is known of the normals' signs. Unknown ones are taken to face the viewer.
+// The signs of a cloud's normals tell whether they point out of the model or into it. Where the signs are unknown, each
+// normal is taken to face the viewer.
 enum class NormalSigns { outward, inward, unknown };
 
-// Returns them for each view, whose crop is not looked at: from the front point, the one with the largest z, of each cell
-// of a grid over the cloud as the view turns it. The diagonal of the cloud's box is 160 cells long. Without normals the
-// results are the default.
+// Returns what each view shows of the cloud, in the order of the views. A grid is laid over the cloud as the view turns
+// it. Its cells are a 160th of the diagonal of the cloud's box or wider, and the front of a cell is its point with the
+// largest z. Crops are not looked at. Without normals the results are the default.
 std::vector<CoarseVisibility> coarse_visibility(const Cloud& cloud, std::span<const View> views,
                                                 NormalSigns signs = NormalSigns::outward);
 

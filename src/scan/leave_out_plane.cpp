@@ -8,7 +8,8 @@
 namespace relievo {
 namespace {
 
-// Connected points that a plane leaves of a scan: the box of all, and how many stand high over the plane.
+// A piece is a set of connected points that is left of a scan without its plane. It has the box of all its points, and
+// the number of those that stand high over the plane.
 struct LeftPiece {
   Box box;
   std::size_t high = 0;

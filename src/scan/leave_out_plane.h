@@ -1,4 +1,4 @@
-// Leaves a table or a background out of what is seen. Tested by tests/scan/support_plane_test.cpp.
+// Leaves out the table or background that a figure stands on or before. Tested by tests/scan/support_plane_test.cpp.
 #pragma once
 
 #include <vector>
@@ -15,7 +15,8 @@ struct ShownPoints {
   std::vector<Index>& hole_fill;
 };
 
-// Leaves out the points of the plane, pieces that stay low over it, and the exact outlines in it.
+// Removes the plane's points, and the pieces that stay low over it, from the points that are shown, and the outlines in
+// the plane from the cloud.
 void leave_out_plane(const SupportPlane& plane, const Spacing& spacing, Cloud& cloud,
                      const ShownPoints& shown);
 

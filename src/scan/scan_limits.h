@@ -1,5 +1,5 @@
-// Limits by which a scan's points are taken for what is seen, sampled or noise: for the surface of all points and for the
-// coarse one of a model that is turned alike.
+// These limits decide which points of a scan are visible and which holes and small pieces are closed or left out. The
+// surface of all points and the coarse one of a turned model share them.
 #pragma once
 
 namespace relievo {

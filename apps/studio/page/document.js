@@ -203,7 +203,7 @@ const isDirection = (light) =>
 
 const BY_METHOD = ["saturation", "detail", "boundary"]; // whose defaults differ
 
-// What `relievo make` gives reliefs without margin, thickness and height.
+// `relievo make` gives these sizes in mm to a relief where a project names no others.
 export const LITHOPHANE = Object.freeze({form: "lithophane", thickness: 0.8, height: 2.4});
 export const MARGIN_IN_DIAMETER = 1;
 const usualHeight = ({width}) => 0.05 * (width ?? defaultOf("width") ?? 100);
