@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from importlib.util import find_spec
 from pathlib import Path
 
 from support import SOURCE
@@ -18,7 +19,11 @@ def section():
     return re.search(r"^## In Python\n(.*?)^## ", text, re.DOTALL | re.MULTILINE)[1]
 
 
+MISSING = [name for name in ("pip", "setuptools", "wheel", "ensurepip") if not find_spec(name)]
+
+
 @unittest.skipIf("LD_PRELOAD" in os.environ, "a sanitizer has nothing to gain")
+@unittest.skipIf(MISSING, f"SKIPPED: without {', '.join(MISSING)} no wheel is made (scripts/prepare --python)")
 class Package(unittest.TestCase):
     def test_installs_and_runs_as_the_readme_says(self):
         commands = re.findall(r"^    (.*)$", section(), re.MULTILINE)
