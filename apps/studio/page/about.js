@@ -10,6 +10,7 @@ async function ask() {
   try {
     return await engine.about();
   } catch (error) {
+    document.body.inert = false; // the line is there to be read
     toast(error.message, true);
     throw error;
   }

@@ -380,6 +380,7 @@ async function resume({first, recent}) {
 
 async function start() {
   wire();
+  document.body.inert = false; // what was clicked before would have been lost
   $("#unit").value = localStorage.getItem("unit") === "in" ? "in" : "mm";
   chooseUnit($("#unit").value);
   try {

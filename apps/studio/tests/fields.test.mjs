@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, readStl, removeFolder, savedFiles, showScan, temporaryFolder, type,
-  untilReady, writeSample} from "./support.mjs";
+import {enter, eventually, findBrowser, ignoreTimers, readStl, removeFolder, savedFiles, showScan, temporaryFolder,
+  type, untilReady, untilTimersRan, writeSample} from "./support.mjs";
 
 const found = await findBrowser(), {skip} = found;
 
@@ -111,9 +111,11 @@ test("undoes entries in the order in which they were made, also one that is stil
   await set("Height in mm", 4.5); // so that there is a step before the entry
   await enter(plate, "210x140");
   await isTried.waitFor();
+  const answered = page.waitForResponse("**/api/profile");
   await undo.click();
   assert.equal(await plate.inputValue(), "");
-  await page.waitForTimeout(2000); // until it would have come
+  await answered;
+  await untilTimersRan(page, 100); // the page has done with the answer what it would
   assert.deepEqual([await plate.inputValue(), await text("Height in mm")], ["", "4.50"]);
   await enter(plate, "210x140");
   await isTried.waitFor();
@@ -195,8 +197,8 @@ test("takes back what no piece can be made of", {skip}, async () => {
 test("says why an entry is refused until the next one is taken, even one that changes nothing", {skip}, async () => {
   const option = (name) => page.getByLabel(name, {exact: true}), toast = page.locator("#toast");
   const refused = (text) => toast.getByText(text).waitFor();
-  const untilGone = () => toast.waitFor({state: "hidden", timeout: 4000}); // it would go by itself after eight seconds
-  const isThere = async (since) => Date.now() - since > 7000 || toast.isVisible(); // a busy machine takes longer
+  const untilGone = () => toast.waitFor({state: "hidden"});
+  await page.evaluate(ignoreTimers, 8000); // after which a line goes by itself
   await set("Height in mm", 5);
   await set("Height in mm", "high");
   await refused("Height: expected a number");
@@ -204,16 +206,14 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await untilGone();
   await enter(page.locator("#crop"), "abc");
   await refused("expected shares X0,Y0,X1,Y1");
-  let since = Date.now();
   await untilReady(page);
-  assert.ok(await isThere(since));
+  assert.ok(await toast.isVisible());
   await enter(option("Margin in mm"), "6");
   await untilGone();
   await enter(page.locator("#crop"), "0,0,0.001,0.001"); // which keeps nothing
   await refused("expected");
-  since = Date.now();
   await eventually(async () => assert.equal(await page.locator("#crop").inputValue(), ""));
-  assert.ok(await isThere(since));
+  assert.ok(await toast.isVisible());
   await enter(option("Margin in mm"), "5");
   await untilGone();
   await option("Outline").selectOption("hexagon");
@@ -230,6 +230,7 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await page.getByRole("radio", {name: "Light", exact: true}).click();
   await untilReady(page);
   while (await option("Outline").inputValue() !== "rectangle") await page.getByRole("button", {name: "Undo"}).click();
+  await page.evaluate(ignoreTimers, Infinity);
 });
 
 test("says without a break that a figure is dragged beyond its plate", {skip}, async () => {
@@ -251,7 +252,7 @@ test("says without a break that a figure is dragged beyond its plate", {skip}, a
   });
   for (let i = 0; i < 10; ++i) {
     await page.mouse.move(middle[0] + 0.4 * width + i, middle[1]);
-    await page.waitForTimeout(50);
+    await untilTimersRan(page, 50);
   }
   assert.ok(await toast.isVisible());
   assert.equal(await page.evaluate(() => window.hidden), 0);
@@ -447,9 +448,8 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   await untilMarked();
   const reachable = async () => Number((await mark.getAttribute("title")).match(/[\d.]+/)[0]), most = await reachable();
   await set("Steepest wall in degrees", 30);
-  for (let i = 0; i < 100 && (await reachable()) >= most; ++i) await page.waitForTimeout(50);
-  const limited = await reachable();
-  assert.ok(limited < most, `${limited} of ${most}`);
+  let limited;
+  await eventually(async () => assert.ok((limited = await reachable()) < most, `${limited} of ${most}`));
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
   await reach.getByText(/The steepest wall keeps the height at [\d.]+ mm/).waitFor();
   assert.equal(await field("Height in mm").getAttribute("aria-invalid"), "true");
@@ -462,8 +462,7 @@ test("marks the height that can be reached, and loosens what limits it", {skip},
   await reach.getByRole("button", {name: "Allow steeper walls"}).click();
   assert.equal(await text("Steepest wall in degrees"), "85");
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-  for (let i = 0; i < 100 && (await reachable()) <= limited; ++i) await page.waitForTimeout(50);
-  assert.ok((await reachable()) > most, `${await reachable()} of ${most}`);
+  await eventually(async () => assert.ok((await reachable()) > most, `${await reachable()} of ${most}`));
 });
 
 test("marks the height that the view reaches which is shown", {skip}, async () => {

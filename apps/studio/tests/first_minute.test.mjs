@@ -4,8 +4,8 @@ import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
-  writeSample} from "./support.mjs";
+import {EngineProcess, enter, eventually, findBrowser, ignoreTimers, removeFolder, showScan, temporaryFolder,
+  untilListening, untilReady, untilTimersRan, writeSample} from "./support.mjs";
 
 const found = await findBrowser(), {skip} = found;
 
@@ -81,6 +81,30 @@ test("leads back to the relief for the tour, and says that it needs one", {skip}
   await empty.stop();
 });
 
+test("takes no click before its program has begun, and none is lost", {skip}, async () => {
+  const other = await (await browser.newContext()).newPage(), help = other.getByRole("button", {name: "Help"});
+  let begin;
+  const begun = new Promise((resolve) => (begin = resolve));
+  await other.route("**/api/about", async (route) => {
+    await begun;
+    await route.continue();
+  });
+  await other.goto(engine.address, {waitUntil: "commit"});
+  const box = await eventually(async () => {
+    const found = await other.locator("#help").boundingBox();
+    assert.ok(found);
+    return found;
+  });
+  const isHit = () => other.evaluate(({x, y, width, height}) =>
+    document.querySelector("#help").contains(document.elementFromPoint(x + width / 2, y + height / 2)), box);
+  assert.equal(await isHit(), false);
+  const clicked = help.click(); // waits until the button takes clicks
+  begin();
+  await clicked;
+  await other.getByRole("button", {name: "Take the tour"}).waitFor();
+  await other.close();
+});
+
 test("shows nothing of the document on the start page, and changes nothing there by keys", {skip}, async () => {
   const parts = ["title", "undo", "redo", "save", "export", "numbers", "remarks"], shown = () => page.evaluate((ids) =>
     ids.filter((id) => document.getElementById(id).checkVisibility()), parts);
@@ -101,13 +125,14 @@ test("shows nothing of the document on the start page, and changes nothing there
 
 test("offers the tour no longer to whoever begins to work", {skip}, async () => {
   const other = await (await browser.newContext()).newPage();
+  await other.addInitScript(ignoreTimers, 30000); // after which the offer goes by itself
   await other.goto(engine.address);
   const offered = other.getByRole("button", {name: "Show me"});
   await offered.waitFor();
   await untilReady(other);
   assert.ok(await offered.isVisible());
   await other.getByRole("radio", {name: "Bronze"}).click();
-  await offered.waitFor({state: "hidden", timeout: 5000});
+  await offered.waitFor({state: "hidden"});
   await other.getByRole("button", {name: "Undo"}).click();
   await other.close();
 });
@@ -196,8 +221,11 @@ test("shows first, with each kind, the controls that matter for it", {skip}, asy
     assert.ok(box.y + box.height <= below.y && below.y + below.height < 772, `${name} and the height fit the page`);
   }
   await kind("Coin").click();
+  const answered = page.waitForResponse("**/api/check");
   await outline.selectOption("hexagon"); // a medal of another outline is one still
-  await page.waitForTimeout(300); // the engine is asked whether it can read it
+  await answered;
+  await page.locator('#kind-rows [aria-busy="true"]').waitFor({state: "detached"}); // the page has taken it
+  assert.equal(await outline.inputValue(), "hexagon");
   assert.ok(await kind("Coin").isChecked());
   const untilKind = (name) => page.getByRole("radio", {name, exact: true, checked: true}).waitFor();
   await outline.selectOption({label: "Round corners"});
@@ -302,7 +330,7 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
   await untilReady(page);
   assert.ok((await orange()) > marked / 2);
   await page.locator("#finish").selectOption("reachable");
-  await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor({timeout: 120000}); // on a busy machine
+  await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor();
   for (let step = 0; step < 3; ++step) await button("Undo").click();
   await untilReady(page);
   assert.ok((await orange()) < before + 500);
@@ -380,7 +408,6 @@ test("puts several files side by side, and turns, scales and removes them", {ski
 // Only the engine's answer tells the page that a document is open: until then the engine refuses to prepare a view.
 test("takes what is changed while a scan is still opening", {skip}, async () => {
   const other = await page.context().newPage(), answers = [];
-  other.setDefaultTimeout(30000);
   other.on("response", (response) => answers.push(response.status()));
   await other.addInitScript(() => {
     const {fetch} = window;
@@ -390,7 +417,7 @@ test("takes what is changed while a scan is still opening", {skip}, async () => 
     };
   });
   await other.goto(engine.address.replace(/#.*/, ""));
-  await other.waitForFunction(() => document.querySelector("#undo").onclick !== null); // it listens
+  await untilListening(other);
   await other.locator("#file").setInputFiles(scans[1]);
   await other.getByText("ammonite.ply", {exact: true}).waitFor();
   await eventually(async () => assert.ok(await other.evaluate(() => Boolean(window.letOpen))));
@@ -398,7 +425,7 @@ test("takes what is changed while a scan is still opening", {skip}, async () => 
   await other.locator("#scan").evaluate((panel) => (panel.open = true));
   await enter(other.locator("#crop"), "0,0.4,1,1");
   await enter(other.getByRole("spinbutton", {name: "Height in mm"}), "2.5");
-  await other.waitForTimeout(300); // for what would be refused
+  await untilTimersRan(other, 300); // what the page would ask too early, it has asked by then
   await other.evaluate(() => window.letOpen());
   await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
   await untilReady(other);
@@ -422,7 +449,7 @@ test("keeps the view that was asked for last when the one before it arrives late
     await route.continue();
   });
   await other.goto(engine.address.replace(/#.*/, ""));
-  await other.waitForFunction(() => document.querySelector("#undo").onclick !== null); // it listens
+  await untilListening(other);
   await other.locator("#file").setInputFiles(scans[1]);
   await untilReady(other);
   const whole = await points(), crop = other.locator("#crop");

@@ -17,7 +17,6 @@ before(async () => {
   writeSample("still_life", 5000, scan);
   browser = await found.launch();
   page = await (await browser.newContext({viewport: {width: 1280, height: 800}})).newPage();
-  page.setDefaultTimeout(30000);
   await page.addInitScript(() => { // Firefox's driver does not tell what a request sends
     const {fetch} = window;
     window.fetch = (url, options) => {

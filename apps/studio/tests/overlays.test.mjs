@@ -16,7 +16,7 @@ before(async () => {
   writeSample("shell", 8000, scan);
   browser = await found.launch();
   ({engine, page} = await showScan(browser,
-    {state: path.join(folder, "state"), scan, screen: SCREENS[0], timeout: 60000}));
+    {state: path.join(folder, "state"), scan, screen: SCREENS[0]}));
 });
 
 after(async () => {
@@ -93,7 +93,6 @@ test("keeps the labels of measures apart", {skip}, async () => {
 test("draws no more pixels on a large screen than the engine makes", {skip}, async () => {
   const large = await browser.newContext({viewport: {width: 2560, height: 1440}, deviceScaleFactor: 2});
   const screen = await large.newPage();
-  screen.setDefaultTimeout(60000);
   await screen.goto(engine.address);
   await untilReady(screen);
   const {width, height} = await screen.locator("#picture").evaluate(({width, height}) => ({width, height}));
@@ -162,7 +161,6 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up pens");
   const touched = await browser.newContext({viewport: SCREENS[1], hasTouch: true});
   const tablet = await touched.newPage(), cdp = await touched.newCDPSession(tablet);
-  tablet.setDefaultTimeout(60000);
   await tablet.goto(engine.address);
   await untilReady(tablet);
   const undo = tablet.getByRole("button", {name: "Undo"});
@@ -209,7 +207,6 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
   const touched = await browser.newContext({viewport: SCREENS[2], hasTouch: true, isMobile: true});
   const phone = await touched.newPage(), cdp = await touched.newCDPSession(phone);
-  phone.setDefaultTimeout(60000);
   await phone.goto(engine.address);
   await untilReady(phone);
   const undo = phone.getByRole("button", {name: "Undo"}), longer = phone.locator('[data-option="width"]');

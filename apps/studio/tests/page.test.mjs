@@ -5,7 +5,7 @@ import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {EngineProcess, PROGRAM, doubleClick, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
-  temporaryFolder, type, untilReady, writeSample} from "./support.mjs";
+  temporaryFolder, type, untilListening, untilReady, untilTimersRan, writeSample} from "./support.mjs";
 
 const found = await findBrowser(), {skip} = found;
 
@@ -18,7 +18,6 @@ before(async () => {
   writeSample("still_life", 30000, scan);
   browser = await found.launch();
   page = await (await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true})).newPage();
-  page.setDefaultTimeout(60000);
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("console", (message) => message.type() === "error" &&
     complaints.push(`${message.text()} ${message.location().url}`));
@@ -39,7 +38,7 @@ async function start(...args) {
 
 // Panels stay open when the page is loaded anew, once its program listens to them.
 async function openPanels() {
-  await page.waitForFunction(() => document.querySelector("#undo").onclick !== null);
+  await untilListening(page);
   await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
 }
 
@@ -91,13 +90,10 @@ async function heightShown() {
   return Number(title.match(/reached ([\d.]+)/)[1]);
 }
 
-async function untilHeight(wanted, tolerance) {
-  for (let i = 0; i < 100; ++i) {
-    if (Math.abs((await heightShown()) - wanted) <= tolerance) return;
-    await page.waitForTimeout(100);
-  }
-  assert.fail(`the height stays at ${await heightShown()} instead of ${wanted}`);
-}
+const untilHeight = (wanted, tolerance) => eventually(async () => {
+  const shown = await heightShown();
+  assert.ok(Math.abs(shown - wanted) <= tolerance, `the height stays at ${shown} instead of ${wanted}`);
+});
 
 async function openFile(file) {
   // Firefox's driver tells of the first dialog only.
@@ -600,7 +596,7 @@ test("goes on after a reload and after a new start of the engine", {skip}, async
   await untilReady(page);
   assert.equal(await value("Margin in mm"), 7);
   await becomesSame(shown);
-  await page.waitForTimeout(500);
+  await untilTimersRan(page, 1000); // it has nothing more to keep
   complaints.length = 0;
   await engine.stop();
   await page.getByRole("alert").getByText(/engine has stopped/).waitFor();

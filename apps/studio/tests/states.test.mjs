@@ -20,7 +20,6 @@ before(async () => {
   for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 6000, scan);
   browser = await found.launch();
   page = await (await browser.newContext({viewport: DESK})).newPage();
-  page.setDefaultTimeout(30000);
   engine = await new EngineProcess(path.join(folder, "state")).ready();
   await page.goto(engine.address);
   await page.locator("#samples button").first().waitFor();

@@ -12,6 +12,9 @@ const FIREFOX = [process.env.FIREFOX, "/usr/bin/firefox-esr", "/usr/bin/firefox"
 const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-sync",
   "--disable-background-networking", "--disable-component-update"];
 
+// All waits end when what they wait for comes. This is how long it may take on a machine that is busy with other work.
+export const PATIENCE_MS = 240000;
+
 export function temporaryFolder() {
   return mkdtempSync(path.join(tmpdir(), "relievo-studio-"));
 }
@@ -80,7 +83,7 @@ export class EngineProcess {
   }
 
   async untilIdle() {
-    for (let i = 0; i < 600; ++i) {
+    for (const end = Date.now() + PATIENCE_MS; Date.now() < end;) {
       const status = await this.json("status");
       if (status.model > 0 && !status.busy) return status;
       if (status.error && !status.busy) throw new Error(JSON.stringify(status.error));
@@ -107,10 +110,24 @@ export async function untilReady(page) {
   await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
 }
 
+// Waits until the page's program has begun: before, the page takes no clicks, but a script could change its fields.
+export const untilListening = (page) => page.locator("body:not([inert])").waitFor();
+
+// Waits by the clock of the page itself, so that all that it has put off for less than that has happened, however busy
+// the machine is.
+export const untilTimersRan = (page, ms) =>
+  page.evaluate((ms) => new Promise((resolve) => setTimeout(resolve, ms)), ms);
+
+// Runs in the page: from now on it does nothing that it puts off for so long or longer, so that a line for people stays
+// until something else takes it back. Infinity ends that.
+export const ignoreTimers = (leastMs) => {
+  const all = (window.allTimers ??= window.setTimeout.bind(window));
+  window.setTimeout = (act, ms, ...args) => (ms >= leastMs ? 0 : all(act, ms, ...args));
+};
+
 // Starts an engine with a scan, and shows it in a new page of the browser. Returns {engine, page}.
-export async function showScan(browser, {state, scan, screen = {width: 1280, height: 800}, timeout = 30000}) {
+export async function showScan(browser, {state, scan, screen = {width: 1280, height: 800}}) {
   const page = await (await browser.newContext({viewport: screen})).newPage();
-  page.setDefaultTimeout(timeout);
   const engine = await new EngineProcess(state, scan).ready();
   await page.goto(engine.address);
   await untilReady(page);
@@ -148,9 +165,9 @@ export async function enter(field, text) {
   await field.press("Enter");
 }
 
-// Repeats a check until it no longer throws, for 30 seconds: what a page shows follows its events a little later.
+// Repeats a check until it no longer throws: what a page shows follows its events a little later.
 export async function eventually(check) {
-  for (const end = Date.now() + 30000; ;) {
+  for (const end = Date.now() + PATIENCE_MS; ;) {
     try {
       return await check();
     } catch (error) {
@@ -167,6 +184,17 @@ function without(missing) {
   return {skip};
 }
 
+// Gives all pages of a browser their patience.
+function patient(browser) {
+  const newContext = browser.newContext.bind(browser);
+  browser.newContext = async (options) => {
+    const context = await newContext(options);
+    context.setDefaultTimeout(PATIENCE_MS);
+    return context;
+  };
+  return browser;
+}
+
 // Returns {launch, skip} of the browser that the environment names, Chromium otherwise; `skip` is false, or says what
 // is missing. Firefox is driven by WebDriver BiDi, which the channel stands for.
 export async function findBrowser(name = process.env.BROWSER || "chromium") {
@@ -179,10 +207,10 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
     const folder = isFirefox ? temporaryFolder() : null; // of downloads
     process.on("exit", () => folder && removeFolder(folder));
     const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // which takes the focus from the page
-    const launch = () => (isFirefox
-      ? firefox.launch({executablePath, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
-      : chromium.launch({executablePath, args: CHROMIUM_FLAGS}));
-    return {name, folder, launch, skip: false};
+    const settings = {executablePath, timeout: PATIENCE_MS}, start = () => (isFirefox
+      ? firefox.launch({...settings, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
+      : chromium.launch({...settings, args: CHROMIUM_FLAGS}));
+    return {name, folder, launch: async () => patient(await start()), skip: false};
   } catch {
     return without("playwright-core is not installed (npm ci --prefix apps/studio/tests)");
   }

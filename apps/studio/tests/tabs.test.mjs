@@ -19,9 +19,11 @@ before(async () => {
   browser = await found.launch();
   context = await browser.newContext({viewport: {width: 1000, height: 700}, acceptDownloads: true});
   await context.addInitScript(() => { // a tab that is deaf hears nothing of what the engine tells by itself
+    Object.assign(window, {told: [], missed: []});
+    new BroadcastChannel(location.pathname).onmessage = ({data}) => window.told.push(data);
     window.EventSource = class extends EventSource {
       set onmessage(take) {
-        super.onmessage = (event) => window.isDeaf || take(event);
+        super.onmessage = (event) => (window.isDeaf ? window.missed.push(JSON.parse(event.data)) : take(event));
       }
     };
   });
@@ -36,7 +38,6 @@ after(async () => {
 
 async function newTab() {
   const tab = await context.newPage();
-  tab.setDefaultTimeout(60000);
   await tab.goto(engine.address);
   await untilReady(tab);
   return tab;
@@ -62,10 +63,7 @@ const title = (of) => of.locator("#title");
 const height = (of) => of.getByRole("spinbutton", {name: "Height in mm"});
 const setHeight = (of, text) => enter(height(of), text);
 const untilSaid = (of, text) => of.getByRole("alert").getByText(text, {exact: true}).waitFor();
-const untilHeight = async (of, text) => {
-  for (let i = 0; i < 400 && (await height(of).inputValue()) !== text; ++i) await of.waitForTimeout(50);
-  assert.equal(await height(of).inputValue(), text);
-};
+const untilHeight = (of, text) => eventually(async () => assert.equal(await height(of).inputValue(), text));
 const openScan = async (of, sample) => {
   const chooser = of.waitForEvent("filechooser");
   await of.getByRole("button", {name: "Open", exact: true}).click();
@@ -73,6 +71,16 @@ const openScan = async (of, sample) => {
   await of.getByText(/of [56],000 points/).waitFor();
   await untilReady(of);
 };
+
+// Waits until the height that a tab shows is kept, and all tabs know.
+const untilTold = (of, tabs) => eventually(async () => {
+  const document = new URL(of.url()).hash.slice(1), {recent} = await engine.json("recent");
+  const {kept} = await engine.json("document", {input: recent.find((entry) => entry.document === document).input});
+  assert.equal(kept.steps[kept.at].options.height.toFixed(2), await height(of).inputValue());
+  for (const tab of tabs)
+    assert.ok(await tab.evaluate(([document, changed]) => window.told.some((status) =>
+      status?.document === document && status.kept.changed === changed), [document, kept.changed]));
+});
 
 async function exported(tab) {
   await tab.getByRole("button", {name: "Export", exact: true}).click();
@@ -86,7 +94,7 @@ test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
   await setHeight(tab, "3.25");
   await openScan(other, "shell");
   await setHeight(other, "1.5");
-  await tab.waitForTimeout(300);
+  for (const each of [tab, other]) await untilTold(each, [tab, other]);
   assert.deepEqual([await title(tab).innerText(), await title(other).innerText()], ["scan.ply", "shell.ply"]);
   assert.deepEqual([await height(tab).inputValue(), await height(other).inputValue()], ["3.25", "1.50"]);
   await tab.getByText("of 20,000 points").waitFor();
@@ -125,8 +133,7 @@ test("comes back to each scan as it was left, with curve, view and steps, and sh
   const recent = tab.getByRole("list", {name: "Go on with"});
   await recent.getByRole("button", {name: "green_man.ply"}).waitFor();
   const picture = recent.getByRole("button", {name: "green_man.ply"}).locator("img");
-  for (let i = 0; i < 60 && !(await picture.getAttribute("src")).startsWith("data:"); ++i) await tab.waitForTimeout(50);
-  assert.match(await picture.getAttribute("src"), /^data:image\/jpeg/);
+  await eventually(async () => assert.match(await picture.getAttribute("src"), /^data:image\/jpeg/));
   await recent.getByRole("button", {name: /^scan\.ply/}).click();
   await untilReady(tab);
   assert.equal(await title(tab).innerText(), "scan.ply");
@@ -183,25 +190,27 @@ test("loses nothing when the engine is killed in a drag, and finds the next one 
   await untilSaid(tab, "The engine is back, and goes on with what this page shows.");
   await untilReady(tab);
   assert.equal(await height(tab).inputValue(), dragged);
-  await tab.waitForTimeout(200);
-  const {kept} = await engine.json("document", {input: {path: scan}}), {options} = kept.steps[kept.at];
-  assert.equal(options.height.toFixed(2), dragged);
-  assert.equal(options.width, 80);
+  await eventually(async () => {
+    const {kept} = await engine.json("document", {input: {path: scan}}), {options} = kept.steps[kept.at];
+    assert.deepEqual([options.height.toFixed(2), options.width], [dragged, 80]);
+  });
   await tab.close();
 });
 
 test("shows what another page kept later, and says so where a change of its own is lost", {skip}, async () => {
   const tab = await newTab(), {document, kept} = await engine.json("document", {input: {path: scan}});
-  const keep = (mm, later) => {
+  const keep = async (mm, later) => {
     kept.steps[kept.at].options.height = mm;
-    return engine.post("state", {document, state: {...kept, changed: Date.now() + later}, tab: "another"});
+    kept.changed = Date.now() + later;
+    await engine.post("state", {document, state: kept, tab: "another"});
   };
   await keep(5.5, 1000);
   await untilHeight(tab, "5.50");
   assert.ok(!await tab.getByRole("alert").isVisible());
   await tab.evaluate(() => (window.isDeaf = true));
-  await keep(4.75, 10000);
-  await tab.waitForTimeout(200); // in which it would hear of it
+  await keep(4.75, 600000); // later than what this page changes now, however busy the machine is
+  await tab.waitForFunction((changed) => window.missed.some((status) => status.kept?.changed === changed),
+    kept.changed);
   assert.equal(await height(tab).inputValue(), "5.50");
   await setHeight(tab, "3.5");
   await untilSaid(tab, "Newer work of another page is shown here.");
@@ -216,7 +225,7 @@ test("shows the newer work that it finds with the next engine, and says so", {sk
   const file = path.join(state, "documents", `${document}.json`), newer = JSON.parse(readFileSync(file));
   assert.equal(newer.changed, kept.changed);
   newer.steps[newer.at].options.height = 6.5;
-  writeFileSync(file, JSON.stringify({...newer, changed: Date.now() + 20000})); // as another page has it kept
+  writeFileSync(file, JSON.stringify({...newer, changed: Date.now() + 1200000})); // as another page has it kept
   engine = await new EngineProcess(state).ready();
   await untilSaid(tab, "The engine is back. It had newer work on this scan, which is shown here.");
   await untilHeight(tab, "6.50");
