@@ -6,7 +6,7 @@
 namespace relievo {
 
 HeightMap make_height_map(const Solid& solid, int longer_side_px) {
-  const HeightField field = draw_smooth_height_field(solid, longer_side_px);
+  const HeightField field = measure_height_field(solid, longer_side_px);
   const double span_mm = field.box.size().z();
   HeightMap map{{}, field.mm_per_pixel, span_mm / 65535};
   map.image.resize(field.z.width, field.z.height);
@@ -17,7 +17,7 @@ HeightMap make_height_map(const Solid& solid, int longer_side_px) {
 }
 
 HeightsMm make_heights_mm(const Solid& solid, int longer_side_px) {
-  HeightField field = draw_smooth_height_field(solid, longer_side_px);
+  HeightField field = measure_height_field(solid, longer_side_px);
   return {std::move(field.z), field.mm_per_pixel, {}};
 }
 

@@ -1,11 +1,11 @@
 #include "plate/height_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <numbers>
+#include <limits>
 
 #include "geometry/raster.h"
-#include "geometry/smooth_surface.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
@@ -54,46 +54,75 @@ void draw(const Solid& solid, HeightField& field, HeightOf height_of) {
   parallel_for(rasterizer.bands(), draw_band, 1);
 }
 
-constexpr double degree = std::numbers::pi / 180;
-
-Vec3 area_normal(const Solid& solid, std::size_t t) {
-  const auto& [a, b, c] = solid.triangles[t];
-  return (solid.points[b] - solid.points[a]).cross(solid.points[c] - solid.points[a]);
+// The front's corners as files hold them. The floats are stored first, because g++ 12 drops the rounding of double(float(x))
+// when it vectorises.
+std::vector<Vec3f> stored_points(const Solid& solid) {
+  std::vector<Vec3f> stored;
+  stored.reserve(solid.points.size());
+  for (const Vec3& p : solid.points) stored.push_back(p.cast<float>());
+  return stored;
 }
 
-// Returns whether a triangle is neither wall nor ground.
-std::vector<std::uint8_t> sheet_triangles(const Solid& solid) {
-  constexpr double least_wall = 65 * degree;
-  const auto is_ground = [&](Index i) { return solid.points[i].z() == solid.ground_mm; };
-  std::vector<std::uint8_t> is_sheet(solid.front_triangles);
-  parallel_for(is_sheet.size(), [&](std::size_t t) {
-    const Vec3 normal = area_normal(solid, t);
-    is_sheet[t] = normal.z() > std::cos(least_wall) * normal.norm() &&
-                  !std::ranges::all_of(solid.triangles[t], is_ground);
-  });
-  return is_sheet;
+// The part of a line of one y that lies in a triangle, by its ends.
+struct Chord {
+  Vec2 left, right;  // x and z
+};
+
+// Returns the part in a triangle that reaches that y.
+Chord chord_at(const std::array<Vec3, 3>& corners, double y) {
+  Chord chord{Vec2::Constant(std::numeric_limits<double>::infinity()), {}};
+  chord.right.x() = -chord.left.x();
+  const auto add = [&](double x, double z) {
+    if (x < chord.left.x()) chord.left = {x, z};
+    if (x > chord.right.x()) chord.right = {x, z};
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &p = corners[i], &q = corners[(i + 1) % 3];
+    if (p.y() == y) add(p.x(), p.z());
+    if ((p.y() < y) == (q.y() < y)) continue;
+    const double share = (y - p.y()) / (q.y() - p.y());
+    add(p.x() + share * (q.x() - p.x()), p.z() + share * (q.z() - p.z()));
+  }
+  return chord;
 }
 
-// Returns per point how smooth the surface is there: 1 where the triangles around turn little from their mean, 0 at sharp
-// edges, walls and ground.
-std::vector<float> smoothness(const Solid& solid, std::span<const std::uint8_t> is_sheet) {
-  constexpr double smooth_turn = 8 * degree,
-                   sharp_turn = 16 * degree;  // the latter about half the angle of an edge
-  std::vector<Vec3> sums(solid.points.size(), Vec3::Zero());
-  for (std::size_t t = 0; t < is_sheet.size(); ++t)
-    for (const Index i : solid.triangles[t])
-      if (is_sheet[t]) sums[i] += area_normal(solid, t);
-  std::vector<float> shares(solid.points.size(), 1);
-  for (std::size_t t = 0; t < is_sheet.size(); ++t) {
-    const Vec3 normal = area_normal(solid, t).normalized();
-    for (const Index i : solid.triangles[t]) {
-      const double turn = std::acos(std::clamp(normal.dot(sums[i].normalized()), -1., 1.));
-      const double share = is_sheet[t] ? (sharp_turn - turn) / (sharp_turn - smooth_turn) : 0;
-      shares[i] = std::min(shares[i], static_cast<float>(std::max(share, 0.0)));
+// Some rows of a field, in which triangles are entered.
+class FieldRows {
+ public:
+  FieldRows(HeightField& field, int first, int end) : field_(field), first_(first), end_(end) {}
+
+  // Raises the pixels whose centres lie in the triangle or on its edge to its height there.
+  void enter(const std::array<Vec3, 3>& corners) {
+    const auto [low, high] = std::minmax({corners[0].y(), corners[1].y(), corners[2].y()});
+    const int begin = std::max(first_, first_from(centre_at({0, high, 0}).y())),
+              end = std::min(end_, end_after(centre_at({0, low, 0}).y()));
+    for (int row = begin; row < end; ++row)
+      enter_row(chord_at(corners, std::clamp(field_.to_mm(0, row + .5).y(), low, high)), row);
+  }
+
+ private:
+  // A centre that lies on an edge belongs to both triangles, whichever way its place was rounded.
+  static constexpr double rounding = 1e-9;  // pixels
+  static int first_from(double centre) { return static_cast<int>(std::ceil(centre - rounding)); }
+  static int end_after(double centre) { return static_cast<int>(std::floor(centre + rounding)) + 1; }
+
+  // Returns a place in pixels from the centre of the first.
+  Vec2 centre_at(const Vec3& point) const { return field_.to_pixels(point) - Vec2(.5, .5); }
+
+  void enter_row(const Chord& chord, int row) {
+    const double left = centre_at({chord.left.x(), 0, 0}).x(), right = centre_at({chord.right.x(), 0, 0}).x();
+    const double rise = chord.right.y() - chord.left.y();
+    const int begin = std::max(0, first_from(left)), end = std::min(field_.z.width, end_after(right));
+    for (int column = begin; column < end; ++column) {
+      const double share = right > left ? std::clamp((column - left) / (right - left), 0., 1.) : 0;
+      float& pixel = field_.z.at(column, row);
+      pixel = std::max(pixel, static_cast<float>(chord.left.y() + share * rise - field_.box.min.z()));
     }
   }
-  return shares;
-}
+
+  HeightField& field_;
+  int first_, end_;
+};
 
 }  // namespace
 
@@ -118,25 +147,25 @@ HeightField draw_height_field(const Solid& solid, int longer_side_px) {
   return field;
 }
 
-HeightField draw_smooth_height_field(const Solid& solid, int longer_side_px) {
-  HeightField field = flat_height_field(front_box(solid), longer_side_px);
-  if (field.z.empty()) return field;
-  const std::vector<std::uint8_t> is_sheet = sheet_triangles(solid);
-  const SmoothSurface surface(solid.points, std::span(solid.triangles).first(solid.front_triangles),
-                              is_sheet);
-  const std::vector<float> shares = smoothness(solid, is_sheet);
-  const auto width = static_cast<std::size_t>(field.z.width);
-  const double span_mm = field.box.size().z();
-  draw(solid, field, [&](const RasterInput& input, const Fragment& fragment, std::size_t pixel) {
-    const Triangle& corners = solid.triangles[fragment.triangle];
-    if (std::ranges::all_of(corners, [&](Index i) { return shares[i] == 0; })) return fragment.z;
-    const double x = static_cast<double>(pixel % width) + .5, y = static_cast<double>(pixel / width) + .5;
-    const double z = surface.at(fragment.triangle, field.to_mm(x, y)).height - field.box.min.z();
-    const Vec3f weights = corner_weights(input, fragment.triangle, x, y);
-    const float share = weights.dot(Vec3f(shares[corners[0]], shares[corners[1]], shares[corners[2]]));
-    const float smooth = static_cast<float>(std::clamp(z, 0.0, span_mm));
-    return fragment.z + std::clamp(share, 0.F, 1.F) * (smooth - fragment.z);
-  });
+HeightField measure_height_field(const Solid& solid, int longer_side_px) {
+  const std::vector<Vec3f> stored = stored_points(solid);
+  const auto corners_of = [&](std::size_t t) {
+    const auto& [a, b, c] = solid.triangles[t];
+    return std::array<Vec3, 3>{stored[a].cast<double>(), stored[b].cast<double>(), stored[c].cast<double>()};
+  };
+  Box box;
+  for (std::size_t t = 0; t < solid.front_triangles; ++t)
+    for (const Vec3& p : corners_of(t)) box.extend(p);
+  HeightField field = flat_height_field(box, longer_side_px);
+  const int least_rows = 32, most_bands = 64;
+  const int rows = std::max(least_rows, (field.z.height + most_bands - 1) / most_bands);
+  const int bands = (field.z.height + rows - 1) / rows;
+  const auto draw_band = [&](std::size_t band) {
+    const int first = static_cast<int>(band) * rows;
+    FieldRows in_band(field, first, std::min(first + rows, field.z.height));
+    for (std::size_t t = 0; t < solid.front_triangles; ++t) in_band.enter(corners_of(t));
+  };
+  parallel_for(static_cast<std::size_t>(bands), draw_band, 1);
   return field;
 }
 

@@ -10,9 +10,10 @@ namespace relievo {
 // The front's box lies in the picture's middle, the longer side fills it.
 struct HeightField {
   double mm_per_pixel = 0;
-  Box box;                             // of the front
-  Image<float> z;                      // millimetres above the front's lowest point; 0 beside the front
-  Image<std::uint8_t> is_beside = {};  // 1 for a pixel that shows no front; empty if all do
+  Box box;         // of the front
+  Image<float> z;  // millimetres above the front's lowest point; 0 beside the front
+  Image<std::uint8_t> is_beside =
+      {};  // 1 for a pixel that shows no front; empty if all do, or if nobody asks
 
   Vec2 to_pixels(const Vec3& point) const {
     const Vec3 p = (point - box.centre()) / mm_per_pixel;
@@ -27,11 +28,12 @@ struct HeightField {
 // pixels if that is not in [1, RasterInput::most_pixels] or the box is empty.
 HeightField flat_height_field(const Box& box, int longer_side_px);
 
-// Returns the heights of a solid's front; without pixels as flat_height_field().
+// Returns the heights of a solid's front, quickly; without pixels as flat_height_field().
 HeightField draw_height_field(const Solid& solid, int longer_side_px);
 
-// Returns the heights of a smooth surface through the corners of a solid's front, see SmoothSurface. Ground and
-// triangles at sharp edges stay plane; lowest and highest point stay. Without pixels as flat_height_field().
-HeightField draw_smooth_height_field(const Solid& solid, int longer_side_px);
+// Returns the heights of a solid's front as files hold its corners: each pixel has that of the triangle in which its centre
+// lies, also of one on whose edge it lies, of several the highest. draw_height_field() rounds corners to 1/256 pixel, which
+// at walls is up to their height. Without pixels as flat_height_field(); `is_beside` is empty.
+HeightField measure_height_field(const Solid& solid, int longer_side_px);
 
 }  // namespace relievo

@@ -15,9 +15,8 @@ struct HeightMap {
 };
 
 // Returns the front of a solid as a height map whose longer side has `longer_side_px` pixels; each pixel holds the
-// height under its centre, 0 beside the plate. Between the corners of the front it follows a smooth surface, except at
-// sharp edges and on the ground, so that no triangle shows at any size. A flat front gives zeros. No pixels for an
-// empty solid or a side not in [1, 32768].
+// height of the solid's triangle under its centre, that on the outline included, and 0 beside the plate. The front's box
+// lies in the middle of the picture. A flat front gives zeros. No pixels for an empty solid or a side not in [1, 32768].
 HeightMap make_height_map(const Solid& solid, int longer_side_px);
 
 // Heights in millimetres above the lowest point of the front, row-major, first row at the top.
