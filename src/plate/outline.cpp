@@ -14,13 +14,22 @@ namespace {
 
 using Points = std::span<const Vec2>;
 
-constexpr double finest_mm = .01;  // between a curve and its polygon
+// Between a curve and the middles of its polygon's sides, whose corners lie on it. Turning and polishing show more; of
+// curves of more than 10 m files hold no less than this share of their radius.
+constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
-// One edge of a convex outline, of which `size` scales all: it is the line of points p with
-// p.dot(normal) == offset + size * growth, measured from the centre.
+// How far a line is from the centre, for each size of the outline.
+struct Distance {
+  double offset = 0, growth = 1;
+
+  double at(double size) const { return offset + size * growth; }
+};
+
+// One edge of a convex outline, of which `size` scales all: a line, and the tangent of the curve, parallel to it, which is
+// the same where the outline is straight.
 struct Side {
   Vec2 normal;  // unit length, outwards
-  double offset = 0, growth = 1;
+  Distance tangent = {}, line = tangent;
 };
 
 // The box around points, by its centre and half its size.
@@ -34,23 +43,25 @@ Frame frame_around(Points points) {
   return {(min + max) / 2, (max - min) / 2};
 }
 
-// Returns the number of edges per quarter turn that keep a polygon around a circle of that radius within
-// finest_mm of it: its corners are at radius / cos(half an edge's angle) from the centre.
-int steps_for(double radius) {
-  const double widest = 2 * std::acos(radius / (radius + finest_mm));
-  return std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
-}
+// The directions of the sides of a regular polygon, counter-clockwise, whose corners lie on the unit circle, four of them
+// on the axes.
+struct CircleSides {
+  std::vector<Vec2> normals;  // unit length
+  double distance = 1;        // of the sides from the centre
+};
 
-// Returns unit vectors in equal steps, counter-clockwise; the four along the axes are exact.
-std::vector<Vec2> directions(int steps_per_quarter) {
-  std::vector<Vec2> all;
-  for (int i = 0; i < steps_per_quarter; ++i) {
-    const double angle = std::numbers::pi / 2 * i / steps_per_quarter;
-    all.emplace_back(std::cos(angle), std::sin(angle));
-  }
-  for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(steps_per_quarter); ++i)
-    all.emplace_back(-all[i].y(), all[i].x());
-  return all;
+// Returns those that keep a polygon in a circle of that radius within finest_mm of it: the middles of its sides are at
+// radius * cos(half a side's angle) from the centre.
+CircleSides circle_sides(double radius) {
+  const double widest = 2 * std::acos(1 - std::min(.1, std::max(finest_mm / radius, finest_share)));
+  const int steps = std::max(4, static_cast<int>(std::ceil(std::numbers::pi / 2 / widest)));
+  const double angle = std::numbers::pi / 2 / steps;
+  CircleSides sides{{}, std::cos(angle / 2)};
+  for (int i = 0; i < steps; ++i)
+    sides.normals.emplace_back(std::cos((i + .5) * angle), std::sin((i + .5) * angle));
+  for (std::size_t i = 0; i < 3 * static_cast<std::size_t>(steps); ++i)
+    sides.normals.emplace_back(-sides.normals[i].y(), sides.normals[i].x());
+  return sides;
 }
 
 // Returns the centre in the middle between left and right from which the farthest point is nearest, in a plane stretched by
@@ -77,17 +88,28 @@ Vec2 round_centre(Points points, const Vec2& scale) {
 
 std::vector<Side> sides_of_rectangle(const Frame& frame, const OutlineOptions& options, double corner) {
   const Vec2 inner = frame.half + Vec2::Constant(options.margin_mm - corner);
+  const CircleSides round = corner > 0 ? circle_sides(corner) : CircleSides();
+  const std::size_t steps = round.normals.size() / 4;
   std::vector<Side> sides;
-  for (const Vec2& d : directions(corner > 0 ? steps_for(corner) : 1))
-    sides.push_back({d, inner.dot(d.cwiseAbs()) + corner, d.cwiseAbs().sum()});
+  const auto add = [&](const Vec2& normal, double share) {
+    const double straight = inner.dot(normal.cwiseAbs()), growth = normal.cwiseAbs().sum();
+    sides.push_back({normal, {straight + corner, growth}, {straight + share * corner, growth}});
+  };
+  for (std::size_t quarter = 0; const Vec2& axis : {Vec2(1, 0), Vec2(0, 1), Vec2(-1, 0), Vec2(0, -1)}) {
+    add(axis, 1);
+    for (std::size_t i = 0; i < steps; ++i) add(round.normals[quarter * steps + i], round.distance);
+    ++quarter;
+  }
   return sides;
 }
 
 std::vector<Side> sides_of_ellipse(const Vec2& half, double longest) {
   std::vector<Side> sides;
-  for (const Vec2& d : directions(steps_for(longest))) {
+  const CircleSides round = circle_sides(longest);
+  for (const Vec2& d : round.normals) {
     const Vec2 normal = d.cwiseQuotient(half).normalized();
-    sides.push_back({normal, 0, normal.cwiseProduct(half).norm()});
+    const double growth = normal.cwiseProduct(half).norm();
+    sides.push_back({normal, {0, growth}, {0, round.distance * growth}});
   }
   return sides;
 }
@@ -101,26 +123,28 @@ std::vector<Side> sides_of_hexagon(bool is_pointed) {
   return sides;
 }
 
-// Returns the smallest size at which every side is at least the margin from every point.
+// Returns the smallest size at which the curve is at least the margin from every point.
 double size_around(Points points, const Vec2& centre, const std::vector<Side>& sides, double margin_mm) {
   double size = 0;
   for (const Side& side : sides) {
     double farthest = (points[0] - centre).dot(side.normal);
     for (const Vec2& p : points) farthest = std::max(farthest, (p - centre).dot(side.normal));
-    size = std::max(size, (farthest + margin_mm - side.offset) / side.growth);
+    size = std::max(size, (farthest + margin_mm - side.tangent.offset) / side.tangent.growth);
   }
   return size;
 }
 
 std::vector<Vec2> to_polygon(const std::vector<Side>& sides, const Vec2& centre, double size) {
+  constexpr double least_side_mm = 1e-4;  // two arcs may meet where a side between them has no length
   std::vector<Vec2> polygon;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const Side &a = sides[i], &b = sides[(i + 1) % sides.size()];
-    const double p = a.offset + size * a.growth, q = b.offset + size * b.growth;
-    const double sine = cross(a.normal, b.normal);
-    polygon.push_back(centre +
-                      Vec2(p * b.normal.y() - q * a.normal.y(), q * a.normal.x() - p * b.normal.x()) / sine);
+    const double p = a.line.at(size), q = b.line.at(size), sine = cross(a.normal, b.normal);
+    const Vec2 corner =
+        centre + Vec2(p * b.normal.y() - q * a.normal.y(), q * a.normal.x() - p * b.normal.x()) / sine;
+    if (polygon.empty() || (corner - polygon.back()).norm() >= least_side_mm) polygon.push_back(corner);
   }
+  if ((polygon.front() - polygon.back()).norm() < least_side_mm) polygon.pop_back();
   return polygon;
 }
 
@@ -156,8 +180,12 @@ std::vector<Vec2> ellipse_of_shape(Points points, const Vec2& shape, const Outli
   const Vec2 centre = round_centre(points, shape), wanted = options.size_mm / 2;
   if (wanted.x() > 0) return to_polygon(sides_of_ellipse(wanted, wanted.maxCoeff()), centre, 1);
   const Vec2 half = frame.half + Vec2::Constant(options.margin_mm);
-  // Twice the box's diagonal is longer than any circle or ellipse that fits the points.
-  return around(points, centre, sides_of_ellipse(shape, 2 * half.norm()), options.margin_mm);
+  // The box's diagonal is longer than any radius of a circle or ellipse that fits the points.
+  const auto size_with = [&](double longest) {
+    return size_around(points, centre, sides_of_ellipse(shape, longest), options.margin_mm);
+  };
+  const double longest = 1.001 * shape.maxCoeff() * size_with(2 * half.norm());
+  return around(points, centre, sides_of_ellipse(shape, longest), options.margin_mm);
 }
 
 std::vector<Vec2> circle_around(Points points, const OutlineOptions& options) {

@@ -59,8 +59,8 @@ bool has_free_size(Outline outline);
 bool is_box(Outline outline);
 
 // Returns the outline around points of the plane: a convex polygon, counter-clockwise, whose edges are at
-// least the margin away from every point. A curve becomes a polygon around it, as wide and as high as the
-// curve and nowhere further than 0.01 mm from it. Outlines are centred on the points' box; circles, ellipses and hexagons
+// least the margin away from every point. A curve is, and becomes a polygon in it, as wide and as high as the curve and
+// nowhere further than a micrometre from it, or a ten-millionth of its radius. Outlines are centred on the points' box; circles, ellipses and hexagons
 // from left to right alone, and as high as makes the circle or ellipse smallest. All but `round` are as small as their
 // centre allows. Rounded corners that would cut into the margin move the
 // sides out. With a size, the outline has that size and keeps its centre. The result is empty for no points and for
