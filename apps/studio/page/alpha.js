@@ -1,4 +1,4 @@
-// The paper's height coefficient alpha: it and the saturation decide how high a relief is, which has no height to keep.
+// The flatness, which is the paper's height coefficient alpha: it and the saturation decide how high a relief is, which has no height to keep.
 
 import {optionOf} from "./about.js";
 import {$, make} from "./controls.js";
@@ -10,15 +10,15 @@ export class AlphaRow {
   constructor({doc, say}) {
     Object.assign(this, {doc, say});
     const {help, min, max} = optionOf("alpha");
-    this.range = {label: "Height coefficient", unit: "", min, max};
+    this.range = {label: "Flatness", unit: "", min, max};
     this.input = make("input", {id: "alpha", "data-option": "alpha", autocomplete: "off", inputmode: "decimal",
-      "aria-label": "Height coefficient"});
+      "aria-label": "Flatness", placeholder: "no effect"});
     this.input.onchange = () => this.take();
     this.input.onkeydown = ({key}) => {
       if (key === "Escape") this.show(this.frame);
     };
     this.help = help[0].toUpperCase() + help.slice(1);
-    this.element = make("label", {class: "pair"}, make("span", {}, "Height coefficient"), this.input);
+    this.element = make("label", {class: "pair"}, make("span", {}, "Flatness"), this.input);
     $("#tuning").before(this.element);
   }
 
@@ -32,7 +32,7 @@ export class AlphaRow {
   show(frame) {
     this.frame = frame;
     this.input.disabled = frame.alpha === null;
-    this.element.title = this.input.disabled ? "Has no effect with a tone curve or with Crispness 0" : this.help;
+    this.element.title = this.input.disabled ? "Has no effect with a tone curve or with Edge emphasis 0" : this.help;
     if (!isUnfinished(this.input) || this.input.disabled)
       this.input.value = frame.alpha === null ? "" : Number(frame.alpha.toPrecision(4));
   }

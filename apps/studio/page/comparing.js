@@ -3,6 +3,7 @@
 
 import {$, clamp, make} from "./controls.js";
 
+const NEAR = 12; // pixels from the divider at which the pointer takes it
 const ALIKE = 1e-3; // scales that differ by less differ by less than a pixel
 const LEAST_ZOOM = 0.05, MOST_ZOOM = 100; // as the engine takes it
 
@@ -29,10 +30,22 @@ export class Comparing {
   setSplit(share) {
     const {stage, isComparing, isHolding} = this;
     this.split = share;
+    $("#split").value = 1000 * share;
     this.canvas.style.clipPath = isHolding ? "none" : `inset(0 ${(1 - share) * 100}% 0 0)`;
     const cut = isComparing ? `inset(0 0 0 ${share * 100}%)` : "none";
     stage.picture.style.clipPath = isHolding ? "inset(100%)" : cut;
     stage.drawOverlay();
+  }
+
+  // Returns whether the divider is under a pixel.
+  isAt(x) {
+    const isShown = this.isComparing && !this.isHolding;
+    return isShown && Math.abs(x - this.split * this.stage.size.width) < NEAR;
+  }
+
+  // Moves the divider to a pixel.
+  drag(x) {
+    this.setSplit(clamp(x / this.stage.size.width, 0, 1));
   }
 
   marks({width, height}) {

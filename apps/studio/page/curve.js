@@ -8,7 +8,7 @@ const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
 const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // where handles stand while the formula rules
 
 const PRESETS = [
-  {name: "The paper's formula (6)", tone: ""},
+  {name: "As Edge emphasis says", tone: ""},
   {name: "Even", tone: "0,1;1,1"},
   {name: "Fine detail first", tone: "0,1;0.35,0.9;0.7,0.6;1,0.5"},
   {name: "Bold edges first", tone: "0,0.15;0.35,0.3;0.65,0.7;1,1"},
@@ -28,7 +28,7 @@ export class CurveEditor {
     this.handles = make("g");
     this.svg.append(this.marks, this.handles);
     $("#curve").append(this.svg, make("div", {class: "legend", "aria-hidden": "true"}, make("span", {}, "flat"),
-      make("span", {}, "curvature |k|"), make("span", {}, "sharp")));
+      make("span", {}, "how sharply it bends"), make("span", {}, "sharp")));
     this.svg.ondblclick = (event) => this.add(event);
     this.preset = $("#preset");
     this.preset.append(...PRESETS.map(({name, tone}) => make("option", {value: tone}, name)),

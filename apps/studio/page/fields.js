@@ -9,8 +9,8 @@ const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},
   width: {label: "Longer side", hand: [5, 1000], decimals: 1, spread: spread.log, place: "#shape"},
   detail: {label: "Fine detail", symbol: "γ", hand: [0, 0.5], decimals: 3, spread: spread.root, place: "#shape"},
-  saturation: {label: "Crispness", symbol: "β", hand: [0, 4], decimals: 3, spread: spread.root, place: "#shape"},
-  boundary: {label: "Soft edge", hand: [0.25, 60], decimals: 1, spread: spread.log, place: "#shape"},
+  saturation: {label: "Edge emphasis", symbol: "β", hand: [0, 4], decimals: 3, spread: spread.root, place: "#shape"},
+  boundary: {label: "Soft outline", hand: [0.25, 60], decimals: 1, spread: spread.log, place: "#shape"},
   steepest: {label: "Steepest wall", hand: [5, 85], decimals: 0, spread: spread.linear, place: "#tuning"},
   steps: {label: "Kept steps", hand: [0, 0.95], decimals: 2, spread: spread.linear, place: "#tuning"},
   margin: {label: "Margin", hand: [0.1, 50], decimals: 1, spread: spread.root, place: "#plate-sliders"},
@@ -22,7 +22,7 @@ const SLIDERS = {
 const UNITS = {
   MM: {unit: "mm", unitName: "mm"},
   DEG: {unit: "°", unitName: "degrees"},
-  W: {unit: "×", unitName: "sampling distances"},
+  W: {unit: "points", unitName: "points of the scan"},
 };
 
 const sentence = (text) => text[0].toUpperCase() + text.slice(1);

@@ -49,6 +49,42 @@ addEventListener("input", ({target}) => (unfinished = target), true);
 for (const end of ["change", "focusout"]) addEventListener(end, finish, true);
 addEventListener("keydown", ({key}) => key === "Escape" && finish(), true);
 
+// A finger that comes down on a slider may be about to scroll the panel: the slider follows it when it has moved
+// sideways or was a tap, and stays as it was when the browser takes the finger for scrolling.
+const SIDEWAYS = 6; // pixels
+let swipe = null; // {range, x, before, wanted} until it is known what the finger does; {isScrolling} after a scroll
+
+function follow() {
+  const {range, wanted} = swipe;
+  swipe = null;
+  if (wanted === range.value) return;
+  range.value = wanted;
+  range.dispatchEvent(new Event("input", {bubbles: true}));
+}
+
+addEventListener("pointerdown", ({target, pointerType, clientX: x}) => {
+  const isSlider = pointerType === "touch" && target.matches?.("input[type='range']"), {value} = target;
+  swipe = isSlider ? {range: target, x, before: value, wanted: value} : null;
+}, true);
+addEventListener("pointermove", ({clientX}) => {
+  if (swipe?.range && Math.abs(clientX - swipe.x) > SIDEWAYS) follow();
+}, true);
+addEventListener("pointerup", () => swipe?.range && follow(), true);
+addEventListener("pointercancel", () => {
+  if (!swipe?.range) return;
+  swipe.range.value = swipe.before;
+  swipe = {isScrolling: true};
+}, true);
+addEventListener("input", (event) => {
+  if (!event.isTrusted || swipe?.range !== event.target) return;
+  event.stopPropagation();
+  swipe.wanted = event.target.value;
+  event.target.value = swipe.before;
+}, true);
+addEventListener("change", (event) => {
+  if (swipe?.isScrolling && event.target.type === "range") event.stopPropagation();
+}, true);
+
 const TEXTS = "input:not([type='range'], [type='radio'], [type='checkbox'])";
 
 // Calls the function of a key: `commands` with Ctrl or Cmd; `always` and, while `isReady()`, `keys` without; and

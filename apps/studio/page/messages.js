@@ -2,19 +2,20 @@
 
 import {$, make} from "./controls.js";
 
-let timer = 0, isLost = false, focused = null;
+let timer = 0, isLost = false;
 
-addEventListener("focusin", ({target}) => (focused = target));
+// What stands above the line makes room for it, and what has the focus stays in sight.
+new ResizeObserver(() => {
+  document.documentElement.style.setProperty("--toast-height", `${$("#toast").offsetHeight}px`);
+  if (!$("#toast").hidden) $(".inspector :focus")?.scrollIntoView({block: "nearest"});
+}).observe($("#toast"));
 
 $("#toast .close").onclick = hideToast;
 
-// A line for people, for eight seconds or until the next, clear of what was used last. Returns a function that takes it
-// back.
+// A line for people, for eight seconds or until the next. Returns a function that takes it back.
 export function toast(text, isLasting = false) {
   const line = make("span", {}, text);
   $("#toast p").replaceChildren(line);
-  const {top} = focused?.getBoundingClientRect() ?? {top: 0};
-  $("#toast").classList.toggle("above", top > innerHeight / 2);
   $("#toast").hidden = false;
   clearTimeout(timer);
   if (!isLasting) timer = setTimeout(hideToast, 8000);

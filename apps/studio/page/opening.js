@@ -4,6 +4,7 @@
 import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
 import {engineBack, toast} from "./messages.js";
+import {inWords} from "./pieces.js";
 
 export const viewOf = ({options: {view, up, crop, crumbs, plane, denoise, mode, points}}) =>
   ({view, up, crop, crumbs, plane, denoise, mode, points});
@@ -148,7 +149,7 @@ export class OpenDocument {
 
   complain({error, model}) {
     const {path, name} = this.input; // a dropped scan is read from where the engine has put it
-    const why = error.kind === "cancelled" ? "" : path ? error.text.replaceAll(path, () => name) : error.text;
+    const why = error.kind === "cancelled" ? "" : inWords(path ? error.text.replaceAll(path, () => name) : error.text);
     if (model > 0 && !(this.asked && why)) return this.on.refused(why);
     if (why) toast(why);
     if (model > 0) return; // another view is on its way already

@@ -17,8 +17,8 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   "rim-height": "Rim height", "rim-bevel": "Rim bevel", base: "Base", wrap: "Bent around", form: "Form",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
-  up: "Upright", points: "Points from meshes", mode: "Solver"};
-const CHOICES = {round: "Round corners"}; // where a choice of the command line needs more words
+  up: "Upright", points: "Points from meshes", mode: "Precision"};
+const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic"}; // where a choice of the command line needs more words
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
 const PREPARING = ["up", "points", "mode"];
 const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
@@ -70,9 +70,17 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
-// Returns a message of the engine about an option, which is named in it as its field is.
-export const inWords = (message) =>
-  message.replace(/^[a-z-]+(?=:)/, (name) => LABELS[name] ?? FIELDS[name]?.label ?? name);
+// Controls with a place of their own on the page, by the names of their options.
+const OTHERS = {alpha: "Flatness", crop: "Crop", crumbs: "Keep small pieces", denoise: "Denoise", method: "Method",
+  plane: "Keep table, background", tone: "Tone curve", view: "View"};
+// What the engine calls otherwise than the page, or advises to whoever has a command line.
+const WORDS = [[/expected shares X0,Y0,X1,Y1\b.*?(?=, found)/,
+  "expected left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"],
+[/; the option channel takes one .*$/, ". Save it as a picture in greys, one value per pixel, and open that"]];
+
+// Returns a message of the engine in the words of the page, about an option under the name of its field.
+export const inWords = (message) => WORDS.reduce((text, [found, words]) => text.replace(found, words),
+  message.replace(/^[a-z-]+(?=:)/, (name) => LABELS[name] ?? FIELDS[name]?.label ?? OTHERS[name] ?? name));
 
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.

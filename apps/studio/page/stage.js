@@ -275,7 +275,8 @@ export class Stage {
     this.doc.endStroke(); // what keys or the wheel did before is another step
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
-    const tool = event.button === 1 ? "pan" : this.tool;
+    const isDivider = event.button === 0 && this.comparing.isAt(event.offsetX);
+    const tool = event.button === 1 ? "pan" : isDivider ? "divider" : this.tool;
     if (tool === "place" && !this.on.placing.begin(this.about.size_mm)) return this.release();
     const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
     const {pointerId} = event;
@@ -286,6 +287,7 @@ export class Stage {
 
   move(event) {
     const {tool, x, y} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
+    if (tool === "divider") this.comparing.drag(event.offsetX);
     if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
     if (tool === "turn") this.turning.drag(dx, dy, event.shiftKey);
     if (tool === "orbit") this.orbit(dx * 0.4, dy * 0.4);
@@ -300,6 +302,7 @@ export class Stage {
   // The cursor tells what a drag would take.
   hover({offsetX: x, offsetY: y}) {
     const line = {section: this.line, measure: this.measure.line}[this.tool];
+    this.element.classList.toggle("at-divider", this.comparing.isAt(x));
     this.element.classList.toggle("at-end", Boolean(line && this.measure.endAt(line, x, y)));
     if (this.tool === "measure") this.measure.point(this.toPlace(x, y));
   }

@@ -330,7 +330,7 @@ test("takes back with Escape what a point of the curve is dragged to, and draws 
   await page.mouse.move(x, y - 20, {steps: 4});
   await page.mouse.up();
   assert.notEqual(await value(), before, "the next drag counts again");
-  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("The paper's formula (6)");
+  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("As Edge emphasis says");
 });
 
 test("adds a point to the tone curve by a double click, which Delete removes", {skip}, async () => {
@@ -496,7 +496,7 @@ test("says what a plate leaves to who types a longer side than that", {skip}, as
 });
 
 test("says nothing over the field that it is about", {skip}, async () => {
-  for (const name of ["Height in mm", "Crispness value"]) {
+  for (const name of ["Height in mm", "Edge emphasis value"]) {
     const it = field(name);
     await it.scrollIntoViewIfNeeded();
     await set(name, -5);

@@ -192,7 +192,7 @@ test("brings a kind back as it was left", {skip}, async () => {
 });
 
 test("says what the eye sees, and the paper's symbol in the tip", {skip}, async () => {
-  for (const [name, symbol] of [["Fine detail", "γ"], ["Crispness", "β"]])
+  for (const [name, symbol] of [["Fine detail", "γ"], ["Edge emphasis", "β"]])
     assert.match(await page.locator(".slider .name", {hasText: name}).getAttribute("title"), new RegExp(symbol));
   assert.match(await page.locator(".slider .name", {hasText: "Height"}).getAttribute("title"), /alpha .* u [\d.]+/);
   const tip = await page.getByText("Plate thickness", {exact: true}).getAttribute("title");

@@ -182,8 +182,8 @@ test("takes numbers as people type them, and refuses others in one line", {skip}
     assert.ok((await alert.innerText()).endsWith(`found '${text}'.`), text);
     assert.equal(await field("Longer side in mm").inputValue(), "10.0");
   }
-  await set("Crispness value", "1mm");
-  await alert.getByText("Crispness: expected a number from 0 to 100, such as").waitFor();
+  await set("Edge emphasis value", "1mm");
+  await alert.getByText("Edge emphasis: expected a number from 0 to 100, such as").waitFor();
   await field("Longer side in mm").press("ArrowUp");
   assert.ok((await value("Longer side in mm")) > 10);
   await set("Longer side in mm", width);
@@ -197,8 +197,8 @@ test("keeps a locked height while saturation moves", {skip}, async () => {
   await untilHeight(3, 0.01);
   const first = await picture();
   assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
-  await press(slider("Crispness"), "ArrowRight", 30);
-  assert.ok((await value("Crispness value")) > 0.1);
+  await press(slider("Edge emphasis"), "ArrowRight", 30);
+  assert.ok((await value("Edge emphasis value")) > 0.1);
   await becomesOther(first);
   await untilHeight(3, 0.01);
 });
@@ -221,8 +221,8 @@ test("undoes and redoes, step by step", {skip}, async () => {
   const before = await picture();
   assert.ok(difference(before, last) > 0.2);
   let steps = 0; // more than one if the machine is so slow that the keys were pressed with pauses
-  do await button("Undo").click(); while (++steps < 30 && (await value("Crispness value")) > 0);
-  assert.equal(await value("Crispness value"), 0);
+  do await button("Undo").click(); while (++steps < 30 && (await value("Edge emphasis value")) > 0);
+  assert.equal(await value("Edge emphasis value"), 0);
   while (steps-- > 0) await button("Redo").click();
   await becomesSame(before);
 });
@@ -231,7 +231,7 @@ test("shapes the tone curve with presets and keys", {skip}, async () => {
   const first = await picture();
   await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
   await becomesOther(first);
-  assert.ok(await slider("Crispness").isDisabled());
+  assert.ok(await slider("Edge emphasis").isDisabled());
   const point = page.getByRole("slider", {name: /Curve point 2 of/});
   await press(point, "ArrowUp", 5);
   await page.getByRole("combobox", {name: "Tone curve preset"}).waitFor();
@@ -317,7 +317,7 @@ test("draws the curve that the engine has sampled", {skip}, async () => {
 
 test("changes the method", {skip}, async () => {
   const first = await picture();
-  await page.getByRole("combobox", {name: "Method"}).selectOption("The paper's");
+  await page.getByRole("combobox", {name: "Method"}).selectOption("All forms alike");
   await becomesOther(first);
   await untilHeight(3, 0.01);
   await button("Undo").click();
@@ -325,17 +325,17 @@ test("changes the method", {skip}, async () => {
 });
 
 test("changes the method's own rim with it, and no other", {skip}, async () => {
-  const rim = page.getByRole("slider", {name: "Soft edge"});
+  const rim = page.getByRole("slider", {name: "Soft outline"});
   const method = page.getByRole("combobox", {name: "Method"});
   const first = await picture();
   assert.equal(await rim.getAttribute("aria-valuetext"), "0.3 sampling distances");
-  await method.selectOption("The paper's");
+  await method.selectOption("All forms alike");
   await becomesOther(first);
   await untilHeight(3, 0.01);
   assert.equal(await rim.getAttribute("aria-valuetext"), "2.0 sampling distances");
   await rim.press("ArrowRight");
   const touched = await rim.getAttribute("aria-valuetext");
-  await method.selectOption("Layers");
+  await method.selectOption("Fine forms first");
   assert.equal(await rim.getAttribute("aria-valuetext"), touched);
   for (let step = 0; step < 3; ++step) await button("Undo").click();
   await becomesSame(first);

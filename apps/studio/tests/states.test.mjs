@@ -12,7 +12,8 @@ const missing = axe ? false : "axe-core is not installed (npm ci --prefix apps/s
 
 const folder = temporaryFolder(), scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
 const DESK = {width: 1280, height: 800}, PHONE = {width: 390, height: 844};
-const SCREENS = [DESK, PHONE, {width: 820, height: 1180}, {width: 3840, height: 2160}];
+const LOW = {width: 640, height: 400}; // a desk at a zoom of 200 %
+const SCREENS = [DESK, PHONE, LOW, {width: 820, height: 1180}, {width: 3840, height: 2160}];
 let browser, engine, page;
 
 before(async () => {
@@ -74,7 +75,7 @@ function unreached(part) {
 
 // Runs in the page: texts that are cut. The title of a scan may be, where it stands beside the buttons.
 function cut() {
-  const title = innerWidth < 800 ? "#title, " : "";
+  const title = innerWidth < 800 && innerHeight > 560 ? "#title, " : "";
   return [...document.querySelectorAll(`${title}button, legend, h2, #numbers, .labels span, .pair > span`)]
     .filter((it) => it.checkVisibility() && !it.matches(".hidden") && getComputedStyle(it).display !== "inline")
     .filter((it) => it.scrollWidth > it.clientWidth + 1 && !it.matches(".base-image .quiet"))
@@ -92,8 +93,10 @@ function small() {
     .filter((it) => !it.matches(".mark") && size(it) < least).map((it) => [size(it), it.outerHTML.slice(0, 90)]);
 }
 
-// Runs in the page: the rows of tools where there are more than one on a desk and two on a phone.
+// Runs in the page: the rows of tools where there are more than one on a desk and two on a phone. A low screen has them
+// in a column.
 function wrapped() {
+  if (innerHeight <= 560) return [];
   const boxes = [...document.querySelectorAll(".tools button")].map((it) => it.getBoundingClientRect());
   const middles = new Set(boxes.map(({top, height}) => Math.round(top + height / 2)));
   return innerWidth === 820 || middles.size <= (innerWidth < 800 ? 2 : 1) ? [] : [...middles];
