@@ -5,6 +5,7 @@ import {about} from "./about.js";
 import {$, clamp, make} from "./controls.js";
 
 const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
+const AROUND = 9; // units around the diagram, so that a handle at its end lies within the box
 const FORMULA_POINTS = [0.05, 0.25, 0.5, 0.75, 1]; // where handles stand while the formula rules
 
 const PRESETS = [
@@ -23,7 +24,9 @@ export class CurveEditor {
   // Calls onChange(tone), which returns the tone to be shown, while a point moves; onEnd() after it.
   constructor(onChange, onEnd) {
     Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
-    this.svg = make("svg", {viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "group", "aria-label": "Tone curve"});
+    this.svg = make("svg", {
+      viewBox: [-AROUND, -AROUND, WIDTH + 2 * AROUND, HEIGHT + 2 * AROUND].join(" "), role: "group", "aria-label": "Tone curve",
+    });
     this.marks = make("g");
     this.handles = make("g");
     this.svg.append(this.marks, this.handles);
@@ -107,7 +110,8 @@ export class CurveEditor {
 
   place(event) {
     const box = this.svg.getBoundingClientRect();
-    return [(event.clientX - box.left) / box.width, 1 - (event.clientY - box.top) / box.height];
+    const units = (pixels, size, whole) => (pixels / size * (whole + 2 * AROUND) - AROUND) / whole;
+    return [units(event.clientX - box.left, box.width, WIDTH), 1 - units(event.clientY - box.top, box.height, HEIGHT)];
   }
 
   movePoint(i, x, y) {

@@ -71,12 +71,24 @@ const PAUSE_MS = 60;
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
 
+// What stands on a card until its picture is drawn: the outline of the piece, in a box of 48 x 36.
+const ROUND = "M12 18a12 12 0 1 0 24 0a12 12 0 1 0-24 0";
+const OUTLINES = {
+  relief: "M9 8h30v20H9z", coin: `${ROUND}M15 18a9 9 0 1 0 18 0a9 9 0 1 0-18 0`,
+  wood: "M12 8h24a4 4 0 0 1 4 4v12a4 4 0 0 1-4 4H12a4 4 0 0 1-4-4V12a4 4 0 0 1 4-4zM12 15h24M12 21h24",
+  die: `${ROUND}M19 18a5 5 0 1 0 10 0a5 5 0 1 0-10 0`, lithophane: "M14 11h20v16H14zM24 3v4M7 19h4M37 19h4M24 31v3",
+  shell: "M12 9q12 6 24 0v18q-12 6-24 0z",
+};
+
 export class KindCards {
   // `isAtRest` returns whether the engine has time for pictures.
   constructor({engine, doc, isAtRest}) {
     Object.assign(this, {engine, doc, isAtRest, model: 0});
+    const outline = (kind) => make("svg", {viewBox: "0 0 48 36", "aria-hidden": "true"},
+      make("path", {d: OUTLINES[kind]}));
     const card = ([kind, {label, title}]) => make("button", {role: "radio", "data-kind": kind, title,
-      onclick: () => this.choose(kind)}, make("canvas", {width: WIDTH, height: HEIGHT, "aria-hidden": "true"}), label);
+      onclick: () => this.choose(kind)}, outline(kind),
+      make("canvas", {width: WIDTH, height: HEIGHT, "aria-hidden": "true"}), label);
     $("#kinds").append(...Object.entries(KINDS).map(card));
     takeArrowKeys($("#kinds"));
   }
@@ -99,24 +111,30 @@ export class KindCards {
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
   }
 
-  // Draws the pictures when a model is there, one after the other, while nothing else is drawn.
-  async pictured(model) {
-    if (model === this.model) return;
-    this.model = model;
+  // Draws the pictures when a model is there, one after the other, while nothing else is drawn. Before the first model
+  // they show the coarse relief of the view that is `turned`, if there is one.
+  async pictured(model, turned) {
+    const drawn = model ? "exact" : turned ? "coarse" : "", key = model || drawn;
+    if (!drawn || key === this.model) return;
+    this.model = key;
     for (const [kind, {camera}] of Object.entries(KINDS)) {
-      do await pause(); while (!this.isAtRest() && model === this.model);
-      if (model !== this.model) return;
+      do await pause(); while (!this.isAtRest() && key === this.model);
+      if (key !== this.model) return;
       const {options, ...step} = this.stepOf(kind), {material, light} = step;
       const request = {options: shownOptions({options}), material, light, width: WIDTH, height: HEIGHT,
-        camera: {yaw: 0, pitch: 0, zoom: 1.06, ...camera}};
+        camera: {yaw: 0, pitch: 0, zoom: 1.06, ...camera}, ...(!model && {turned})};
       const made = await this.engine.frame(request).catch(() => null); // a view that does not suit the kind
-      if (made && model === this.model) paint($(`#kinds [data-kind="${kind}"] canvas`), made.image);
+      if (!made || key !== this.model) continue;
+      const card = $(`#kinds [data-kind="${kind}"]`);
+      paint($("canvas", card), made.image);
+      card.dataset.drawn = drawn;
     }
   }
 
   // Another scan is shown: its pictures are still to come.
   clear() {
     this.model = 0;
+    for (const card of $("#kinds").children) delete card.dataset.drawn;
     for (const canvas of document.querySelectorAll("#kinds canvas"))
       canvas.getContext("2d").clearRect(0, 0, canvas.width, canvas.height);
   }

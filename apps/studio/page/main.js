@@ -29,7 +29,7 @@ import {Sliders} from "./sliders.js";
 import {Stage} from "./stage.js";
 import {nameOf, showRecent, showSamples, smallPicture} from "./start.js";
 import {Tour} from "./tour.js";
-import {ViewDialog, viewName} from "./views.js";
+import {ViewDialog} from "./views.js";
 
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
 const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
@@ -144,7 +144,7 @@ function showDocument() {
   cropFrame.refresh();
   $("#undo").disabled = !doc.canUndo;
   $("#redo").disabled = !doc.canRedo;
-  $("#view-name").textContent = viewName(options.view);
+  views.tell(doc.now, facts !== null);
   modes.showMaterial(material);
   $("#title").textContent = nameOf(input);
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
@@ -196,7 +196,7 @@ function pictured(frame, ms, isFine) {
   if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
   if (opened.isReady) reach.pictured(frame, isFine, stage.model);
-  if (isFine && opened.isReady) kinds.pictured(stage.model);
+  if (isFine) kinds.pictured(opened.isReady ? stage.model : 0, stage.turning.shown);
   if (isFine) showToolReach(frame.tool);
   sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
   const height = heightText(heightOf(frame, doc.now)), size = sizeOf(frame, doc.now);

@@ -38,12 +38,12 @@ function rise(from, to) {
   return text === withUnit(0) ? "level" : `${text} ${to > from ? "higher" : "lower"}`;
 }
 
-// Returns a line between two pixels with a text in its middle, on a ground that keeps it readable, within the picture
-// and beside the labels before it.
-function labelled([x1, y1], [x2, y2], text, kind, picture) {
+// Returns a line between two pixels with a text in its middle or at another pixel, on a ground that keeps it readable,
+// within the picture and beside the labels before it.
+function labelled([x1, y1], [x2, y2], text, kind, picture, at = [(x1 + x2) / 2, (y1 + y2) / 2]) {
   const scale = scaleOfType(), width = widthOf(text), row = ROW * scale, height = row - 2;
-  const x = clamp((x1 + x2) / 2, width / 2, picture.width - width / 2);
-  const y = freeHeight(x, clamp((y1 + y2) / 2, row / 2, picture.height - row / 2), width, row, picture);
+  const x = clamp(at[0], width / 2, picture.width - width / 2);
+  const y = freeHeight(x, clamp(at[1], row / 2, picture.height - row / 2), width, row, picture);
   labels.push({x, y, width});
   const label = make("text", {x, y: y + 4 * scale, "text-anchor": "middle"}, text);
   return [make("line", {class: kind, x1, y1, x2, y2}),
@@ -53,13 +53,22 @@ function labelled([x1, y1], [x2, y2], text, kind, picture) {
 // Returns where the dimension of a piece stands that ends at a pixel. It stays in a picture that shows the end.
 const besideEnd = (end, size) => (end <= size ? Math.min(end + GAP, size - STROKE - 1) : end + GAP);
 
+// Returns where the label of a dimension stands, so that it covers nothing of the figure: outside of the line, or where
+// there is no room at its lower end. The outside of a level line is above it, as the figure is below.
+function besideDimension([x1, y1], [x2, y2], text, picture, isRight) {
+  const scale = scaleOfType(), half = widthOf(text) / 2 + STROKE, middle = [(x1 + x2) / 2, (y1 + y2) / 2];
+  if (y1 === y2) return [middle[0], y1 - ROW * scale / 2];
+  const x = isRight ? x1 + half : x1 - half, hasRoom = x - half >= 0 && x + half <= picture.width;
+  return hasRoom ? [x, middle[1]] : [x, Math.max(y1, y2) - ROW * scale / 2];
+}
+
 // Returns a dimension with its two end strokes.
-function dimension(from, to, text, picture) {
+function dimension(from, to, text, picture, at) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]], size = Math.hypot(dx, dy) || 1;
   const [ax, ay] = [-dy / size * STROKE, dx / size * STROKE];
   const strokes = [from, to].map(([x, y]) =>
     make("line", {class: "dimension", x1: x - ax, y1: y - ay, x2: x + ax, y2: y + ay}));
-  return [...strokes, ...labelled(from, to, text, "dimension", picture)];
+  return [...strokes, ...labelled(from, to, text, "dimension", picture, at)];
 }
 
 // Returns the part of a line that lies on a plate of that size; null if it passes by.
@@ -121,15 +130,17 @@ export class Measure {
     const [width, height, thickness] = sizeOf(about, this.stage.doc.now), at = (x, y) => this.stage.toPixels([x, y]);
     const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
     const below = besideEnd(bottom, picture.height), aside = besideEnd(right, picture.width);
+    const side = (from, to, mm, isRight) => dimension(from, to, withUnit(mm), picture,
+      besideDimension(from, to, withUnit(mm), picture, isRight));
     const marks = [...dimension([left, below], [right, below], withUnit(width), picture),
-      ...dimension([aside, bottom], [aside, top], withUnit(height), picture),
-      ...labelled([left + 60, top - GAP], [left + 60, top - GAP], `${withUnit(thickness)} thick`, "none", picture)];
+      ...side([aside, bottom], [aside, top], height, true),
+      ...labelled([left + 60, below], [left + 60, below], `${withUnit(thickness)} thick`, "none", picture)];
     if (!about.relief_mm) return marks;
     const [low, high] = about.relief_mm, [x1, y1] = at(...low), [x2, y2] = at(...high);
     if (x1 - left < 2 && right - x2 < 2) return marks; // there is no ground around the relief
     return [make("rect", {class: "bounds", x: x1, y: y2, width: x2 - x1, height: y1 - y2}),
-      ...dimension([x1, y2 - 8], [x2, y2 - 8], withUnit(high[0] - low[0]), picture),
-      ...dimension([x1 - 8, y1], [x1 - 8, y2], withUnit(high[1] - low[1]), picture), ...marks];
+      ...side([x1, y2 - 8], [x2, y2 - 8], high[0] - low[0]),
+      ...side([x1 - 8, y1], [x1 - 8, y2], high[1] - low[1]), ...marks];
   }
 
   marks() {

@@ -20,6 +20,9 @@ export function cropText(numbers) {
   return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
 }
 
+// Notes that stand beside the picture, too: what was taken out of it, or what fills it and is not the figure.
+const OFFERED = /small piece|\b(table|ground|background|wall)\b/i;
+
 export class ScanPanel {
   // Calls cropOnPicture() for a frame on the picture.
   constructor({doc, cropOnPicture}) {
@@ -34,6 +37,10 @@ export class ScanPanel {
     });
     $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));
     $("#remarks").onclick = () => this.open();
+    $("#offers .close").onclick = () => {
+      this.hidden = String(this.offered); // until something else is found
+      $("#offers").hidden = true;
+    };
     const set = (options) => doc.change({options});
     $("#crop-picture").onclick = cropOnPicture;
     $("#crop").onkeydown = ({key, target}) => {
@@ -95,8 +102,12 @@ export class ScanPanel {
   tell(facts) {
     this.facts = facts;
     const notes = facts ? this.notesOn(facts) : [];
-    $("#notes").replaceChildren(...notes.map(([text, label, options]) => make("li", {}, text,
-      ...(label ? [make("button", {class: "quiet", onclick: () => this.doc.change({options})}, label)] : []))));
+    const entry = ([text, label, options]) => make("li", {}, text,
+      ...(label ? [make("button", {class: "quiet", onclick: () => this.doc.change({options})}, label)] : []));
+    $("#notes").replaceChildren(...notes.map(entry));
+    this.offered = notes.filter(([text]) => OFFERED.test(text));
+    $("#offers ul").replaceChildren(...this.offered.map(entry));
+    $("#offers").hidden = this.offered.length === 0 || this.hidden === String(this.offered);
     $("#remarks").hidden = notes.length === 0;
     $("#remarks").textContent = notes.length === 1 ? "1 note on the scan" : `${notes.length} notes on the scan`;
     this.show();

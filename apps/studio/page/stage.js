@@ -7,6 +7,7 @@ import {shownOptions} from "./document.js";
 import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
 import {Measure, onPlate} from "./measure.js";
 import {takeFingers} from "./pinch.js";
+import {scaleMarks} from "./ruler.js";
 import {takeKey} from "./stage_keys.js";
 import {Turning} from "./turning.js";
 
@@ -241,7 +242,7 @@ export class Stage {
   }
 
   drawOverlay() {
-    const {width, height} = this.size, marks = this.comparing.marks(this.size);
+    const {width, height} = this.size, marks = [...scaleMarks(this), ...this.comparing.marks(this.size)];
     this.overlay.setAttribute("viewBox", `0 0 ${width} ${height}`);
     if (this.tool === "section" && this.line) marks.push(...this.measure.lineMarks(this.line));
     if (["measure", "place"].includes(this.tool)) marks.push(...this.measure.marks());

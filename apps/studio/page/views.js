@@ -3,6 +3,7 @@
 import {about} from "./about.js";
 import {$, make} from "./controls.js";
 import {paint} from "./stage.js";
+import {directionsOf} from "./turning.js";
 import {cross, text, triple, turned, unit, upright} from "./vectors.js";
 
 const SIDES = about.views.map(({name}) => name);
@@ -19,6 +20,8 @@ export function viewTurned({view, up}, degrees) {
   return {view: text(towards), up: text(turned(level, towards, -degrees * Math.PI / 180))};
 }
 
+const SIDE = {width: 120, height: 90}; // pixels of the picture of a side
+
 export class ViewDialog {
   constructor(engine, onApply, onFailed) {
     Object.assign(this, {engine, onApply, onFailed});
@@ -26,11 +29,38 @@ export class ViewDialog {
     this.model = $("#model");
     this.canvas = $("canvas", this.model);
     const button = (side) =>
-      make("button", {type: "button", "data-side": side, onclick: () => this.face(side)}, viewName(side));
+      make("button", {type: "button", "data-side": side, onclick: () => this.face(side)},
+        make("canvas", {width: SIDE.width, height: SIDE.height, "aria-hidden": "true"}), viewName(side));
     $("#sides").append(...SIDES.map(button));
     $("#suggest").onclick = () => this.suggest();
     this.dialog.onclose = () => this.dialog.returnValue === "apply" && this.onApply(this.result());
     this.listen();
+  }
+
+  // Shows beside the name of the document's view what it shows: sides have their names by the file's axes, and whoever
+  // wrote the file may have had the face of a figure look downwards.
+  async tell({options, input}, isThere) {
+    $("#view-name").textContent = viewName(options.view);
+    const directions = directionsOf(options), picture = $("#view-picture");
+    const key = isThere && directions ? JSON.stringify([directions, input]) : "";
+    if (key === this.told) return; // this runs for each event of a drag
+    this.told = key;
+    picture.hidden = true;
+    if (!key) return;
+    const {width, height} = picture, seen = await this.engine.scan({...directions, width, height}).catch(() => null);
+    if (!seen || key !== this.told) return;
+    paint(picture, seen.image);
+    picture.hidden = false;
+  }
+
+  // Draws what each side shows.
+  async drawSides() {
+    for (const button of $("#sides").children) {
+      const [towards, up] = TOWARDS[button.dataset.side];
+      const {image} = await this.engine.scan({towards, up, ...SIDE});
+      if (!this.dialog.open) return;
+      paint($("canvas", button), image);
+    }
   }
 
   show(options) {
@@ -46,6 +76,7 @@ export class ViewDialog {
     }
     this.dialog.showModal();
     this.draw();
+    this.drawSides().catch(this.onFailed);
   }
 
   // Makes `up` perpendicular to the view.

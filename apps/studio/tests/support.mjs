@@ -134,9 +134,9 @@ export async function showScan(browser, {state, scan, screen = {width: 1280, hei
   return {engine, page};
 }
 
-// Runs in the page: whether each kind of work has its picture.
-export const areKindsDrawn = () => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
-  canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0);
+// Runs in the page: whether each kind of work has its picture, of the exact relief.
+export const areKindsDrawn = () => [...document.querySelectorAll("#kinds button")].every((card) =>
+  card.dataset.drawn === "exact");
 
 // Types a text in place of what a field has, key by key, as browsers tell it from a text that a script sets. Waits
 // until the field takes keys: those that a disabled field gets would go to the field before.
