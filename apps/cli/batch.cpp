@@ -13,6 +13,7 @@
 #include "cli/make_options.h"
 #include "cli/program.h"
 #include "common/files.h"
+#include "common/owned_folder.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app::cli {
@@ -90,13 +91,19 @@ std::optional<batch::MakeError> call_make(const std::vector<std::string>& argume
   return batch::MakeError{end.message, end.may_succeed};
 }
 
-Result<void> create_folder(const std::string& path) {
-  std::error_code failed;
-  fs::create_directories(path, failed);
-  if (failed)
-    return std::unexpected(Error{
-        ErrorKind::output, path, {}, cat("expected a folder that can be written to: ", failed.message())});
-  return {};
+// Makes the folder of the outputs that of this command, so that no file of somebody else is replaced; `is_read_only` changes
+// nothing.
+Result<void> take_folder(const std::string& path, bool is_read_only) {
+  constexpr std::string_view owner = "batch";
+  switch (is_read_only ? ownership_of(path, owner) : own_folder(path, owner)) {
+    case Ownership::owned:
+    case Ownership::free: return {};
+    case Ownership::of_others:
+      return option_error("output", cat("expected an empty folder, or one of relievo batch, found other files in '",
+                                        path, "'"));
+    case Ownership::unusable: break;
+  }
+  return system_error(ErrorKind::output, path, "expected a folder that can be written to");
 }
 
 Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
@@ -117,7 +124,7 @@ Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& com
   RELIEVO_TRY(order.jobs, batch::list_jobs({arguments.input, arguments.match, order.workshop.outputs,
                                             given_options(command)},
                                            is_option));
-  RELIEVO_CHECK(create_folder(arguments.outputs));
+  RELIEVO_CHECK(take_folder(arguments.outputs, arguments.is_list));
   return order;
 }
 
@@ -204,7 +211,7 @@ Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& w
 // Does the jobs in turn. A job that fails does not keep the others from being done.
 Result<void> do_jobs(const BatchArguments& arguments) {
   RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
-  RELIEVO_CHECK(create_folder(arguments.outputs));
+  RELIEVO_CHECK(take_folder(arguments.outputs, false));
   RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
   std::string failed;
   for (const std::string& listed : arguments.jobs) {

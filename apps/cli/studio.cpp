@@ -47,7 +47,8 @@ std::string tunnel_command(const std::string& address) {
 }
 
 Result<void> studio(const StudioArguments& arguments) {
-  studio::DiskStore store(arguments.state.empty() ? studio::DiskStore::default_folder() : arguments.state);
+  RELIEVO_TRY(studio::StateFolder folder, studio::take_state_folder(arguments.state));
+  studio::DiskStore store(std::move(folder));
   studio::OpenDocuments documents;
   studio::Actions actions(documents, store);
   if (!arguments.input.empty())

@@ -23,9 +23,8 @@ struct OutputFile {
   std::vector<std::byte> bytes;
 };
 
-// Writes all files (at most 8) to temporary names in their folders and, when all are complete, renames them:
-// readers see an old file or the whole new one, and if one cannot be written, all stay as they were. Errors:
-// kind output.
+// Writes all files under no name or temporary ones and, when all are complete, gives them theirs: readers see an old file or
+// the whole new one, and if one cannot be written, all stay as they were. Errors: kind output.
 Result<void> write_files(std::span<const OutputFile> files);
 
 }  // namespace relievo::app

@@ -2,30 +2,42 @@
 
 #include <fcntl.h>
 #include <sched.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cerrno>
 #include <climits>
 #include <csignal>
-#include <cstring>
+#include <cstdio>
 #include <filesystem>
+#include <string_view>
+#include <utility>
 
 namespace relievo::app {
 
 // A temporary file's name where a signal handler may read it at any time.
 struct TemporaryName {
-  std::atomic<bool> is_used = false;
+  // Makes a name of `stem` that no other file of this process has. Returns whether it is short enough.
+  bool renew(const std::string& stem) {
+    static std::atomic<unsigned> count = 0;
+    const int length =
+        std::snprintf(text, sizeof text, "%s%d-%u", stem.c_str(), static_cast<int>(::getpid()), ++count);
+    if (length < static_cast<int>(sizeof text)) return true;
+    errno = ENAMETOOLONG;
+    return false;
+  }
+
+  TemporaryName* next = nullptr;
+  std::atomic<bool> is_used = false, is_there = false;  // is_there: this process has made the file
   char text[PATH_MAX] = {};
 };
 
 namespace {
 
-std::array<TemporaryName, 8> temporary_names;
+// All names that there ever were: none is freed, since a signal handler may read it.
+std::atomic<TemporaryName*> temporary_names = nullptr;
 
 constexpr std::array ending_signals = {SIGINT, SIGTERM, SIGHUP};
 
@@ -58,83 +70,89 @@ class FileChange {
   sigset_t former_{};
 };
 
-// The mode that a plain open() for writing would have given.
-mode_t new_file_mode() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
-}
-
 extern "C" void remove_temporaries(int signal) {
   remove_temporary_files();
   ::raise(signal);  // now with its usual effect
 }
 
-// Takes a name that is free; null if there is none.
+// Takes a name that is free, or a new one.
 TemporaryName* take_name() {
-  for (TemporaryName& name : temporary_names)
-    if (bool is_used = false; name.is_used.compare_exchange_strong(is_used, true)) return &name;
-  return nullptr;
-}
-
-constexpr std::string_view pattern_end = "XXXXXX";
-
-// Returns the names of temporary files for that path, without their last six characters. They are no longer than a file
-// system takes, 255 bytes.
-std::string stem_for(const std::string& path) {
-  const std::filesystem::path whole = path;
-  const std::string mark = ".relievo-";
-  const std::size_t most = NAME_MAX - mark.size() - pattern_end.size();
-  return (whole.parent_path() / (whole.filename().string().substr(0, most) + mark)).string();
-}
-
-// Removes what was left by a run that ended without warning, as by a loss of power. Files that another process is
-// writing are locked by it.
-void remove_abandoned(const std::string& stem) {
-  const std::filesystem::path pattern = stem;
-  const std::string begin = pattern.filename().string();
-  std::error_code failed;
-  const auto folder = pattern.parent_path().empty() ? "." : pattern.parent_path();
-  for (std::filesystem::directory_iterator entry(folder, failed), end; !failed && entry != end;
-       entry.increment(failed)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with(begin) || name.size() != begin.size() + pattern_end.size()) continue;
-    const Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    if (file.is_open() && ::flock(file.number(), LOCK_EX | LOCK_NB) == 0) ::unlink(entry->path().c_str());
+  for (TemporaryName* name = temporary_names; name != nullptr; name = name->next)
+    if (bool is_used = false; name->is_used.compare_exchange_strong(is_used, true)) return name;
+  auto* const name = new TemporaryName;
+  name->is_used = true;
+  name->next = temporary_names;
+  while (!temporary_names.compare_exchange_weak(name->next, name)) {
   }
+  return name;
 }
 
-// Makes the file and locks it. Where another process removed it before it was locked, another is made.
-Descriptor make_locked(char* name, std::string_view stem) {
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    std::copy(pattern_end.begin(), pattern_end.end(), name + stem.size());
+std::string folder_for(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+// Returns the names of temporary files for that path, without their numbers. They are no longer than a file system takes.
+std::string stem_for(const std::string& path) {
+  constexpr std::size_t most = NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // digits of numbers
+  const std::filesystem::path whole = path;
+  return (whole.parent_path() / (whole.filename().string().substr(0, most) + ".relievo-")).string();
+}
+
+std::string own_path(const Descriptor& file) {
+  return "/proc/self/fd/" + std::to_string(file.number());
+}
+
+// Makes a file without a name that can get one.
+Descriptor make_nameless(const std::string& folder, unsigned mode) {
+  Descriptor file(::open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, mode));
+  return file.is_open() && ::access(own_path(file).c_str(), F_OK) == 0 ? std::move(file) : Descriptor(-1);
+}
+
+// Makes a file of a name that nothing has.
+Descriptor make_named(TemporaryName& name, const std::string& stem, unsigned mode) {
+  while (name.renew(stem)) {
     const FileChange change;
-    Descriptor file(::mkostemp(name, O_CLOEXEC));
-    struct stat status {};
-    if (!file.is_open()) return file;
-    ::flock(file.number(), LOCK_EX | LOCK_NB);  // file systems without locks work, too
-    if (::fstat(file.number(), &status) != 0 || status.st_nlink > 0) return file;
+    Descriptor file(::open(name.text, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode));
+    name.is_there = file.is_open();
+    if (file.is_open() || errno != EEXIST) return file;
   }
   return Descriptor(-1);
 }
 
+bool link_to(const std::string& own, const char* path) {
+  return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
+}
+
+// Gives a file without a name that path, in place of what is there. Returns whether it could.
+bool name_file(const Descriptor& file, const std::string& path) {
+  const std::string own = own_path(file), stem = stem_for(path);
+  const FileChange change;  // no memory is allocated meanwhile: where there is none, the process ends in order
+  if (link_to(own, path.c_str())) return true;
+  // What is there can be replaced by a file with a name only.
+  for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
+    if (!link_to(own, name.text)) continue;
+    if (::rename(name.text, path.c_str()) == 0) return true;
+    const int reason = errno;
+    ::unlink(name.text);
+    errno = reason;
+    return false;
+  }
+  return false;
+}
+
 }  // namespace
 
-TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
-  const std::string stem = stem_for(path), pattern = stem + std::string(pattern_end);
-  errno = ENAMETOOLONG;
-  if (pattern.size() >= sizeof TemporaryName::text) return;
-  remove_abandoned(stem);
-  errno = EMFILE;
+TemporaryFile::TemporaryFile(const std::string& path, unsigned mode)
+    : path_(path), file_(make_nameless(folder_for(path), mode)) {
+  if (file_.is_open()) return;
   name_ = take_name();
-  if (!name_) return;
-  std::copy_n(pattern.c_str(), pattern.size() + 1, name_->text);
-  file_ = make_locked(name_->text, stem);
+  file_ = make_named(*name_, stem_for(path), mode);
 }
 
 TemporaryFile::~TemporaryFile() {
   if (!name_) return;
-  if (!is_kept_) ::unlink(name_->text);
+  if (name_->is_there.exchange(false)) ::unlink(name_->text);
   name_->is_used = false;
 }
 
@@ -145,27 +163,29 @@ Result<void> TemporaryFile::append(std::span<const std::byte> bytes) {
   return system_error(ErrorKind::output, path_, "expected room to write the file");
 }
 
-Result<void> TemporaryFile::finish(bool is_durable) {
-  const bool is_written =
-      ::fchmod(file_.number(), new_file_mode()) == 0 && (!is_durable || ::fsync(file_.number()) == 0);
-  if (is_written) return {};
+Result<void> TemporaryFile::finish() {
+  if (::fsync(file_.number()) == 0) return {};
   return system_error(ErrorKind::output, path_, "expected room to write the file");
 }
 
 Result<void> TemporaryFile::keep(const std::string& path) {
-  {
+  bool is_kept = false;
+  if (!name_) {
+    is_kept = name_file(file_, path);
+  } else {
     const FileChange change;
-    is_kept_ = ::rename(name_->text, path.c_str()) == 0;
+    is_kept = ::rename(name_->text, path.c_str()) == 0;
+    if (is_kept) name_->is_there = false;
   }
-  if (is_kept_) return {};
+  if (is_kept) return {};
   return system_error(ErrorKind::output, path, "expected a file that can be replaced");
 }
 
 void remove_temporary_files() {
   is_ending = true;
   while (threads_with_change > 0) ::sched_yield();
-  for (const TemporaryName& name : temporary_names)
-    if (name.is_used) ::unlink(name.text);
+  for (const TemporaryName* name = temporary_names; name != nullptr; name = name->next)
+    if (name->is_there) ::unlink(name->text);
 }
 
 void remove_temporary_files_on_signals() {

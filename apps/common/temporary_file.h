@@ -11,12 +11,13 @@ namespace relievo::app {
 
 struct TemporaryName;
 
-// A file beside `path`, in the same folder, that takes a place when kept and is gone otherwise. It is locked while it is
-// written. Where a process ended without warning, its file is removed by the next one for that path. There may be eight at
-// the same time; remove_temporary_files() knows them.
+// A file in the folder of `path` that takes a place when kept and is gone otherwise. It has no name until it is kept, so that
+// nothing of it is left, however the process ends. Where the file system has no such files, it gets a name that nothing
+// else has; remove_temporary_files() knows these, and after `kill -9` one stays. Nothing removes a file that it has not made.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& path);
+  // The file gets the permissions of `mode` that the process's mask allows.
+  explicit TemporaryFile(const std::string& path, unsigned mode = 0666);
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile();
@@ -24,21 +25,19 @@ class TemporaryFile {
   // Errors of all: kind output.
   Result<void> append(std::span<const std::byte> bytes);
 
-  // Gives the file the permissions of a new one and, if `is_durable`, waits until the disk has all bytes: without that,
-  // the file outlives a crash of the program, but not of the machine.
-  Result<void> finish(bool is_durable = true);
+  // Waits until the disk has all bytes: without that, the file outlives a crash of the program, but not of the machine.
+  Result<void> finish();
 
   // Moves the finished file to that path, in place of what is there.
   Result<void> keep(const std::string& path);
 
  private:
   std::string path_;
-  TemporaryName* name_ = nullptr;
-  Descriptor file_{-1};
-  bool is_kept_ = false;
+  Descriptor file_;
+  TemporaryName* name_ = nullptr;  // null while it has none
 };
 
-// Removes all of this process, and lets no thread make or keep one from now on. It may be called in a signal handler,
+// Removes all of this process that have names, and lets no thread make or keep one from now on. It may be called in a signal handler,
 // before the process ends.
 void remove_temporary_files();
 

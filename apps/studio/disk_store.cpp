@@ -1,20 +1,16 @@
 #include "studio/disk_store.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <span>
 
 #include "common/files.h"
-#include "common/scene_file.h"
 #include "common/temporary_file.h"
 #include "relievo/core/text.h"
 
@@ -24,23 +20,30 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr int most_studios = 9;  // that keep their work side by side
-constexpr const char* unfinished_name = "upload";
-constexpr const char* documents = "documents";  // the folder
+constexpr const char* documents = "documents";  // the folders
+constexpr const char* scans = "scans";
+constexpr unsigned private_file = 0600;
 
-std::string variable(const char* name) {
-  const char* const value = std::getenv(name);
-  return value ? value : "";
+// Returns why something cannot be kept, by the value of errno.
+std::unexpected<Error> not_kept(int reason) {
+  const bool is_full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
+  return std::unexpected(Error{ErrorKind::output,
+                               {},
+                               {},
+                               is_full ? "expected room to write the file, but the disk is full"
+                                       : cat("expected a folder of the studio that can be written to: ",
+                                             std::strerror(reason))});
 }
 
 // A dropped scan in a temporary file.
 struct ScanFile final : DroppedScan {
   ScanFile(const std::string& folder, const std::string& scan)
-      : name(plain_name(scan)), file((fs::path(folder) / unfinished_name).string()) {}
+      : name(plain_name(scan)), file((fs::path(folder) / "upload").string(), private_file) {}
 
   Result<void> append(std::string_view bytes) override {
     hash.append(bytes);
-    return file.append(std::as_bytes(std::span(bytes)));
+    if (file.append(std::as_bytes(std::span(bytes)))) return {};
+    return not_kept(errno);
   }
 
   std::string name;
@@ -53,55 +56,65 @@ Result<void> check_id(const std::string& id) {
   return std::unexpected(Error{ErrorKind::input, "document", {}, "expected the name of a document"});
 }
 
+// Makes a folder that nobody else may read.
+bool make_folder(const fs::path& path) {
+  return ::mkdir(path.c_str(), 0700) == 0 || errno == EEXIST;
+}
+
+// Returns the entries of a folder that is no link to one.
+std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
+  std::error_code failed;
+  std::vector<fs::directory_entry> entries;
+  if (!fs::is_directory(fs::symlink_status(folder, failed))) return entries;
+  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
+    entries.push_back(*entry);
+  return entries;
+}
+
+std::uint64_t bytes_in(const fs::path& folder) {
+  std::uint64_t bytes = 0;
+  for (const fs::directory_entry& entry : entries_of(folder)) bytes += app::file_size(entry.path()).value_or(0);
+  return bytes;
+}
+
+std::string digits_of(const std::string& hash) {
+  return hash.substr(hash.find(':') + 1);
+}
+
+// Returns the folders of kept scans that a text names: a document in all its steps, or a scene.
+std::set<std::string> scans_in(std::string_view text) {
+  constexpr std::string_view before = "/scans/";
+  constexpr std::size_t digits = 16;
+  std::set<std::string> found;
+  for (std::size_t at = text.find(before); at != std::string_view::npos; at = text.find(before, at + 1))
+    if (const std::string_view name = text.substr(at + before.size(), digits); is_document(name))
+      found.emplace(name);
+  return found;
+}
+
 }  // namespace
 
-std::string DiskStore::default_folder() {
-  const std::string state = variable("XDG_STATE_HOME"), home = variable("HOME");
-  if (!state.empty()) return state + "/relievo";
-  if (!home.empty()) return home + "/.local/state/relievo";
-  std::error_code ignored;
-  return (fs::temp_directory_path(ignored) / "relievo").string();
+DiskStore::DiskStore(StateFolder folder)
+    // Nothing can be in that place, so that nothing is found and nothing is kept.
+    : folder_(folder.is_ours ? std::move(folder.path) : "/dev/null"),
+      notice_(std::move(folder.notice)),
+      lock_(std::move(folder.lock)) {
+  std::set<std::string> kept;
+  for (const fs::directory_entry& entry : entries_of(fs::path(folder_) / scans))
+    kept.insert(entry.path().filename().string());
+  remove_unneeded(kept);
 }
 
-DiskStore::DiskStore(const std::string& folder) : folder_(folder) {
-  for (int i = 1; i <= most_studios; ++i) {
-    folder_ = i == 1 ? folder : cat(folder, "-", i);
-    if (claim(folder_)) {
-      take_former_state();
-      remove_old_scans();
-      if (i > 1) notice_ = cat("Another studio uses ", folder, ": this one keeps its work in ", folder_, ".");
-      return;
-    }
-    if (errno != EWOULDBLOCK) break;
-  }
-  notice_ = cat("Your work is not kept, as ", folder_, " cannot be written to: ", std::strerror(errno), ".");
-}
-
-// Locks the folder until this program ends; otherwise errno tells why not.
-bool DiskStore::claim(const std::string& folder) {
-  std::error_code ignored;
-  fs::create_directories(folder, ignored);
-  fs::permissions(folder, fs::perms::owner_all, ignored);
-  lock_ = Descriptor(::open((folder + "/lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600));
-  if (!lock_.is_open() || ::flock(lock_.number(), LOCK_EX | LOCK_NB) != 0) return false;
-  std::vector<fs::path> unfinished;  // of a studio that was killed
-  for (const auto& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().stem() == unfinished_name) unfinished.push_back(entry.path());
-  for (const auto& entry : fs::directory_iterator(fs::path(folder) / documents, ignored))
-    if (entry.path().extension() != ".json" && entry.path().extension() != ".picture")
-      unfinished.push_back(entry.path());
-  for (const fs::path& path : unfinished) fs::remove(path, ignored);
-  return true;
-}
-
-Result<void> DiskStore::write(const std::string& name, std::string_view text, bool is_durable) const {
-  std::error_code ignored;
+Result<void> DiskStore::write(const std::string& name, std::string_view text, Durability durability) const {
   const fs::path path = fs::path(folder_) / name;
-  fs::create_directories(path.parent_path(), ignored);
-  TemporaryFile file(path.string());
-  RELIEVO_CHECK(file.append(std::as_bytes(std::span(text))));
-  RELIEVO_CHECK(file.finish(is_durable));
-  return file.keep(path.string());
+  errno = ENOENT;
+  if (!own_state_folder(folder_) || (path.parent_path() != folder_ && !make_folder(path.parent_path())))
+    return not_kept(errno);
+  TemporaryFile file(path.string(), private_file);
+  const bool is_kept = file.append(std::as_bytes(std::span(text))) &&
+                       (durability == Durability::program || file.finish()) && file.keep(path.string());
+  if (is_kept) return {};
+  return not_kept(errno);
 }
 
 std::string DiskStore::document(const std::string& id) const {
@@ -110,12 +123,13 @@ std::string DiskStore::document(const std::string& id) const {
 
 Result<void> DiskStore::keep_document(const std::string& id, std::string_view state, bool is_moving) {
   RELIEVO_CHECK(check_id(id));
-  return write(cat(documents, "/", id, ".json"), state, !is_moving);
+  return write(cat(documents, "/", id, ".json"), state,
+               is_moving ? Durability::program : Durability::machine);
 }
 
 Result<void> DiskStore::keep_picture(const std::string& id, std::string_view picture) {
   RELIEVO_CHECK(check_id(id));
-  return write(cat(documents, "/", id, ".picture"), picture, false);
+  return write(cat(documents, "/", id, ".picture"), picture, Durability::program);
 }
 
 void DiskStore::touch(const std::string& id) {
@@ -128,11 +142,10 @@ void DiskStore::touch(const std::string& id) {
 std::vector<std::string> DiskStore::newest_documents() const {
   std::vector<std::pair<fs::file_time_type, std::string>> found;
   std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(fs::path(folder_) / documents, ignored))
+  for (const fs::directory_entry& entry : entries_of(fs::path(folder_) / documents))
     if (entry.path().extension() == ".json" && is_document(entry.path().stem().string()))
       found.emplace_back(entry.last_write_time(ignored), entry.path().stem().string());
   std::ranges::sort(found, std::greater());
-  if (found.size() > most_recent) found.resize(most_recent);
   std::vector<std::string> ids;
   for (auto& [time, id] : found) ids.push_back(std::move(id));
   return ids;
@@ -141,6 +154,7 @@ std::vector<std::string> DiskStore::newest_documents() const {
 std::vector<KeptDocument> DiskStore::recent() const {
   std::vector<KeptDocument> all;
   for (const std::string& id : newest_documents()) {
+    if (all.size() == most_recent) break;
     const std::optional<ScanSource> input = input_of(document(id));
     if (!input) continue;
     std::error_code ignored;
@@ -150,14 +164,21 @@ std::vector<KeptDocument> DiskStore::recent() const {
   return all;
 }
 
-// Versions before kept one document only.
-void DiskStore::take_former_state() {
-  const fs::path former = fs::path(folder_) / "state.json";
-  const std::string state = text_of_file(former);
-  const std::optional<ScanSource> input = input_of(state);
-  if (!input || !keep_document(document_of(*input), state, false)) return;
-  std::error_code ignored;
-  fs::remove(former, ignored);
+KeptAmount DiskStore::amount() const {
+  KeptAmount all{newest_documents().size(), bytes_in(fs::path(folder_) / documents)};
+  for (const fs::directory_entry& scan : entries_of(fs::path(folder_) / scans)) all.bytes += bytes_in(scan.path());
+  return all;
+}
+
+Result<void> DiskStore::remove(const std::string& id) {
+  RELIEVO_CHECK(check_id(id));
+  const std::set<std::string> its_scans = scans_of({document(id)});
+  std::error_code failed;
+  for (const char* const ending : {".json", ".picture"})
+    if (!failed) fs::remove(fs::path(folder_) / documents / (id + ending), failed);
+  if (failed) return not_kept(failed.value());
+  remove_unneeded(its_scans);
+  return {};
 }
 
 StudioAddress DiskStore::address() const {
@@ -168,9 +189,9 @@ StudioAddress DiskStore::address() const {
   return {json["port"].get<int>(), json["token"].get<std::string>()};
 }
 
-// Who knows the address may use the studio: nobody else can read the folder.
+// Who knows the address may use the studio: nobody else can read the file.
 void DiskStore::keep_address(const StudioAddress& address) const {
-  (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump());
+  (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(), Durability::machine);
 }
 
 std::unique_ptr<DroppedScan> DiskStore::begin_scan(const std::string& name) const {
@@ -180,42 +201,49 @@ std::unique_ptr<DroppedScan> DiskStore::begin_scan(const std::string& name) cons
 Result<ScanSource> DiskStore::keep(DroppedScan& scan) {
   auto& kept = static_cast<ScanFile&>(scan);  // which begin_scan() made
   const std::string text = kept.hash.text();
-  const fs::path path = fs::path(folder_) / "scans" / text.substr(text.find(':') + 1) / kept.name;
-  std::error_code ignored;
-  fs::create_directories(path.parent_path(), ignored);
-  RELIEVO_CHECK(kept.file.append({}));
-  RELIEVO_CHECK(kept.file.finish());
-  RELIEVO_CHECK(kept.file.keep(path.string()));
-  return ScanSource{{}, path.string(), kept.name, text};
+  const fs::path folder = fs::path(folder_) / scans / digits_of(text), path = folder / kept.name;
+  const bool is_kept = kept.file.append({}) && kept.file.finish() && make_folder(folder.parent_path()) &&
+                       make_folder(folder) && kept.file.keep(path.string());
+  if (is_kept) return ScanSource{{}, path.string(), kept.name, text};
+  return not_kept(errno);
 }
 
 std::optional<ScanSource> DiskStore::find_scan(const std::string& hash) const {
-  const std::string digits = hash.substr(hash.find(':') + 1);
+  const std::string digits = digits_of(hash);
   if (!is_document(digits)) return std::nullopt;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(fs::path(folder_) / "scans" / digits, ignored))
+  for (const fs::directory_entry& entry : entries_of(fs::path(folder_) / scans / digits))
     return ScanSource{{}, entry.path().string(), entry.path().filename().string(), hash};
   return std::nullopt;
 }
 
-void DiskStore::remove_old_scans() const {
-  std::set<fs::path> used;
-  for (const KeptDocument& kept : recent()) {
-    const fs::path path = kept.input.path;
-    used.insert(path.parent_path());
-    for (const std::string& image : base_images_of(document(kept.id)))
-      used.insert(fs::path(image).parent_path());
-    if (path.extension() != ".json") continue;
-    const auto models =
-        read_scene_file(text_of_file(path), path.string());  // of several files that were dropped
-    for (const SceneEntry& model : models.value_or(std::vector<SceneEntry>()))
-      used.insert(fs::path(model.path).parent_path());
+// Returns the folders of kept scans that texts name, and those that the scenes among them name.
+std::set<std::string> DiskStore::scans_of(std::vector<std::string> texts) const {
+  std::set<std::string> found;
+  for (std::size_t i = 0; i < texts.size(); ++i)
+    for (const std::string& scan : scans_in(texts[i]))
+      if (found.insert(scan).second)
+        for (const fs::directory_entry& file : entries_of(fs::path(folder_) / scans / scan))
+          if (file.path().extension() == ".json") texts.push_back(text_of_file(file.path()));
+  return found;
+}
+
+// Of these scans, removes those that no document needs. A file whose content is not that by which its folder is named was
+// put there by somebody else, and stays.
+void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
+  if (candidates.empty()) return;
+  std::vector<std::string> texts;
+  for (const std::string& id : newest_documents()) texts.push_back(document(id));
+  const std::set<std::string> needed = scans_of(std::move(texts));
+  for (const std::string& scan : candidates) {
+    if (!is_document(scan) || needed.contains(scan)) continue;
+    const fs::path folder = fs::path(folder_) / scans / scan;
+    std::error_code ignored;
+    for (const fs::directory_entry& file : entries_of(folder))
+      if (fs::is_regular_file(file.symlink_status(ignored)) &&
+          digits_of(hash_of_file(file.path()).value_or("")) == scan)
+        fs::remove(file.path(), ignored);
+    if (!fs::is_symlink(folder, ignored)) ::rmdir(folder.c_str());  // unless something else is in it
   }
-  std::error_code ignored;
-  std::vector<fs::path> old;
-  for (const auto& entry : fs::directory_iterator(fs::path(folder_) / "scans", ignored))
-    if (!used.contains(entry.path())) old.push_back(entry.path());
-  for (const fs::path& path : old) fs::remove_all(path, ignored);
 }
 
 }  // namespace relievo::app::studio

@@ -3,10 +3,11 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "common/descriptor.h"
+#include "studio/state_folder.h"
 #include "studio/store.h"
 
 namespace relievo::app::studio {
@@ -17,14 +18,14 @@ struct StudioAddress {
   std::string token;  // empty if not known
 };
 
-// Files in one folder, each replaced as a whole. Not for concurrent use.
+// What a file outlives, should it crash: the program, or the machine as well.
+enum class Durability { program, machine };
+
+// Files in one folder, each replaced as a whole. What it removes are documents, when it is asked to, and scans that it has
+// kept and no document needs. Errors are in words for users, without paths. Not for concurrent use.
 class DiskStore final : public Store {
  public:
-  // Uses the folder alone: while another studio does, this one takes the folder of that name with -2, or -3 and so on.
-  explicit DiskStore(const std::string& folder);
-
-  // Returns $XDG_STATE_HOME/relievo, or ~/.local/state/relievo, or without a home a folder for temporary files.
-  static std::string default_folder();
+  explicit DiskStore(StateFolder folder);
 
   const std::string& notice() const override { return notice_; }
   std::string document(const std::string& id) const override;
@@ -32,8 +33,10 @@ class DiskStore final : public Store {
   Result<void> keep_picture(const std::string& id, std::string_view picture) override;
   void touch(const std::string& id) override;
   std::vector<KeptDocument> recent() const override;
+  KeptAmount amount() const override;
+  Result<void> remove(const std::string& id) override;
   std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const override;
-  // The scan stays for as long as this program runs and its document is recent.
+  // The scan stays for as long as this program runs, and then for as long as a document needs it.
   Result<ScanSource> keep(DroppedScan& scan) override;
   std::optional<ScanSource> find_scan(const std::string& hash) const override;
 
@@ -41,14 +44,13 @@ class DiskStore final : public Store {
   void keep_address(const StudioAddress& address) const;
 
  private:
-  bool claim(const std::string& folder);
-  Result<void> write(const std::string& name, std::string_view text, bool is_durable = true) const;
+  Result<void> write(const std::string& name, std::string_view text, Durability durability) const;
   std::vector<std::string> newest_documents() const;
-  void take_former_state();
-  void remove_old_scans() const;
+  std::set<std::string> scans_of(std::vector<std::string> texts) const;
+  void remove_unneeded(const std::set<std::string>& candidates) const;
 
   std::string folder_, notice_;
-  Descriptor lock_{-1};
+  Descriptor lock_;
 };
 
 }  // namespace relievo::app::studio

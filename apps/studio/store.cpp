@@ -32,18 +32,6 @@ std::optional<ScanSource> input_of(const std::string& state) {
   return input ? std::optional(*input) : std::nullopt;
 }
 
-std::vector<std::string> base_images_of(const std::string& state) {
-  const Json json = Json::parse(state, nullptr, false);
-  std::vector<std::string> paths;
-  if (!json.is_object()) return paths;
-  for (const Json& step : json.value("steps", Json::array())) {
-    if (!step.is_object()) continue;
-    std::string path = base_image_path_in(step.value("options", Json()));
-    if (!path.empty()) paths.push_back(std::move(path));
-  }
-  return paths;
-}
-
 std::string plain_name(const std::string& name) {
   std::string plain = std::filesystem::path(name).filename().string();
   std::erase_if(plain, [](unsigned char c) { return c < 32 || c == '/' || c == '\\'; });

@@ -1,6 +1,7 @@
 // Stores, between runs, the documents with their pictures, and scans that were dropped on the page.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -26,6 +27,12 @@ struct KeptDocument {
   ScanSource input;
   bool is_scan_there = false;
   std::string picture;  // as keep_picture() stored it; may be empty
+};
+
+// How many documents are kept, and how much they take with their scans.
+struct KeptAmount {
+  std::size_t documents = 0;
+  std::uint64_t bytes = 0;
 };
 
 // Returns the name of the document of that scan: 16 hexadecimal digits.
@@ -57,6 +64,12 @@ class Store {
   // Returns the documents that were opened or changed last, the newest first.
   virtual std::vector<KeptDocument> recent() const = 0;
 
+  // Returns what all documents take. They are kept until they are removed.
+  virtual KeptAmount amount() const = 0;
+
+  // Removes a document, and the scans that were dropped for it alone. Errors: kind input if the name is none, kind output.
+  virtual Result<void> remove(const std::string& id) = 0;
+
   // Begins a dropped scan. Of the name, folders are ignored. May be called from any thread.
   virtual std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const = 0;
 
@@ -72,9 +85,6 @@ bool is_document(std::string_view id);
 
 // Returns the scan of a document's present step; none if the state is not a page's.
 std::optional<ScanSource> input_of(const std::string& state);
-
-// Returns the paths of the height maps of bases in all steps of a document.
-std::vector<std::string> base_images_of(const std::string& state);
 
 // Returns the last part of a path, without anything that a file system could read as more than a name.
 std::string plain_name(const std::string& name);

@@ -1,0 +1,77 @@
+#include "common/owned_folder.h"
+
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <filesystem>
+#include <span>
+
+#include "common/files.h"
+#include "common/temporary_file.h"
+#include "relievo/core/text.h"
+
+namespace relievo::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view mark_name = ".relievo-folder";
+
+std::string mark_of(std::string_view owner) {
+  return cat("relievo ", owner, " made this folder or found it empty, and may remove what it has put here.\n");
+}
+
+fs::path mark_in(const std::string& folder) {
+  return fs::path(folder) / mark_name;
+}
+
+bool has_mark(const std::string& folder, std::string_view owner) {
+  std::error_code ignored;
+  const fs::path mark = mark_in(folder);
+  return fs::is_regular_file(fs::symlink_status(mark, ignored)) && text_of_file(mark.string()) == mark_of(owner);
+}
+
+// Returns whether the folder has nothing but a mark that another process is about to write.
+bool is_empty(const std::string& folder, std::error_code& failed) {
+  const std::string unfinished = cat(mark_name, ".");
+  fs::directory_iterator entry(folder, failed);
+  return !failed && std::all_of(entry, fs::directory_iterator(), [&](const fs::directory_entry& each) {
+    return each.path().filename().string().starts_with(unfinished);
+  });
+}
+
+}  // namespace
+
+Ownership ownership_of(const std::string& folder, std::string_view owner) {
+  if (!is_there(folder) && errno == ENOENT) return Ownership::free;
+  if (has_mark(folder, owner)) return Ownership::owned;
+  std::error_code failed;
+  const bool is_free = is_empty(folder, failed);
+  if (failed) {
+    errno = failed.value();
+    return Ownership::unusable;
+  }
+  if (is_free) return Ownership::free;
+  return has_mark(folder, owner) ? Ownership::owned : Ownership::of_others;  // marked meanwhile
+}
+
+Ownership own_folder(const std::string& folder, std::string_view owner, unsigned mode) {
+  const Ownership found = ownership_of(folder, owner);
+  if (found != Ownership::free) return found;
+  std::error_code failed;
+  if (const fs::path parent = fs::path(folder).parent_path(); !parent.empty())
+    fs::create_directories(parent, failed);
+  if (failed) errno = failed.value();
+  if (failed || (::mkdir(folder.c_str(), mode) != 0 && errno != EEXIST)) return Ownership::unusable;
+  return mark_folder(folder, owner);
+}
+
+Ownership mark_folder(const std::string& folder, std::string_view owner) {
+  const std::string path = mark_in(folder).string(), text = mark_of(owner);
+  TemporaryFile mark(path);
+  const bool is_marked = mark.append(std::as_bytes(std::span(text))) && mark.finish() && mark.keep(path);
+  return is_marked ? Ownership::owned : Ownership::unusable;
+}
+
+}  // namespace relievo::app

@@ -1,0 +1,28 @@
+// The folder in which a studio keeps its work. Tested by apps/studio/tests/state_folder.test.mjs.
+#pragma once
+
+#include <string>
+
+#include "common/descriptor.h"
+
+namespace relievo::app::studio {
+
+struct StateFolder {
+  std::string path;
+  std::string notice;   // what the user should know of it; usually empty
+  bool is_ours = false;  // else nothing in it may be read, written or removed
+  Descriptor lock{-1};  // no other studio has it while this is open
+};
+
+// Returns $XDG_STATE_HOME/relievo, or ~/.local/state/relievo, or without a home a folder for temporary files.
+std::string default_state_folder();
+
+// Returns whether a folder has a studio's mark; one that is gone is made anew.
+bool own_state_folder(const std::string& folder);
+
+// Takes the folder for this studio alone, or the default one if `chosen` is empty: while another studio has it, the folder
+// of that name with -2, or -3 and so on. A folder with files of others is never taken: of the default one this is the
+// same as if another studio had it. Errors: kind option if `chosen` is such a folder.
+Result<StateFolder> take_state_folder(const std::string& chosen);
+
+}  // namespace relievo::app::studio
