@@ -38,6 +38,18 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers) {
   return facts;
 }
 
+// Returns a height with as many decimals as the page gives to files: if it is the largest one, it can be reached.
+double rounded_down(double height_mm, double steps_per_mm) {
+  return std::floor(height_mm * steps_per_mm) / steps_per_mm;
+}
+
+// Returns whether the piece is exactly as thick as plate and relief together, of however few samples it is made.
+bool is_level(const ReliefOptions& options) {
+  return options.base.kind == BaseKind::plane && options.wrap.kind == WrapKind::none &&
+         options.form != Form::die && !options.rim_mm && options.outline != Outline::none &&
+         options.finish == Finish::full;
+}
+
 }  // namespace
 
 Shape SharedToneCurve::shape_of(const ReliefOptions& options) {
@@ -135,21 +147,25 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
   return {{low, low + size}};
 }
 
-// Returns the height of the frame's relief, of which walls under a draft angle may allow less.
+// Returns the height that files have: the one that was asked for, where the frame's relief and walls under a draft angle
+// allow it, otherwise the largest that they allow. A lithophane has any height.
 PieceHeight Drawing::height_of(const PictureRequest& request, const CachedFrame& cached) const {
   const Frame& frame = *cached.frame;
   const double height = frame.height * cached.stretch * mm_per_unit(request.options);
-  if (!request.draft_limit_mm || height <= *request.draft_limit_mm) return {height, frame.is_height_met};
-  return {*request.draft_limit_mm, false};
+  const double highest = std::min(height, request.draft_limit_mm.value_or(height));
+  const double asked = request.options.height_mm.value_or(height);
+  if (request.options.form == Form::lithophane) return {asked, true};
+  if (height > highest || !frame.is_height_met)
+    return {rounded_down(highest, highest < .1 ? 1e4 : 1e3), false};
+  return {request.u ? rounded_down(height, 1e4) : asked, true};
 }
 
-// A piece has the height of the frame, which is met or the largest that can be reached.
+// A piece has the height that is met or the largest that can be reached.
 PieceOrder Drawing::order_of(const PictureRequest& request, const CachedFrame& cached) const {
-  constexpr double within = .999;  // of the largest height, so that rounding does not put it out of reach
   PieceOrder order{request.options, request.key};
   const PieceHeight height = height_of(request, cached);
   if (!request.u && height.is_met) return order;
-  order.options.height_mm = within * height.mm;
+  order.options.height_mm = height.mm;
   order.key = cat(request.key, " ", *order.options.height_mm);
   return order;
 }
@@ -167,6 +183,8 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
   const PieceOrder order = order_of(request, cached);
   answer.is_plain = is_plain(request.options);
   answer.is_finished = (!answer.is_plain || request.is_finished) && piece_.is_finished(order.key);
+  answer.is_size_exact = answer.is_finished || is_level(request.options);
+  answer.relief_height_mm = answer.height_mm;
   if (answer.is_plain && !answer.is_finished) {
     renderer_.render(shown(cached), render, answer.picture, request.progress.get());
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
@@ -177,6 +195,8 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
     RELIEVO_TRY(DrawnPiece* const piece, piece_.drawn(order));
     piece->renderer.render(render, answer.picture, request.progress.get());
     answer.size_mm = size_mm(*piece->solid);
+    if (is_level(request.options)) answer.size_mm.z() = render.thickness_mm + answer.height_mm;
+    answer.relief_height_mm = piece->height_mm.value_or(answer.height_mm);
     answer.relief_mm = relief_in(*piece->solid, request.options);
     if (piece->reach) answer.reach = {piece->reach->reached_share, piece->reach->largest_residual_mm};
   }

@@ -147,7 +147,7 @@ void Actions::piece(const Json& json, Answer& to) {
   answer(to, {{"triangles", solid.triangles.size()},
               {"points", solid.points.size()},
               {"size_mm", {size.x(), size.y(), size.z()}},
-              {"height_mm", (*made)->report.height_mm}});
+              {"height_mm", relief_height_mm(**made, *options)}});
 }
 
 void Actions::cancel_piece(const Json& json, Answer& to) {

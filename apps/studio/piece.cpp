@@ -33,12 +33,18 @@ bool is_plain(const ReliefOptions& options) {
          !options.tolerance_mm && !options.triangles && !options.tool && !options.plate_mm;
 }
 
+double relief_height_mm(const MadeRelief& made, const ReliefOptions& options) {
+  const double made_mm = made.report.height_mm;
+  return options.finish == Finish::reachable ? made_mm : options.height_mm.value_or(made_mm);
+}
+
 void Piece::take(std::shared_ptr<const MadeRelief> made, const PieceOrder& order) {
   const std::shared_ptr<const Solid> solid(made, &made->solid);
   std::shared_ptr<const ToolReach> reach;
   if (made->report.reach) reach = {made, &*made->report.reach};
   const bool is_flat = order.options.wrap.kind == WrapKind::none;  // as is the front whose reach was measured
-  finished_.emplace(solid, reach, SolidRenderer(solid, is_flat ? reach : nullptr));
+  finished_.emplace(solid, reach, SolidRenderer(solid, is_flat ? reach : nullptr),
+                    relief_height_mm(*made, order.options));
   finished_key_ = order.key;
 }
 
@@ -47,7 +53,7 @@ Result<DrawnPiece*> Piece::drawn(const PieceOrder& order) {
   if (coarse_ && coarse_key_ == order.key) return &*coarse_;
   RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(order.options)));
   const auto solid = std::make_shared<const Solid>(std::move(made.solid));
-  coarse_.emplace(solid, nullptr, SolidRenderer(solid));
+  coarse_.emplace(solid, nullptr, SolidRenderer(solid), std::nullopt);
   coarse_key_ = order.key;
   return &*coarse_;
 }

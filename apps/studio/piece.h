@@ -29,7 +29,11 @@ struct DrawnPiece {
   std::shared_ptr<const Solid> solid;
   std::shared_ptr<const ToolReach> reach;  // of the options' tool; null without one
   SolidRenderer renderer;
+  std::optional<double> height_mm;  // see relief_height_mm(); nothing of a piece that is not finished
 };
+
+// Returns the height of the relief in a piece: exactly the one that was asked for, unless only what a tool reaches was.
+double relief_height_mm(const MadeRelief& made, const ReliefOptions& options);
 
 // Not for concurrent use.
 class Piece {

@@ -19,6 +19,7 @@ export const FIRST = Object.freeze({
   }),
   isHeightLocked: true,
   u: null, // of the compression, while the height is not locked
+  isDieOfPiece: false, // a die that was made of the piece before, whose kind it keeps
   material: "plaster",
   light: [-1, 1, 1],
 });
@@ -30,6 +31,18 @@ export const uOfAlpha = (alpha, beta) => Math.min(alpha ** -beta, MOST_U);
 
 // Documents of older versions call the method `layered` by its former name.
 const renamed = (options) => (options?.method === "ours" ? {...options, method: "layered"} : options);
+
+const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
+
+// Returns a step with a part's values in place of its own.
+const withPart = (step, part) => ({...step, ...part, options: {...step.options, ...part.options}});
+
+// Returns the values of a part that a later step has as the step `base` had them.
+function unlessChanged({options = {}, ...part}, base, later) {
+  const kept = (values, was, is) =>
+    Object.fromEntries(Object.entries(values).filter(([name]) => isSame(was[name], is[name])));
+  return {...kept(part, base, later), options: kept(options, base.options, later.options)};
+}
 
 export class Document {
   constructor(onChange, onStrokeEnd = () => {}) {
@@ -67,13 +80,20 @@ export class Document {
     return this.forgotten + this.at;
   }
 
-  // Changes the document as it was at a position that was the newest then: what was changed since comes after it. The
-  // part has nothing that was changed since.
+  // Returns the step at a position, or the first one that is kept.
+  stepAt(position) {
+    return this.steps[Math.min(this.at, Math.max(0, position - this.forgotten))];
+  }
+
+  // Changes the document as it was at a position that was the newest then: what was changed since comes after it, and
+  // keeps its values.
   changeAt(position, part) {
     const at = Math.max(0, position - this.forgotten);
     if (at >= this.at) return this.change(part);
-    const before = this.now, changed = (step) => ({...step, ...part, options: {...step.options, ...part.options}});
-    this.steps = [...this.steps.slice(0, at + 1), ...this.steps.slice(at, this.at + 1).map(changed)];
+    const before = this.now, base = this.steps[at];
+    if (isSame(withPart(base, part), base)) return;
+    this.steps = [...this.steps.slice(0, at + 1), ...this.steps.slice(at, this.at + 1).map((step) =>
+      withPart(step, unlessChanged(part, base, step)))];
     this.at = this.steps.length - 1;
     if (this.stroke !== null)
       this.beforeStroke = {steps: this.steps.slice(0, -1), at: this.at - 1, forgotten: this.forgotten};
@@ -84,8 +104,8 @@ export class Document {
   // The same as change() without a call of onChange(). Returns whether anything is new.
   append(part, stroke = null) {
     if (stroke !== null && stroke === this.cancelled) return false;
-    const next = {...this.now, ...part, options: {...this.now.options, ...part.options}};
-    if (JSON.stringify(next) === JSON.stringify(this.now)) return false;
+    const next = withPart(this.now, part);
+    if (isSame(next, this.now)) return false;
     if (stroke !== null && stroke === this.stroke) {
       this.steps[this.at] = next;
     } else {
@@ -102,7 +122,7 @@ export class Document {
 
   // Enters what the engine found out, which is no step of its own.
   note(part) {
-    this.steps[this.at] = {...this.now, ...part, options: {...this.now.options, ...part.options}};
+    this.steps[this.at] = withPart(this.now, part);
   }
 
   // Ends the running stroke or, if one is named, that one alone: a slider's pause may end after another drag began.
@@ -165,6 +185,9 @@ export class Document {
 const ALWAYS = new Set(["height", "width", "method", "mode", "view", "saturation", "detail", "boundary", "steps",
   "margin", "thickness"]);
 
+// The options that a lithophane has not, as it is printed: a document keeps them for its other kinds of work.
+export const NOT_PRINTED = ["draft", "tool", "finish"];
+
 // Returns the options as the engine and `relievo make` take them.
 export function engineOptions(step) {
   const {outline, form} = step.options, options = {};
@@ -175,7 +198,7 @@ export function engineOptions(step) {
   options.height = Math.round(options.height * 1e4) / 1e4;
   if (outline === "round") options.corner = step.options.corner;
   else delete options.corner;
-  if (form === "lithophane") delete options.draft;
+  if (form === "lithophane") for (const name of NOT_PRINTED) delete options[name];
   return options;
 }
 
@@ -193,8 +216,9 @@ export function shownOptions(step) {
 
 // Returns a project file's content.
 export function projectOf(step) {
-  const {input, isHeightLocked, u, material, light} = step;
-  return {relievo: 1, input, options: engineOptions(step), studio: {isHeightLocked, u, material, light}};
+  const {input, isHeightLocked, u, isDieOfPiece, material, light} = step;
+  const studio = {isHeightLocked, u, material, light, ...(isDieOfPiece && {isDieOfPiece})};
+  return {relievo: 1, input, options: engineOptions(step), studio};
 }
 
 // A project file may come from anywhere: what the engine would refuse in each picture is left out.
@@ -223,6 +247,7 @@ export function stepOfProject({input, options: {alpha, ...options} = {}, studio 
     step.u = uOfAlpha(alpha ?? defaultOf("alpha"), step.options.saturation);
   }
   if (typeof studio.isHeightLocked === "boolean") step.isHeightLocked = studio.isHeightLocked;
+  if (studio.isDieOfPiece === true) step.isDieOfPiece = true;
   if (Number.isFinite(studio.u) && studio.u >= 0 && studio.u <= MOST_U) step.u = studio.u;
   if (about.materials.some(({id}) => id === studio.material)) step.material = studio.material;
   if (isDirection(studio.light)) step.light = studio.light;

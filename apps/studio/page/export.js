@@ -19,14 +19,11 @@ function sizes({triangles, points, size_mm: [x, y]}, pixels) {
   };
 }
 
-// Returns the name of the files of a form: that of the scan, and what is not a plain relief.
-const nameOf = (name, {form}) => (form && form !== "relief" ? `${name}-${form}` : name);
-
 export class ExportDialog {
-  // `current` returns {options, name, material, note, heightText}: what is to be made, a line about it, and a function
-  // that returns a height as the page shows it. `say` takes a line for people.
-  constructor(engine, current, say) {
-    Object.assign(this, {engine, current, say, pixels: 2048, piece: null});
+  // `outcome` is an Outcome; `name` returns the usual name of the files, `heightText` a height as the page shows it; `say`
+  // takes a line for people.
+  constructor({engine, outcome, name, heightText, say}) {
+    Object.assign(this, {engine, outcome, name, heightText, say, pixels: 2048, piece: null, runs: 0});
     this.dialog = $("#export-dialog");
     $("#formats").append(...about.formats.map(({name, label, use}, i) => make("label", {},
       make("input", {type: "checkbox", name: "format", value: name, checked: i === 0}),
@@ -55,17 +52,22 @@ export class ExportDialog {
     return !complaint;
   }
 
-  // Makes the piece at once: then its sizes are known, and files of it are written in a moment.
+  // Makes the piece at once, when all that was entered is taken: then its sizes are known, and files of it are written in
+  // a moment.
   async open() {
-    const {options, name, note, heightText} = this.current();
-    this.heightText = heightText(options.height);
+    const outcome = this.outcome.known(), usual = this.name();
     this.piece = null;
-    $("#export-name").value = nameOf(name, options);
-    $("#export-note").textContent = "";
+    $("#export-name").value = usual;
     this.show();
     this.dialog.showModal();
-    const isMade = await this.run("Making the piece …", async () => (this.piece = await this.engine.piece(options)));
-    if (isMade) $("#export-note").textContent = note;
+    const isMade = await this.run("Waiting for what was entered …", async (isWanted) => {
+      this.order = await outcome;
+      if (!isWanted()) return;
+      if ($("#export-name").value === usual) $("#export-name").value = this.order.name;
+      $("#export-note").textContent = "Making the piece …";
+      this.piece = await this.engine.piece(this.order.options);
+    });
+    if (isMade) $("#export-note").textContent = this.order.note;
     this.show();
   }
 
@@ -75,8 +77,8 @@ export class ExportDialog {
     $("#export-go").disabled = this.isBusy || this.formats.length === 0 || !this.piece;
     const texts = this.piece ? sizes(this.piece, this.pixels) : {};
     for (const {name} of about.formats) $(`#size-${name}`).textContent = texts[name] ?? "";
-    const {size_mm: size, triangles} = this.piece ?? {};
-    const facts = this.piece ? [`${sizeText(size)},`, `relief ${this.heightText} ${shown.unit} high,`,
+    const {size_mm: size, height_mm: height, triangles} = this.piece ?? {};
+    const facts = this.piece ? [`${sizeText(size)},`, `relief ${this.heightText(height)} ${shown.unit} high,`,
       `${triangles.toLocaleString("en-US")} triangles`] : [];
     $("#export-size").replaceChildren(...facts.flatMap((text) => [" ", unbroken(text)]).slice(1));
   }
@@ -87,8 +89,10 @@ export class ExportDialog {
     $("#export-progress").value = making.fraction;
   }
 
-  // Does a piece of work with the progress shown, and says why it failed. Returns whether it did not.
+  // Does a piece of work with the progress shown, and says why it failed. Returns whether it did not, and is still wanted:
+  // whoever closes the dialog wants none of it.
   async run(text, work) {
+    const number = ++this.runs, isWanted = () => this.dialog.open && number === this.runs;
     this.isBusy = true;
     $("#export-progress").hidden = false;
     $("#export-progress").removeAttribute("value");
@@ -97,10 +101,11 @@ export class ExportDialog {
     this.show();
     let complaint = "";
     try {
-      await work();
+      await work(isWanted);
     } catch (error) {
       complaint = error.kind === "cancelled" ? "Cancelled." : inWords(error.message);
     }
+    if (number !== this.runs) return false; // the dialog was opened again meanwhile
     this.isBusy = false;
     $("#export-progress").hidden = true;
     $("#export-note").textContent = complaint;
@@ -110,7 +115,7 @@ export class ExportDialog {
 
   async go() {
     if (this.isBusy || !this.choosePixels()) return;
-    const {options, name, material} = this.current(), {formats} = this;
+    const {options, name, material} = this.order, {formats} = this;
     const typed = $("#export-name").value.replace(/[/\\]/g, " ").trim();
     const saved = [];
     const isDone = await this.run("Writing the files …", async () => {
@@ -118,7 +123,7 @@ export class ExportDialog {
         $("#export-note").textContent = `Writing file ${i + 1} of ${formats.length} …`;
         const file = await this.engine.exportFile({options, format, pixels: this.pixels, material});
         if (!this.dialog.open) return;
-        saved.push((typed || nameOf(name, options)) + ending);
+        saved.push((typed || name) + ending);
         download(file, saved.at(-1));
       }
     });

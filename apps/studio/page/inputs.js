@@ -44,6 +44,9 @@ export const isUnfinished = (field) => field === unfinished;
 
 export const finish = () => (unfinished = null);
 
+// Takes what is typed as Enter does.
+export const confirmTyping = () => unfinished?.dispatchEvent(new Event("change", {bubbles: true}));
+
 // These run before the field's own functions, which may then show the document's value in it.
 addEventListener("input", ({target}) => (unfinished = target), true);
 for (const end of ["change", "focusout"]) addEventListener(end, finish, true);

@@ -1,27 +1,50 @@
 // The panel of the kind of work: the controls that matter for it, together and first, with those of a rim if there is
-// one. Those of the other options stay in the panels below.
+// one, and the button that makes the piece its die. The controls of the other options stay in the panels below.
 
 import {$} from "./controls.js";
-import {KINDS, RIM, kindOf} from "./kinds.js";
+import {KINDS, RIM, dieOf, kindOf} from "./kinds.js";
+import {sizeText} from "./lengths.js";
 
 const HOMES = ["#piece", "#plate-sliders", "#making"];
 
+// Says what the die of a piece is, and its size if it is known.
+function dieNote({options: {draft}}, {label}, size) {
+  const walls = draft ? "" : " It has no draft angle: give it one if steep walls hold what it shapes.";
+  return `This die shapes the ${label.toLowerCase()} with all its measures.${walls}` +
+    (size ? ` The die itself is ${sizeText(size)}.` : "");
+}
+
 export class KindPanel {
   // `elements` are the controls by the names of their options.
-  constructor({doc, elements}) {
+  constructor({doc, entries, elements}) {
     Object.assign(this, {doc, elements});
     this.homes = HOMES.map((selector) => ({home: $(selector), children: [...$(selector).children]}));
+    $("#make-die").onclick = () => entries.add({name: "form", label: "Form", part: dieOf, isTried: true, isMade: true});
   }
 
   show() {
-    const kind = kindOf(this.doc.now), hasRim = Boolean(this.doc.now.options.rim);
-    if (kind === this.shown && hasRim === this.hasRim) return; // this runs for each event of a drag
-    Object.assign(this, {shown: kind, hasRim});
-    const {label, panel, note = ""} = KINDS[kind], names = hasRim ? [...new Set([...panel, ...RIM])] : panel;
-    const mine = names.map((name) => this.elements[name]);
+    const {now} = this.doc, {form, rim, wrap, draft} = now.options, kind = kindOf(now), hasRim = Boolean(rim);
+    const key = [kind, hasRim, form, wrap, draft].join();
+    if (key === this.shown) return; // this runs for each event of a drag
+    this.shown = key;
+    const {label, panel, note = ""} = KINDS[kind], isDie = form === "die" && kind !== "die", lower = label.toLowerCase();
+    const names = [...new Set([...panel, ...(isDie ? ["draft"] : []), ...(hasRim ? RIM : [])])];
+    this.place(names.map((name) => this.elements[name]));
+    $("#kind-title").textContent = isDie ? `Die of the ${lower}` : label;
+    $("#kind-note").textContent = isDie ? dieNote(now, KINDS[kind]) : note;
+    $("#make-die").textContent = isDie ? `Back to the ${lower}` : `Make the die of this ${lower}`;
+    $("#make-die").hidden = !isDie && (form !== "relief" || wrap !== "none");
+  }
+
+  // Tells the size of the die that a picture shows.
+  pictured({size_mm: size, is_size_exact: isExact}) {
+    const {now} = this.doc, kind = kindOf(now);
+    if (now.options.form === "die" && kind !== "die" && isExact)
+      $("#kind-note").textContent = dieNote(now, KINDS[kind], size);
+  }
+
+  place(mine) {
     const focused = document.activeElement; // which loses the focus where it is moved
-    $("#kind-title").textContent = label;
-    $("#kind-note").textContent = note;
     $("#kind-rows").append(...mine);
     for (const {home, children} of this.homes) home.append(...children.filter((child) => !mine.includes(child)));
     if (document.activeElement !== focused) focused.focus();

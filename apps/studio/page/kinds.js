@@ -1,8 +1,10 @@
 // The kinds of work, as pictures of this scan: each sets the piece, its size and its material.
 
+import {defaultOf} from "./about.js";
 import {$, check, make} from "./controls.js";
 import {FIRST, LITHOPHANE, MARGIN_IN_DIAMETER, shownOptions} from "./document.js";
 import {takeArrowKeys} from "./inputs.js";
+import {shortLength, shown} from "./lengths.js";
 import {paint} from "./stage.js";
 
 // A rectangular plate with nothing besides.
@@ -16,25 +18,26 @@ const PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
 // `part` are the options that a kind sets when it is chosen, `panel` those whose controls stand first then.
 export const KINDS = {
-  relief: {label: "Plaque", title: "Plaque: 100 mm long, 5 mm high", part: plaque, material: "plaster",
+  relief: {label: "Plaque", title: "Plaque", part: plaque, material: "plaster",
     panel: PLATE},
-  coin: {label: "Coin", title: "Coin or medal: 40 mm across, 1.6 mm high, with a rim", material: "silver",
+  coin: {label: "Coin", title: "Coin or medal with a rim", material: "silver",
     part: {...circle, diameter: 40, rim: 1.5, height: 1.6, thickness: 2},
     panel: ["diameter", "outline", ...RIM, "margin", "thickness", "form"]},
-  wood: {label: "Carving", title: "Carving in wood: 180 mm long, 10 mm high", material: "walnut",
+  wood: {label: "Carving", title: "Carving in wood", material: "walnut",
     part: {...plaque, outline: "round", corner: 12, width: 180, height: 10, margin: 12, thickness: 12},
     panel: PLATE},
   die: {label: "Seal", material: "bronze",
-    title: "Seal or die: the negative of a piece 30 mm across, 1.2 mm deep, with walls that come off",
+    title: "Seal: a hollow of its own that shapes a piece, with walls that come off. " +
+      "The die of a piece on the screen is made in that piece's panel",
     part: {...circle, diameter: 30, rim: 1.2, form: "die", draft: 15, height: 1.2, thickness: 4},
     panel: ["diameter", "draft", ...RIM, "margin", "thickness", "form"],
     note: "The diameter is that of what it shapes: the die is wider, by a rim of its own. Walls that lean by the " +
       "draft angle let it come off."},
-  lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind, 100 mm long",
+  lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind",
     material: "porcelain", part: {...plaque, ...LITHOPHANE},
     panel: ["thickness", "plate", "margin", "form"],
     note: "The plate is as thick as the brightest places, and height is what the darkest add. Porcelain is lit from " +
-      "behind."},
+      "behind. A tool and a draft angle wait for the other kinds."},
   shell: {label: "Bent", title: "Bent around a body, such as a vase or a ring", material: "plaster",
     part: {...plaque, wrap: "cylinder:turn=180"}, panel: ["wrap", "thickness", "plate", "margin", "form"],
     note: "The plate is the wall.",
@@ -42,22 +45,35 @@ export const KINDS = {
 };
 
 // Returns the kind of work that a document's step is, whatever its material: a thick plate with round corners is a
-// carving.
-export function kindOf({options: {form, wrap, rim, outline, thickness}}) {
-  if (form === "lithophane" || form === "die") return form;
+// carving. A die that was made of a piece has that piece's kind.
+export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfPiece}) {
+  if (form === "lithophane" || (form === "die" && !isDieOfPiece)) return form;
   if (wrap !== "none") return "shell";
   if (outline === "circle" || (rim && !["rectangle", "round"].includes(outline))) return "coin";
   const {part: wood} = KINDS.wood;
   return outline === wood.outline && thickness >= wood.thickness ? "wood" : "relief";
 }
 
-// Returns the document's changes that begin a kind of work, or go on from its last step. A coin and its die have the
-// same diameter.
-function partOf(kind, {diameter}, last) {
-  const {part, material} = KINDS[kind], first = {material, isHeightLocked: true, u: null, options: part};
-  const {material: own, isHeightLocked, u, options} = last ?? first;
+// Returns the changes that make a piece its die, of the same options, or its die the piece.
+export const dieOf = ({options: {form}}) =>
+  ({options: {form: form === "die" ? "relief" : "die"}, isDieOfPiece: form !== "die"});
+
+// Returns the document's changes that begin a kind of work, or go on from its last step. A coin and a seal have the same
+// diameter, and plates with corners begin with the size of the plate before.
+function partOf(kind, {diameter, plate, outline}, last) {
+  const {part, material} = KINDS[kind];
+  const begun = plate && outline !== "ellipse" && part.outline !== "circle" ? {...part, plate, width: null} : part;
+  const first = {material, isHeightLocked: true, u: null, isDieOfPiece: false, options: begun};
+  const {material: own, isHeightLocked, u, isDieOfPiece, options} = last ?? first;
   const same = options.diameter && diameter ? {diameter} : {};
-  return {material: own, isHeightLocked, u, options: {...FIRST.options, ...options, ...same}};
+  return {material: own, isHeightLocked, u, isDieOfPiece, options: {...FIRST.options, ...options, ...same}};
+}
+
+// Returns the measures with which a kind goes on, as text.
+function measuresOf({diameter, plate, width, height}) {
+  const text = (mm) => `${shortLength(mm)} ${shown.unit}`, length = width ?? (plate ? null : defaultOf("width"));
+  return [diameter ? `${text(diameter)} across` : length && `${text(length)} long`, `${text(height)} high`]
+    .filter(Boolean).join(", ");
 }
 
 // The options that a kind leaves as they are: how the scan is seen and shaped.
@@ -80,35 +96,63 @@ const OUTLINES = {
   shell: "M12 9q12 6 24 0v18q-12 6-24 0z",
 };
 
+// Returns the name of a scan without its ending.
+export const plainName = (input) => (input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");
+
+// Returns the name of a step's files: that of the scan, and what is no plain plaque.
+export function fileName(step) {
+  const kind = kindOf(step), {form} = step.options;
+  const words = [kind === "relief" ? "" : KINDS[kind].label.toLowerCase(), form === "relief" ? "" : form];
+  const isForm = ["die", "lithophane"].includes(form); // whose kind says no more
+  return [plainName(step.input), ...words.slice(isForm ? 1 : 0)].filter(Boolean).join("-");
+}
+
 export class KindCards {
-  // `isAtRest` returns whether the engine has time for pictures.
-  constructor({engine, doc, isAtRest}) {
-    Object.assign(this, {engine, doc, isAtRest, model: 0});
+  // `isAtRest` returns whether the engine has time for pictures; `say` takes a line for people.
+  constructor({engine, doc, entries, isAtRest, say}) {
+    Object.assign(this, {engine, doc, entries, isAtRest, say, model: 0});
     const outline = (kind) => make("svg", {viewBox: "0 0 48 36", "aria-hidden": "true"},
       make("path", {d: OUTLINES[kind]}));
-    const card = ([kind, {label, title}]) => make("button", {role: "radio", "data-kind": kind, title,
+    const card = ([kind, {label}]) => make("button", {role: "radio", "data-kind": kind,
       onclick: () => this.choose(kind)}, outline(kind),
       make("canvas", {width: WIDTH, height: HEIGHT, "aria-hidden": "true"}), label);
     $("#kinds").append(...Object.entries(KINDS).map(card));
     takeArrowKeys($("#kinds"));
   }
 
-  choose(kind) {
-    if (kind !== kindOf(this.doc.now)) this.doc.change(this.stepOf(kind));
+  // Chooses a kind after the entries that are still waiting, and says so where that has no size of its plate any more.
+  async choose(kind) {
+    let lost = "";
+    await this.entries.add({name: "kind", label: KINDS[kind].label, part: (step) => {
+      const was = kindOf(step), next = kind === was ? step : this.stepOf(kind, step);
+      const isLost = step.options.plate && !next.options.plate;
+      lost = isLost ? `The size of the plate stays with ${KINDS[was].label}, and comes back with it.` : "";
+      return next;
+    }});
+    if (lost) this.say(lost);
   }
 
-  // Returns the step with which a kind of work goes on: as it was left in this document, or as it begins.
-  stepOf(kind) {
-    const {now: {options}, steps, at} = this.doc, isThis = (step) => kindOf(step) === kind;
-    const part = partOf(kind, options, steps.slice(0, at + 1).findLast(isThis));
-    return {...this.doc.now, ...part, options: {...part.options, ...kept(options)}};
+  // Returns the step with which a kind of work goes on after another one: as it was left in this document, or as it begins.
+  stepOf(kind, step = this.doc.now) {
+    const {steps} = this.doc, isThis = (former) => kindOf(former) === kind;
+    const part = partOf(kind, step.options, steps.slice(0, steps.indexOf(step) + 1).findLast(isThis));
+    return {...step, ...part, options: {...part.options, ...kept(step.options)}};
   }
 
   show() {
-    const kind = kindOf(this.doc.now);
+    const kind = kindOf(this.doc.now), isPending = this.entries.isPending("kind");
+    for (const card of $("#kinds").children) card.ariaBusy = isPending ? "true" : null;
+    if (this.doc.stroke === null) this.showTitles();
     if (kind === this.shown) return; // this runs for each event of a drag
     this.shown = kind;
     for (const card of $("#kinds").children) check(card, card.dataset.kind === kind);
+  }
+
+  showTitles() {
+    for (const card of $("#kinds").children) {
+      const {kind} = card.dataset, step = kind === this.shown ? this.doc.now : this.stepOf(kind);
+      card.title = `${KINDS[kind].title}: ${measuresOf(step.options)}`;
+    }
   }
 
   // Draws the pictures when a model is there, one after the other, while nothing else is drawn. Before the first model

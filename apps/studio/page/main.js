@@ -5,7 +5,8 @@ import {AlphaRow} from "./alpha.js";
 import {$, clamp, make} from "./controls.js";
 import {CropFrame} from "./crop_frame.js";
 import {CurveEditor} from "./curve.js";
-import {Document, engineOptions} from "./document.js";
+import {Document} from "./document.js";
+import {Entries} from "./entries.js";
 import {ExportDialog} from "./export.js";
 import {FIELDS} from "./fields.js";
 import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
@@ -14,14 +15,15 @@ import {shown, withUnit} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
-import {KindCards} from "./kinds.js";
+import {KindCards, fileName} from "./kinds.js";
+import {Outcome} from "./outcome.js";
 import {PieceRows, inWords} from "./pieces.js";
 import {Placing} from "./placing.js";
 import {OpenDocument, isSameView, viewOf} from "./opening.js";
 import {showProgress} from "./progress.js";
 import {Projects} from "./projects.js";
 import {Reach} from "./reach.js";
-import {heightOf, paperWords, showNumbers, showSection, showToolReach, sizeOf} from "./readouts.js";
+import {paperWords, showNumbers, showSection, showToolReach} from "./readouts.js";
 import {ScanPanel} from "./scan_panel.js";
 import {ScenePanel} from "./scene_panel.js";
 import {ShownView} from "./shown_view.js";
@@ -35,30 +37,32 @@ const PICTURE_MS = 600; // from the fine picture to the small one of the documen
 const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
 
 const doc = new Document((before) => changed(before), () => showing && showDocument());
-const sliders = new Sliders({doc, frame: () => last, say: refuse});
+const entries = new Entries({engine, doc, changed: showEntries, refused});
+const sliders = new Sliders({doc, entries, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
-const placing = new Placing({doc, shownWidth, setWidth: (width) => sliders.slide("width", width), say: refuse});
+const placing = new Placing({doc, entries, shownWidth, setWidth: (width) => sliders.slide("width", width), say: refuse});
 const cropFrame = new CropFrame({engine, doc, failed, done: () => modes.setTool("light")});
 const stage = new Stage(engine, doc,
   {picture: pictured, section: showSection, failed, placing, cropFrame, viewRests: () => shownView.choose()});
 const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
-const exporting = new ExportDialog(engine,
-  () => ({options: finalOptions(), name: baseName(), material: doc.now.material, note: heightNote(), heightText}),
-  toast);
 const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: refuse});
-const pieces = new PieceRows({engine, doc, say: refuse, shownWidth, redraw: stateCame});
+const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, redraw: stateCame});
+const outcome = new Outcome({doc, stage, entries, pieces, frame: () => last});
+const exporting = new ExportDialog({engine, outcome, name: () => fileName(doc.now), heightText, say: toast});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
-const kinds = new KindCards({engine, doc, isAtRest});
-const kindPanel = new KindPanel({doc, elements: {...pieces.elements, ...sliders.elements}});
+const kinds = new KindCards({engine, doc, entries, isAtRest, say: refuse});
+const kindPanel = new KindPanel({doc, entries, elements: {...pieces.elements, ...sliders.elements}});
 const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const tour = new Tour(() => {
   if (facts && !$("#start").hidden) showStart(false);
   return facts !== null;
 });
-const scenePanel = new ScenePanel({say: refuse, open: (models) =>
-  projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed)});
+const scenePanel = new ScenePanel({say: refuse, open: async (models) => {
+  await outcome.entered();
+  projects.openScene(models, {steps: doc.steps, at: doc.at}).catch(failed);
+}});
 
 const keeper = new Keeper({
   send: (...state) => engine.keep(...state), storage: localStorage, prefix: `${location.pathname}document:`,
@@ -97,6 +101,9 @@ function chooseUnit(unit) {
 let takeRefusalBack = () => {};
 function refuse(text) {
   takeRefusalBack = toast(text);
+}
+function refused({label}, {message}) {
+  refuse(/^[a-z-]+:/.test(message) ? inWords(message) : `${label}: ${message}`);
 }
 // An entry need not change anything. A slider's end is none: what it has changed was told while it moved.
 addEventListener("change", ({target}) => target.type !== "range" && takeRefusalBack(), true);
@@ -142,12 +149,15 @@ function showDocument() {
   kindPanel.show();
   scanPanel.show();
   cropFrame.refresh();
-  $("#undo").disabled = !doc.canUndo;
-  $("#redo").disabled = !doc.canRedo;
+  entries.show();
   views.tell(doc.now, facts !== null);
   modes.showMaterial(material);
   $("#title").textContent = nameOf(input);
   document.title = input ? `${input.name} – Relievo` : "Relievo studio";
+}
+
+function showEntries() {
+  for (const part of [entries, pieces, sliders, kinds]) part.show();
 }
 
 // Says once that work is not kept, unless the engine is gone, which is said elsewhere.
@@ -157,21 +167,6 @@ function notKept({message}) {
 }
 addEventListener("pagehide", () => keeper.flush());
 addEventListener("pagehide", () => engine.leave());
-
-// Returns the options of the files: a height that the view does not reach is replaced by the one that it does.
-function finalOptions() {
-  const options = engineOptions(doc.now);
-  if (last && !last.is_height_met) options.height = heightOf(last, doc.now);
-  return options;
-}
-
-function heightNote() {
-  const {isHeightLocked, options} = doc.now;
-  return last && !last.is_height_met && isHeightLocked
-    ? `A height of ${withUnit(options.height)} is out of reach here.` : "";
-}
-
-const baseName = () => (doc.now.input?.name ?? "relief").replace(/\.[a-z0-9]+$/i, "");
 
 // --------------------------------------------------------------------------------------------------- pictures
 
@@ -185,8 +180,7 @@ function pictured(frame, ms, isFine) {
   last = frame;
   const {u} = doc.now, isNewest = u === null || u === frame.u; // else it was asked for before u was typed
   if (!doc.now.isHeightLocked && !opened.status.busy && isNewest) {
-    const height = Math.round(frame.height_mm * 1e4) / 1e4;
-    doc.note({u: frame.u, options: {height: clamp(height, 1e-3, 1e5)}});
+    doc.note({u: frame.u, options: {height: clamp(frame.height_mm, 1e-3, 1e5)}});
     sliders.all.height.show(doc.now.options.height);
   }
   sliders.showWidth();
@@ -198,14 +192,16 @@ function pictured(frame, ms, isFine) {
   if (opened.isReady) reach.pictured(frame, isFine, stage.model);
   if (isFine) kinds.pictured(opened.isReady ? stage.model : 0, stage.turning.shown);
   if (isFine) showToolReach(frame.tool);
+  if (isFine) kindPanel.pictured(frame);
   sliders.all.height.name.title = `${FIELDS.height.help}. ${paperWords(frame, doc.now.options.detail)}`;
-  const height = heightText(heightOf(frame, doc.now)), size = sizeOf(frame, doc.now);
-  showNumbers({about: frame, ms, isFine, facts, height, size});
+  showNumbers({about: frame, ms, isFine, facts, height: heightText(frame.relief_height_mm)});
   stage.element.dispatchEvent(new CustomEvent("picture", {detail: {about: frame, ms, isFine}}));
 }
 
 // Returns a height as its field shows it.
-const heightText = (mm) => sliders.all.height.text(mm);
+function heightText(mm) {
+  return sliders.all.height.text(mm);
+}
 
 // --------------------------------------------------------------------------------------------------- documents
 
@@ -278,7 +274,9 @@ function failed(error) {
   reopening = setTimeout(() => opened.closed().catch(failed), 200);
 }
 
-function openInput(input, work) {
+// What was typed before belongs to the work that is shown.
+async function openInput(input, work) {
+  await outcome.entered();
   return opened.open(input, work).catch(failed);
 }
 
@@ -299,8 +297,7 @@ async function take(bytes) {
   }
 }
 
-const saveProject = () =>
-  projects.save({...doc.now, options: {...doc.now.options, height: finalOptions().height}}, baseName());
+const saveProject = () => projects.save(doc.now.input, outcome.step());
 
 // ------------------------------------------------------------------------------------------------------- modes
 
@@ -322,8 +319,8 @@ async function showRecentNow() {
 function wire() {
   keepPanels(document.querySelectorAll(".inspector details"), localStorage);
   const click = (selector, action) => ($(selector).onclick = action);
-  click("#undo", undo);
-  click("#redo", () => doc.redo());
+  click("#undo", () => entries.undo());
+  click("#redo", () => entries.redo());
   click("#open", () => $("#file").click());
   click("#drop", () => $("#file").click());
   click("#save", saveProject);
@@ -347,13 +344,10 @@ function wire() {
   });
 }
 
-// An entry that is still being tried is the newest change.
-const undo = () => pieces.withdraw() || doc.undo();
-
 // Nothing that is not shown changes by a key.
 const ofDocument = (act) => () => $("#studio").hidden || act();
 const COMMANDS = {
-  z: ofDocument(undo), Z: ofDocument(() => doc.redo()), y: ofDocument(() => doc.redo()),
+  z: ofDocument(() => entries.undo()), Z: ofDocument(() => entries.redo()), y: ofDocument(() => entries.redo()),
   s: ofDocument(() => facts && saveProject()), e: ofDocument(() => facts && exporting.open()),
   o: () => $("#file").click(),
 };

@@ -3,7 +3,6 @@
 
 import {clamp, make, scaleOfType} from "./controls.js";
 import {withUnit} from "./lengths.js";
-import {sizeOf} from "./readouts.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
 const ROW = 22; // pixels that a label needs in height, where type has its usual size
@@ -127,7 +126,7 @@ export class Measure {
   dimensionMarks() {
     const {about, size: picture} = this.stage;
     if (!about) return [];
-    const [width, height, thickness] = sizeOf(about, this.stage.doc.now), at = (x, y) => this.stage.toPixels([x, y]);
+    const [width, height, thickness] = about.size_mm, at = (x, y) => this.stage.toPixels([x, y]);
     const [left, bottom] = at(-width / 2, -height / 2), [right, top] = at(width / 2, height / 2);
     const below = besideEnd(bottom, picture.height), aside = besideEnd(right, picture.width);
     const side = (from, to, mm, isRight) => dimension(from, to, withUnit(mm), picture,

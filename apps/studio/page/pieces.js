@@ -3,7 +3,7 @@
 import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, UPWARDS, clamp, make, nextValue} from "./controls.js";
-import {FIRST, engineOptions, shownOptions} from "./document.js";
+import {FIRST, LITHOPHANE, NOT_PRINTED} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
 import {KINDS} from "./kinds.js";
@@ -84,8 +84,8 @@ export const inWords = (message) => WORDS.reduce((text, [found, words]) => text.
 
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
-  constructor({engine, doc, say, shownWidth, redraw}) {
-    Object.assign(this, {engine, doc, say, shownWidth, rows: {}, waiting: [], tried: Promise.resolve()});
+  constructor({engine, doc, entries, say, shownWidth, redraw}) {
+    Object.assign(this, {engine, doc, entries, say, shownWidth, rows: {}});
     for (const name of ROWS) {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
       $(placeOf(name)).append(this.rows[name].element);
@@ -118,9 +118,9 @@ export class PieceRows {
     const label = UNITS[unit] === "°" ? `${LABELS[name]} (°)` : LABELS[name];
     const element = make("label", {class: "pair", title: sentence(help)}, make("span", {}, label), input);
     input.onchange = () => this.take(name);
-    input.oninput = ({isTrusted}) => isTrusted && clearTimeout(this.rows[name].rest); // typing follows the keys
+    input.oninput = ({isTrusted}) => isTrusted && this.endRest(name); // typing follows the keys
     input.onkeydown = (event) => {
-      if (event.key === "Escape") clearTimeout(this.rows[name].rest), this.show();
+      if (event.key === "Escape") this.endRest(name), this.show();
       if (event.key in UPWARDS) this.step(event, name);
     };
     return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
@@ -135,85 +135,45 @@ export class PieceRows {
     const next = clamp(nextValue(value, UPWARDS[event.key], event.shiftKey, LEAST_STEP) * scale, min, max);
     input.value = isLength ? shortLength(next) : String(Number(next.toPrecision(12)));
     input.dispatchEvent(new Event("input")); // as typing does
-    clearTimeout(row.rest);
+    this.endRest(name);
     row.rest = setTimeout(() => input.dispatchEvent(new Event("change")), REST_MS);
+  }
+
+  endRest(name) {
+    clearTimeout(this.rows[name].rest);
+    this.rows[name].rest = 0;
   }
 
   // Takes what was chosen or typed, unless it is no number where one is wanted.
   take(name) {
-    const {input, isNumber, unit, min, max, rest} = this.rows[name], text = input.value.trim();
-    clearTimeout(rest);
+    const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
+    this.endRest(name);
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
     if (isNumber && text !== "" && value === null) return this.show();
     return this.set(name, () => (PAIRS[name] ? inMm(name, value ?? "") : value));
   }
 
-  // Returns the entries of this document that are being tried.
-  get pending() {
-    return this.waiting.filter(({document}) => document === this.engine.document);
-  }
-
-  // Changes an option when all changes before have been tried; `change` makes its new value of the present one.
+  // Changes an option after all entries before; `change` makes its new value of the present one.
   set(name, change) {
-    const entry = {name, change, document: this.engine.document, position: this.doc.position};
-    this.waiting.push(entry);
-    this.show();
-    this.tried = this.tried.then(() => this.tryEntry(entry)).finally(() => this.end(entry));
-    return this.tried;
+    const part = ({options}) => {
+      const value = change(options[name]);
+      const isDieOfPiece = name === "form" && value === "die" ? {isDieOfPiece: true} : {};
+      return {...isDieOfPiece, options: {...besides(name, value, options, options.width ?? this.shownWidth()),
+        [name]: value}};
+    };
+    const isMade = Boolean(SHAPES[name]) || !this.rows[name].input.matches("select");
+    return this.entries.add({name, label: LABELS[name], part, isTried: true, isMade});
   }
 
-  // Takes an entry, unless the engine cannot read it or make a piece of it, or the document or what the entry changes
-  // is another by then. It comes before what was changed while it was tried.
-  async tryEntry(entry) {
-    const {name, change} = entry, isMeant = () => this.pending.includes(entry);
-    if (!isMeant()) return;
-    const {options} = this.doc.now, value = change(options[name]);
-    const part = {...besides(name, value, options, this.shownWidth()), [name]: value};
-    try {
-      const step = {...this.doc.now, options: {...options, ...part}};
-      await this.engine.check(engineOptions(step));
-      if (SHAPES[name] || !this.rows[name].input.matches("select")) await this.tryOut(step);
-      if (!isMeant()) return;
-      const isSame = Object.keys(part).every((key) => this.doc.now.options[key] === options[key]);
-      isSame ? this.insert(part, entry) : this.say(`${LABELS[name]}: the piece has changed meanwhile; enter it again.`);
-    } catch (error) {
-      if (isMeant()) this.say(inWords(error.message));
-    }
-  }
-
-  // All other entries were made after this one.
-  insert(part, entry) {
-    const before = this.doc.position;
-    this.doc.changeAt(entry.position, {options: part});
-    for (const other of this.pending) other.position += this.doc.position - before;
-  }
-
-  // Forgets an entry that was tried or is not to be tried.
-  end(entry) {
-    this.waiting = this.waiting.filter((other) => other !== entry);
-    this.show();
-  }
-
-  // Takes back the newest entry if it is still being tried and nothing was changed since. Returns whether there was
-  // one.
-  withdraw() {
-    const entry = this.pending.at(-1), isNewest = entry?.position === this.doc.position;
-    if (isNewest) this.end(entry);
-    return isNewest;
-  }
-
-  // Throws what the engine says of options of which no piece can be made, by asking for one of its heights. A width
-  // that does not fit is put right later, and another view is still to be prepared.
-  async tryOut(step) {
-    await this.engine.profile({options: shownOptions(step), from: [0, 0], to: [0, 0]}).catch((error) => {
-      if (error.kind === "option" && !error.message.startsWith("width:")) throw error;
-    });
+  // Takes what arrow keys have stepped to and do not rest on yet.
+  takeSteps() {
+    for (const [name, {rest}] of Object.entries(this.rows)) if (rest) this.take(name);
   }
 
   // Shows the document's values, but not in a field in which something is typed or whose entry is being tried.
   show() {
-    const {options} = this.doc.now, tried = new Set(this.pending.map(({name}) => name));
+    const {options} = this.doc.now, tried = new Set(this.entries.pending.map(({name}) => name));
     for (const [name, {element}] of Object.entries(this.rows)) element.ariaBusy = tried.has(name) ? "true" : null;
     for (const name of Object.keys(SHAPES)) if (!tried.has(name)) this.rows[name].show(options[name]);
     for (const [name, {element, input, unit}] of Object.entries(this.rows).filter(([name]) => !SHAPES[name])) {
@@ -227,6 +187,7 @@ export class PieceRows {
     this.baseImage.show();
     for (const name of ["rim-height", "rim-bevel"]) this.rows[name].element.hidden = !options.rim;
     this.shownUnit = lengthUnit.unit;
-    this.rows.finish.element.hidden = !options.tool;
+    for (const name of NOT_PRINTED) this.rows[name].element.hidden = options.form === LITHOPHANE.form;
+    if (!options.tool) this.rows.finish.element.hidden = true;
   }
 }

@@ -10,8 +10,8 @@ const rounded = (x) => Number(x.toFixed(2));
 
 export class Placing {
   // `shownWidth` returns the figure's longer side in mm, `setWidth` takes it, `say` takes a line for people.
-  constructor({doc, shownWidth, setWidth, say}) {
-    Object.assign(this, {doc, shownWidth, setWidth, say});
+  constructor({doc, entries, shownWidth, setWidth, say}) {
+    Object.assign(this, {doc, entries, shownWidth, setWidth, say});
   }
 
   get isMirrored() {
@@ -22,6 +22,8 @@ export class Placing {
   // size, on which there is a place to choose. Returns whether it has one.
   begin([width, height]) {
     const {outline, diameter, plate, form, shift} = this.doc.now.options;
+    if (this.entries.pending.length > 0)
+      return this.say("Wait until what was entered is tried: then the figure can be moved."), false;
     this.from = (shift || "0,0").split(",").map(Number);
     this.part = {};
     if (diameter || plate) return true;
@@ -63,8 +65,8 @@ export class Placing {
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;
     const isMoved = before && before.shift !== shift && (width === null || before.width === width);
     const hasNoRoom = shift && message.startsWith("width: expected at most 0 mm");
-    if (isMoved && shown && shown.shift !== shift)
-      this.correct({shift: shown.shift}, "The plate has no room for the figure there: it stays where it is.");
+    if (isMoved && shown && shown.options.shift !== shift)
+      this.correct({shift: shown.options.shift}, "The plate has no room for the figure there: it stays where it is.");
     else if (hasNoRoom)
       this.correct({shift: ""}, "The plate has no room for the figure there: it is in the middle again.");
     else if (width !== null)

@@ -4,6 +4,7 @@ import {about} from "./about.js";
 import {$, download, fileSize} from "./controls.js";
 import {projectOf, stepOfProject} from "./document.js";
 import {offer, toast} from "./messages.js";
+import {plainName} from "./kinds.js";
 import {sceneFile} from "./scene_panel.js";
 import {zipOf} from "./zip.js";
 
@@ -76,25 +77,22 @@ export class Projects {
       () => this.open(input, work).catch(this.failed));
   }
 
-  // Saves the document's present step, at once if there is nothing to choose.
-  save(step, name) {
-    const {input} = step, project = projectOf(step), text = JSON.stringify(project, null, 1) + "\n";
-    const give = (blob) => {
-      download(blob, `${name}.relievo`);
-      toast(`Saved: ${name}.relievo.`);
-    };
-    const saveText = () => give(new Blob([text], {type: "application/json"}));
-    if (input.sample || /\.json$/i.test(input.path)) return saveText();
-    const dialog = $("#save-dialog");
-    dialog.onclose = async () => {
-      if (dialog.returnValue !== "save") return;
-      if (!$("#with-scan").checked) return saveText();
+  // Saves the step that is promised of the document of a scan, at once if there is nothing to choose.
+  save(input, promised) {
+    const name = plainName(input), saveStep = async (isWithScan) => {
       try {
-        give(await this.take(this.engine.packProject(project)));
+        const project = projectOf(await promised);
+        const text = JSON.stringify(project, null, 1) + "\n";
+        download(isWithScan ? await this.take(this.engine.packProject(project))
+          : new Blob([text], {type: "application/json"}), `${name}.relievo`);
+        toast(`Saved: ${name}.relievo.`);
       } catch (error) {
         this.failed(error);
       }
     };
+    if (input.sample || /\.json$/i.test(input.path)) return saveStep(false);
+    const dialog = $("#save-dialog");
+    dialog.onclose = () => dialog.returnValue === "save" && saveStep($("#with-scan").checked);
     dialog.returnValue = "cancel";
     dialog.showModal();
   }

@@ -7,29 +7,16 @@ const FEWEST = 6; // pictures in a second from which their number is told
 
 let times = []; // of the newest pictures
 
-// Returns the height of a picture's relief as it is shown and as files have it. A frame meets a locked height to a part
-// in a thousand, files exactly; out of reach, they have the largest one, rounded down so that it can be reached.
-export function heightOf({height_mm, is_height_met}, {isHeightLocked, options}) {
-  if (!is_height_met) return Math.floor(height_mm * 1000) / 1000;
-  return isHeightLocked ? options.height : height_mm;
-}
+// Returns the size of a picture's piece, which is near that of its file until the piece is finished.
+const pieceText = ({size_mm: size, is_size_exact: isExact}) => `piece ${isExact ? "" : "≈ "}${sizeText(size)}`;
 
-// Returns the size of a picture's piece: a level plate is as thick as plate and relief together.
-export function sizeOf(about, step) {
-  const {base, wrap, form, thickness, outline, finish, "rim-height": rim} = step.options, [x, y, z] = about.size_mm;
-  const isLevel = base === "plane" && wrap === "none" && form !== "die" && rim === null &&
-    outline !== "none" && finish === "full";
-  return [x, y, isLevel ? thickness + heightOf(about, step) : z];
-}
-
-// Shows the numbers that come with a picture: `height` is the text to show, `size` that of the piece, `facts` those of
-// the model.
-export function showNumbers({about, ms, isFine, height, size, facts}) {
+// Shows the numbers that come with a picture: `height` is the text to show, `facts` are those of the model.
+export function showNumbers({about, ms, isFine, height, facts}) {
   const now = performance.now();
   times = isFine ? [] : [...times.filter((time) => now - time < 1000), now];
   const parts = [
     [facts && `${count(facts.visible_points)} of ${count(facts.input_points)} points`, "minor"],
-    [`height ${height} ${shown.unit}`], [`piece ${sizeText(size)}`],
+    [`height ${height} ${shown.unit}`], [pieceText(about)],
     [times.length >= FEWEST && `${times.length} frames/s`, "minor"],
     [!isFine && ms && `${ms.toFixed(0)} ms`, "minor"]];
   $("#numbers").replaceChildren(...parts.filter(([text]) => text).map(([text, kind]) =>

@@ -9,10 +9,16 @@ import {withUnit} from "./lengths.js";
 // What shapes heights: a lithophane, which is made from light and colours, has none of it.
 const SHAPING = ["detail", "boundary", "steepest", "steps"];
 
+// The options on which the width depends that the plate leaves.
+const PLATE = ["outline", "diameter", "plate", "shift", "margin", "rim", "corner"];
+
+// Returns the changes of the document that a slider makes: u is to be found anew for another height.
+const partOf = (name, value) => ({options: {[name]: value}, ...(name === "height" ? {u: null} : {})});
+
 export class Sliders {
   // `frame` returns the numbers of the newest picture, or null; `say` takes a line for people.
-  constructor({doc, frame, say}) {
-    Object.assign(this, {doc, frame, say});
+  constructor({doc, entries, frame, say}) {
+    Object.assign(this, {doc, entries, frame, say});
     this.lock = lockButton(() => this.toggleLock());
     const sliderOf = ([name, field]) => new Slider(
       {...field, extra: name === "height" ? this.lock : null, otherwise: FIRST.options[name]},
@@ -38,19 +44,30 @@ export class Sliders {
   // Marks the width that a plate of a given size leaves.
   showWidth() {
     const most = this.frame()?.most_width_mm ?? null;
-    this.all.width.show(this.shownWidth());
+    if (!this.entries.isPending("width")) this.all.width.show(this.shownWidth());
     this.all.width.showMark(most, most && `The plate leaves ${withUnit(most)}`);
   }
 
   slide(name, value, isTyped = false) {
-    const part = {options: {[name]: value}}, most = this.frame()?.most_width_mm ?? Infinity, {doc} = this;
-    if (name === "width" && value >= most) part.options.width = null; // as wide as the plate leaves
-    if (name === "height") part.u = null; // to be found anew
-    doc.change(part, name);
+    if (isTyped && this.entries.pending.length > 0) return this.enter(name, value);
+    const most = this.mostWidth() ?? Infinity, {doc} = this;
+    doc.change(partOf(name, name === "width" && value >= most ? null : value), name); // as wide as the plate leaves
     if (name === "width" && value > most && isTyped)
       this.say(`The plate leaves ${withUnit(most)} for the longer side: the figure is as large as that.`);
     if (name === "width") this.showWidth();
     else if (doc.now.options[name] !== value) this.all[name].show(doc.now.options[name]); // the drag was taken back
+  }
+
+  // Returns the width that the plate leaves; null if it has no size, or was changed since the newest picture.
+  mostWidth() {
+    const {options: shown, most_width_mm: most} = this.frame() ?? {}, {options} = this.doc.now;
+    return most && PLATE.every((name) => shown[name] === options[name]) ? most : null;
+  }
+
+  // Takes a number after the entries that are still waiting.
+  enter(name, value) {
+    this.all[name].show(value);
+    this.entries.add({name, label: FIELDS[name].label, part: () => partOf(name, value)});
   }
 
   // Changes the method. A soft rim that was not touched becomes the one that the new method starts from.
@@ -73,7 +90,11 @@ export class Sliders {
   // Shows the document's values.
   show() {
     const {options, isHeightLocked} = this.doc.now, isShaped = options.form !== "lithophane";
-    for (const [name, slider] of Object.entries(this.all)) slider.show(options[name] ?? this.shownWidth());
+    for (const [name, slider] of Object.entries(this.all)) {
+      const isWaiting = this.entries.isPending(name);
+      slider.element.ariaBusy = isWaiting ? "true" : null;
+      if (!isWaiting) slider.show(options[name] ?? this.shownWidth());
+    }
     this.showWidth();
     $("#method").value = options.method;
     const noShape = isShaped ? "" : "A lithophane is made from light and colours, not from heights";

@@ -33,9 +33,8 @@ export class Stage {
     this.camera = {...FRONT};
     this.tool = "light";
     this.share = 1; // of the pixels of a side, while things move
-    this.wanted = this.shown = this.fine = this.finished = 0;
-    this.isReady = false;
-    this.pixelsPerMm = 1;
+    this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
+    Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting`: who waits for rest()
     this.measure = new Measure(this);
     this.comparing = new Comparing(this);
     this.turning = new Turning(this);
@@ -49,8 +48,7 @@ export class Stage {
   }
 
   request(extra = {}) {
-    const step = this.doc.now;
-    const {material, light} = step;
+    const step = this.doc.now, {material, light} = step;
     const request = {options: shownOptions(step), material, light, camera: this.camera, ...extra};
     if (this.turning.shown) request.turned = this.turning.shown;
     if (!step.isHeightLocked && step.u !== null && !extra.original) request.u = step.u;
@@ -80,7 +78,18 @@ export class Stage {
   }
 
   showBusy() {
-    this.element.setAttribute("aria-busy", Boolean(this.isAwaiting || this.finished !== this.wanted));
+    const isBusy = Boolean(this.isAwaiting || this.finished !== this.wanted);
+    this.element.setAttribute("aria-busy", isBusy);
+    if (!isBusy) for (const resolve of this.resting.splice(0)) resolve();
+  }
+
+  // Waits for the last picture of what the document says, or until there is none to be had. Returns whether it is there.
+  async rest() {
+    await new Promise((resolve) => {
+      this.resting.push(resolve);
+      this.showBusy();
+    });
+    return this.drawn === this.wanted;
   }
 
   // The one queue of the studio: asks for one picture at a time, always of the newest state.
@@ -104,7 +113,7 @@ export class Stage {
       await (this.isTable ? this.drawTable(isFine) : this.drawRelief(isFine, asked));
       if (isFine) this.fine = number;
       else this.adapt(performance.now() - start);
-      this.shown = number;
+      this.shown = this.drawn = number;
       if (isFine && (this.isTable || this.isAwaiting || this.turning.shown || this.isLikeFile)) this.finished = number;
       else if (isLast) this.changedAt = performance.now(); // another page has cancelled it: once more, after a pause
     } catch (error) {
@@ -137,10 +146,10 @@ export class Stage {
     return {number: this.wanted, model: this.model, changedAt: this.changedAt, frame};
   }
 
-  // Returns a picture of the newest state, with the place of its figure among its numbers.
+  // Returns a picture of the newest state, with the options of the document among its numbers.
   async frame(request, signal) {
-    const {shift} = this.doc.now.options, {image, about} = await this.engine.frame(request, {signal});
-    return {image, about: {...about, shift}};
+    const {options} = this.doc.now, {image, about} = await this.engine.frame(request, {signal});
+    return {image, about: {...about, options}};
   }
 
   // While things move, the engine makes the next picture when this one is shown.

@@ -120,9 +120,12 @@ test("undoes entries in the order in which they were made, also one that is stil
   await enter(plate, "210x140");
   await isTried.waitFor();
   await page.getByRole("radio", {name: "Coin"}).click();
-  await page.getByText("Plate size: the piece has changed meanwhile; enter it again.").waitFor();
+  await page.getByText("The size of the plate stays with Plaque, and comes back with it.").waitFor();
   assert.ok(await page.getByRole("radio", {name: "Coin"}).isChecked());
   assert.equal(await plate.inputValue(), "");
+  await undo.click();
+  assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
+  assert.equal(await plate.inputValue(), "210x140");
   await page.unroute("**/api/profile");
   for (let step = 0; step < 2; ++step) await undo.click();
 });

@@ -1,0 +1,98 @@
+// What is typed or chosen for the piece: the document takes one entry after the other, in the order in which they were
+// made, each as a step of its own. Those of which the engine may not make a piece are tried before.
+
+import {$} from "./controls.js";
+import {engineOptions, shownOptions} from "./document.js";
+
+export class Entries {
+  // Calls changed() when an entry has come or gone, and refused(entry, error) for one that the engine refuses.
+  constructor({engine, doc, changed, refused}) {
+    Object.assign(this, {engine, doc, changed, refused, waiting: [], last: Promise.resolve()});
+  }
+
+  // Returns the entries of this document that it has not taken yet.
+  get pending() {
+    return this.waiting.filter(({document}) => document === this.engine.document);
+  }
+
+  isPending(name) {
+    return this.pending.some((entry) => entry.name === name);
+  }
+
+  // Takes {name, label, part, isTried}: the option or control, its name for people, and a function that returns the
+  // changes to the step before it. An entry that is not tried is taken at once if none is waiting.
+  add(entry) {
+    Object.assign(entry, {document: this.engine.document, position: this.doc.position});
+    if (!entry.isTried && this.pending.length === 0) return this.doc.change(entry.part(this.doc.now));
+    this.waiting.push(entry);
+    this.changed();
+    this.last = this.last.then(() => this.take(entry)).finally(() => this.end(entry));
+    return this.last;
+  }
+
+  // Takes an entry, unless it was withdrawn, or the engine cannot read it or make a piece of it.
+  async take(entry) {
+    const isMeant = () => this.pending.includes(entry);
+    if (!isMeant()) return;
+    try {
+      const step = this.doc.stepAt(entry.position), part = entry.part(step);
+      if (entry.isTried) await this.tryOut({...step, options: {...step.options, ...part.options}}, entry);
+      if (isMeant()) this.insert(part, entry);
+    } catch (error) {
+      if (isMeant()) this.refused(entry, error);
+    }
+  }
+
+  // Throws what the engine says of options that it cannot read or of which no piece can be made, by asking for one of its
+  // heights. A width that does not fit is put right later, and another view is still to be prepared.
+  async tryOut(step, {isMade}) {
+    await this.engine.check(engineOptions(step));
+    if (!isMade) return;
+    await this.engine.profile({options: shownOptions(step), from: [0, 0], to: [0, 0]}).catch((error) => {
+      if (error.kind === "option" && !error.message.startsWith("width:")) throw error;
+    });
+  }
+
+  // What was changed since the entry was made comes after it, as do all other entries.
+  insert(part, entry) {
+    const before = this.doc.position;
+    this.doc.changeAt(entry.position, part);
+    for (const other of this.pending) other.position += this.doc.position - before;
+  }
+
+  // Forgets an entry that was taken, refused or withdrawn.
+  end(entry) {
+    this.waiting = this.waiting.filter((other) => other !== entry);
+    this.changed();
+  }
+
+  // Takes back the newest entry if it is still waiting and nothing was changed since. Returns whether there was one.
+  withdraw() {
+    const entry = this.pending.at(-1), isNewest = entry?.position === this.doc.position;
+    if (isNewest) this.end(entry);
+    return isNewest;
+  }
+
+  // Takes back the newest change, be it an entry that is still waiting.
+  undo() {
+    if (!this.withdraw()) this.doc.undo();
+  }
+
+  // An entry that is waiting leaves nothing to redo.
+  redo() {
+    if (this.pending.length === 0) this.doc.redo();
+  }
+
+  // Shows what is waiting, and what can be undone.
+  show() {
+    const names = [...new Set(this.pending.map(({label}) => label))], isWaiting = names.length > 0;
+    $("#trying").textContent = isWaiting ? `Trying ${names.join(", ")} …` : "";
+    $("#undo").disabled = !this.doc.canUndo && !isWaiting;
+    $("#redo").disabled = !this.doc.canRedo || isWaiting;
+  }
+
+  // Waits until all entries are taken or refused.
+  async settled() {
+    while (this.pending.length > 0) await this.last;
+  }
+}

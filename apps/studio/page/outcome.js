@@ -1,0 +1,37 @@
+// What files and projects are made of: the document, once it has taken all entries and its picture is there.
+
+import {engineOptions} from "./document.js";
+import {confirmTyping} from "./inputs.js";
+import {fileName} from "./kinds.js";
+import {withUnit} from "./lengths.js";
+
+export class Outcome {
+  // `frame` returns the numbers of the newest picture.
+  constructor({doc, stage, entries, pieces, frame}) {
+    Object.assign(this, {doc, stage, entries, pieces, frame});
+  }
+
+  // Waits until all that was typed is taken or refused. What Enter has not confirmed counts, too.
+  async entered() {
+    confirmTyping();
+    this.pieces.takeSteps();
+    await this.entries.settled();
+  }
+
+  // Returns what is to be made, when it is known: a height that the view does not reach is replaced by the one that it
+  // does.
+  async known() {
+    await this.entered();
+    const isShown = await this.stage.rest(), {now} = this.doc, options = engineOptions(now), frame = this.frame();
+    const isMissed = Boolean(isShown && frame && !frame.is_height_met), asked = options.height;
+    if (isMissed) options.height = frame.height_mm;
+    const note = isMissed && now.isHeightLocked ? `A height of ${withUnit(asked)} is out of reach here.` : "";
+    return {options, note, name: fileName(now), material: now.material, step: now};
+  }
+
+  // Returns the document's step with the height that its files have.
+  async step() {
+    const {step, options: {height}} = await this.known();
+    return {...step, options: {...step.options, height}};
+  }
+}
