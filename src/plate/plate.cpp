@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "plate/coincident_points.h"
+#include "plate/front/folds.h"
 #include "plate/front/silhouette.h"
 #include "plate/front/thin_triangles.h"
 #include "plate/ground_mesh.h"
@@ -67,7 +68,8 @@ void close_body(Solid& solid) {
 // Adds walls and bottom.
 Solid closed(PlateSurface surface, const PlateOptions& options) {
   raise(surface.solid, options.thickness_mm);
-  surface.solid.error_mm += flip_thin_triangles(surface.solid);
+  surface.solid.error_mm += flip_thin_triangles(surface.solid, surface.outline.empty());
+  unfold(surface.solid, surface.outline);
   const double highest = used_box(surface.solid.points, surface.solid.triangles).max.z();
   if (options.outline == Outline::none)
     close_body(surface.solid);

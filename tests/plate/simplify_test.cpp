@@ -137,6 +137,17 @@ TEST(Simplify, ATinyToleranceKeepsTheSurface) {
   EXPECT_LE(simpler->error_mm, 1e-9);
 }
 
+// Where all points are needed and edges cross, too, the front itself has fewer triangles.
+TEST(Simplify, NeverAddsTriangles) {
+  const HeightFieldMesh saddle =
+      grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x * 7 + y * 3, 5); });
+  for (const double tolerance : {.5, .1, 1e-9}) {
+    const auto simpler = simplify(saddle, tolerance);
+    ASSERT_TRUE(simpler) << simpler.error().message();
+    EXPECT_LE(simpler->front.triangles.size(), saddle.triangles.size()) << tolerance;
+  }
+}
+
 TEST(Simplify, GridsWithTheOtherDiagonalAreMetToo) {
   // Four corners on a circle: Delaunay may cut the cell the other way, and the saddle then differs inside.
   const HeightFieldMesh saddle =

@@ -34,16 +34,50 @@ TEST(ThinTriangles, AreFlippedEvenThenIfRoundingTurnsThemOver) {
 }
 
 TEST(ThinTriangles, OfAChainOfPointsOnOneLineAreAllFlipped) {
+  const Index n = 300;
   std::vector<Vec3> points{{0, 0, 0}, {10, 0, 0}, {5, -5, 0}};
   std::vector<Triangle> triangles{{0, 2, 1}};
-  for (Index i = 0; i < 9; ++i) {
-    points.emplace_back(9 - i, 1e-10 * (i + 1) * (9 - i), 0);
+  for (Index i = 0; i < n; ++i) {
+    points.emplace_back(10. * (n - i) / (n + 1), 1e-13 * (i + 1) * (n - i), 0);
     triangles.push_back({0, i == 0 ? 1 : i + 2, i + 3});
   }
   Solid solid = surface_of(points, triangles);
   EXPECT_EQ(flip_thin_triangles(solid), 0);
   for (const auto& [a, b, c] : solid.triangles)
     EXPECT_TRUE(a == 2 || b == 2 || c == 2) << a << " " << b << " " << c;
+}
+
+TEST(ThinTriangles, AtAnEdgeOfTheFrontAreRemovedIfItMayLoseEdges) {
+  const std::vector<Vec3> points{{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1.1}, {1, 1, 1}};
+  const std::vector<Triangle> triangles{{0, 1, 2}, {0, 2, 3}, {2, 1, 3}};
+  Solid solid = surface_of(points, triangles);
+  flip_thin_triangles(solid);
+  EXPECT_EQ(solid.triangles, triangles);
+  flip_thin_triangles(solid, true);
+  EXPECT_EQ(solid.triangles, (std::vector<Triangle>{{0, 2, 3}, {2, 1, 3}}));
+  EXPECT_EQ(solid.regions.size(), 2);
+}
+
+// Without the thin triangle, the point 2 alone would hold the two sides together.
+TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
+  const std::vector<Vec3> points{{0, 0, 1}, {2, 0, 1}, {1, 1e-9, 1}, {0, 1, 1}, {2, 1, 1}};
+  Solid solid = surface_of(points, {{0, 1, 2}, {0, 2, 3}, {2, 1, 4}});
+  flip_thin_triangles(solid, true);
+  EXPECT_EQ(solid.triangles.size(), 3);
+}
+
+// The silhouette's points are almost on one line, and are so again in another unit.
+TEST(ThinTriangles, LeaveNoReliefWithoutGroundThatCutsItself) {
+  const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
+  for (const double angle : {0., .1, .3, .7}) {
+    PlateOptions options;
+    options.outline = Outline::none;
+    const auto solid = make_plate(test::turned_grid_front(40, angle, bumps), options);
+    ASSERT_TRUE(solid) << solid.error().message();
+    EXPECT_EQ(check_solid(*solid), "");
+    EXPECT_EQ(test::self_intersections(*solid), "") << angle;
+    EXPECT_EQ(test::self_intersections(in_unit(*solid, LengthUnit::inch)), "") << angle;
+  }
 }
 
 // The plate's ring begins at the hull's points, which are almost on one line.
@@ -54,6 +88,7 @@ TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
     ASSERT_TRUE(solid) << solid.error().message();
     EXPECT_EQ(check_solid(*solid), "");
     EXPECT_EQ(test::self_intersections(*solid), "") << angle;
+    EXPECT_EQ(test::self_intersections(in_unit(*solid, LengthUnit::inch)), "") << angle;
   }
 }
 

@@ -182,15 +182,18 @@ class Simplifier {
   }
 
   Result<SimplifiedMesh> run(Progress* progress) {
-    for (int round = 0; round < most_insertion_rounds; ++round) {
+    for (int round = 0;; ++round) {
       if (auto go = begin_stage(progress, "simplify", .95); !go) return std::unexpected(go.error());
       const Approximation now(chosen_);
       if (now.mesh().triangles.empty()) break;
+      // Where almost all points are needed, those on edges come on top: the front itself is simpler then.
+      if (now.mesh().triangles.size() >= front_.triangles.size()) return SimplifiedMesh{front_, 0};
       const std::size_t before = chosen_.size();
       std::vector<Candidate> worst = find_worst(now);
       if (worst.empty()) return finished(now);
       limit(worst, now);
       if (worst.empty()) return finished(now);
+      if (round == most_insertion_rounds) return is_limited() ? finished(now) : SimplifiedMesh{front_, 0};
       for (const Candidate& c : worst) choose(c);
       if (chosen_.size() == before) break;
     }
@@ -206,12 +209,13 @@ class Simplifier {
     if (!front_.colours.empty()) colours_.push_back(candidate.colour);
   }
 
+  bool is_limited() const { return options_.most_triangles != std::numeric_limits<std::size_t>::max(); }
+
   // Leaves the candidates that the limit of triangles allows. With a limit the half with the smaller errors waits: when it
   // is reached, errors are then alike everywhere. A point adds two triangles, one on the hull adds one.
   void limit(std::vector<Candidate>& worst, const Approximation& now) const {
-    constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
     const bool is_beyond_hull = worst[0].error == 0;
-    if (options_.most_triangles == unlimited || is_beyond_hull) return;
+    if (!is_limited() || is_beyond_hull) return;
     const std::size_t triangles = now.mesh().triangles.size(),
                       left =
                           options_.most_triangles > triangles ? (options_.most_triangles - triangles) / 2 : 0;

@@ -3,36 +3,39 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <set>
+#include <deque>
+#include <optional>
 #include <utility>
 
+#include "geometry/compact.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
+#include "plate/front/fans.h"
 #include "plate/plate_surface.h"
 
 namespace relievo {
 namespace {
 
-constexpr int most_passes = 100;  // each flips one triangle of a chain of points on one line
 // Height of a triangle as a share of the front's size: 8 to 16 units in the last place of its coordinates.
 constexpr double thinnest = 0x1p-20;
 constexpr double most_moved_mm = 1e-3;  // by flipping an edge that files could store
 
-using EdgeEnds = std::array<Index, 2>;
-
+// Flips one edge after the other. Each flip makes the thinner of two triangles wider, so that it ends.
 class Flipper {
  public:
-  explicit Flipper(Solid& front) : front_(front) {
+  Flipper(Solid& front, bool may_lose_edges) : front_(front), may_lose_edges_(may_lose_edges) {
     thinnest_mm_ = thinnest * used_box(front.points, front.triangles).longer_side();
   }
 
   double run() {
-    std::vector<Index> all(front_.triangles.size());
-    std::iota(all.begin(), all.end(), Index{0});
-    std::vector<Index> thin = thin_among(all);
-    for (int pass = 0; pass < most_passes && !thin.empty(); ++pass) thin = thin_among(flip_all(thin));
+    for (Index t = 0; t < front_.triangles.size(); ++t)
+      if (is_thin(t)) waiting_.push_back(t);
+    if (waiting_.empty()) return 0;
+    fans_.emplace(front_.points.size(), front_.triangles);
+    is_removed_.assign(front_.triangles.size(), 0);
+    for (; !waiting_.empty(); waiting_.pop_front())
+      if (const Index t = waiting_.front(); !is_removed_[t] && is_thin(t)) widen(t);
+    drop_removed();
     return moved_mm_;
   }
 
@@ -58,55 +61,49 @@ class Flipper {
     return cross(at(b) - at(a), at(c) - at(a)) / (at(b) - at(a)).norm();
   }
 
-  // Returns those of some triangles that are thin.
-  template <typename Triangles>
-  std::vector<Index> thin_among(const Triangles& triangles) const {
-    std::vector<Index> thin;
-    for (const Index i : triangles)
-      if (width_mm(front_.triangles[i]) < thinnest_mm_) thin.push_back(i);
-    return thin;
+  bool is_thin(Index t) const { return width_mm(front_.triangles[t]) < thinnest_mm_; }
+
+  // Flips the longest edge of a thin triangle, or removes the triangle if that edge is one of the front.
+  void widen(Index thin) {
+    const Triangle abc = longest_first(front_.triangles[thin]);
+    const Index other = fans_->left_of(abc[1], abc[0]);
+    if (other == no_index)
+      remove(thin, abc);
+    else if (flip(thin, abc, other))
+      for (const Index changed : {thin, other}) {
+        waiting_.push_back(changed);
+        wake_around(changed);
+      }
   }
 
-  // Returns the triangles to the left of those edges' other directions.
-  std::map<EdgeEnds, Index> neighbours_of(const std::vector<Index>& thin) const {
-    std::map<EdgeEnds, Index> neighbours;
-    std::vector<std::uint8_t> is_end(front_.points.size(), 0);
-    for (const Index i : thin) {
-      const auto [a, b, c] = longest_first(front_.triangles[i]);
-      neighbours[{b, a}] = no_index;
-      is_end[a] = is_end[b] = 1;
-    }
-    for (Index i = 0; i < front_.triangles.size(); ++i) {
-      const auto& [a, b, c] = front_.triangles[i];
-      for (const EdgeEnds ends : {EdgeEnds{a, b}, EdgeEnds{b, c}, EdgeEnds{c, a}})
-        if (is_end[ends[0]] && is_end[ends[1]])
-          if (const auto found = neighbours.find(ends); found != neighbours.end()) found->second = i;
-    }
-    return neighbours;
+  // Lets thin triangles beside a changed one try again.
+  void wake_around(Index changed) {
+    const Triangle& t = front_.triangles[changed];
+    for (std::size_t i = 0; i < 3; ++i)
+      if (const Index beside = fans_->left_of(t[(i + 1) % 3], t[i]); beside != no_index && is_thin(beside))
+        waiting_.push_back(beside);
   }
 
-  // Flips edges, and returns the triangles that may be flipped next: those that have changed, and thin ones that wait for
-  // one of them. A triangle takes part in one flip per pass.
-  std::set<Index> flip_all(const std::vector<Index>& thin) {
-    const std::map<EdgeEnds, Index> neighbours = neighbours_of(thin);
-    std::set<Index> changed;
-    for (const Index i : thin) {
-      const Triangle t = longest_first(front_.triangles[i]);
-      const auto found = neighbours.find({t[1], t[0]});
-      if (found == neighbours.end() || found->second == no_index) continue;
-      const Index neighbour = found->second;
-      if (changed.contains(i) || changed.contains(neighbour) || !flip(i, t, neighbour))
-        waiting_.emplace(neighbour, i);
-      else
-        changed.insert({i, neighbour});
-    }
-    std::set<Index> next = changed;
-    for (const Index i : changed) {
-      const auto [first, last] = waiting_.equal_range(i);
-      for (auto each = first; each != last; ++each) next.insert(each->second);
-      waiting_.erase(first, last);
-    }
-    return next;
+  // Returns whether the front ends at the edge.
+  bool is_edge_of_front(Index from, Index to) const {
+    return fans_->left_of(from, to) == no_index || fans_->left_of(to, from) == no_index;
+  }
+
+  // Returns whether the front would hang together by the corner c alone without the triangle abc, at whose edge ab it ends.
+  bool would_pinch(const Triangle& abc) const {
+    const auto [a, b, c] = abc;
+    if (is_edge_of_front(b, c) || is_edge_of_front(c, a)) return false;
+    return std::ranges::any_of(fans_->around(c), [&](Index t) {
+      return std::ranges::any_of(front_.triangles[t],
+                                 [&](Index i) { return i != abc[2] && is_edge_of_front(abc[2], i); });
+    });
+  }
+
+  void remove(Index thin, const Triangle& abc) {
+    if (!may_lose_edges_ || would_pinch(abc)) return;
+    is_removed_[thin] = 1;
+    for (const Index i : abc) fans_->remove(i, thin);
+    wake_around(thin);
   }
 
   // Replaces the edge ab of the thin triangle abc and of its neighbour by the one from c to the neighbour's opposite
@@ -123,6 +120,8 @@ class Flipper {
     front_.triangles[thin] = first;
     front_.triangles[neighbour] = second;
     front_.regions[thin] = front_.regions[neighbour];
+    fans_->remove(b, thin), fans_->add(d, thin);
+    fans_->remove(a, neighbour), fans_->add(c, neighbour);
     return true;
   }
 
@@ -134,15 +133,32 @@ class Flipper {
     return std::abs(c.z() - (a.z() + share * (b.z() - a.z())));
   }
 
+  void drop_removed() {
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < is_removed_.size(); ++t) {
+      if (is_removed_[t]) continue;
+      front_.triangles[kept] = front_.triangles[t];
+      front_.regions[kept++] = front_.regions[t];
+    }
+    if (kept == is_removed_.size()) return;
+    front_.triangles.resize(kept), front_.regions.resize(kept);
+    const UsedPoints used = compact(front_.points.size(), front_.triangles);
+    front_.points = used.pick(front_.points);
+    front_.colours = used.pick(front_.colours);
+  }
+
   Solid& front_;
+  bool may_lose_edges_;
   double thinnest_mm_ = 0, moved_mm_ = 0;
-  std::multimap<Index, Index> waiting_;  // thin triangles that could not be flipped, by their neighbours
+  std::deque<Index> waiting_;  // triangles that may be thin
+  std::optional<Fans> fans_;
+  std::vector<std::uint8_t> is_removed_;
 };
 
 }  // namespace
 
-double flip_thin_triangles(Solid& front) {
-  return Flipper(front).run();
+double flip_thin_triangles(Solid& front, bool may_lose_edges) {
+  return Flipper(front, may_lose_edges).run();
 }
 
 }  // namespace relievo

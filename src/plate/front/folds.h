@@ -1,0 +1,19 @@
+// Triangles that are turned over once a file has rounded their corners to single precision.
+// Tested by tests/plate/folds_test.cpp.
+#pragma once
+
+#include <span>
+
+#include "relievo/plate/solid.h"
+
+namespace relievo {
+
+// Returns the triangles of the front that are not counter-clockwise, seen from above, with coordinates as files hold them.
+// If there are none, and its outline does not cut itself, neither does a front that files hold.
+std::vector<Index> find_folds(const Solid& solid);
+
+// Moves points of the front, together with those below them, by a few units in the last place until find_folds() finds
+// none, or as few as it can. The points of the outline, and those on the sides of the box, stay.
+void unfold(Solid& solid, std::span<const Index> outline = {});
+
+}  // namespace relievo
