@@ -21,6 +21,10 @@ std::string_view kind_of(mode_t mode) {
   return S_ISFIFO(mode) ? "a pipe" : "a device";
 }
 
+std::unexpected<Error> no_file(const std::string& path, mode_t mode) {
+  return std::unexpected(Error{ErrorKind::input, path, {}, cat("expected a file, found ", kind_of(mode))});
+}
+
 // Files beyond half of the memory could be read, but nothing could be made of them.
 std::size_t most_bytes() {
 #if defined(__wasi__)
@@ -60,14 +64,19 @@ Result<std::vector<std::byte>> read_file(const std::string& path, bool is_pipe_f
   if (::fstat(file.number(), &status) != 0)
     return system_error(ErrorKind::input, path, "expected a file that can be read");
   if (!S_ISREG(status.st_mode) && !(is_pipe_fine && S_ISFIFO(status.st_mode)))
-    return std::unexpected(
-        Error{ErrorKind::input, path, {}, cat("expected a file, found ", kind_of(status.st_mode))});
+    return no_file(path, status.st_mode);
   return read_all(file, static_cast<std::size_t>(status.st_size), path);
 }
 
 bool is_there(const std::string& path) {
   struct stat status {};
   return ::stat(path.c_str(), &status) == 0;
+}
+
+Result<void> check_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode)) return no_file(path, status.st_mode);
+  return {};
 }
 
 std::optional<std::uint64_t> file_size(const std::string& path) {

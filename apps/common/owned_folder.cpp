@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view mark_name = ".relievo-folder";
+constexpr std::string_view mark_name = ".relievo_folder";
 
 std::string mark_of(std::string_view owner) {
   return cat("relievo ", owner, " made this folder or found it empty, and may remove what it has put here.\n");

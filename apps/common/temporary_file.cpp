@@ -2,7 +2,8 @@
 
 #include <fcntl.h>
 #include <sched.h>
-#include <sys/stat.h>
+#include <sys/file.h>
+#include <sys/xattr.h>
 #include <unistd.h>
 
 #include <array>
@@ -109,12 +110,37 @@ Descriptor make_nameless(const std::string& folder, unsigned mode) {
   return file.is_open() && ::access(own_path(file).c_str(), F_OK) == 0 ? std::move(file) : Descriptor(-1);
 }
 
+// An attribute of files with temporary names, and of no others: a name alone does not tell whose file it is.
+constexpr const char* mark = "user.relievo.unfinished";
+
+// Marks a file, and locks it for as long as this process has it. File systems without either work, too.
+void mark_unfinished(const Descriptor& file) {
+  ::flock(file.number(), LOCK_EX | LOCK_NB);
+  ::fsetxattr(file.number(), mark, "", 0, 0);
+}
+
+// Removes what was left by a process that was killed, or by a loss of power: marked files that no process has.
+void remove_abandoned(const std::string& stem) {
+  const std::string begin = std::filesystem::path(stem).filename().string();
+  std::error_code failed;
+  for (std::filesystem::directory_iterator entry(folder_for(stem), failed), end; !failed && entry != end;
+       entry.increment(failed)) {
+    if (!entry->path().filename().string().starts_with(begin)) continue;
+    const Descriptor file(::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (file.is_open() && ::fgetxattr(file.number(), mark, nullptr, 0) >= 0 &&
+        ::flock(file.number(), LOCK_EX | LOCK_NB) == 0)
+      ::unlink(entry->path().c_str());
+  }
+}
+
 // Makes a file of a name that nothing has.
 Descriptor make_named(TemporaryName& name, const std::string& stem, unsigned mode) {
+  remove_abandoned(stem);
   while (name.renew(stem)) {
     const FileChange change;
     Descriptor file(::open(name.text, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode));
     name.is_there = file.is_open();
+    if (file.is_open()) mark_unfinished(file);
     if (file.is_open() || errno != EEXIST) return file;
   }
   return Descriptor(-1);
@@ -124,13 +150,14 @@ bool link_to(const std::string& own, const char* path) {
   return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
 }
 
-// Gives a file without a name that path, in place of what is there. Returns whether it could.
-bool name_file(const Descriptor& file, const std::string& path) {
-  const std::string own = own_path(file), stem = stem_for(path);
-  const FileChange change;  // no memory is allocated meanwhile: where there is none, the process ends in order
-  if (link_to(own, path.c_str())) return true;
-  // What is there can be replaced by a file with a name only.
+// What is there can be replaced by a file with a name only.
+bool name_in_place(const Descriptor& file, const std::string& own, const std::string& path) {
+  const std::string stem = stem_for(path);
+  remove_abandoned(stem);
+  mark_unfinished(file);
+  errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
+    const FileChange change;  // no memory is allocated meanwhile: where there is none, the process ends in order
     if (!link_to(own, name.text)) continue;
     if (::rename(name.text, path.c_str()) == 0) return true;
     const int reason = errno;
@@ -139,6 +166,16 @@ bool name_file(const Descriptor& file, const std::string& path) {
     return false;
   }
   return false;
+}
+
+// Gives a file without a name that path, in place of what is there. Returns whether it could.
+bool name_file(const Descriptor& file, const std::string& path) {
+  const std::string own = own_path(file);
+  const auto link = [&] {
+    const FileChange change;
+    return link_to(own, path.c_str());
+  };
+  return link() || (errno == EEXIST && name_in_place(file, own, path));
 }
 
 }  // namespace
@@ -177,8 +214,9 @@ Result<void> TemporaryFile::keep(const std::string& path) {
     is_kept = ::rename(name_->text, path.c_str()) == 0;
     if (is_kept) name_->is_there = false;
   }
-  if (is_kept) return {};
-  return system_error(ErrorKind::output, path, "expected a file that can be replaced");
+  if (!is_kept) return system_error(ErrorKind::output, path, "expected a file that can be replaced");
+  ::fremovexattr(file_.number(), mark);
+  return {};
 }
 
 void remove_temporary_files() {

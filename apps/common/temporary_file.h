@@ -12,8 +12,9 @@ namespace relievo::app {
 struct TemporaryName;
 
 // A file in the folder of `path` that takes a place when kept and is gone otherwise. It has no name until it is kept, so that
-// nothing of it is left, however the process ends. Where the file system has no such files, it gets a name that nothing
-// else has; remove_temporary_files() knows these, and after `kill -9` one stays. Nothing removes a file that it has not made.
+// nothing of it is left, however the process ends. Where the file system has no such files, and for the moment in which it
+// replaces another, it has a name that nothing else has; remove_temporary_files() knows these. One that a killed process left
+// is removed by the next one for that path: it is known by an attribute, never by its name alone.
 class TemporaryFile {
  public:
   // The file gets the permissions of `mode` that the process's mask allows.

@@ -25,6 +25,11 @@ bool is_there(const ScanSource& input) {
   return !input.sample.empty() || file_size(input.path);
 }
 
+// What is there in place of a scan, such as a device, is not one that has gone.
+Result<void> check_place(const ScanSource& input) {
+  return is_there(input) || !app::is_there(input.path) ? Result<void>{} : check_file(input.path);
+}
+
 Result<ScanSource> input_in(const Json& json) {
   return input_from_json(json.value("input", Json()), "input");
 }
@@ -38,6 +43,8 @@ const std::map<std::string, Actions::Action, std::less<>> Actions::actions_{
     {"state", &Actions::keep},
     {"picture", &Actions::keep_picture},
     {"recent", &Actions::recent},
+    {"kept", &Actions::kept_amount},
+    {"remove", &Actions::remove},
     {"save", &Actions::save},
     {"view", &Actions::view},
     {"cancel", &Actions::cancel},
@@ -69,13 +76,28 @@ Json Actions::kept_state(const std::string& id) const {
   return state.is_object() ? state : Json();
 }
 
-// With `storing_` locked.
-Actions::Change& Actions::change_of(const std::string& id) {
-  const auto [found, is_new] = changes_.try_emplace(id);
-  if (!is_new) return found->second;
+// With `storing_` locked: returns when the state of a document that is kept was changed.
+double Actions::time_of_newest(const std::string& id) {
+  const std::optional<double> known = opened_.with([&](const std::map<std::string, Opened>& opened) {
+    const auto found = opened.find(id);
+    return found == opened.end() ? std::nullopt : std::optional(found->second.time_ms);
+  });
+  if (known) return *known;
   const Json state = kept_state(id);
-  if (state.is_object()) found->second.time_ms = time_of(state);
-  return found->second;
+  return state.is_object() ? time_of(state) : 0;
+}
+
+std::shared_ptr<Engine> Actions::open_document(const ScanSource& input, const std::string& tab) {
+  const std::string id = document_of(input);
+  const auto engine = documents_.open(id, tab);
+  const Lock lock(storing_);
+  Opened now{input, time_of_newest(id), {}};
+  opened_.with([&](std::map<std::string, Opened>& opened) {
+    std::erase_if(opened, [&](const auto& each) { return !documents_.is_open(each.first); });
+    if (const auto found = opened.find(id); found != opened.end()) now.tab = found->second.tab;
+    opened[id] = std::move(now);
+  });
+  return engine;
 }
 
 // Tells the document of a scan, and all that is kept of it. A scan that is gone may be among those that were dropped.
@@ -84,6 +106,7 @@ void Actions::document(const Json& json, Answer& to) {
   if (!input) return answer(to, input.error());
   const Lock lock(storing_);
   if (!is_there(*input)) input = store_.find_scan(input->hash).value_or(*input);
+  if (const auto ok = check_place(*input); !ok) return answer(to, ok.error());
   const std::string id = document_of(*input);
   answer(to, {{"document", id},
               {"input", to_json(*input)},
@@ -95,7 +118,7 @@ void Actions::open(const Json& json, Answer& to) {
   const Result<ScanSource> input = input_in(json);
   if (!input) return answer(to, input.error());
   const std::string id = document_of(*input);
-  documents_.open(id, json.value("tab", ""))->show(*input, preparation_texts(json));
+  open_document(*input, json.value("tab", ""))->show(*input, preparation_texts(json));
   const Lock lock(storing_);
   store_.touch(id);
   answer(to, {{"document", id}});
@@ -112,12 +135,16 @@ void Actions::keep(const Json& json, Answer& to) {
   const Json state = json.value("state", Json());
   if (!state.is_object()) return refuse(to, 400, "expected a state");
   const Lock lock(storing_);
-  Change& change = change_of(id);
-  if (time_of(state) < change.time_ms)
+  if (time_of(state) < time_of_newest(id))
     return answer(to, {{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
   const auto ok = store_.keep_document(id, state.dump(), json.value("is_moving", false));
   if (!ok) return answer(to, ok.error());
-  change = {time_of(state), json.value("tab", "")};
+  opened_.with([&](std::map<std::string, Opened>& opened) {
+    const auto found = opened.find(id);
+    if (found == opened.end()) return;
+    found->second.time_ms = time_of(state);
+    found->second.tab = json.value("tab", "");
+  });
   answer(to, Json::object());
 }
 
@@ -135,14 +162,41 @@ void Actions::recent(const Json&, Answer& to) {
   answer(to, {{"recent", recent_list()}});
 }
 
-Json Actions::recent_list() const {
+// With `storing_` locked: the documents that are being opened come first, as they are not kept before their scan was read.
+Json Actions::recent_list() {
   Json list = Json::array();
+  const auto opened = opened_.with([](const auto& all) { return all; });
+  for (const OpenDocuments::Entry& entry : documents_.all()) {
+    const auto found = opened.find(entry.document);
+    if (found == opened.end() || entry.engine->status().error || !store_.document(entry.document).empty()) continue;
+    list.push_back({{"document", entry.document},
+                    {"input", to_json(found->second.input)},
+                    {"is_there", true},
+                    {"picture", ""}});
+  }
   for (const KeptDocument& kept : store_.recent())
     list.push_back({{"document", kept.id},
                     {"input", to_json(kept.input)},
                     {"is_there", kept.is_scan_there},
                     {"picture", kept.picture}});
   return list;
+}
+
+void Actions::kept_amount(const Json&, Answer& to) {
+  const Lock lock(storing_);
+  const KeptAmount kept = store_.amount();
+  answer(to, {{"documents", kept.documents}, {"bytes", kept.bytes}});
+}
+
+// Removes a document for good, unless another tab shows it.
+void Actions::remove(const Json& json, Answer& to) {
+  const std::string id = json.value("document", "");
+  if (!documents_.close(id, json.value("tab", "")))
+    return refuse(to, 409, "expected a document that no other tab shows");
+  const Lock lock(storing_);
+  opened_.with([&](std::map<std::string, Opened>& opened) { opened.erase(id); });
+  const auto ok = store_.remove(id);
+  ok ? answer(to, Json::object()) : answer(to, ok.error());
 }
 
 // Makes a project file that contains its scan.
@@ -170,6 +224,7 @@ void Actions::save(const Json& json, Answer& to) {
 void Actions::take_scan(const std::string& name, const BodyReader& read, Answer& to) {
   const std::unique_ptr<DroppedScan> scan = store_.begin_scan(name);
   if (!read([&](std::string_view bytes) { return scan->append(bytes); })) return;
+  if (const auto ok = scan->finish(); !ok) return answer(to, ok.error());
   const Lock lock(storing_);
   const Result<ScanSource> input = store_.keep(*scan);
   input ? answer(to, {{"input", to_json(*input)}}) : answer(to, input.error());
@@ -191,6 +246,7 @@ void Actions::take_project(const std::string& name, const BodyReader& read, Answ
 Result<ScanSource> Actions::kept(const PackedFile& file) {
   const std::unique_ptr<DroppedScan> scan = store_.begin_scan(file.name);
   RELIEVO_CHECK(scan->append(text_in(file.bytes)));
+  RELIEVO_CHECK(scan->finish());
   return store_.keep(*scan);
 }
 
@@ -215,6 +271,7 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
   if (!folder.empty() && input.sample.empty())
     input.path = (std::filesystem::path(folder) / input.path).lexically_normal().string();
   if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
+  RELIEVO_CHECK(check_place(input));
   Json options = app::to_json(project.options);
   if (!image.empty()) options["base-image"] = image;
   return Json{{"input", app::to_json(input)},
@@ -236,23 +293,24 @@ Result<void> Actions::begin_with(const std::string& path, const std::string& ful
   if (store_.document(document_of(input)).empty()) {
     PreparationTexts first_view;
     first_view.view = "auto";
-    documents_.open(document_of(input), {})->open(input, first_view);
+    open_document(input, {})->open(input, first_view);
   }
   return {};
 }
 
-// With `storing_` locked.
 Json Actions::status_of(const OpenDocuments::Entry& entry) {
-  const Change& change = change_of(entry.document);
   Json json = to_json(entry.engine->status());
   json["document"] = entry.document;
-  json["kept"] = {{"changed", change.time_ms}, {"tab", change.tab}};
+  json["kept"] = opened_.with([&](const std::map<std::string, Opened>& opened) {
+    const auto found = opened.find(entry.document);
+    const Opened none, &known = found == opened.end() ? none : found->second;
+    return Json{{"changed", known.time_ms}, {"tab", known.tab}};
+  });
   return json;
 }
 
 std::vector<Json> Actions::statuses() {
   std::vector<Json> all;
-  const Lock lock(storing_);
   for (const OpenDocuments::Entry& entry : documents_.all()) all.push_back(status_of(entry));
   return all;
 }

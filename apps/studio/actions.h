@@ -49,8 +49,9 @@ class Actions {
  private:
   using Action = void (Actions::*)(const nlohmann::json&, Answer&);
 
-  // When a document was changed, in milliseconds since 1970, and by which tab.
-  struct Change {
+  // A document that is open: its scan, when it was changed, in milliseconds since 1970, and by which tab.
+  struct Opened {
+    ScanSource input;
     double time_ms = 0;
     std::string tab;
   };
@@ -61,6 +62,8 @@ class Actions {
   void keep(const nlohmann::json& json, Answer& to);
   void keep_picture(const nlohmann::json& json, Answer& to);
   void recent(const nlohmann::json& json, Answer& to);
+  void kept_amount(const nlohmann::json& json, Answer& to);
+  void remove(const nlohmann::json& json, Answer& to);
   void save(const nlohmann::json& json, Answer& to);
 
   std::shared_ptr<Engine> engine_of(const nlohmann::json& json, Answer& to);
@@ -81,18 +84,19 @@ class Actions {
   Result<ScanSource> kept(const PackedFile& file);
   Result<nlohmann::json> project_in(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder);
-  nlohmann::json recent_list() const;
+  nlohmann::json recent_list();
   nlohmann::json kept_state(const std::string& id) const;
-  Change& change_of(const std::string& id);
+  double time_of_newest(const std::string& id);
+  std::shared_ptr<Engine> open_document(const ScanSource& input, const std::string& tab);
   nlohmann::json status_of(const OpenDocuments::Entry& entry);
 
   static const std::map<std::string, Action, std::less<>> actions_;
 
   OpenDocuments& documents_;
   Store& store_;
-  Mutex storing_;                          // guards the store and what follows
-  std::map<std::string, Change> changes_;  // by document
-  nlohmann::json first_;                   // with which the first page begins; null for nothing
+  Mutex storing_;         // guards the store and what follows; it may be held for as long as a disk takes
+  nlohmann::json first_;  // with which the first page begins; null for nothing
+  Guarded<std::map<std::string, Opened>> opened_;  // by document; locked for moments, also within storing_
 };
 
 }  // namespace relievo::app::studio

@@ -46,6 +46,11 @@ struct ScanFile final : DroppedScan {
     return not_kept(errno);
   }
 
+  Result<void> finish() override {
+    if (file.append({}) && file.finish()) return {};
+    return not_kept(errno);
+  }
+
   std::string name;
   FileHash hash;
   TemporaryFile file;
@@ -202,7 +207,7 @@ Result<ScanSource> DiskStore::keep(DroppedScan& scan) {
   auto& kept = static_cast<ScanFile&>(scan);  // which begin_scan() made
   const std::string text = kept.hash.text();
   const fs::path folder = fs::path(folder_) / scans / digits_of(text), path = folder / kept.name;
-  const bool is_kept = kept.file.append({}) && kept.file.finish() && make_folder(folder.parent_path()) &&
+  const bool is_kept = own_state_folder(folder_) && make_folder(folder.parent_path()) &&
                        make_folder(folder) && kept.file.keep(path.string());
   if (is_kept) return ScanSource{{}, path.string(), kept.name, text};
   return not_kept(errno);

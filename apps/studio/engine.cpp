@@ -72,17 +72,19 @@ struct Engine::State {
   explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
 
   std::function<void()> changed;
-  Guarded<Shared> shared;
+  Guarded<Shared> shared;  // locked within the session's lock, which `ready` runs under, and never around a call of it
 
   Guarded<std::shared_ptr<Progress>> at_rest;  // of fine pictures and pieces; null after any other picture
 
   PieceMaker maker;
 
-  Mutex drawing_mutex;  // guards what follows up to the session
+  Mutex drawing_mutex;  // guards what follows up to the next mutex
   std::optional<Drawing> drawing;
   std::uint64_t drawn_model = 0;
   std::optional<View> turned_view;  // of the drawing below
   std::optional<Drawing> turned;    // of the model while it is turned
+
+  Mutex scan_mutex;  // guards what follows up to the session
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 
@@ -156,15 +158,23 @@ struct Engine::State {
     });
   }
 
-  // With `drawing_mutex` locked: returns what draws the model as a view shows it that is not prepared. The coarse relief is
-  // made once for a view, so that it lasts until that view is prepared, whatever changes meanwhile.
-  Result<Drawing*> turned_drawing(const View& view) {
-    if (turned && turned_view == view) return &*turned;
-    turned_view.reset();
-    RELIEVO_TRY(TurnedRelief relief, session.turn(view));
-    turned.emplace(std::move(relief), shared.with([](const Shared& s) { return s.scan.left_out(); }));
-    turned_view = view;
-    return &*turned;
+  // Draws the model as a view shows it that is not prepared. The coarse relief is made once for a view, so that it lasts until
+  // that view is prepared, whatever changes meanwhile. Other pictures do not wait for it, and the next view cancels it.
+  Result<PictureAnswer> turned_picture(const PictureRequest& request) {
+    std::uint64_t model = 0;  // that was drawn when the coarse relief was begun
+    for (std::optional<TurnedRelief> relief;;) {
+      {
+        const Lock lock(drawing_mutex);
+        RELIEVO_CHECK(check_cancelled(request.progress.get()));
+        if (relief && model == drawn_model) {
+          turned.emplace(*std::move(relief), shared.with([](const Shared& s) { return s.scan.left_out(); }));
+          turned_view = request.turned;
+        }
+        if (turned && turned_view == request.turned) return turned->picture(request);
+        model = drawn_model;
+      }
+      RELIEVO_TRY(relief, session.turn(*request.turned));
+    }
   }
 
   // With `drawing_mutex` locked: returns what draws the model that is shown; null before the first. While
@@ -309,12 +319,9 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
     if (request.options.draft_deg)
       request.draft_limit_mm = state_->maker.known_draft_limit(shown, request.key_but_height);
   }
+  if (request.turned) return state_->turned_picture(request);
   const Lock lock(state_->drawing_mutex);
   RELIEVO_CHECK(check_cancelled(request.progress.get()));
-  if (request.turned) {
-    RELIEVO_TRY(Drawing* const turned, state_->turned_drawing(*request.turned));
-    return turned->picture(request);
-  }
   Drawing* const drawing = state_->current_drawing();
   if (!drawing) return nothing_open();
   return drawing->picture(request);
@@ -343,7 +350,7 @@ Result<double> Engine::reachable_height(PictureRequest request) {
 }
 
 Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
-  const Lock lock(state_->drawing_mutex);
+  const Lock lock(state_->scan_mutex);
   const LoadedScan scan = state_->scan_in_use();
   if (!scan.cloud()) return nothing_open();
   if (scan.cloud() != state_->drawn_cloud) {

@@ -24,6 +24,21 @@ std::shared_ptr<Engine> OpenDocuments::open(const std::string& document, const s
   return entries_.front().engine;
 }
 
+bool OpenDocuments::is_open(const std::string& document) {
+  const Lock lock(mutex_);
+  return std::ranges::find(entries_, document, &Entry::document) != entries_.end();
+}
+
+bool OpenDocuments::close(const std::string& document, const std::string& tab) {
+  const Lock lock(mutex_);
+  if (const auto shown = tabs_.find(tab); shown != tabs_.end() && shown->second == document) tabs_.erase(shown);
+  if (is_shown(document)) return false;
+  const auto found = std::ranges::find(entries_, document, &Entry::document);
+  if (found != entries_.end()) close(found);
+  forget_idle();
+  return true;
+}
+
 void OpenDocuments::leave(const std::string& tab) {
   const Lock lock(mutex_);
   tabs_.erase(tab);
@@ -39,6 +54,13 @@ bool OpenDocuments::is_shown(const std::string& document) const {
   return std::ranges::any_of(tabs_, [&](const auto& tab) { return tab.second == document; });
 }
 
+// With `mutex_` locked: returns the entry behind it.
+std::list<OpenDocuments::Entry>::iterator OpenDocuments::close(std::list<Entry>::iterator entry) {
+  entry->engine->cancel();
+  closing_.push_back(entry->engine);
+  return entries_.erase(entry);
+}
+
 // With `mutex_` locked; the one that was used last stays.
 void OpenDocuments::close_others() {
   std::size_t open = 1, hidden = 0;
@@ -50,9 +72,7 @@ void OpenDocuments::close_others() {
       ++entry;
       continue;
     }
-    entry->engine->cancel();
-    closing_.push_back(entry->engine);
-    entry = entries_.erase(entry);
+    entry = close(entry);
   }
   forget_idle();
 }

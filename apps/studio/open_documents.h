@@ -35,6 +35,11 @@ class OpenDocuments {
   // tab does if `tab` is empty.
   std::shared_ptr<Engine> open(const std::string& document, const std::string& tab);
 
+  bool is_open(const std::string& document);
+
+  // Closes a document that no tab shows but, perhaps, the one named. Returns false if another one does.
+  bool close(const std::string& document, const std::string& tab);
+
   // The tab is closed.
   void leave(const std::string& tab);
 
@@ -46,6 +51,7 @@ class OpenDocuments {
 
  private:
   bool is_shown(const std::string& document) const;
+  std::list<Entry>::iterator close(std::list<Entry>::iterator entry);
   void close_others();
   void forget_idle();
 

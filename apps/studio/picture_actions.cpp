@@ -80,7 +80,6 @@ void Actions::views(const Json& json, Answer& to) {
 void Actions::status(const Json& json, Answer& to) {
   const auto engine = engine_of(json, to);
   if (!engine) return;
-  const Lock lock(storing_);
   answer(to, status_of({json.value("document", ""), engine}));
 }
 

@@ -23,6 +23,7 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_json = 4U << 20;
 constexpr int most_waiting = 32, most_pages = 8;
+constexpr int most_files = 24;  // that arrive at the same time: a quarter of the threads, so that all else is answered
 
 // Raises a counter by one for as long as it lives.
 class ScopedCount {
@@ -81,7 +82,7 @@ struct Server::State {
   ServerOptions options;
   const std::string run_name = std::to_string(std::chrono::system_clock::now().time_since_epoch().count());
   RequestGuard guard;
-  std::atomic<int> pages = 0, waiting = 0;
+  std::atomic<int> pages = 0, waiting = 0, files = 0;
   std::atomic<bool> had_page = false, is_stopping = false;
   HttpServer http;
 
@@ -169,6 +170,8 @@ struct Server::State {
   void take_file(const std::string& name, const Request& request, Response& response,
                  const httplib::ContentReader& read) {
     if (!is_welcome(request, response, most_scan)) return;
+    const ScopedCount count(files);
+    if (count.number() > most_files) return refuse(response, 503, "too many files at once");
     bool is_whole = false;
     const BodyReader body = [&](const auto& take) {
       return is_whole = read_body(read, response, most_scan, take);

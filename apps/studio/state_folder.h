@@ -1,4 +1,4 @@
-// The folder in which a studio keeps its work. Tested by apps/studio/tests/state_folder.test.mjs.
+// The folder in which a studio keeps its work. Tested by tests/cli/foreign_files.
 #pragma once
 
 #include <string>

@@ -19,6 +19,9 @@ class DroppedScan {
 
   // Errors: kind output.
   virtual Result<void> append(std::string_view bytes) = 0;
+
+  // Waits until all that arrived is where it will stay, which may take as long as a disk does. Errors: kind output.
+  virtual Result<void> finish() { return {}; }
 };
 
 // A document that is kept, for a list of them.
@@ -73,7 +76,7 @@ class Store {
   // Begins a dropped scan. Of the name, folders are ignored. May be called from any thread.
   virtual std::unique_ptr<DroppedScan> begin_scan(const std::string& name) const = 0;
 
-  // Keeps a dropped scan that is complete, and returns it as an input. Errors: kind output.
+  // Keeps a dropped scan that is complete and finished, and returns it as an input. Errors: kind output.
   virtual Result<ScanSource> keep(DroppedScan& scan) = 0;
 
   // Returns the dropped scan with those bytes as an input; none if it is not there.

@@ -44,7 +44,8 @@ struct Preparation {
   // measured, and turn() returns it.
   bool makes_first_relief = false;
 
-  // Called with the model just before status() says that it is ready. It must not call the session.
+  // Called with the model just before status() says that it is ready. It runs under the session's lock: it must not call the
+  // session, and a lock that it takes must not be held by whoever calls the session.
   std::function<void(const Model&)> ready = {};
 
   // Called where it is set when status() has changed. It may call status() alone. Where there are threads, whoever watches
@@ -68,8 +69,8 @@ class Session {
   void cancel();
 
   // Returns a coarse relief of the points that were prepared last in another view, for as long as the view moves; open()
-  // prepares the view in which it rests. The work is done in the calling thread, in a few hundredths of a second, and
-  // like that of the model before. A newer call and cancel() cancel it. It cancels no preparation and open() does not
+  // prepares the view in which it rests. The work is done in the calling thread, in a few hundredths of a second; the
+  // first call for a cropped cloud or a mesh measures the points of all sides as well, which takes longer. A newer call and cancel() cancel it. It cancels no preparation and open() does not
   // cancel it, as the call may come late, when the view in which it rests is already being prepared. Errors: kind geometry
   // if no points have been measured yet, or if the view shows no area; kind cancelled.
   Result<TurnedRelief> turn(const View& view);

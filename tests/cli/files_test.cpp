@@ -2,8 +2,12 @@
 #include "common/files.h"
 
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/xattr.h>
+#include <unistd.h>
 
 #include <csignal>
+#include <list>
 #include <thread>
 
 #include "common/temporary_file.h"
@@ -50,11 +54,7 @@ TEST_F(Files, ReadsPipesOfTheCommandLine) {
 TEST_F(Files, TemporaryFilesAreGoneUnlessKept) {
   const auto files = [&] { return std::distance(fs::directory_iterator(folder_), {}); };
   const auto before = files();
-  {
-    app::TemporaryFile file(path("new"));
-    EXPECT_TRUE(file.append(app::bytes_of("never kept")));
-    EXPECT_EQ(files(), before + 1);
-  }
+  { EXPECT_TRUE(app::TemporaryFile(path("new")).append(app::bytes_of("never kept"))); }
   EXPECT_EQ(files(), before);
   app::TemporaryFile file(path("new"));
   EXPECT_TRUE(file.append(app::bytes_of("in two ")));
@@ -62,18 +62,67 @@ TEST_F(Files, TemporaryFilesAreGoneUnlessKept) {
   EXPECT_TRUE(file.finish());
   EXPECT_TRUE(file.keep(path("kept")));
   EXPECT_EQ(read_all(path("kept")), "in two pieces");
+  EXPECT_EQ(files(), before + 1);
   EXPECT_FALSE(app::TemporaryFile(path("gone/new")).append({}));
+  app::TemporaryFile other(path("new"));
+  EXPECT_TRUE(other.append(app::bytes_of("another")) && other.keep(path("kept")));
+  EXPECT_EQ(read_all(path("kept")), "another") << "in place of what is there";
+  fs::create_directory(path("folder"));
+  app::TemporaryFile refused(path("new"));
+  EXPECT_FALSE(refused.keep(path("folder")));
+  EXPECT_EQ(files(), before + 2) << "nothing is left of what could not take its place";
 }
 
-TEST_F(Files, WhatAnEndedRunLeftIsRemovedByTheNextOne) {
-  for (const char* const name : {"a.stl.relievo-abcdef", "a.stl.relievo-abcde", "b.stl.relievo-abcdef"})
-    write_all(path(name), "half");
-  app::TemporaryFile writing(path("c.stl"));
-  const app::TemporaryFile next(path("a.stl")), other(path("c.stl"));
-  EXPECT_FALSE(fs::exists(path("a.stl.relievo-abcdef")));
-  EXPECT_TRUE(fs::exists(path("a.stl.relievo-abcde"))) << "not a name of ours";
-  EXPECT_TRUE(fs::exists(path("b.stl.relievo-abcdef"))) << "of another output";
-  EXPECT_TRUE(writing.append({}) && writing.finish() && writing.keep(path("kept"))) << "being written";
+// The numbers in names go on, so that these would be the next ones.
+TEST_F(Files, NothingIsRemovedThatWasThere) {
+  write_all(path("a.stl"), "old");
+  std::vector<std::string> names{"a.stl.relievo-abcdef", "a.stl.relievo-ABCDEF", "a.stl.relievo-"};
+  for (int i = 0; i < 2000; ++i)
+    names.push_back("a.stl.relievo-" + std::to_string(::getpid()) + "-" + std::to_string(i));
+  for (const std::string& name : names) write_all(path(name.c_str()), name);
+  app::TemporaryFile file(path("a.stl"));
+  EXPECT_TRUE(file.append(app::bytes_of("new")) && file.finish() && file.keep(path("a.stl")));
+  EXPECT_EQ(read_all(path("a.stl")), "new");
+  for (const std::string& name : names) EXPECT_EQ(read_all(path(name.c_str())), name);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), static_cast<long>(names.size()) + 2);
+}
+
+// As a process leaves it that is killed in the moment in which a file takes the place of another.
+TEST_F(Files, WhatAKilledRunLeftIsRemovedByTheNextOne) {
+  write_all(path("a.stl"), "old");
+  const auto leave = [&](const char* name) {
+    write_all(path(name), "whole, but not in its place");
+    return ::setxattr(path(name).c_str(), "user.relievo.unfinished", "", 0, 0) == 0;
+  };
+  if (!leave("a.stl.relievo-1-1") || !leave("b.stl.relievo-1-1")) GTEST_SKIP() << "no attributes here";
+  app::TemporaryFile file(path("a.stl"));
+  EXPECT_TRUE(file.append({}) && file.finish() && file.keep(path("a.stl")));
+  EXPECT_FALSE(fs::exists(path("a.stl.relievo-1-1")));
+  EXPECT_TRUE(fs::exists(path("b.stl.relievo-1-1"))) << "of another output";
+  EXPECT_LT(::getxattr(path("a.stl").c_str(), "user.relievo.unfinished", nullptr, 0), 0);
+}
+
+TEST_F(Files, AsManyTemporaryFilesAsAreWantedCanBeWritten) {
+  std::list<app::TemporaryFile> many;
+  for (int i = 0; i < 100; ++i) ASSERT_TRUE(many.emplace_back(path("many")).append({})) << i;
+}
+
+int calls_of_umask = 0;
+
+TEST_F(Files, TemporaryFilesHaveTheirPermissionsAndLeaveTheMaskAlone) {
+  const auto mode_of = [&](unsigned mode) {
+    app::TemporaryFile file(path("new"), mode);
+    EXPECT_TRUE(file.append({}) && file.finish() && file.keep(path("kept")));
+    struct stat status {};
+    EXPECT_EQ(::stat(path("kept").c_str(), &status), 0);
+    return status.st_mode & 0777;
+  };
+  const mode_t before = ::umask(027);
+  calls_of_umask = 0;
+  EXPECT_EQ(mode_of(0666), 0640U);
+  EXPECT_EQ(mode_of(0600), 0600U);
+  EXPECT_EQ(calls_of_umask, 0) << "which would change it for all threads";
+  ::umask(before);
 }
 
 // Threads go on making files while one of them handles the signal.
@@ -82,7 +131,11 @@ TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
   GTEST_SKIP() << "this sanitizer delays signals";
 #endif
   const auto make_files = [&](int thread) {
-    for (;;) app::TemporaryFile(path(std::to_string(thread).c_str()));
+    const std::string place = path(std::to_string(thread).c_str());
+    for (;;) {
+      app::TemporaryFile file(place);
+      if (!file.append({}) || !file.keep(place)) std::abort();
+    }
   };
   const auto end_while_making = [&] {
     app::remove_temporary_files_on_signals();
@@ -93,8 +146,15 @@ TEST_F(Files, ASignalLeavesNoTemporaryFileOfAnyThread) {
     for (std::thread& thread : threads) thread.join();
   };
   for (int i = 0; i < 20; ++i) EXPECT_EXIT(end_while_making(), testing::KilledBySignal(SIGTERM), "");
-  for (const auto& entry : fs::directory_iterator(folder_)) EXPECT_EQ(entry.path().filename(), "torus.ply");
+  for (const auto& entry : fs::directory_iterator(folder_))
+    EXPECT_FALSE(entry.path().string().contains(".relievo-")) << entry.path();
 }
 
 }  // namespace
 }  // namespace relievo
+
+// Takes the place of the C library's, so that calls can be counted.
+extern "C" mode_t umask(mode_t mask) {
+  ++relievo::calls_of_umask;
+  return static_cast<mode_t>(::syscall(SYS_umask, mask));
+}
