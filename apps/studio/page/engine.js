@@ -27,6 +27,8 @@
 //                                  then at hand for exportFile(); cancelPiece()
 //   exportFile(request)         -> Blob; packProject(project) -> Blob of a project file with its scan
 //   recent()                    -> documents that were changed last: {document, input, is_there, picture}
+//   kept(), remove(document)    -> {documents, bytes} of all that is kept until it is removed; where the browser keeps work,
+//                                  the engine has neither
 //   keep(document, state, isMoving), keepPicture(document, picture), leave()
 // and throws EngineError with a text for people.
 
@@ -197,6 +199,14 @@ export class Engine {
 
   async recent() {
     return (await (await post("recent", {})).json()).recent;
+  }
+
+  async kept() {
+    return (await post("kept", {})).json();
+  }
+
+  async remove(document) {
+    await post("remove", {document, tab: TAB});
   }
 
   async keep(document, state, isMoving) {

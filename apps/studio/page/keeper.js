@@ -23,6 +23,12 @@ export class Keeper {
     if (!this.isSending) this.pump();
   }
 
+  // Neither sends nor stores what it has of a document, which was removed.
+  forget(document) {
+    this.waiting.delete(document);
+    this.storage.removeItem(this.prefix + document);
+  }
+
   // Stores what waits in the browser, when the page goes.
   flush() {
     for (const [document, {state}] of this.waiting) this.copy(document, JSON.stringify(state));

@@ -29,7 +29,7 @@ import {ScenePanel} from "./scene_panel.js";
 import {ShownView} from "./shown_view.js";
 import {Sliders} from "./sliders.js";
 import {Stage} from "./stage.js";
-import {nameOf, showRecent, showSamples, smallPicture} from "./start.js";
+import {START, Shelf, nameOf, showSamples, smallPicture} from "./start.js";
 import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
 
@@ -77,7 +77,8 @@ const opened = new OpenDocument({engine, doc, keeper, on: {
 }});
 const shownView = new ShownView({doc, stage, opened, showDocument, failed});
 const reach = new Reach({engine, doc, slider: () => sliders.all.height, chooseView: () => views.show(doc.now.options)});
-const projects = new Projects({engine, open: openInput, take, failed});
+const projects = new Projects({engine, open: openInput, take, failed, rest: () => opened.id || showStart(true)});
+const shelf = new Shelf({engine, opened, keeper, open: openInput, failed});
 
 let facts = null; // of the model that is shown
 let last = null; // numbers of the newest picture
@@ -309,10 +310,7 @@ function showStart(isShown) {
   else stage.invalidate();
 }
 
-async function showRecentNow() {
-  await keepPicture();
-  showRecent(await engine.recent(), openInput);
-}
+const showRecentNow = () => keepPicture().then(() => shelf.show());
 
 // ------------------------------------------------------------------------------------------------------- wiring
 
@@ -383,7 +381,7 @@ async function start() {
     $("#file").accept = [...about.endings, ".zip", ".relievo"].join();
     showSamples(openInput);
     engine.follow((status) => opened.followed(status), engineLost, toast);
-    await resume(about);
+    await (location.hash === START ? showStart(true) : resume(about));
   } catch (error) {
     failed(error);
     showStart(true);

@@ -22,14 +22,16 @@ export function toast(text, isLasting = false) {
   return () => line.isConnected && hideToast();
 }
 
-// A line with a button that does something about it, for so long. Returns a function that takes it back.
-export function offer(text, label, action, ms = Infinity) {
-  const takeBack = toast(text, true), act = () => {
+// A line with a button that does something about it, for so long, and perhaps with others: [label, action] of each. Returns a
+// function that takes it back.
+export function offer(text, label, action, ms = Infinity, others = []) {
+  const takeBack = toast(text, true), act = (chosen) => () => {
     takeBack(); // before the action, which may say something itself
-    action();
+    chosen();
   };
   if (ms < Infinity) timer = setTimeout(hideToast, ms);
-  $("#toast p span").append(" ", make("button", {onclick: act}, label));
+  for (const [name, chosen] of [[label, action], ...others])
+    $("#toast p span").append(" ", make("button", {onclick: act(chosen)}, name));
   return takeBack;
 }
 

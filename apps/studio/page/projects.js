@@ -22,9 +22,10 @@ async function together(files) {
 }
 
 export class Projects {
-  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way.
-  constructor({engine, open, take, failed}) {
-    Object.assign(this, {engine, open, take, failed});
+  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way; `rest()` shows
+  // what there is when nothing is opened.
+  constructor({engine, open, take, rest, failed}) {
+    Object.assign(this, {engine, open, take, rest, failed});
     $("#locate").onchange = (event) => {
       const [file] = event.target.files;
       event.target.value = "";
@@ -67,14 +68,18 @@ export class Projects {
   // Asks for a scan that is not where it was.
   askFor(input, work) {
     this.wanted = {input, work};
-    offer(`${input.name} is not found at ${input.path}.`, "Locate it", () => $("#locate").click());
+    this.rest();
+    const {name, path, hash = ""} = input, digits = hash.slice(hash.indexOf(":") + 1);
+    const place = digits && path.includes(`/scans/${digits}/`) ? "among the scans that were dropped" : `at ${path}`;
+    offer(`${name} is not found ${place}.`, "Locate it", () => $("#locate").click());
   }
 
   async located(file) {
     const {input: {name, hash}, work} = this.wanted, input = await this.take(this.engine.upload([file]));
     if (!hash || input.hash === hash) return this.open(input, work);
+    this.rest();
     offer(`${file.name} is not ${name} as it was when this work was kept.`, "Use it all the same",
-      () => this.open(input, work).catch(this.failed));
+      () => this.open(input, work), Infinity, [["Locate another file", () => $("#locate").click()]]);
   }
 
   // Saves the step that is promised of the document of a scan, at once if there is nothing to choose.

@@ -1,7 +1,8 @@
 // The start page: samples, and the documents that were changed last, with their pictures.
 
 import {about, engine} from "./about.js";
-import {$, make} from "./controls.js";
+import {$, fileSize, make} from "./controls.js";
+import {offer} from "./messages.js";
 
 const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
 
@@ -15,16 +16,56 @@ export function showSamples(open) {
   $("#samples").append(...about.samples.map((sample) => make("li", {}, card(sample))));
 }
 
-// Shows the documents; `open` takes an input.
-export function showRecent(recent, open) {
-  const card = ({input, picture, is_there: isThere}) => make("button", {
-    title: input.path ?? `Sample ${input.name}`, onclick: () => open(input),
-  }, make("img", {
-    src: picture || engine.addressOf("icon.svg"), alt: "", width: 320, height: 200, class: picture ? "" : "none",
-  }),
-  make("span", {}, nameOf(input), make("small", {}, isThere ? "" : "Scan not found")));
-  $("#recent-shelf").hidden = recent.length === 0;
-  $("#recent").replaceChildren(...recent.map((entry) => make("li", {}, card(entry))));
+export const START = "#start"; // at the end of the page's address: it begins with the start page
+
+// The documents that are kept: opens and removes them, and says how much they take.
+export class Shelf {
+  constructor({engine, opened, keeper, open, failed}) {
+    Object.assign(this, {engine, opened, keeper, open, failed});
+  }
+
+  async show() {
+    const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.kept?.()]);
+    $("#recent-shelf").hidden = recent.length === 0;
+    $("#recent").replaceChildren(...recent.map((entry) => this.card(entry)));
+    $("#kept").textContent = kept ? inTotal(kept, recent.length) : "";
+  }
+
+  card({document, input, picture, is_there: isThere}) {
+    const open = make("button", {title: input.path ?? `Sample ${input.name}`, onclick: () => this.open(input)},
+      make("img", {
+        src: picture || engine.addressOf("icon.svg"), alt: "", width: 320, height: 200, class: picture ? "" : "none",
+      }),
+      make("span", {}, nameOf(input), make("small", {}, isThere ? "" : "Scan not found")));
+    const ask = () => offer(`Remove your work on ${nameOf(input)} for good, with the scan if it was dropped here?`, "Remove",
+      () => this.remove(document).catch(this.failed));
+    const remove = {class: "remove", "aria-label": "Remove", title: "Remove this work and its dropped scan", onclick: ask};
+    return make("li", {}, open, ...(this.engine.remove ? [make("button", remove, "×")] : []));
+  }
+
+  // The page begins anew without the document that it showed.
+  async remove(document) {
+    const {engine, opened, keeper} = this, isShown = document === opened.id;
+    if (isShown) opened.id = ""; // so that nothing keeps it again
+    try {
+      await engine.remove(document);
+    } catch (error) {
+      if (isShown) opened.id = document;
+      throw error;
+    }
+    keeper.forget(document);
+    if (!isShown) return this.show();
+    location.hash = START;
+    location.reload();
+  }
+}
+
+// Says how much is kept, and for how long.
+function inTotal({documents, bytes}, shown) {
+  if (documents === 0) return "";
+  const newest = documents > shown ? ` The newest ${shown} are shown.` : "";
+  return `${documents === 1 ? "This work and its scan are" : `The work on ${documents} scans, and these scans, are`} kept on ` +
+    `this machine until you remove it: ${fileSize(bytes)}.${newest}`;
 }
 
 const WIDTH = 320, HEIGHT = 200;
