@@ -63,9 +63,10 @@ export class Shelf {
 // Says how much is kept, and for how long.
 function inTotal({documents, bytes}, shown) {
   if (documents === 0) return "";
+  const scans = documents === 1 ? "1 scan" : `${documents} scans`;
   const newest = documents > shown ? ` The newest ${shown} are shown.` : "";
-  return `${documents === 1 ? "This work and its scan are" : `The work on ${documents} scans, and these scans, are`} kept on ` +
-    `this machine until you remove it: ${fileSize(bytes)}.${newest}`;
+  return `The work on ${scans} is kept on this machine until you remove it, with what was dropped here: ${fileSize(bytes)}.` +
+    newest;
 }
 
 const WIDTH = 320, HEIGHT = 200;

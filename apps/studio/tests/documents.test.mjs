@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, readdirSync, rmSync, statSync,
   writeFileSync, writeSync} from "node:fs";
+import http from "node:http";
 import path from "node:path";
 import {after, before, test} from "node:test";
 import {Keeper} from "../page/keeper.js";
@@ -24,6 +25,7 @@ after(async () => {
 const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 const stateOf = (input, height, changed) => ({version: 1, changed, at: 0, steps: [{input, options: {height}}]});
 const keep = (of, document, kept, tab = "a") => of.post("state", {document, state: kept, tab});
+const filesIn = (place) => readdirSync(place, {recursive: true}).sort();
 const upload = async (name, bytes, action = "upload") => {
   const target = `${engine.url.pathname}api/${action}?name=${name}`;
   const answer = await engine.request(target, {method: "POST", body: bytes});
@@ -56,15 +58,36 @@ test("keeps a document for each scan, and the newer state of each", async () => 
     assert.ok((await keep(engine, document, {changed: 1})).status >= 400, `${document}`);
 });
 
-test("takes over the one document that versions before have kept", async () => {
-  const former = path.join(folder, "former");
-  mkdirSync(former);
-  const kept = {version: 1, at: 0, steps: [{input: {path: scan, name: "scan.ply"}, options: {height: 7}}]};
-  writeFileSync(path.join(former, "state.json"), JSON.stringify(kept));
-  const other = await new EngineProcess(former).ready();
-  assert.deepEqual((await other.json("document", {input: {path: scan}})).kept, kept);
-  assert.equal((await other.json("recent")).recent.length, 1);
+// Starts a studio that is to refuse its folder.
+const refusal = async (place) => {
+  const refused = new EngineProcess(place), {code} = await refused.ended;
+  return {code, text: refused.errors};
+};
+
+test("takes over a folder of a version that marked none, and no other", async () => {
+  const former = path.join(folder, "former"), mark = path.join(former, ".relievo_folder"), input = {path: scan};
+  let other = await new EngineProcess(former).ready();
+  const {document} = await other.json("document", {input});
+  await keep(other, document, stateOf(input, 7, 1));
+  const target = `${other.url.pathname}api/upload?name=a.xyz`;
+  const dropped = JSON.parse((await other.request(target, {method: "POST", body: "0 0 0\n"})).body).input;
+  await keep(other, (await other.json("document", {input: dropped})).document, stateOf(dropped, 8, 1));
   await other.stop();
+  rmSync(mark);
+  other = await new EngineProcess(former).ready();
+  assert.equal((await other.json("document", {input})).kept.steps[0].options.height, 7);
+  assert.equal((await other.json("recent")).recent.length, 2);
+  await other.stop();
+  for (const name of ["notes.txt", "documents/letter.txt", "scans/bust.ply"]) {
+    rmSync(mark);
+    writeFileSync(path.join(former, name), "mine");
+    const {code, text} = await refusal(former);
+    assert.equal(code, 2);
+    assert.match(text, /^relievo: --state: expected an empty folder, or one of relievo studio, found other files in .*\n$/);
+    assert.ok(!existsSync(mark) && existsSync(path.join(former, name)) && existsSync(dropped.path));
+    rmSync(path.join(former, name));
+    await (await new EngineProcess(former).ready()).stop();
+  }
 });
 
 test("is found at the same address after it was killed", async () => {
@@ -73,8 +96,8 @@ test("is found at the same address after it was killed", async () => {
   const second = await new EngineProcess(place).ready();
   assert.equal(second.address, first.address);
   await second.stop();
-  assert.equal(statSync(path.join(place, "address.json")).mode & 0o077 & ~0o044, 0);
-  assert.equal(statSync(place).mode & 0o077, 0); // nobody else comes near the token
+  for (const name of ["", "address.json", "documents"].filter((each) => existsSync(path.join(place, each))))
+    assert.equal(statSync(path.join(place, name)).mode & 0o077, 0, name); // each by itself keeps others from the token
   const other = await new EngineProcess(path.join(folder, "elsewhere")).ready();
   assert.notEqual(other.url.pathname, first.url.pathname);
   await other.stop();
@@ -271,7 +294,84 @@ test("packs the height map of a base, and keeps it with the document", async () 
   await next.stop();
 });
 
-test("keeps dropped scans for as long as it runs and their documents are recent", async () => {
+test("keeps every document with its scan until it is removed, and says how much that is", async () => {
+  const place = path.join(folder, "many"), count = 30, inputs = [], ids = [];
+  const drop = async (of, name, body) => {
+    const target = `${of.url.pathname}api/upload?name=${name}`;
+    return JSON.parse((await of.request(target, {method: "POST", body})).body).input;
+  };
+  let other = await new EngineProcess(place).ready();
+  for (let i = 0; i < count; ++i) {
+    inputs.push(await drop(other, `${i}.xyz`, `${i} 0 0\n`));
+    ids.push((await other.json("document", {input: inputs[i]})).document);
+    await keep(other, ids[i], stateOf(inputs[i], 3, 5));
+  }
+  const models = [{file: inputs[0].path}, {file: inputs[1].path}];
+  const scene = await drop(other, "scene.json", JSON.stringify({models}));
+  const ofScene = (await other.json("document", {input: scene})).document;
+  await keep(other, ofScene, stateOf(scene, 3, 5));
+  await other.stop();
+  other = await new EngineProcess(place).ready();
+  assert.ok(inputs.every((input) => existsSync(input.path)));
+  const sizes = filesIn(place).filter((name) => /^(documents|scans).*\./.test(name));
+  const bytes = sizes.reduce((sum, name) => sum + statSync(path.join(place, name)).size, 0);
+  assert.deepEqual(await other.json("kept"), {documents: count + 1, bytes});
+  const remove = async (document) => (await other.post("remove", {document, tab: "a"})).status;
+  assert.equal(await remove(ids[0]), 200);
+  assert.ok(existsSync(inputs[0].path), "the scene needs it");
+  assert.equal(await remove(ids[2]), 200);
+  assert.equal(await remove(ofScene), 200);
+  const isGone = (input, i) => i === 0 || i === 2;
+  assert.deepEqual(inputs.map((input) => !existsSync(input.path)), inputs.map(isGone));
+  assert.equal((await other.json("kept")).documents, count - 2);
+  await other.post("open", {input: inputs[3], tab: "b"});
+  assert.equal(await remove(ids[3]), 409);
+  await other.post("leave", {tab: "b"});
+  assert.equal(await remove(ids[3]), 200);
+  assert.equal((await other.json("recent")).recent.some(({document}) => document === ids[3]), false);
+  for (const id of ["../address", "", "0123"]) assert.equal(await remove(id), 400);
+  await other.stop();
+});
+
+test("lists a document while its scan is being opened, before anything of it is kept", async () => {
+  const place = path.join(folder, "opening"), other = await new EngineProcess(place).ready(), input = {path: scan};
+  const {document} = await other.json("open", {input, tab: "a"});
+  const {recent} = await other.json("recent");
+  assert.deepEqual(recent.map((entry) => [entry.document, entry.input.path, entry.is_there]), [[document, scan, true]]);
+  other.document = document;
+  await other.untilIdle();
+  await keep(other, document, stateOf(input, 2, 1));
+  assert.equal((await other.json("recent")).recent.length, 1);
+  await other.stop();
+});
+
+// The library takes the place of fsync(), which waits then until the file GO is there.
+test("follows the engine while the disk takes its time", async (t) => {
+  const source = path.join(folder, "fsync.c"), library = path.join(folder, "fsync.so"), go = path.join(folder, "go");
+  writeFileSync(source, `#include <stdlib.h>\n#include <unistd.h>\n#include <sys/syscall.h>
+int fsync(int file) { while (access(getenv("GO"), F_OK)) usleep(5000); return syscall(SYS_fsync, file); }`);
+  if (spawnSync("cc", ["-shared", "-fPIC", "-o", library, source]).status !== 0) return t.skip("needs a C compiler");
+  writeFileSync(go, "");
+  Object.assign(process.env, {LD_PRELOAD: library, GO: go});
+  const other = new EngineProcess(path.join(folder, "slow"), scan);
+  delete process.env.LD_PRELOAD;
+  await other.ready();
+  const {document} = await other.json("document", {input: {path: scan}});
+  rmSync(go);
+  const answers = [], kept = keep(other, document, stateOf({path: scan}, 1, 1)).then(() => answers.push("kept"));
+  await sleep(200); // so that it waits for the disk
+  const events = http.get(`${other.address}api/events`), heard = new Promise((resolve) =>
+    events.on("response", (stream) => stream.on("data", (data) => String(data).includes(document) && resolve())));
+  const late = sleep(30000).then(() => answers.push("late"));
+  await Promise.race([heard.then(() => answers.push("heard")), late]);
+  writeFileSync(go, "");
+  await kept;
+  assert.deepEqual(answers, ["heard", "kept"]);
+  events.destroy();
+  await other.stop();
+});
+
+test("keeps dropped scans for as long as it runs and their documents are kept", async () => {
   const place = path.join(folder, "dropped"), other = await new EngineProcess(place).ready(), inputs = [];
   for (let i = 0; i < 12; ++i) {
     const target = `${other.url.pathname}api/upload?name=${i}.xyz`;
@@ -311,8 +411,6 @@ test("shows several documents at once, each with its own scan, settings and file
   assert.equal(JSON.parse(closed.body).error.kind, "closed");
 });
 
-const filesIn = (place) => readdirSync(place, {recursive: true}).sort();
-
 // Fills the disk of a folder, and returns the file that does it.
 function fill(disk) {
   const file = path.join(disk, "full"), to = openSync(file, "w");
@@ -334,7 +432,7 @@ test("keeps what it has while the disk is full, and says so", async (t) => {
     const {document} = other, heightKept = async () =>
       (await other.json("document", {input})).kept.steps[0].options.height;
     assert.equal((await keep(other, document, stateOf(input, 1, 1))).status, 200);
-    const files = filesIn(states), filler = fill(disk), noRoom = /expected room to write the file/;
+    const files = filesIn(states), filler = fill(disk), noRoom = /expected room to write the file, but the disk is full/;
     const large = stateOf(input, 2, 2);
     large.steps[0].note = "x".repeat(100000);
     const refused = [await keep(other, document, large),
@@ -342,6 +440,7 @@ test("keeps what it has while the disk is full, and says so", async (t) => {
     for (const {status, body} of refused) {
       assert.equal(status, 500);
       assert.match(String(body), noRoom);
+      assert.ok(!String(body).includes(disk), `${body}`);
     }
     assert.deepEqual(filesIn(states), files, "nothing is left of what was refused");
     assert.equal(await heightKept(), 1);

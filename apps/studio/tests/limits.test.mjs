@@ -93,6 +93,18 @@ test("opens files only, and none that does not fit into memory", async () => {
   await stillWorks();
 });
 
+test("says what is there in place of a scan", async () => {
+  const pipe = path.join(folder, "pipe.ply"), gone = path.join(folder, "gone.ply");
+  for (const [file, found] of [["/dev/zero", "a device"], [pipe, "a pipe"], [folder, "a folder"]]) {
+    const text = `${file}: expected a file, found ${found}`, input = {path: file, name: "x"};
+    assert.equal((await engine.json("document", {input})).error?.text, text);
+    const target = `${engine.url.pathname}api/project?name=p.relievo`;
+    const {body} = await engine.request(target, {method: "POST", body: JSON.stringify({relievo: 1, input, options: {}})});
+    assert.equal(JSON.parse(body).error?.text, text);
+  }
+  assert.equal((await engine.json("document", {input: {path: gone}})).is_there, false);
+});
+
 test("does not read what it refuses", async () => {
   const before = mostMemory(), {pathname, host} = engine.url, length = `Content-Length: ${600 * MIB}\r\n\r\n`;
   const heads = [[`POST /wrong/api/upload HTTP/1.1\r\nHost: ${host}\r\n${length}`, /403/],
@@ -135,6 +147,25 @@ test("answers while hundreds of others send slowly", async () => {
   }
   clearInterval(dripping);
   slow.forEach((socket) => socket.destroy());
+});
+
+test("keeps work and draws while a hundred files arrive slowly", async () => {
+  const {pathname, host} = engine.url, state = {changed: 1}, document = "00000000000000ab";
+  const slow = Array.from({length: 100}, (_, i) => {
+    const socket = connect();
+    socket.write(`POST ${pathname}api/upload?name=${i}.ply HTTP/1.1\r\nHost: ${host}\r\nContent-Length: ${MIB}\r\n\r\nply`);
+    return socket;
+  });
+  await sleep(1000);
+  for (let i = 0; i < 5; ++i) {
+    const {status, body} = await engine.post("state", {document, state: {changed: ++state.changed}});
+    assert.equal(status, 200, String(body));
+    await stillWorks();
+  }
+  slow.forEach((socket) => socket.destroy());
+  const refused = await engine.post("picture", {document, picture: "data:image/jpeg;base64,AAAA"});
+  assert.equal(refused.status, 200);
+  await engine.post("remove", {document});
 });
 
 // Each of these keeps a thread of the server for as long as it may: 7 MB are more than a connection holds by itself.
