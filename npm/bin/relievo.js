@@ -72,14 +72,35 @@ function addFiles(engine, inputs) {
   return added;
 }
 
+// Makes a file beside `name` that nothing was before. Returns its name.
+function writeBeside(name, bytes, made) {
+  for (let i = 0; ; i++) {
+    const temporary = `${name}.relievo-${process.pid}-${i}`;
+    let file;
+    try {
+      file = fs.openSync(temporary, "wx");
+    } catch (error) {
+      if (error.code === "EEXIST") continue;
+      throw error;
+    }
+    made.push(temporary);
+    fs.writeFileSync(file, bytes);
+    fs.closeSync(file);
+    return;
+  }
+}
+
 // Writes all files, or none: first under other names.
 function writeAll(files) {
-  const temporary = files.map(([name]) => `${name}.relievo-${process.pid}`);
+  const made = [];
   try {
-    files.forEach(([, bytes], i) => fs.writeFileSync(temporary[i], bytes));
-    files.forEach(([name], i) => fs.renameSync(temporary[i], name));
+    for (const [name, bytes] of files) writeBeside(name, bytes, made);
+    for (const [name] of files) {
+      fs.renameSync(made[0], name);
+      made.shift();
+    }
   } catch (error) {
-    temporary.forEach((name) => fs.rmSync(name, { force: true }));
+    made.forEach((name) => fs.rmSync(name, { force: true }));
     throw error;
   }
 }

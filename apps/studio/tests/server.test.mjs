@@ -544,3 +544,26 @@ function cut(action, body, ms, promised = body.length) {
     }, ms);
   });
 }
+
+// The first turn of a mesh measures points of all its sides, which takes longer than a picture of what is shown.
+test("draws while the model is turned, and gives up a turn when another comes", async () => {
+  const mesh = path.join(folder, "mesh.ply");
+  const made = spawnSync(PROGRAM, ["make", scan, "-o", mesh, "--height", "4", "--width", "60", "--quiet"]);
+  assert.equal(made.status, 0, String(made.stderr));
+  const input = {path: mesh}, {document} = await engine.json("open", {input, tab: "turning", points: 20000});
+  for (let status; !(status?.model > 0 && !status.busy); await new Promise((resolve) => setTimeout(resolve, 50)))
+    status = await engine.json("status", {document});
+  const order = [], ask = async (name, part) => {
+    const answer = await engine.post("frame", {...FRAME, document, ...part});
+    order.push(name);
+    return answer.status;
+  };
+  const turned = (x) => ({turned: {towards: [x, 0.1, 1], up: [0, 1, 0]}});
+  const first = ask("first turn", turned(0.3));
+  await new Promise((resolve) => setTimeout(resolve, 150)); // so that it has begun
+  const shown = await ask("shown", {});
+  const second = ask("second turn", turned(0.4));
+  assert.deepEqual([await first, shown, await second], [202, 200, 200]);
+  assert.equal(order[0], "shown", `${order}`);
+  assert.equal(await ask("second turn again", turned(0.4)), 200);
+});
