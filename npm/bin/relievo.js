@@ -5,6 +5,7 @@ import path from "node:path";
 import { RelievoError } from "../src/engine.js";
 import { newEngine } from "../src/new_engine.js";
 import { optionTable, version } from "../src/options.js";
+import { writeAll } from "./write_all.js";
 
 const OUTPUTS = { output: "solid", preview: "preview", heightmap: "heightmap", "tool-picture": "tool_picture", report: "report" };
 const OTHER_VALUES = ["units", "heightmap-size", "preview-size", "camera", "stream-above", "base-image", "threads", ...Object.keys(OUTPUTS)];
@@ -70,39 +71,6 @@ function addFiles(engine, inputs) {
     for (const entry of fs.readdirSync(path.dirname(input) || ".", { withFileTypes: true }))
       if (entry.isFile()) add(path.join(path.dirname(input), entry.name));
   return added;
-}
-
-// Makes a file beside `name` that nothing was before. Returns its name.
-function writeBeside(name, bytes, made) {
-  for (let i = 0; ; i++) {
-    const temporary = `${name}.relievo-${process.pid}-${i}`;
-    let file;
-    try {
-      file = fs.openSync(temporary, "wx");
-    } catch (error) {
-      if (error.code === "EEXIST") continue;
-      throw error;
-    }
-    made.push(temporary);
-    fs.writeFileSync(file, bytes);
-    fs.closeSync(file);
-    return;
-  }
-}
-
-// Writes all files, or none: first under other names.
-function writeAll(files) {
-  const made = [];
-  try {
-    for (const [name, bytes] of files) writeBeside(name, bytes, made);
-    for (const [name] of files) {
-      fs.renameSync(made[0], name);
-      made.shift();
-    }
-  } catch (error) {
-    made.forEach((name) => fs.rmSync(name, { force: true }));
-    throw error;
-  }
 }
 
 function showProgress(isQuiet) {

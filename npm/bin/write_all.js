@@ -1,0 +1,35 @@
+// Writes files as wholes.
+import fs from "node:fs";
+
+// Writes a file under a name beside `name` that nothing had before, and adds that to `made`.
+function writeBeside(name, bytes, made) {
+  for (let i = 0; ; i++) {
+    const temporary = `${name}.relievo-${process.pid}-${i}`;
+    let file;
+    try {
+      file = fs.openSync(temporary, "wx");
+    } catch (error) {
+      if (error.code === "EEXIST") continue;
+      throw error;
+    }
+    made.push(temporary);
+    fs.writeFileSync(file, bytes);
+    fs.closeSync(file);
+    return;
+  }
+}
+
+// Writes all of [name, bytes], or none: first under other names. No file is removed that was not made here.
+export function writeAll(files) {
+  const made = [];
+  try {
+    for (const [name, bytes] of files) writeBeside(name, bytes, made);
+    for (const [name] of files) {
+      fs.renameSync(made[0], name);
+      made.shift();
+    }
+  } catch (error) {
+    made.forEach((name) => fs.rmSync(name, { force: true }));
+    throw error;
+  }
+}
