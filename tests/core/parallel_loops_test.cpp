@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <thread>
 #include <vector>
 
@@ -10,26 +11,34 @@
 namespace relievo {
 namespace {
 
-// A loop that waited for the other one would wait for ever: that one ends after it.
+// Waits until the flag is set, but at most a minute, so that a test of loops that wait for each other fails and ends.
+bool is_set_in_time(const std::atomic<bool>& flag) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (!flag && std::chrono::steady_clock::now() < end) std::this_thread::yield();
+  return flag;
+}
+
+// A loop that waited for the other one would wait until that one gives up: it ends after it.
 TEST(ParallelLoops, DoNotWaitForTheEndOfALongOne) {
   set_thread_count(2);
-  std::atomic<bool> has_begun = false, may_end = false;
+  std::atomic<bool> has_begun = false, may_end = false, has_given_up = false;
   std::thread other([&] {
     parallel_for(
         4,
         [&](std::size_t) {
           has_begun = true;
-          while (!may_end) std::this_thread::yield();
+          if (!is_set_in_time(may_end)) has_given_up = true;
         },
         1);
   });
-  while (!has_begun) std::this_thread::yield();
+  EXPECT_TRUE(is_set_in_time(has_begun));
   std::vector<int> visits(100, 0);
   parallel_for(
       visits.size(), [&](std::size_t i) { ++visits[i]; }, 1);
   may_end = true;
   other.join();
   set_thread_count(0);
+  EXPECT_FALSE(has_given_up);
   EXPECT_EQ(visits, std::vector<int>(100, 1));
 }
 

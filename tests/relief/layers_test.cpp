@@ -79,6 +79,27 @@ TEST(Layers, FadeOutWhereTheSurfaceTurnsAway) {
   EXPECT_LT(kept(2), 2 * rounding);
 }
 
+// 1 / (1 + (slope / 12)^8) is left of a normal's x and y, in the direction in which the surface rises.
+TEST(FadedXy, IsTheShareThatItsSlopeLeaves) {
+  for (const double slope : {0.0, .5, 3.0, 12.0, 24.0}) {
+    const Vec3 normal = Vec3(-.6 * slope, .8 * slope, 1).normalized();
+    const Vec2 expected = -normal.head<2>() / (1 + std::pow(slope / 12, 8));
+    EXPECT_LT((faded_xy(normal.cast<float>()).cast<double>() - expected).norm(), 1e-6) << slope;
+  }
+  EXPECT_LT(faded_xy(Vec3f(1, 0, 0)).norm(), 1e-9F);
+  EXPECT_LT(faded_xy(Vec3f(.8F, 0, -.6F)).norm(), 1e-9F);
+}
+
+// Each of the eight numbers has a weight of its own that no other sum of them gives.
+TEST(WeightedSum, WeighsEachLayer) {
+  const PointLayers layers{Vec2f(.5F, .25F), Vec2f(-.25F, .125F), Vec2f(1, -.5F), Vec2f(-.125F, 1.5F)};
+  const LayerWeights w{.1F, .35F, .7F, .9F, .5F};
+  const Vec2f expected(.1F * .5F - .35F * .25F + .7F - .9F * .125F,
+                       .1F * .25F + .35F * .125F - .7F * .5F + .9F * 1.5F);
+  EXPECT_LT((weighted_sum(layers, w) - expected).norm(), 1e-6F);
+  EXPECT_EQ(weighted_sum(layers, {}), Vec2f(0, 0));
+}
+
 TEST(Layers, ContainWhatTheirSizeSays) {
   const auto fine = [](const PointLayers& l) { return Vec2f(l.fine); };
   const auto middle = [](const PointLayers& l) { return Vec2f(l.middle); };
@@ -121,6 +142,25 @@ TEST(LayerWeights, AreEquationSixPerLayerTimesTwoMinusTheShare) {
   EXPECT_EQ(LayerWeights::of(infinity, .04, 1).broad, 1);
   EXPECT_EQ(LayerWeights::of(0, .04, .5).fine, 0);
   EXPECT_EQ(LayerWeights::of(2, .04, .5).height_share, .5F);
+}
+
+TEST(LayerWeights, OfAShapeAreThoseOfItsMembrane) {
+  Shape shape = layered_shape();
+  shape.compression.u = 1.5;
+  shape.gamma = .02;
+  shape.membrane = MembraneParams{.6, .3};
+  const LayerWeights weights = layer_weights(shape);
+  const auto of_layer = [&](double attenuation) {
+    return static_cast<float>((2 - .6) * (1 - std::exp(-1.5 * std::exp(-attenuation * .02))));
+  };
+  EXPECT_FLOAT_EQ(weights.fine, of_layer(0));
+  EXPECT_FLOAT_EQ(weights.middle, of_layer(10));
+  EXPECT_FLOAT_EQ(weights.coarse, of_layer(20.5));
+  EXPECT_FLOAT_EQ(weights.broad, of_layer(55));
+  EXPECT_FLOAT_EQ(weights.height_share, .6F);
+  shape.membrane.reset();  // a height share of 1 then
+  EXPECT_FLOAT_EQ(layer_weights(shape).fine, static_cast<float>(1 - std::exp(-1.5)));
+  EXPECT_EQ(layer_weights(shape).height_share, 1);
 }
 
 // With weights of 1, a normal gives the surface's own slope; weighted, the slope of the normal that is left.

@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <memory>
+
+#include "relievo/relief/tone_curve.h"
 
 namespace relievo {
 namespace {
@@ -59,6 +62,32 @@ TEST(Compression, AlphaAndUSayTheSame) {
 
 TEST(Compression, LeavesAlphaOpenAtBetaZero) {
   for (const double u : {0.0, .5, 1.0, 2.0, infinity}) EXPECT_TRUE(std::isnan((Compression{u, 0}.alpha())));
+}
+
+// The factor of the saturation is (6) at u = 1 over its value where |k| = delta, whatever the u.
+TEST(Saturation, IsEquationSixWithoutItsHeight) {
+  for (const double u : {.2, 1.0, 6.0})
+    for (const double beta : {0.0, .5, 2.0})
+      for (const double k : {-.75, .01, .25, 1.0}) {
+        const Compression compression{u, beta};
+        const double factor =
+            curvature_weight(k, .25, saturation_alone(compression)) * saturation_scale(compression);
+        EXPECT_NEAR(factor, printed(k, .25, 1, beta) / (1 - std::exp(-1)), 1e-12) << u << ' ' << beta;
+        if (beta == 0 || k == .25) {
+          EXPECT_NEAR(factor, 1, 1e-12);
+        }
+      }
+}
+
+TEST(Saturation, IsTheToneCurveItself) {
+  const auto curve = std::make_shared<const ToneCurve>(*ToneCurve::through({{0, .2}, {.5, .7}, {1, .9}}));
+  for (const double u : {.2, 1.0, 6.0})
+    for (const double k : {-.25, 0.0, .04, 1.0}) {
+      const Compression compression{u, .5, curve};
+      const double factor =
+          curvature_weight(k, .25, saturation_alone(compression)) * saturation_scale(compression);
+      EXPECT_NEAR(factor, (*curve)(k), 1e-12) << u << ' ' << k;
+    }
 }
 
 TEST(BoundaryWeight, IsEquationSeven) {

@@ -97,21 +97,25 @@ double energy(const Eigen::MatrixXd& a, const Eigen::VectorXd& f, const std::vec
   return .5 * x.dot(a * x) - f.dot(x);
 }
 
-// Without limits the least energy is that of a linear system.
+// Without limits the least energy is that of a linear system. The sweeps reach these shares of it: with three quarters of
+// the sweeps, none is reached.
 TEST(ObstacleSolver, ComesNearTheLeastEnergy) {
-  using Case = std::pair<Stiffness, Springs>;
-  for (const auto& [stiffness, springs] : {Case{even(1), {.1F}},
-                                           {even(10), {.02F}},
-                                           {even(10), {}},
-                                           {yielding(10, width / 3, .1F, 1), {.02F}},
-                                           {yielding(10, width / 3, .1F, .2F), {.02F}},
-                                           {yielding(10, width - 3, 10, .2F), {.02F}}}) {
+  struct Case {
+    Stiffness stiffness;
+    Springs springs;
+    double share;
+  };
+  for (const auto& [stiffness, springs, share] :
+       {Case{even(1), {.1F}, .9975}, Case{even(10), {.02F}, .94}, Case{even(10), {}, .91},
+        Case{yielding(10, width / 3, .1F, 1), {.02F}, .94},
+        Case{yielding(10, width / 3, .1F, .2F), {.02F}, .945},
+        Case{yielding(10, width - 3, 10, .2F), {.02F}, .93}}) {
     const Eigen::MatrixXd a = matrix(stiffness, springs);
     const Eigen::VectorXd f = loads(stiffness), exact = a.llt().solve(f);
     Problem problem(stiffness, springs, -far, far);
     const double least = -.5 * f.dot(exact);
-    EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
-    EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
+    EXPECT_GT(energy(a, f, problem.solved()) / least, share);
+    EXPECT_LE(energy(a, f, problem.solved()) / least, 1 + 1e-4);
   }
 }
 
@@ -198,7 +202,7 @@ std::pair<double, double> at_ties(const std::vector<float>& b, const std::vector
   return {mean, std::sqrt(std::max(0.0, squares / n - mean * mean))};
 }
 
-void expect_least_energy(const std::vector<Tie>& ties) {
+void expect_least_energy(const std::vector<Tie>& ties, double share) {
   const Stiffness stiffness = even(4);
   const Springs springs{.02F, 1};
   Eigen::MatrixXd a = matrix(stiffness, springs);
@@ -212,14 +216,14 @@ void expect_least_energy(const std::vector<Tie>& ties) {
   const Eigen::VectorXd f = loads(stiffness), exact = a.llt().solve(f);
   Problem problem(stiffness, springs, -far, far, ties);
   const double least = -.5 * f.dot(exact);
-  EXPECT_LT(energy(a, f, problem.solved()), .9 * least);
-  EXPECT_GE(energy(a, f, problem.solved()), least * (1 + 1e-4));
+  EXPECT_GT(energy(a, f, problem.solved()) / least, share);
+  EXPECT_LE(energy(a, f, problem.solved()) / least, 1 + 1e-4);
 }
 
 TEST(ObstacleSolver, ComesNearTheLeastEnergyWithTies) {
   const std::vector<Tie> ties = slanting_ties(20.3, .37);
-  expect_least_energy(ties);
-  expect_least_energy({{ties[ties.size() / 2].cell, {.3F, .6F}, 20}});
+  expect_least_energy(ties, .945);
+  expect_least_energy({{ties[ties.size() / 2].cell, {.3F, .6F}, 20}}, .96);
 }
 
 // A plate that is pushed down rests on its ties, evenly along the line, though that crosses the cells anywhere.
