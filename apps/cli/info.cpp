@@ -119,7 +119,7 @@ Result<void> info(const std::vector<std::string>& inputs) {
   print_line("from", vector_text(box.min));
   print_line("to", vector_text(box.max));
   print_line("size", vector_text(box.size()));
-  print_line("spacing", cat(measure_spacing(file->cloud).rho));
+  print_line("spacing", cat(measure_spacing(without_repeated_points(file->cloud)).rho));
   print_line("best view", views_text(file->mesh.empty() ? file->cloud : scatter(file->mesh, 200000)));
   return {};
 }

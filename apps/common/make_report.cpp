@@ -53,6 +53,7 @@ nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime
       {"version", version},
       {"threads", thread_count()},
       {"input_points", report.input_points},
+      {"repeated_points", report.repeated_points},
       {"visible_points", report.visible_points},
       {"removed_points", report.removed_points},
       {"crumbs", report.crumbs},

@@ -14,6 +14,7 @@ struct Cloud;
 struct SampleNote {
   enum class Kind {
     outliers,           // `points` far from the middle were left out
+    repeated,           // `points` that repeat others were left out
     estimated_normals,  // the model has none
     turned_normals,     // the model's point inwards
     mesh,               // `points` were taken from a mesh of `of` triangles

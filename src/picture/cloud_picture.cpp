@@ -103,7 +103,7 @@ CloudRenderer::CloudRenderer(const Cloud& cloud) {
   if (!has_signed_normals_) estimate_normals(cloud_);
   if (has_signed_normals_ && normals_point_inward(cloud_)) flip_normals(cloud_);
   cloud_.normals.resize(cloud_.size(), Vec3f::UnitZ());
-  spacing_ = measure_spacing(cloud_).rho;
+  spacing_ = measure_spacing(without_repeated_points(cloud_)).rho;
 }
 
 void CloudRenderer::render(const View& view, int width, int height, Picture& picture) const {

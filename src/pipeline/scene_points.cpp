@@ -84,6 +84,10 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
     parts.left_out += outlying.size();
     parts.notes.push_back({SampleNote::Kind::outliers, model.name, outlying.size()});
   }
+  const std::size_t given = placed.cloud.size();
+  placed.cloud = without_repeated_points(std::move(placed.cloud));
+  if (placed.cloud.size() < given)
+    parts.notes.push_back({SampleNote::Kind::repeated, model.name, given - placed.cloud.size()});
   placed.cloud.is_height_field = false;  // others may stand before it
   const Eigen::Matrix3f turn = place.turn.cast<float>();
   for (Vec3& p : placed.cloud.points) p = place(p);

@@ -12,6 +12,7 @@
 #include "scan/measure_with_tree.h"
 #include "scan/noise/noise.h"
 #include "scan/pick.h"
+#include "scan/repeated_points.h"
 
 namespace relievo {
 namespace {
@@ -81,6 +82,7 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
                       pick(measured->cloud_.colours, order), std::move(measured->cloud_.outlines),
                       cloud.is_height_field};
   RELIEVO_CHECK(measured->measure_points(view, progress));
+  measured->repeated_points_ = cloud.size() - measured->cloud_.size();
   return measured;
 }
 
@@ -88,6 +90,11 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
   RELIEVO_CHECK(begin_stage(progress, "spacing", .05));
   tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
   RELIEVO_CHECK(check_cancelled(progress));
+  if (std::optional<Cloud> merged = without_repeated_points(cloud_, *tree_)) {
+    cloud_ = std::move(*merged);
+    tree_ = std::make_unique<const KdTree<Vec3>>(cloud_.points);
+    RELIEVO_CHECK(check_cancelled(progress));
+  }
   spacing_ = measure_spacing(*tree_, cloud_.points, progress);
   RELIEVO_CHECK(check_cancelled(progress));
   if (!(spacing_.rho > 0))

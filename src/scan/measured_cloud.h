@@ -31,6 +31,7 @@ class MeasuredCloud {
   const Vec3& centre() const { return centre_; }
   double diagonal() const { return diagonal_; }
   std::size_t input_points() const { return input_points_; }
+  std::size_t repeated_points() const { return repeated_points_; }  // left out, see without_repeated_points()
   bool has_estimated_normals() const { return has_estimated_normals_; }
   bool do_normals_point_inward() const { return do_normals_point_inward_; }
   double measured_noise() const { return measured_noise_; }
@@ -51,7 +52,7 @@ class MeasuredCloud {
   std::unique_ptr<const KdTree<Vec3>> tree_;
   Vec3 centre_ = Vec3::Zero();
   double diagonal_ = 0;
-  std::size_t input_points_ = 0;
+  std::size_t input_points_ = 0, repeated_points_ = 0;
   bool has_estimated_normals_ = false, do_normals_point_inward_ = false;
   double measured_noise_ = 0, removed_noise_ = 0;
   mutable Guarded<std::vector<double>> curvature_;  // per point; not a number where it is not measured yet

@@ -6,6 +6,7 @@
 
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
+#include "scan/point_group.h"
 
 namespace relievo {
 namespace {
@@ -57,30 +58,13 @@ std::vector<Index> nearest_kept(const Cloud& cloud, const std::vector<Index>& ke
   return nearest;
 }
 
-struct Group {
-  Vec3f normal = Vec3f::Zero();
-  std::array<std::uint32_t, 3> colour{};
-  std::uint32_t members = 0;
-
-  void add(const Cloud& cloud, std::size_t i) {
-    normal += cloud.normals[i];
-    ++members;
-    if (!cloud.has_colours()) return;
-    for (std::size_t k = 0; k < 3; ++k) colour[k] += cloud.colours[i][k];
-  }
-  Colour mean_colour() const {
-    const auto mean = [&](std::size_t k) { return static_cast<std::uint8_t>(colour[k] / members); };
-    return {mean(0), mean(1), mean(2)};
-  }
-};
-
 }  // namespace
 
 Cloud subsample(const Cloud& cloud, const Spacing& spacing, double wanted) {
   const double own = spacing.rho;
   const std::vector<Index> kept = far_apart(cloud, own * least_distance(wanted / own));
   const std::vector<Index> nearest = nearest_kept(cloud, kept);
-  std::vector<Group> groups(kept.size());
+  std::vector<PointGroup> groups(kept.size());
   for (std::size_t i = 0; i < cloud.size(); ++i)
     if (nearest[i] != no_index) groups[nearest[i]].add(cloud, i);
   Cloud thin;

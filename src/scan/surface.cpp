@@ -101,6 +101,10 @@ std::vector<double> curvature_of(const ViewCloud& viewed, std::span<const Index>
   return k;
 }
 
+bool all_look_away(const Cloud& viewed) {
+  return std::ranges::all_of(viewed.normals, [](const Vec3f& n) { return n.z() < 0; });
+}
+
 // Stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress* progress) {
   if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
@@ -109,7 +113,16 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   auto [visible, removed] = find_visible(cloud, spacing);
   if (visible.size() < 4)
     return geometry_error(
-        cat("expected at least 4 points that face the viewer, found ", visible.size(), "; try another view"));
+        cat("expected at least 4 points that face the viewer, found ", visible.size(),
+            all_look_away(cloud)
+                ? ": all normals point away from the viewer; look from the other side, or take the "
+                  "normals out of the file if they are wrong: they are then estimated"
+                : "; try another view"));
+  if (removed > visible.size())
+    return geometry_error(
+        cat("expected points that lie close together, found ", 100 * removed / (removed + visible.size()),
+            " % of those that face the viewer in small groups far from others, without which "
+            "most of the figure would be missing"));
   surface.removed_points = removed;
   RELIEVO_CHECK(check_cancelled(progress));
   std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible);
@@ -172,6 +185,7 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
   surface.centre = measured.centre();
   surface.diagonal = measured.diagonal();
   surface.input_points = measured.input_points();
+  surface.repeated_points = measured.repeated_points();
   ViewCloud viewed = look_at(measured, surface);
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
 

@@ -79,7 +79,10 @@ bool is_first_outside(const CoarseVisibility& first, const CoarseVisibility& sec
 std::array<ViewGuess, 6> rank_views(const Cloud& all) {
   Cloud cloud = erase_points(all, outliers(all));
   const bool has_signs = cloud.has_normals();
-  if (!has_signs) estimate_normals(cloud);
+  if (!has_signs) {
+    cloud = without_repeated_points(std::move(cloud));
+    estimate_normals(cloud);
+  }
   NormalSigns signs = has_signs ? NormalSigns::outward : NormalSigns::unknown;
   Sides sides = y_up;
   std::vector<CoarseVisibility> seen = seen_from(sides, cloud, signs);

@@ -41,6 +41,12 @@ Box bounds(const Cloud& cloud);
 // outlier, for instance at the origin of a geo-referenced scan, would make the model a speck in its own box.
 std::vector<Index> outliers(const Cloud& cloud);
 
+// Returns the cloud with one point, the first, for each place where points repeat one another, exactly or nearly; the
+// cloud as it is if hardly any do. Points repeat one another if they are much closer together than to all others and
+// their normals do not point apart: both sides of a thin sheet stay. Normals and colours are the means of those that
+// are repeated.
+Cloud without_repeated_points(Cloud cloud);
+
 // Returns the cloud without the points numbered by `erased`, which is ascending.
 Cloud erase_points(const Cloud& cloud, std::span<const Index> erased);
 

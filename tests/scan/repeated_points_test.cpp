@@ -1,0 +1,155 @@
+#include "scan/repeated_points.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "relievo/scan/spacing.h"
+#include "relievo/scan/surface.h"
+#include "support/shapes.h"
+
+namespace relievo {
+namespace {
+
+constexpr double size = 2.8;  // of the torus
+const Cloud& single() {
+  static const Cloud cloud = test::torus(20'000, 1, .4);
+  return cloud;
+}
+
+// How the points of a cloud are repeated: those up to that height, in a random order.
+struct Repeats {
+  std::size_t copies = 1;
+  double jitter = 0;  // standard deviation, a share of the size
+  double up_to = 10;
+};
+
+Cloud repeated(const Cloud& cloud, const Repeats& repeats) {
+  test::Random random(7);
+  std::vector<std::pair<std::uint64_t, Index>> order;
+  for (Index i = 0; i < cloud.size(); ++i)
+    for (std::size_t k = 0; k < (cloud.points[i].y() < repeats.up_to ? repeats.copies : 1); ++k)
+      order.emplace_back(random.bits(), i);
+  std::ranges::sort(order);
+  Cloud all;
+  const double deviation = repeats.jitter * size;
+  for (const auto& [key, i] : order) {
+    const Vec3 off(random.gaussian(), random.gaussian(), random.gaussian());
+    test::add(all, cloud.points[i] + deviation * off, cloud.normals[i].cast<double>());
+  }
+  return all;
+}
+
+// Returns the largest distance of a surface's points from the torus.
+double farthest_from_torus(const Surface& surface) {
+  double farthest = 0;
+  for (const Vec3& p : surface.points)
+    farthest = std::max(farthest, std::abs(std::hypot(p.head<2>().norm() - 1, p.z()) - .4));
+  return farthest;
+}
+
+Surface surface_of(const Cloud& cloud) {
+  return find_surface(cloud, {}).value();
+}
+
+TEST(RepeatedPoints, ExactOnesGiveTheSurfaceOfTheSinglePoints) {
+  const Surface alone = surface_of(single());
+  for (const std::size_t copies : {2U, 3U, 5U, 20U}) {
+    const Surface all = surface_of(repeated(single(), {copies}));
+    EXPECT_EQ(all.points, alone.points) << copies;
+    EXPECT_EQ(all.normals, alone.normals) << copies;
+    EXPECT_EQ(all.repeated_points, (copies - 1) * single().size());
+  }
+}
+
+TEST(RepeatedPoints, NearOnesGiveAboutTheSurfaceOfTheSinglePoints) {
+  const Surface alone = surface_of(single());
+  for (const std::size_t copies : {2U, 3U, 5U, 20U})
+    for (const double jitter : {1e-7, 1e-6, 1e-5}) {
+      const Surface all = surface_of(repeated(single(), {copies, jitter}));
+      EXPECT_NEAR(all.rho / alone.rho, 1, .01) << copies << " " << jitter;
+      EXPECT_NEAR(static_cast<double>(all.points.size()) / static_cast<double>(alone.points.size()), 1, .02)
+          << copies << " " << jitter;
+      EXPECT_LT(farthest_from_torus(all), .01);
+    }
+}
+
+TEST(RepeatedPoints, OfAPartGiveTheSurfaceOfTheSinglePoints) {
+  const Surface alone = surface_of(single());
+  for (const double up_to : {-1.2, -.5, .5})
+    for (const std::size_t copies : {5U, 20U})
+      EXPECT_EQ(surface_of(repeated(single(), {copies, 0, up_to})).points, alone.points)
+          << up_to << " " << copies;
+}
+
+TEST(RepeatedPoints, AreFoundWithoutNormals) {
+  Cloud bare = single(), all = repeated(single(), {5, 1e-6});
+  bare.normals.clear();
+  all.normals.clear();
+  EXPECT_NEAR(surface_of(all).rho / surface_of(bare).rho, 1, .01);
+  EXPECT_NEAR(static_cast<double>(surface_of(all).points.size()),
+              static_cast<double>(surface_of(bare).points.size()), .02 * 1e4);
+}
+
+TEST(RepeatedPoints, HaveTheMeanOfTheirNormalsAndColours) {
+  Cloud corners;
+  for (int y = 0; y < 10; ++y)
+    for (int x = 0; x < 10; ++x)
+      for (const double lean : {-.3, 0., .3}) {
+        test::add(corners, Vec3(x, y, 0), Vec3(lean, 0, 1));
+        corners.colours.push_back({static_cast<std::uint8_t>(100 + 100 * lean), 0, 9});
+      }
+  const Cloud merged = without_repeated_points(corners);
+  ASSERT_EQ(merged.size(), 100U);
+  for (Index i = 0; i < 100; ++i) {
+    EXPECT_LT((merged.normals[i] - Vec3f::UnitZ()).norm(), 1e-6F);
+    EXPECT_EQ(merged.colours[i], (Colour{100, 0, 9}));
+  }
+}
+
+TEST(RepeatedPoints, OfBothSidesOfASheetStay) {
+  Cloud sheet;
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 30; ++x)
+      for (const double side : {1., -1., 1., -1.}) test::add(sheet, Vec3(x, y, 0), Vec3(0, 0, side));
+  const Cloud merged = without_repeated_points(sheet);
+  ASSERT_EQ(merged.size(), 2U * 900);
+  EXPECT_EQ(std::ranges::count(merged.normals, Vec3f(Vec3f::UnitZ())), 900);
+}
+
+TEST(RepeatedPoints, AreNotSeenAmongScatteredOnes) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Cloud cloud = test::sphere(5'000, 1, seed);
+    EXPECT_EQ(without_repeated_points(cloud).points, cloud.points);
+  }
+}
+
+// Marching cubes put up to three vertices beside each corner of their grid that the surface passes.
+TEST(RepeatedPoints, AreNotSeenInMarchingCubes) {
+  test::Random random(3);
+  Cloud mesh;
+  for (int y = 0; y < 100; ++y)
+    for (int x = 0; x < 100; ++x) {
+      const double off = random.uniform(-.5, .5);  // of the surface from the corner of the grid
+      test::add(mesh, Vec3(x, y, off), Vec3(0, 0, 1));
+      if (off > 0) test::add(mesh, Vec3(x + off, y, 0), Vec3(0, 0, 1));
+      if (off > 0) test::add(mesh, Vec3(x, y + off, 0), Vec3(0, 0, 1));
+    }
+  EXPECT_EQ(without_repeated_points(mesh).size(), mesh.size());
+}
+
+// Patches of 30 points that are farther from each other than points are connected.
+TEST(LostFigure, IsRefused) {
+  Cloud shreds;
+  for (int row = 0; row < 300; ++row)
+    for (int column = 0; column < 300; ++column)
+      if (row % 10 < 6 && column % 9 < 5) test::add(shreds, Vec3(column, row, 0), Vec3(0, 0, 1));
+  const Result<Surface> surface = find_surface(shreds, {});
+  ASSERT_FALSE(surface);
+  EXPECT_EQ(surface.error().kind, ErrorKind::geometry);
+  EXPECT_NE(surface.error().message().find("most of the figure would be missing"), std::string::npos)
+      << surface.error().message();
+}
+
+}  // namespace
+}  // namespace relievo
