@@ -44,6 +44,8 @@ class Limiter {
     return steepest_of(field(), with_base(heights)) <= kept_share * options_.max_slope;
   }
 
+  double max_slope() const { return options_.max_slope; }
+
   Result<void> limit(Relief& relief, Progress* progress) {
     if (!keeps(std::vector<double>(plane_.size(), 0.0)))
       return fail(cat("expected a base that leans by at least ", draft_deg_of(options_.max_slope),
@@ -110,15 +112,22 @@ class DraftSearch {
     if (!start) return at_most();
     start_ = start;
     const double first = has_shape(order_.method) ? std::log(start->shape.compression.u) : 0;
-    const double last = has_shape(order_.method) ? largest_log_u : first + largest_log_scale;
+    const double last = has_shape(order_.method) ? largest_log_u : largest_log_scale();
     if (!(first < last)) return at_most();
     return search(first, last);
   }
 
  private:
-  // Beyond u = e^4.5 the weights of (6) are nearly 1, in all layers unless detail is large; beyond 64 times the
-  // scale the reliefs of baselines consist of walls.
-  static constexpr double largest_log_u = 4.5, largest_log_scale = 4.2;
+  // Beyond u = e^4.5 the weights of (6) are nearly 1, in all layers unless detail is large.
+  static constexpr double largest_log_u = 4.5;
+
+  // At 64 times the height that the steepest slope reaches on half of the relief, the reliefs of baselines consist of walls.
+  // This scale does not depend on the height asked for, so that the largest height is the same for all of them.
+  double largest_log_scale() const {
+    const double half_side = Box::of(model_.surface().points).longer_side() / 2;
+    return std::log(64 * half_side * limiter_.max_slope() / order_.height);
+  }
+
   // A relief up to twice this much too high is scaled down, which keeps the limit.
   static constexpr double tolerance = .003;
 
@@ -146,8 +155,9 @@ class DraftSearch {
 
   // Returns the highest relief that there is, if it is high enough.
   Result<Relief> at_most() {
-    if (auto made = make(std::numeric_limits<double>::infinity()); !made)
-      return std::unexpected(made.error());
+    const double end =
+        has_shape(order_.method) ? std::numeric_limits<double>::infinity() : largest_log_scale();
+    if (auto made = make(end); !made) return std::unexpected(made.error());
     return scaled();
   }
 

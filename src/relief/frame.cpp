@@ -145,10 +145,21 @@ struct FrameMaker::Packed {
     });
   }
 
+  // A search that leaps over the height asked for ends above it, see HeightSearch::bracket().
+  static void scale_down(RaisedHeights<float>& heights, Frame& frame) {
+    const std::optional<double>& height = frame.options.height;
+    if (!height || !frame.is_height_met || frame.height <= *height * (1 + 2 * frame.options.height_tolerance))
+      return;
+    const auto scale = static_cast<float>(*height / frame.height);
+    heights.span = heights.change_all([&](std::size_t, float& z) { z *= scale; });
+    frame.height = *height;
+  }
+
   void finish(Frame& frame) {
     const auto own_workspace = [&]() -> HeightCorrection::Workspace& { return correction_workspace; };
     change_heights(frame, [&](RaisedHeights<float>& heights, const auto& style) {
       style.finish(heights, model.correction(), own_workspace);
+      scale_down(heights, frame);
       if (const std::vector<float>* base = frame.options.base.get())
         heights.span = heights.change_all([&](std::size_t i, float& z) { z += (*base)[i]; });
     });

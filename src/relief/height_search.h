@@ -43,13 +43,16 @@ class HeightSearch {
   };
 
   // For one relief, from no guess: tries u = infinity, to see whether the height can be reached, then brackets
-  // it. Returns whether the height is met; if not, the last relief is the highest one.
+  // it. Returns whether the height is reached; if not, the last relief is the highest one. Where heights leap over the one
+  // asked for, or all lie above it, the last relief is higher, and the caller is to scale it down.
   template <typename F>
   bool bracket(F&& height_at) const {
-    double excess = excess_of(height_at(std::numeric_limits<double>::infinity()));
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double excess = excess_of(height_at(infinity));
+    if (excess <= tolerance_) return excess >= -tolerance_;
     const auto excess_at = [&](double log_u) { return excess = excess_of(height_at(log_u)); };
-    if (excess > tolerance_) find_root(excess_at, tolerance_);
-    return std::abs(excess) <= tolerance_;
+    find_root(excess_at, tolerance_);
+    return excess >= -tolerance_ || excess_at(infinity) >= -tolerance_;
   }
 
   // For a series of reliefs that change little: starts at the u that the last height and elasticity predict and takes

@@ -200,6 +200,24 @@ TEST(Draft, AHeightOutOfReachTellsTheLargest) {
   }
 }
 
+// Whatever was asked for, the largest height that a message names can be had.
+TEST(Draft, TheLargestHeightOfEveryMethodCanBeReached) {
+  const ReliefModel model = model_of(figure(3000));
+  for (const MethodInfo& info : methods)
+    for (const double asked : {5.0, 500.0}) {
+      const auto make = [&](double height) {
+        return make_with_draft(model, {info.method, default_shape(info.method), height, 1}, {.4});
+      };
+      const auto refused = make(asked);
+      ASSERT_FALSE(refused) << info.name;
+      const std::string text = refused.error().message();
+      const double largest = std::stod(text.substr(text.find("at most ") + 8));
+      EXPECT_GT(largest, .05) << info.name << ": " << text;
+      for (const double share : {.999, .9, .5})
+        EXPECT_TRUE(make(share * largest)) << info.name << " " << share << ": " << text;
+    }
+}
+
 TEST(Draft, HoldsOnABaseToo) {
   const ReliefModel model = model_of(figure(6000));
   std::vector<double> base;

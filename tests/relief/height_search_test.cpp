@@ -39,6 +39,30 @@ TEST(HeightSearch, EndsWithTheHighestWhereTheHeightIsOutOfReach) {
   EXPECT_EQ(climbed.last, Growth()(4.5));
 }
 
+// Heights leap where level points have their whole slope only at u = infinity.
+TEST(HeightSearch, EndsAboveAHeightThatHeightsLeapOver) {
+  double last = 0;
+  const auto leaping = [&](double log_u) {
+    return last = std::isinf(log_u) ? 5 : -3 * std::expm1(-std::exp(log_u));
+  };
+  EXPECT_TRUE(HeightSearch(4, 1e-5).bracket(leaping));
+  EXPECT_EQ(last, 5);
+  HeightSearch::Track track;
+  EXPECT_TRUE(HeightSearch(4, 1e-5).track(track, leaping));
+  EXPECT_EQ(last, 5);
+  EXPECT_TRUE(HeightSearch(2, 1e-5).bracket(leaping));
+  EXPECT_NEAR(last, 2, 1e-4);
+  EXPECT_FALSE(HeightSearch(6, 1e-5).bracket(leaping));
+}
+
+// Slopes kept whole may be higher than what is asked for before the first step is added.
+TEST(HeightSearch, EndsAboveAHeightThatIsBelowAll) {
+  double last = 0;
+  const auto high = [&](double x) { return last = 4.1 + 1 / (1 + std::exp(-x)); };
+  EXPECT_TRUE(HeightSearch(4, 1e-5).bracket(high));
+  EXPECT_NEAR(last, 4.1, 1e-6);
+}
+
 TEST(HeightSearch, TracksSmallChangesInTwoCalls) {
   HeightSearch::Track track;
   Growth first;
