@@ -15,14 +15,15 @@ struct LeftPiece {
   std::size_t high = 0;
 };
 
-// Leaves out what is left of a plane: pieces that stay low over it, for their size. A depth camera bends tables, and
-// boards have ridges.
+// Leaves out what is left of a plane: pieces that stay low over it, for their size, as a depth camera bends tables, and
+// boards have ridges; and debris, which is small beside the largest piece and hung on what is gone.
 void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacing& spacing,
                      std::vector<Index>& visible) {
-  constexpr double low = 4;          // in tolerances
-  constexpr double flat = .05;       // of the diagonal of their box
-  constexpr double connected = 3;    // in local spacings, as for floating noise: see visible.cpp
-  constexpr double high_share = .1;  // of a figure's points
+  constexpr double low = 4;             // in tolerances
+  constexpr double flat = .05;          // of the diagonal of their box
+  constexpr double connected = 3;       // in local spacings, as for floating noise: see visible.cpp
+  constexpr double high_share = .1;     // of a figure's points
+  constexpr double debris_share = .03;  // of the points of the largest piece
   std::vector<std::uint8_t> is_left(cloud.size(), 0);
   for (const Index i : visible) is_left[i] = 1;
   DisjointSets sets(cloud.size());
@@ -51,6 +52,10 @@ void drop_low_pieces(const SupportPlane& plane, const Cloud& cloud, const Spacin
   for (const Index i : visible)
     if (static_cast<double>(piece_of(i).high) >= high_share * static_cast<double>(sets.size_of(i)))
       rest.push_back(i);
+  std::size_t largest = 0;
+  for (const Index i : rest) largest = std::max(largest, sets.size_of(i));
+  const double least = debris_share * static_cast<double>(largest);
+  std::erase_if(rest, [&](Index i) { return static_cast<double>(sets.size_of(i)) < least; });
   if (!rest.empty()) visible = std::move(rest);
 }
 
