@@ -188,13 +188,16 @@ std::optional<float> no_data(TIFF* tiff) {
   return value ? std::optional(static_cast<float>(*value)) : std::nullopt;
 }
 
+// Terrain models have the lowest number of single precision where nothing is known, not always with a tag that says so.
+constexpr float lowest_height = -1e38F;
+
 // Makes bright what is white, and NaN what stands for no value.
 void interpret(const Layout& layout, std::optional<float> missing, DepthImage& image) {
   const bool is_inverted = layout.colours == PHOTOMETRIC_MINISWHITE &&
                            layout.samples.kind == SampleKind::whole && layout.bits <= 32;
   const auto white = static_cast<float>(std::exp2(layout.bits) - 1);
   for (float& value : image.values.pixels) {
-    if (value == missing) {
+    if (value == missing || value < lowest_height) {
       value = std::numeric_limits<float>::quiet_NaN();
     } else if (is_inverted) {
       value = white - value;
