@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "common/files.h"
@@ -9,7 +10,6 @@
 #include "relievo/core/version.h"
 #include "relievo/io/write.h"
 #include "relievo/picture/height_map.h"
-#include "relievo/picture/preview.h"
 
 namespace relievo::app {
 namespace {
@@ -63,10 +63,27 @@ nlohmann::json format_list() {
   return list;
 }
 
+Image8 preview_of(const MadeRelief& made, PreviewOptions options) {
+  const bool is_lithophane = made.report.form == Form::lithophane;
+  if (is_lithophane && options.material == Material::plaster) options.material = Material::porcelain;
+  const std::optional<ReliefReport::Wrapped>& wrap = made.report.wrap;
+  if (wrap && (wrap->is_inside || is_lithophane)) options.flat = &made.flat;
+  constexpr double half_turn_deg = 180;
+  if (!wrap || !wrap->is_inside || wrap->turn_deg <= half_turn_deg)
+    return render_preview(made.solid, options);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (const Vec3& p : made.solid.points) {
+    const double across = wrap->across.dot(p.head<2>());
+    low = std::min(low, across), high = std::max(high, across);
+  }
+  options.nearest_mm = (high - low) / 2;  // where the axis is, as its farther side is whole
+  return render_preview(made.solid, options);
+}
+
 ExportedFile export_file(const MadeRelief& made, const FileFormat& format, const ExportOrder& order) {
   const auto bytes = [&] {
     if (format.write_solid) return format.write_solid(made.solid);
-    if (format.name == "preview") return write_png(render_preview(made.solid, {.material = order.material}));
+    if (format.name == "preview") return write_png(preview_of(made, {.material = order.material}));
     return height_map_file(made, {order.heightmap_px, format.name == "tiff"});
   };
   return {std::string(text_in(bytes())), std::string(format.type)};

@@ -10,6 +10,7 @@
 #include "relievo/core/length.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/material.h"
+#include "relievo/picture/preview.h"
 
 namespace relievo::app {
 
@@ -56,6 +57,10 @@ struct HeightMapOrder {
 
 // Returns the height map as a file, with its scale. Of what was bent around a wrap the flat plate is shown,
 // for machines that turn the stock.
+// Returns the picture of a relief: a lithophane in front of a lamp unless another material than plaster is asked for, and
+// what is bent to the inside unrolled and cut open.
+Image8 preview_of(const MadeRelief& made, PreviewOptions options);
+
 std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 
 }  // namespace relievo::app

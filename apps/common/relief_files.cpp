@@ -49,8 +49,7 @@ Result<std::vector<OutputFile>> relief_files(const ReliefFiles& to, const MadeRe
   }
   const HeightMapOrder map{to.heightmap_px, ending_of(to.heightmap) != "png", to.unit};
   if (!to.heightmap.empty()) files.push_back({to.heightmap, height_map_file(made, map)});
-  if (!to.preview.empty())
-    files.push_back({to.preview, write_png(render_preview(made.solid, {to.preview_px}))});
+  if (!to.preview.empty()) files.push_back({to.preview, write_png(preview_of(made, {to.preview_px}))});
   if (!to.tool_picture.empty())
     files.push_back({to.tool_picture, write_png(render_reach(*made.report.reach, 1600))});
   return files;

@@ -12,11 +12,17 @@ std::string left_out(std::size_t points) {
   return cat("left out ", points, " points far outside the model");
 }
 
+std::string repeated_text(std::size_t points) {
+  return cat("left out ", points, " points that repeat others");
+}
+
 std::string text_of(const SampleNote& note) {
   using Kind = SampleNote::Kind;
   switch (note.kind) {
     case Kind::outliers:
       return left_out(note.points);
+    case Kind::repeated:
+      return repeated_text(note.points);
     case Kind::estimated_normals:
       return "has no normals: they were estimated";
     case Kind::turned_normals:
@@ -45,8 +51,8 @@ std::string wrap_text(const ReliefReport::Wrapped& wrap) {
 std::string plane_text(const ScanReport::FoundPlane& plane) {
   const std::string what = cat("a ", name_in(plane_kinds, plane.kind), ", ", std::lround(100 * plane.share),
                                " % of the visible points");
-  return plane.is_left_out ? cat("left out ", what, "; with plane 'keep' it stays")
-                           : cat("found ", what, "; with plane 'drop' it is left out");
+  return plane.is_left_out ? cat("left out ", what, "; --plane keep keeps it")
+                           : cat("found ", what, "; --plane drop leaves it out");
 }
 
 }  // namespace
@@ -56,18 +62,19 @@ std::vector<std::string> remarks_on(const ScanReport& scan, std::size_t outliers
   if (scan.has_estimated_normals) lines.push_back("the scan has no normals: they were estimated");
   if (scan.has_turned_normals) lines.push_back("the scan's normals point inwards: they were turned");
   if (outliers > 0) lines.push_back(left_out(outliers));
+  if (scan.repeated_points > 0) lines.push_back(repeated_text(scan.repeated_points));
   const std::size_t facing = scan.visible_points + scan.removed_points;
   if (50 * scan.removed_points > facing)
     lines.push_back(cat("left out ", 100 * scan.removed_points / facing,
                         " % of the points that face the viewer, as small groups far from others"));
   if (scan.crumbs > 0)
     lines.push_back(cat("left out ", scan.crumbs, scan.crumbs == 1 ? " small piece" : " small pieces",
-                        " of the surface; with crumbs 'keep' only single specks are left out"));
+                        " of the surface; --crumbs keep keeps all but single specks"));
   if (scan.plane) lines.push_back(plane_text(*scan.plane));
   if (scan.lacks_plane) lines.push_back("found no table or background to leave out");
   if (scan.removed_noise > 0 && scan.removed_noise == scan.measured_noise)
     lines.push_back(cat("removed noise of ", std::round(100 * scan.removed_noise) / 100,
-                        " sampling distances; with denoise '0' it stays"));
+                        " sampling distances; --denoise 0 keeps it"));
   return lines;
 }
 

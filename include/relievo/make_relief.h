@@ -21,10 +21,11 @@ struct Surface;
 
 // Facts about the points of a scan and what is seen of them.
 struct ScanReport {
-  std::size_t input_points = 0, visible_points = 0, removed_points = 0, crumbs = 0;  // see Surface
-  double measured_noise = 0, removed_noise = 0;                                      // see Surface
-  double rho = 0;       // sampling distance, in the cloud's units
-  double diagonal = 0;  // L_d: diagonal of the cloud's box, in its units
+  std::size_t input_points = 0, repeated_points = 0, visible_points = 0, removed_points = 0,
+              crumbs = 0;                        // see Surface
+  double measured_noise = 0, removed_noise = 0;  // see Surface
+  double rho = 0;                                // sampling distance, in the cloud's units
+  double diagonal = 0;                           // L_d: diagonal of the cloud's box, in its units
 
   // The table or background that was found.
   struct FoundPlane {
@@ -44,6 +45,7 @@ struct ScanReport {
 
 // Facts about the relief that was made and the options that ruled it.
 struct ReliefReport : ScanReport {
+  Form form = Form::relief;
   Method method = Method::paper;  // alpha, beta, gamma and u mean nothing where it has no shape
   double alpha = 0;  // NaN where beta is 0 or a tone curve rules: alpha has no effect there, u has
   double beta = 0, gamma = 0;
@@ -75,6 +77,8 @@ struct ReliefReport : ScanReport {
   // and so in the flat plate.
   struct Wrapped {
     double diameter_mm = 0, turn_deg = 0, mm_per_degree = 0;
+    bool is_inside = false;       // the relief is on the inner side
+    Vec2 across = Vec2::UnitX();  // the direction in which the plate is bent
   };
   std::optional<Wrapped> wrap;  // offset and scale are then those of the flat plate
 

@@ -90,12 +90,12 @@ py::bytes to_bytes(const SharedRelief& relief, const std::string& format, int he
 
 py::array preview(const SharedRelief& relief, int size, const std::string& material) {
   const PreviewOptions options = value_or_raise(app::preview_options(size, material));
-  return array_of(unlocked([&] { return render_preview(relief->made.solid, options); }));
+  return array_of(unlocked([&] { return app::preview_of(relief->made, options); }));
 }
 
 py::bytes preview_png(const SharedRelief& relief, int size, const std::string& material) {
   const PreviewOptions options = value_or_raise(app::preview_options(size, material));
-  const auto png = unlocked([&] { return write_png(render_preview(relief->made.solid, options)); });
+  const auto png = unlocked([&] { return write_png(app::preview_of(relief->made, options)); });
   return bytes_of({reinterpret_cast<const char*>(png.data()), png.size()});
 }
 

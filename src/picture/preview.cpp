@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "picture/draw_body.h"
 #include "picture/shading.h"
@@ -31,6 +32,32 @@ Mat3 oblique_rotation() {
       .matrix();
 }
 
+// Returns the part of a body up to that height.
+Solid cut_open(const Solid& solid, double most_z) {
+  Solid open{solid.points, {}};
+  open.ground_mm = solid.ground_mm;
+  const auto is_kept = [&](Index i) { return open.points[i].z() <= most_z; };
+  const auto crossing = [&](const Vec3& a, const Vec3& b) {
+    const Vec3 p = a + (most_z - a.z()) / (b.z() - a.z()) * (b - a);
+    open.points.push_back(p);
+    return static_cast<Index>(open.points.size() - 1);
+  };
+  for (std::size_t t = 0; t < solid.triangles.size(); ++t) {
+    std::vector<Index> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = solid.triangles[t][k], b = solid.triangles[t][(k + 1) % 3];
+      if (is_kept(a)) corners.push_back(a);
+      if (is_kept(a) != is_kept(b)) corners.push_back(crossing(Vec3(solid.points[a]), solid.points[b]));
+    }
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      open.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+      if (t < solid.regions.size()) open.regions.push_back(solid.regions[t]);
+      open.front_triangles += t < solid.front_triangles;
+    }
+  }
+  return open;
+}
+
 Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   Box box;
   for (const Triangle& t : body.triangles)
@@ -38,10 +65,11 @@ Box rotated_box(const DrawnBody& body, const Mat3& rotation) {
   return box;
 }
 
-// The front in a picture of that longer side, and the oblique view in a picture of the same size.
-std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& body, int longer_side_px) {
+// The front of a body in a picture of that longer side, and the oblique view of another in a picture of the same size.
+std::array<ScreenTransform, 2> preview_transforms(const DrawnBody& front_body, const DrawnBody& oblique_body,
+                                                  int longer_side_px) {
   const Mat3 rotation = oblique_rotation();
-  const Box front = rotated_box(body, Mat3::Identity()), side = rotated_box(body, rotation);
+  const Box front = rotated_box(front_body, Mat3::Identity()), side = rotated_box(oblique_body, rotation);
   const double longer = std::max(front.size().x(), front.size().y());
   const double scale = longer_side_px * (1 - 2 * preview_padding) / longer,
                pad = 2 * preview_padding * longer_side_px;
@@ -74,15 +102,23 @@ void lay_on_wall(const Image8& picture, int left, Image8& image) {
 Image8 render_preview(const Solid& solid, const PreviewOptions& options) {
   if (solid.triangles.empty() || options.longer_side_px < 1 || options.longer_side_px > most_pixels)
     return {};
-  const SolidBody owner(solid);
-  const DrawnBody body = owner.body();
-  const auto transforms = preview_transforms(body, options.longer_side_px);
+  std::optional<Solid> opened;
+  if (std::isfinite(options.nearest_mm)) opened = cut_open(solid, options.nearest_mm);
+  const SolidBody bent(opened ? *opened : solid);
+  std::optional<SolidBody> flat;
+  if (options.flat) flat.emplace(*options.flat);
+  const std::array<DrawnBody, 2> bodies{flat ? flat->body() : bent.body(), bent.body()};
+  const bool is_lit_flat = flat && options.material == Material::porcelain;
+  const std::array<Material, 2> materials{options.material,
+                                          is_lit_flat ? Material::plaster : options.material};
+  const auto transforms = preview_transforms(bodies[0], bodies[1], options.longer_side_px);
   const int width = transforms[0].width;
   Image8 image = filled_image(2 * width, transforms[0].height, std::uint8_t{0}, 3), picture;
-  DrawCache cache;
-  for (int i = 0; i < 2; ++i) {
-    draw_body(body, transforms[i], {options.material, options.light, true, true}, cache, picture);
-    lay_on_wall(picture, i * width, image);
+  std::array<DrawCache, 2> caches;
+  for (std::size_t i = 0; i < 2; ++i) {
+    draw_body(bodies[i], transforms[i], {materials[i], options.light, true, true}, caches[flat ? i : 0],
+              picture);
+    lay_on_wall(picture, static_cast<int>(i) * width, image);
   }
   return image;
 }

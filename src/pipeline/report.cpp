@@ -44,6 +44,7 @@ void report_reachable_heights(const Solid& plate, ReliefReport& report) {
 void report_body(const Body& body, const FormedFront& formed, const ReliefOptions& options,
                  ReliefReport& report) {
   const Solid& plate = body.plate();
+  report.form = options.form;
   report.height_mm = formed.height_mm;
   report.below_ground_mm = depth_below_ground(formed.front);
   if (options.finish == Finish::reachable) report_reachable_heights(plate, report);
@@ -54,7 +55,9 @@ void report_body(const Body& body, const FormedFront& formed, const ReliefOption
     report.simplification_error_mm = formed.simplification_error_mm + plate.error_mm;
   report.tool = options.tool;
   if (options.tool) report.reach = measure_reach(plate, *options.tool);
-  if (body.wrap) report.wrap = {body.wrap->diameter_mm(), body.wrap->turn_deg(), body.wrap->mm_per_degree()};
+  if (body.wrap)
+    report.wrap = {body.wrap->diameter_mm(), body.wrap->turn_deg(), body.wrap->mm_per_degree(),
+                   body.wrap->is_inside(), body.wrap->across()};
 }
 
 // Fills in the place of the scan in the plate.
@@ -73,6 +76,7 @@ void report_place(const ReliefFacts& facts, ReliefReport& report) {
 ScanReport ScanReport::of(const Surface& surface) {
   ScanReport report;
   report.input_points = surface.input_points;
+  report.repeated_points = surface.repeated_points;
   report.visible_points = surface.visible_points;
   report.removed_points = surface.removed_points;
   report.crumbs = surface.crumbs;

@@ -1,6 +1,8 @@
 // Shaded pictures of a finished body, drawn on the CPU.
 #pragma once
 
+#include <limits>
+
 #include "relievo/core/image.h"
 #include "relievo/picture/material.h"
 #include "relievo/plate/solid.h"
@@ -11,6 +13,11 @@ struct PreviewOptions {
   int longer_side_px = 1200;      // of each of the two pictures, front and oblique
   Vec3f light = upper_left_lamp;  // towards the lamp, seen from the plate
   Material material = Material::plaster;
+  // The body before it was bent, which the front picture then shows instead: bent to the inside, its work would be hidden,
+  // and bent at all, porcelain in front of a lamp. It must outlive the call.
+  const Solid* flat = nullptr;
+  // The body is cut open there for the oblique picture, which leaves out what is nearer to the viewer.
+  double nearest_mm = std::numeric_limits<double>::infinity();
 };
 
 // Returns the body as seen from the front and, beside it, obliquely, on a neutral ground (3 channels). Each of
