@@ -1,6 +1,8 @@
 #include "batch/finish.h"
 
+#include <algorithm>
 #include <filesystem>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "batch/contact_sheet.h"
@@ -60,6 +62,17 @@ Summary summary_of(const std::vector<Job>& jobs, const Records& records) {
     ++(found == records.end() ? sum.missing : found->second.is_made ? sum.made : sum.failed);
   }
   return sum;
+}
+
+std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, const Records& records) {
+  std::map<std::string, std::vector<std::string>> by_hash;
+  for (const Job& job : jobs)
+    if (const Record* record = made_record(job, records)) by_hash[record->hash].push_back(job.name);
+  std::vector<std::vector<std::string>> same;
+  for (const auto& [hash, names] : by_hash)
+    if (names.size() > 1) same.push_back(names);
+  std::ranges::sort(same);
+  return same;
 }
 
 Result<void> finish(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop) {

@@ -15,6 +15,9 @@ struct Summary {
 // Returns how many of the jobs are made, how many failed, and how many nobody has done yet.
 Summary summary_of(const std::vector<Job>& jobs, const Records& records);
 
+// Returns the names of the jobs that were made of the same content with the same options, under several names.
+std::vector<std::vector<std::string>> same_scans(const std::vector<Job>& jobs, const Records& records);
+
 // Writes into the folder of the outputs: scans.jsonl, the last record of each job in the order of the jobs; contact
 // sheets of all previews; and index.html, with all of it. Errors: kind output.
 Result<void> finish(const std::vector<Job>& jobs, const Records& records, const Workshop& workshop);

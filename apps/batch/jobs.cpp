@@ -53,8 +53,8 @@ class Names {
 
 // ------------------------------------------------------------------------------------------------- folders
 
-// Returns the paths of the files that can be read, in order. Hidden files and folders are left out.
-Result<std::vector<fs::path>> scans_in(const Catalogue& catalogue) {
+// Returns the paths of the files, in order. Hidden files and folders are left out.
+Result<std::vector<fs::path>> files_in(const Catalogue& catalogue) {
   std::error_code failed;
   std::vector<fs::path> paths;
   const fs::path outputs = fs::weakly_canonical(catalogue.outputs, failed);
@@ -67,9 +67,7 @@ Result<std::vector<fs::path>> scans_in(const Catalogue& catalogue) {
         entry.disable_recursion_pending();
       continue;
     }
-    const bool matches = catalogue.match.empty() ? is_scan_name(name)
-                                                 : ::fnmatch(catalogue.match.c_str(), name.c_str(), 0) == 0;
-    if (!name.starts_with('.') && matches) paths.push_back(entry->path());
+    if (!name.starts_with('.')) paths.push_back(entry->path());
   }
   if (failed) return fail(catalogue.path, {}, cat("expected a folder that can be read: ", failed.message()));
   std::ranges::sort(paths);
@@ -86,7 +84,12 @@ void leave_out_textures(std::vector<fs::path>& paths) {
 }
 
 Result<std::vector<Job>> jobs_of_folder(const Catalogue& catalogue) {
-  RELIEVO_TRY(std::vector<fs::path> paths, scans_in(catalogue));
+  RELIEVO_TRY(std::vector<fs::path> paths, files_in(catalogue));
+  std::erase_if(paths, [&](const fs::path& path) {
+    const std::string name = path.filename().string();
+    return catalogue.match.empty() ? !is_scan_name(name)
+                                   : ::fnmatch(catalogue.match.c_str(), name.c_str(), 0) != 0;
+  });
   if (catalogue.match.empty()) leave_out_textures(paths);
   std::vector<Job> jobs;
   Names names;
@@ -194,6 +197,18 @@ Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
               is_folder ? jobs_of_folder(resolved) : jobs_of_table(resolved, is_option));
   if (jobs.empty()) return fail(catalogue.path, {}, "expected scans, found none");
   return jobs;
+}
+
+std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs) {
+  std::error_code ignored;
+  if (!fs::is_directory(catalogue.path, ignored)) return {};
+  std::set<std::string> taken;
+  for (const Job& job : jobs) taken.insert(job.file);
+  std::vector<std::string> skipped;
+  for (const fs::path& path : files_in(catalogue).value_or(std::vector<fs::path>()))
+    if (!taken.contains(absolute_path(path)))
+      skipped.push_back(path.lexically_relative(catalogue.path).generic_string());
+  return skipped;
 }
 
 bool is_path(const std::string& option, const std::string& value) {

@@ -36,6 +36,9 @@ struct Catalogue {
 Result<std::vector<Job>> list_jobs(const Catalogue& catalogue,
                                    const std::function<bool(const std::string&)>& is_option);
 
+// Returns the files of a folder that are the file of no job, relative to it and in order; nothing for a table.
+std::vector<std::string> skipped_files(const Catalogue& catalogue, const std::vector<Job>& jobs);
+
 // Returns the files that the job reads: its own, those that a scene, a project or a glTF names, and those of options.
 // Files that are not there or cannot be parsed name no others.
 std::vector<std::string> files_of(const Job& job);

@@ -14,6 +14,7 @@
 #include "cli/program.h"
 #include "common/files.h"
 #include "common/owned_folder.h"
+#include "common/read_inputs.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app::cli {
@@ -32,6 +33,7 @@ struct BatchArguments : MakeOptions {
 struct BatchOrder {
   std::vector<batch::Job> jobs;
   batch::Workshop workshop;
+  std::vector<std::string> skipped = {};  // files of the folder
 };
 
 // ------------------------------------------------------------------------------------------------- options
@@ -121,9 +123,10 @@ Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& com
   BatchOrder order;
   RELIEVO_TRY(order.workshop, workshop_of(arguments));
   const auto is_option = [](const std::string& name) { return shared_options().contains(name); };
-  RELIEVO_TRY(order.jobs, batch::list_jobs({arguments.input, arguments.match, order.workshop.outputs,
-                                            given_options(command)},
-                                           is_option));
+  const batch::Catalogue catalogue{arguments.input, arguments.match, order.workshop.outputs,
+                                   given_options(command)};
+  RELIEVO_TRY(order.jobs, batch::list_jobs(catalogue, is_option));
+  order.skipped = batch::skipped_files(catalogue, order.jobs);
   RELIEVO_CHECK(take_folder(arguments.outputs, arguments.is_list));
   return order;
 }
@@ -159,8 +162,17 @@ Result<void> summarise(const std::vector<batch::Job>& jobs, const batch::Worksho
   return {};
 }
 
+void print_facts(const BatchOrder& order, const batch::Records& records) {
+  const auto print = [](const std::string& line) { std::fprintf(stderr, "%s\n", on_one_line(line).c_str()); };
+  if (!order.skipped.empty()) print(cat("not taken for scans: ", joined(order.skipped)));
+  for (const auto& names : batch::same_scans(order.jobs, records))
+    print(cat("the same scan, with the same options: ", joined(names)));
+}
+
 Result<void> finish_run(const BatchOrder& order, bool is_quiet) {
-  RELIEVO_CHECK(batch::finish(order.jobs, batch::read_journals(order.workshop.outputs), order.workshop));
+  const batch::Records records = batch::read_journals(order.workshop.outputs);
+  RELIEVO_CHECK(batch::finish(order.jobs, records, order.workshop));
+  if (!is_quiet) print_facts(order, records);
   return summarise(order.jobs, order.workshop, is_quiet,
                    (fs::path(order.workshop.outputs) / "index.html").string());
 }

@@ -1,7 +1,9 @@
 #include "common/wording.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <numbers>
 
 #include "relievo/core/text.h"
 
@@ -44,8 +46,11 @@ std::string reach_text(const Tool& tool, const ToolReach& reach) {
 }
 
 std::string wrap_text(const ReliefReport::Wrapped& wrap) {
+  constexpr double half_turn_deg = 180;
+  const double half_angle = std::min(wrap.turn_deg, half_turn_deg) / 2 * std::numbers::pi / 180;
   return cat("the ground has a diameter of ", wrap.diameter_mm, " mm, goes around by ", wrap.turn_deg,
-             " degrees and has ", wrap.mm_per_degree, " mm in a degree");
+             " degrees, which leaves it ", wrap.diameter_mm * std::sin(half_angle), " mm wide, and has ",
+             wrap.mm_per_degree, " mm in a degree");
 }
 
 std::string plane_text(const ScanReport::FoundPlane& plane) {

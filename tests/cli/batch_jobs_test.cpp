@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "batch/finish.h"
 #include "batch/memory_need.h"
 #include "batch/table.h"
 #include "relievo/core/text.h"
@@ -73,8 +74,19 @@ TEST_F(BatchJobs, AreTheScansOfAFolder) {
   for (const Job& job : *jobs) names.push_back(job.name);
   // Pictures beside models are textures, and outputs are no scans.
   EXPECT_EQ(names, (Cells{"b/c/x", "b/x", "b/x-2", "depths/d", "torus"}));
+  EXPECT_EQ(skipped_files({folder_.string(), "", (folder_ / "out").string(), {}}, *jobs),
+            (Cells{"b/notes.pdf", "b/texture.png"}));
   EXPECT_EQ(jobs->back().file, (folder_ / "torus.ply").string());
   EXPECT_EQ(jobs->back().options, (Options{{"height", "3"}}));
+}
+
+TEST(BatchPages, NameTheSameScansUnderSeveralNames) {
+  const std::vector<Job> jobs{{"b", {}, {}}, {"a", {}, {}}, {"c", {}, {}}, {"failed", {}, {}}};
+  Records records;
+  for (const Job& job : jobs) records[job.name] = {job.name, job.name + ".ply", true, {}, false, "hash"};
+  records["c"].hash = "other";
+  records["failed"].is_made = false;
+  EXPECT_EQ(same_scans(jobs, records), (std::vector<Cells>{{"b", "a"}}));
 }
 
 TEST_F(BatchJobs, AreTheRowsOfATable) {
