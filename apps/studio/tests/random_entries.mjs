@@ -1,0 +1,265 @@
+// Types, chooses, undoes and exports at random moments and speeds, and compares fields, status line, dialog and file:
+//   node apps/studio/tests/random_entries.mjs SEQUENCES SEED
+// Sequence i of a seed S is the only one of seed S + i.
+import assert from "node:assert/strict";
+import path from "node:path";
+import {fileURLToPath} from "node:url";
+import {areKindsDrawn, enter, eventually, findBrowser, readStl, removeFolder, savedFiles, showScan, temporaryFolder,
+  untilReady, writeSample} from "./support.mjs";
+
+// Returns a function that returns numbers from 0 to 1, the same ones for the same seed.
+export function randomNumbers(seed) {
+  let state = seed >>> 0;
+  return () => {
+    state = (state + 0x6d2b79f5) >>> 0;
+    let x = Math.imul(state ^ (state >>> 15), state | 1);
+    x ^= x + Math.imul(x ^ (x >>> 7), x | 61);
+    return ((x ^ (x >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+const KINDS = ["Plaque", "Coin", "Carving", "Seal", "Lithophane", "Bent"];
+// Numbers that fit each other, so that the engine takes all of them.
+const RANGES = {height: [0.5, 2.5], width: [4, 9], thickness: [1, 5], margin: [0.5, 2], diameter: [24, 60], rim: [0.5, 1.5],
+  "rim-height": [0.3, 2]};
+const REFUSED = {plate: "abc", diameter: "2", rim: "5000", height: "high", shift: "9", thickness: "-1"};
+const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
+// What an entry may change besides its own field.
+const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};
+
+export class RandomEntries {
+  constructor({browser, page, random}) {
+    Object.assign(this, {browser, page, random, done: [], typed: {}});
+  }
+
+  between(low, high) {
+    return low + this.random() * (high - low);
+  }
+
+  oneOf(list) {
+    return list[Math.floor(this.random() * list.length)];
+  }
+
+  field(name) {
+    return this.page.locator(`[data-option="${name}"]`).first();
+  }
+
+  // Does a random number of things, then looks whether all that was typed is there, and was made.
+  async run() {
+    const {page} = this, first = await this.snapshot();
+    for (let n = Math.floor(this.between(3, 8)); n > 0; --n) await this.act();
+    await this.exported();
+    await untilReady(page);
+    const last = await this.snapshot(), steps = await this.pressAll("Undo");
+    await untilReady(page);
+    assert.deepEqual(await this.snapshot(), first, "the first state, after all was undone");
+    await this.pressAll("Redo", steps); // what was undone before is behind that
+    await untilReady(page);
+    assert.deepEqual(await this.snapshot(), last, "the last state, after all was redone");
+    await this.pressAll("Undo");
+  }
+
+  async act() {
+    const acts = [this.type, this.type, this.type, this.refuse, this.choose, this.undo, this.redo, this.look];
+    await this.oneOf(acts).call(this);
+    if (this.random() < 0.6) await this.page.waitForTimeout(this.between(0, 700));
+  }
+
+  valueFor(name) {
+    const number = ([low, high]) => Number(this.between(low, high).toFixed(2));
+    if (name === "plate") return `${number([40, 90])}x${number([40, 90])}`;
+    if (name === "shift") return `${number([-2, 2])},${number([-2, 2])}`;
+    return String(number(RANGES[name]));
+  }
+
+  // Types into a field that is there, and mostly confirms it.
+  async type() {
+    const name = this.oneOf(NUMBERS), text = this.valueFor(name);
+    if (!(await this.enter(name, text))) return;
+    for (const other of BESIDES[name] ?? []) delete this.typed[other];
+    const isMeant = name !== "shift" || this.typed.plate || this.typed.diameter; // no other plate has room to move on
+    if (isMeant) this.typed[name] = text;
+  }
+
+  async refuse() {
+    const name = this.oneOf(Object.keys(REFUSED));
+    await this.enter(name, REFUSED[name]);
+  }
+
+  async enter(name, text) {
+    const field = this.field(name), {keyboard} = this.page;
+    if (!(await field.isVisible()) || !(await field.isEnabled())) return false;
+    const isConfirmed = this.random() < 0.7;
+    this.done.push(`${name} ${text}${isConfirmed ? " Enter" : ""}`);
+    await field.focus();
+    await keyboard.press("Control+a");
+    await keyboard.type(text, {delay: this.oneOf([0, 0, 30])});
+    if (isConfirmed) await keyboard.press("Enter");
+    return true;
+  }
+
+  async choose() {
+    const name = this.oneOf(KINDS);
+    this.done.push(name);
+    await this.page.getByRole("radio", {name, exact: true}).click();
+    this.typed = {};
+  }
+
+  async undo() {
+    await this.press("Undo");
+  }
+
+  async redo() {
+    await this.press("Redo");
+  }
+
+  // A button takes what is typed before, which may enable it, or disable it.
+  async press(name) {
+    const button = this.page.getByRole("button", {name, exact: true});
+    this.done.push(name);
+    await this.page.evaluate(() => document.activeElement.blur());
+    if (await button.isDisabled()) return;
+    await button.click({timeout: 1000}).catch(() => {}); // which has nothing to do any more
+    this.typed = {};
+  }
+
+  // Presses a button until it is disabled, or so many times. Returns how many times that was.
+  async pressAll(name, most = Infinity) {
+    const button = this.page.getByRole("button", {name, exact: true});
+    let steps = 0;
+    for (; steps < most && (await button.isEnabled()); ++steps) await button.click();
+    return steps;
+  }
+
+  async open() {
+    const isByKey = this.random() < 0.5;
+    this.done.push(isByKey ? "Ctrl E" : "Export");
+    await (isByKey ? this.page.keyboard.press("Control+e") : this.page.locator("#export").click());
+    await this.page.locator("#export-size").getByText(/triangles$/).waitFor();
+  }
+
+  // Opens the export, compares what it tells, and gives it up.
+  async look() {
+    await this.open();
+    await this.compare();
+    await this.page.locator("#export-cancel").click();
+  }
+
+  async exported() {
+    await this.open();
+    const told = await this.compare(), {browser, page} = this;
+    const [{bytes}] = await savedFiles(browser, page, 1, () => page.locator("#export-go").click());
+    const {size, isClosed} = readStl(bytes);
+    assert.ok(isClosed);
+    this.near(size, told.size, "the file and the dialog");
+    await page.locator("#export-dialog").waitFor({state: "hidden"});
+  }
+
+  near(found, wanted, text) {
+    assert.ok(found.every((x, i) => Math.abs(x - wanted[i]) < 0.0051), `${text}: ${found} is not ${wanted}`);
+  }
+
+  numbers(text) {
+    const size = text.match(/([\d.]+) × ([\d.]+) × ([\d.]+) mm/).slice(1).map(Number);
+    return {size, height: Number(text.match(/(?:height|relief) ([\d.]+)/)[1])};
+  }
+
+  // Compares what the dialog, the status line and the fields tell. Returns what the dialog tells.
+  async compare() {
+    const dialog = this.numbers(await this.page.locator("#export-size").innerText());
+    const status = this.numbers(await this.page.locator("#numbers").innerText());
+    assert.deepEqual(status, dialog, "the status line and the dialog");
+    const fields = await this.snapshot();
+    for (const [name, text] of Object.entries(this.typed).filter(([name]) => fields[name] !== undefined))
+      this.sameText(fields[name], text, name);
+    const isReached = (await this.field("height").getAttribute("aria-invalid")) !== "true";
+    if (isReached) this.near([dialog.height], [Number(fields.height)], "height and its field");
+    if (["Seal", "Bent"].includes(fields.kind)) return dialog;
+    const [x, y, z] = dialog.size, plate = fields.plate?.split("x").map(Number);
+    if (fields.diameter) this.near([x, y], [fields.diameter, fields.diameter].map(Number), "diameter and its field");
+    if (plate?.length === 2) this.near([x, y], plate, "plate and its field");
+    if (!fields.rim) this.near([z], [Number(fields.thickness) + dialog.height], "thickness and its field");
+    return dialog;
+  }
+
+  sameText(found, wanted, name) {
+    const numbers = (text) => text.split(/[x,]/).map(Number);
+    this.near(numbers(found), numbers(wanted), `what was typed as ${name}`);
+  }
+
+  // Returns the texts of the fields that count, and the kind.
+  snapshot() {
+    return this.page.evaluate((names) => {
+      const seen = {kind: document.querySelector('#kinds [aria-checked="true"]').textContent};
+      for (const name of names) {
+        const input = document.querySelector(`[data-option="${name}"]`), isThere = input.checkVisibility();
+        if (isThere && !input.disabled) seen[name] = input.value;
+      }
+      return seen;
+    }, NUMBERS);
+  }
+}
+
+// Shows a small scan whose pieces are made quickly. Returns what is needed for runSequence(), and close().
+export async function showSmallScan(found) {
+  const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
+  writeSample("green_man", 3000, scan);
+  const browser = await found.launch(), {engine, page} = await showScan(browser, {state, scan, timeout: 120000});
+  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await page.waitForFunction(areKindsDrawn);
+  await enter(page.locator("#resolution"), "0.5");
+  for (const [name, text] of [["height", "1.5"], ["width", "30"]]) await enter(page.locator(`[data-option="${name}"]`), text);
+  await untilReady(page);
+  // What comes before is no part of a sequence: the page goes on with it when it is opened anew.
+  const kept = async () => (await engine.json("document", {input: {path: scan}})).kept;
+  const begun = await eventually(async () => {
+    const {steps, at} = await kept();
+    assert.equal(steps[at].options.width, 30);
+    return steps[at];
+  });
+  engine.document = new URL(page.url()).hash.slice(1);
+  await engine.post("state", {state: {version: 1, changed: Date.now() + 1, at: 0, steps: [begun]}, tab: "test"});
+  await page.getByRole("button", {name: "Undo"}).and(page.locator(":disabled")).waitFor();
+  await untilReady(page);
+  const close = async () => {
+    await browser.close();
+    await engine.stop();
+    removeFolder(folder);
+  };
+  return {browser: found, page, close};
+}
+
+export async function runSequence({browser, page}, seed) {
+  const entries = new RandomEntries({browser, page, random: randomNumbers(seed)});
+  try {
+    await entries.run();
+  } catch (error) {
+    error.message = `seed ${seed}: ${entries.done.join("; ")}\n${error.message}`;
+    throw error;
+  }
+}
+
+async function main(sequences, seed) {
+  const found = await findBrowser();
+  if (found.skip) return;
+  let failed = 0, shown = await showSmallScan(found);
+  for (let i = 0; i < sequences; ++i) {
+    try {
+      await runSequence(shown, seed + i);
+    } catch (error) {
+      ++failed;
+      console.log(`FAILED ${error.message}`);
+      await shown.close();
+      shown = await showSmallScan(found);
+    }
+    if ((i + 1) % 25 === 0) console.log(`${i + 1} sequences, ${failed} failed`);
+  }
+  await shown.close();
+  console.log(`${sequences} sequences from seed ${seed}: ${failed} failed`);
+  process.exitCode = failed > 0 ? 1 : 0;
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) {
+  const [sequences = 500, seed = 1] = process.argv.slice(2).map(Number);
+  await main(sequences, seed);
+}
