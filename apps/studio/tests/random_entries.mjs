@@ -22,7 +22,7 @@ const KINDS = ["Plaque", "Coin", "Carving", "Seal", "Lithophane", "Bent"];
 // Numbers that fit each other, so that the engine takes all of them.
 const RANGES = {height: [0.5, 2.5], width: [4, 9], thickness: [1, 5], margin: [0.5, 2], diameter: [24, 60], rim: [0.5, 1.5],
   "rim-height": [0.3, 2]};
-const REFUSED = {plate: "abc", diameter: "2", rim: "5000", height: "high", shift: "9", thickness: "-1"};
+const REFUSED = {plate: "abc", diameter: "2", rim: "-1", height: "high", shift: "9", thickness: "-1"};
 const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
 // What an entry may change besides its own field.
 const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};

@@ -1,0 +1,216 @@
+// What is typed and chosen is taken in order, and files and projects wait for it, in Chromium or Firefox.
+import assert from "node:assert/strict";
+import path from "node:path";
+import {after, before, test} from "node:test";
+import {enter, eventually, findBrowser, readStl, removeFolder, savedFiles, showScan, temporaryFolder, type,
+  untilReady, writeSample} from "./support.mjs";
+import {runSequence, showSmallScan} from "./random_entries.mjs";
+
+const found = await findBrowser(), {skip} = found;
+const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
+let browser, engine, page, tried; // `tried` holds the requests of entries that are being tried, until they are let go
+
+before(async () => {
+  if (skip) return;
+  writeSample("green_man", 4000, scan);
+  browser = await found.launch();
+  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan}));
+  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await enter(option("resolution"), "0.4");
+  await untilReady(page);
+});
+
+after(async () => {
+  await browser?.close();
+  await engine?.stop();
+  removeFolder(folder);
+});
+
+const option = (name) => page.locator(`[data-option="${name}"]`).first();
+const value = (name) => option(name).inputValue();
+const kind = (name) => page.getByRole("radio", {name, exact: true});
+const undo = () => page.getByRole("button", {name: "Undo", exact: true}).click();
+const dialog = () => page.getByRole("dialog", {name: "Export"});
+const told = () => page.locator("#export-size").getByText(/triangles$/);
+const waits = (text) => page.locator("#trying").getByText(text).waitFor();
+
+// Entries wait until release().
+async function hold() {
+  tried = [];
+  await page.route("**/api/profile", (route) => (tried ? tried.push(route) : route.continue()));
+}
+
+async function release() {
+  const held = tried;
+  tried = null;
+  for (const route of held) await route.continue();
+}
+
+async function free() {
+  if (tried) await release();
+  await page.unroute("**/api/profile");
+  const button = page.getByRole("button", {name: "Undo", exact: true});
+  while ((await value("resolution")) !== "" && (await button.isEnabled())) await button.click();
+  await enter(option("resolution"), "0.4");
+  await untilReady(page);
+}
+
+// Returns the files of an export whose dialog is open.
+async function files(count = 1) {
+  await told().waitFor();
+  const saved = await savedFiles(found, page, count, () => dialog().getByRole("button", {name: "Export"}).click());
+  await dialog().waitFor({state: "hidden"});
+  return saved;
+}
+
+const sizeOf = (bytes) => readStl(bytes).size.map((mm) => mm.toFixed(2));
+
+test("exports a size that was typed just before", {skip}, async () => {
+  await kind("Coin").click();
+  await untilReady(page);
+  await hold();
+  await enter(option("diameter"), "25");
+  await page.keyboard.press("Control+e");
+  await dialog().getByText("Waiting for what was entered").waitFor();
+  assert.ok(await dialog().getByRole("button", {name: "Export"}).isDisabled());
+  await waits("Trying Diameter …");
+  await release();
+  const [file] = await files();
+  assert.deepEqual([file.name, ...sizeOf(file.bytes).slice(0, 2)], ["scan-coin.stl", "25.00", "25.00"]);
+  assert.equal(await value("diameter"), "25");
+  await free();
+});
+
+for (const [how, press] of Object.entries({
+  "its button": () => page.locator("#export").click(), "its keys": () => page.keyboard.press("Control+e")}))
+  test(`exports by ${how} what Enter has not confirmed`, {skip}, async () => {
+    await kind("Coin").click();
+    await untilReady(page);
+    await type(option("diameter"), "31");
+    await press();
+    const [{bytes}] = await files();
+    assert.deepEqual(sizeOf(bytes).slice(0, 2), ["31.00", "31.00"]);
+    await type(option("height"), "1.25"); // a slider's number
+    await press();
+    await told().waitFor();
+    assert.match(await page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
+    await page.keyboard.press("Escape");
+    await free();
+  });
+
+test("exports what arrow keys have stepped to", {skip}, async () => {
+  await enter(option("rim"), "3");
+  await untilReady(page);
+  await option("rim").press("ArrowUp");
+  await page.keyboard.press("Control+e");
+  await files();
+  assert.equal(await value("rim"), "3.1");
+  await undo();
+  assert.equal(await value("rim"), "3");
+  await free();
+});
+
+test("saves a project of what was typed just before", {skip}, async () => {
+  await kind("Coin").click();
+  await untilReady(page);
+  await hold();
+  await enter(option("diameter"), "27");
+  await type(option("thickness"), "2.75");
+  await page.keyboard.press("Control+s");
+  const save = page.getByRole("dialog", {name: "Save project"});
+  await save.getByText("Settings alone").click();
+  await save.getByRole("button", {name: "Save", exact: true}).click();
+  const [{bytes}] = await savedFiles(found, page, 1, release);
+  const {options} = JSON.parse(bytes);
+  assert.deepEqual([options.diameter, options.thickness], [27, 2.75]);
+  await free();
+});
+
+test("takes sizes in the order in which they were typed, each as one step", {skip}, async () => {
+  const longer = await value("width");
+  await hold();
+  await enter(option("plate"), "200x150");
+  await enter(option("width"), "90");
+  await enter(option("plate"), "abc");
+  await enter(option("rim"), "2");
+  await waits("Trying Plate size, Longer side, Rim width …");
+  assert.deepEqual([await value("plate"), await value("width"), await value("rim")], ["abc", "90.0", "2"]);
+  await release();
+  await page.getByText(/^Plate size: expected/).waitFor(); // the next one is taken all the same
+  await eventually(async () =>
+    assert.deepEqual([await value("plate"), await value("width"), await value("rim")], ["200x150", "90.0", "2"]));
+  await undo();
+  assert.equal(await value("rim"), "");
+  await undo();
+  await untilReady(page);
+  assert.ok(Number(await value("width")) > 120, "as large as fits");
+  await undo();
+  assert.deepEqual([await value("plate"), await value("width")], ["", longer]);
+  await free();
+});
+
+test("takes a kind, and what is typed for it, after the entries before", {skip}, async () => {
+  await hold();
+  await enter(option("plate"), "140x110");
+  await kind("Coin").click();
+  await waits("Trying Plate size, Coin …");
+  assert.equal(await value("plate"), "140x110");
+  await release();
+  await page.getByText("The size of the plate stays with Plaque, and comes back with it.").waitFor();
+  assert.ok(await kind("Coin").isChecked());
+  await kind("Plaque").click();
+  assert.equal(await value("plate"), "140x110");
+  await kind("Lithophane").click(); // whose plate begins with that size
+  assert.equal(await value("plate"), "140x110");
+  await free();
+});
+
+test("takes back the newest entry that is waiting, and redoes nothing over it", {skip}, async () => {
+  const rim = await value("rim");
+  await enter(option("height"), "4");
+  await undo();
+  await hold();
+  await enter(option("plate"), "150x120");
+  await enter(option("rim"), "1");
+  assert.ok(await page.getByRole("button", {name: "Redo"}).isDisabled());
+  await page.keyboard.press("Control+Shift+Z");
+  await undo();
+  assert.equal(await value("rim"), rim);
+  await release();
+  await page.getByText(/piece 150\.00 × 120\.00/).waitFor();
+  assert.deepEqual([await value("rim"), await value("height")], [rim, "5.00"]);
+  await free();
+});
+
+test("gives what was typed to the scan that it was typed for, when another one is opened", {skip}, async () => {
+  const other = path.join(folder, "other.ply");
+  writeSample("shell", 3000, other);
+  await hold();
+  await enter(option("plate"), "170x130");
+  await page.locator("#file").setInputFiles(other);
+  await waits("Trying Plate size …");
+  await eventually(() => assert.ok(tried.length > 0));
+  await release();
+  await page.getByText("other.ply", {exact: true}).waitFor();
+  await untilReady(page);
+  assert.equal(await value("plate"), "");
+  await page.locator("#file").setInputFiles(scan);
+  await page.locator("#title").getByText("scan.ply", {exact: true}).waitFor();
+  await untilReady(page);
+  const kept = (await engine.json("document", {input: {path: scan}})).kept;
+  assert.equal(kept.steps[kept.at].options.plate, "170x130");
+});
+
+test("waits with an export for a view that is being prepared", {skip}, async () => {
+  await page.goto(`${engine.address}#`);
+  await untilReady(page);
+  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await enter(option("resolution"), "0.4");
+  await type(option("crop"), "0,0,0.5,1");
+  await page.keyboard.press("Control+e");
+  const [{bytes}] = await files();
+  assert.ok(readStl(bytes).isClosed);
+  assert.equal(await value("crop"), "0,0,0.5,1");
+  await undo();
+  await untilReady(page);
+});
