@@ -30,7 +30,8 @@ export class ExportDialog {
       make("span", {}, label, make("small", {}, use)), make("span", {class: "muted", id: `size-${name}`}))));
     this.dialog.oninput = () => this.show();
     $("#pixels").onchange = () => this.choosePixels();
-    this.dialog.onclose = () => this.isBusy && this.engine.cancelPiece().catch(() => {});
+    // It may be open again when it is told that it was closed.
+    this.dialog.onclose = () => this.isBusy && !this.dialog.open && this.engine.cancelPiece().catch(() => {});
     $("#export-cancel").onclick = () => this.dialog.close();
     $("#export-go").onclick = (event) => {
       event.preventDefault();

@@ -42,7 +42,24 @@ export function takeDrops(veil, open) {
 let unfinished = null;
 export const isUnfinished = (field) => field === unfinished;
 
-export const finish = () => (unfinished = null);
+export function finish() {
+  unfinished = null;
+  if (postponed) setTimeout(doPostponed); // when the field's own functions have run
+}
+
+let postponed = null;
+function doPostponed() {
+  if (unfinished || !postponed) return;
+  const act = postponed;
+  postponed = null;
+  act();
+}
+
+// Calls a function when nothing is being typed, in place of one that waits for that: a field that is moved loses the keys.
+export function whenFinished(act) {
+  postponed = act;
+  doPostponed();
+}
 
 // Takes what is typed as Enter does.
 export const confirmTyping = () => unfinished?.dispatchEvent(new Event("change", {bubbles: true}));

@@ -2,6 +2,7 @@
 // one, and the button that makes the piece its die. The controls of the other options stay in the panels below.
 
 import {$} from "./controls.js";
+import {whenFinished} from "./inputs.js";
 import {KINDS, RIM, dieOf, kindOf} from "./kinds.js";
 import {sizeText} from "./lengths.js";
 
@@ -29,7 +30,7 @@ export class KindPanel {
     this.shown = key;
     const {label, panel, note = ""} = KINDS[kind], isDie = form === "die" && kind !== "die", lower = label.toLowerCase();
     const names = [...new Set([...panel, ...(isDie ? ["draft"] : []), ...(hasRim ? RIM : [])])];
-    this.place(names.map((name) => this.elements[name]));
+    whenFinished(() => this.place(names.map((name) => this.elements[name])));
     $("#kind-title").textContent = isDie ? `Die of the ${lower}` : label;
     $("#kind-note").textContent = isDie ? dieNote(now, KINDS[kind]) : note;
     $("#make-die").textContent = isDie ? `Back to the ${lower}` : `Make the die of this ${lower}`;

@@ -22,7 +22,7 @@ const KINDS = ["Plaque", "Coin", "Carving", "Seal", "Lithophane", "Bent"];
 // Numbers that fit each other, so that the engine takes all of them.
 const RANGES = {height: [0.5, 2.5], width: [4, 9], thickness: [1, 5], margin: [0.5, 2], diameter: [24, 60], rim: [0.5, 1.5],
   "rim-height": [0.3, 2]};
-const REFUSED = {plate: "abc", diameter: "2", rim: "-1", height: "high", shift: "9", thickness: "-1"};
+const REFUSED = {plate: "abc", diameter: "0", rim: "-1", height: "high", shift: "9", thickness: "-1"};
 const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
 // What an entry may change besides its own field.
 const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};
@@ -203,11 +203,12 @@ export class RandomEntries {
 // Shows a small scan whose pieces are made quickly. Returns what is needed for runSequence(), and close().
 export async function showSmallScan(found) {
   const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
-  writeSample("green_man", 3000, scan);
-  const browser = await found.launch(), {engine, page} = await showScan(browser, {state, scan, timeout: 120000});
+  writeSample("green_man", 2000, scan);
+  const browser = await found.launch(), screen = {width: 900, height: 600}; // so that pictures are drawn quickly, too
+  const {engine, page} = await showScan(browser, {state, scan, screen, timeout: 120000});
   await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
   await page.waitForFunction(areKindsDrawn);
-  await enter(page.locator("#resolution"), "0.5");
+  await enter(page.locator("#resolution"), "1");
   for (const [name, text] of [["height", "1.5"], ["width", "30"]]) await enter(page.locator(`[data-option="${name}"]`), text);
   await untilReady(page);
   // What comes before is no part of a sequence: the page goes on with it when it is opened anew.
