@@ -44,7 +44,7 @@ Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progr
   const PointsWanted wanted{view};
   RELIEVO_TRY(const SceneInput input, read_scene(arguments.paths, in, wanted, progress));
   const View chosen = chosen_view(input.scene, view);
-  RELIEVO_TRY(ViewSample sample, sample_for_view(input.scene, chosen, wanted.points, progress));
+  RELIEVO_TRY(ViewSample sample, sample_for_view(input.scene, chosen, {}, progress));
   return SampledView{std::move(sample), chosen};
 }
 

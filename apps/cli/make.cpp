@@ -78,10 +78,11 @@ Result<MakeOrder> order_of(MakeArguments arguments, const CLI::App& command) {
 
 Result<SceneInput> load(const MakeOrder& order, Progress& progress) {
   if (!order.project)
-    return read_scene(order.arguments.inputs, order.in, {order.relief.view, order.relief.points}, &progress);
+    return read_scene(order.arguments.inputs, order.in,
+                      {order.relief.view, order.relief.points.value_or(PointsWanted{}.points)}, &progress);
   RELIEVO_CHECK(progress.stage("read", 0));
   RELIEVO_TRY(Scene scene, load_project_scan(*order.project));
-  return SceneInput{std::move(scene), {}};
+  return with_remarks(std::move(scene));
 }
 
 Result<std::vector<OutputFile>> finished_files(const MakeOrder& order, const Scene& scene,

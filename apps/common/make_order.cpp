@@ -39,7 +39,7 @@ Result<LoadedOrder> load_order(const MakeOrder& order, const std::optional<Store
   RELIEVO_CHECK(progress.stage("read", 0));
   RELIEVO_TRY(Scene scene, load_project_scan(*stored, [&] { return progress.is_cancelled(); }));
   options.view = chosen_view(scene, options.view);
-  return LoadedOrder{{std::move(scene), {}}, std::move(options), std::move(project)};
+  return LoadedOrder{with_remarks(std::move(scene)), std::move(options), std::move(project)};
 }
 
 InputFacts facts_of(const MakeOrder& order, std::vector<std::string> paths, const LoadedOrder& loaded) {

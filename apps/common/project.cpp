@@ -237,8 +237,8 @@ Result<std::string> hash_of_file(const std::string& path) {
 
 namespace {
 
-Scene scene_of(const std::string& name, CloudFile file) {
-  return {{{name, std::make_shared<const CloudFile>(std::move(file))}}};
+Scene scene_of(const std::string& name, LoadedFile read) {
+  return {{{name, std::make_shared<const CloudFile>(std::move(read.file)), {}, std::move(read.remarks)}}};
 }
 
 }  // namespace
@@ -255,9 +255,9 @@ Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, con
     if (!read) return std::unexpected(read.error());
     return std::move(read->scene);
   }
-  Result<LoadedFile> read = parse_input(bytes, path, {}, NumericOptions{}.points, nullptr);
+  Result<LoadedFile> read = parse_input(bytes, path, {}, PointsWanted{}.points, nullptr);
   if (!read) return std::unexpected(read.error());
-  return scene_of(input.name, std::move(read->file));
+  return scene_of(input.name, std::move(*read));
 }
 
 Result<Scene> load_input(ScanSource& input, const std::string& folder,
@@ -265,7 +265,7 @@ Result<Scene> load_input(ScanSource& input, const std::string& folder,
   if (!input.sample.empty()) {
     Result<Cloud> sample = make_sample(input.sample);
     if (!sample) return std::unexpected(sample.error());
-    return scene_of(input.sample, {std::move(*sample), "sample"});
+    return scene_of(input.sample, {{std::move(*sample), "sample"}, {}});
   }
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = read_file(path);

@@ -209,15 +209,22 @@ Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::stri
   return LoadedFile{std::move(*file), std::move(remarks)};
 }
 
+SceneInput with_remarks(Scene scene) {
+  SceneInput made{std::move(scene), {}};
+  for (const SceneModel& model : made.scene.models)
+    made.remarks.insert(made.remarks.end(), model.remarks.begin(), model.remarks.end());
+  return made;
+}
+
 Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
                               const PointsWanted& wanted, Progress* progress) {
   const Result<std::vector<SceneEntry>> entries = entries_of(paths);
   if (!entries) return std::unexpected(entries.error());
-  SceneInput made;
+  Scene made;
   std::map<std::string, std::shared_ptr<const CloudFile>> known;  // the same for every pose
   for (const SceneEntry& entry : *entries) {
     if (known.contains(entry.path)) {
-      made.scene.models.push_back({entry.path, known[entry.path], entry.pose});
+      made.models.push_back({entry.path, known[entry.path], entry.pose});
       continue;
     }
     Result<LoadedFile> read =
@@ -225,10 +232,9 @@ Result<SceneInput> read_scene(const std::vector<std::string>& paths, const Input
     if (!read) return std::unexpected(read.error());
     const auto file = std::make_shared<const CloudFile>(std::move(read->file));
     if (!large_size(entry.path, arguments)) known[entry.path] = file;
-    made.scene.models.push_back({entry.path, file, entry.pose});
-    made.remarks.insert(made.remarks.end(), read->remarks.begin(), read->remarks.end());
+    made.models.push_back({entry.path, file, entry.pose, read->remarks});
   }
-  return made;
+  return with_remarks(std::move(made));
 }
 
 Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base) {

@@ -29,7 +29,7 @@ struct LoadedFile {
 // The view and the number of points to take from a file that holds more than is needed.
 struct PointsWanted {
   View view;  // of the scene
-  double points = NumericOptions{}.points;
+  double points = MeshSampling{}.points;
 };
 
 // Reads the bytes of a cloud or mesh as read_cloud() does, with the files beside `path` that they name; or those of a
@@ -50,6 +50,9 @@ struct SceneInput {
   Scene scene;
   std::vector<std::string> remarks;
 };
+
+// Returns the scene with the remarks of its models.
+SceneInput with_remarks(Scene scene);
 
 // Returns whether the path is that of a scene file, which ends in .json.
 bool is_scene_file(const std::string& path);

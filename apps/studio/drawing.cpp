@@ -22,7 +22,7 @@ std::vector<std::size_t> histogram_of(const std::vector<float>& k) {
   return counts;
 }
 
-ModelFacts facts_of(const Surface& surface, std::size_t outliers) {
+ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<std::string> remarks) {
   const Box box = Box::of(surface.points);
   ModelFacts facts{.scan = ScanReport::of(surface),
                    .points = surface.points.size(),
@@ -34,7 +34,8 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers) {
                    .rotation = surface.view.R_view_model,
                    .remarks = {},
                    .histogram = histogram_of(surface.curvature.k)};
-  for (const std::string& line : remarks_on(facts.scan, outliers)) facts.remarks.push_back(as_sentence(line));
+  for (std::string& line : remarks_on(facts.scan, outliers)) remarks.push_back(std::move(line));
+  for (std::string& line : remarks) facts.remarks.push_back(as_sentence(std::move(line)));
   return facts;
 }
 
@@ -89,11 +90,11 @@ Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const Relie
   return sized;
 }
 
-Drawing::Drawing(TurnedRelief shown, std::size_t outliers)
+Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)
     : model_(std::move(shown.model)),
       detail_(std::move(shown.detail)),
       spacing_ratio_(shown.spacing_ratio),
-      facts_(facts_of(model_->surface(), outliers)),
+      facts_(facts_of(model_->surface(), outliers, std::move(remarks))),
       renderer_(model_),
       frames_(*model_, detail_ != nullptr),
       piece_(model_) {}

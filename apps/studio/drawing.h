@@ -106,7 +106,7 @@ class Drawing {
  public:
   // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `outliers` is the
   // number of those that were left out of the scan.
-  Drawing(TurnedRelief shown, std::size_t outliers);
+  Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }
 

@@ -112,7 +112,7 @@ struct Engine::State {
 
   // In the session's thread: returns the points that the view shows, of a scan that is read first if need be. A view that
   // is still to be chosen becomes that of the best side.
-  Preparation::Points points(View& view, double number, Progress& progress) {
+  Preparation::Points points(View& view, std::optional<double> number, Progress& progress) {
     if (auto done = read(progress); !done) return std::unexpected(done.error());
     const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
     if (auto go = progress.stage("view", 0); !go) return std::unexpected(go.error());
@@ -167,7 +167,8 @@ struct Engine::State {
         const Lock lock(drawing_mutex);
         RELIEVO_CHECK(check_cancelled(request.progress.get()));
         if (relief && model == drawn_model) {
-          turned.emplace(*std::move(relief), shared.with([](const Shared& s) { return s.scan.left_out(); }));
+          const LoadedScan scan = shared.with([](const Shared& s) { return s.scan; });
+          turned.emplace(*std::move(relief), scan.left_out(), scan.remarks());
           turned_view = request.turned;
         }
         if (turned && turned_view == request.turned) return turned->picture(request);
@@ -184,7 +185,8 @@ struct Engine::State {
     const ShownModel shown = shared.with([](const Shared& s) { return s.shown; });
     if (!shown.model) return nullptr;
     if (drawn_model != shown.number) {
-      drawing.emplace(TurnedRelief{shown.model, nullptr, 1}, shown.scan.left_out());
+      drawing.emplace(TurnedRelief{shown.model, nullptr, 1}, shown.scan.left_out(),
+                      shown.scan.remarks());
       turned_view.reset();
       turned.reset();
     }

@@ -19,7 +19,7 @@ namespace relievo::app::studio {
 // The options by which a scan is prepared; all others change without that.
 struct PreparationTexts : ViewTexts {
   std::string mode = "auto";
-  double points = NumericOptions{}.points;
+  std::optional<double> points = {};
 
   bool operator==(const PreparationTexts&) const = default;
 };

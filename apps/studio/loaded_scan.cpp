@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "relievo/scan/mesh.h"
 #include "relievo/scan/scan_file.h"
@@ -75,7 +76,19 @@ Result<std::shared_ptr<const Cloud>> LoadedScan::all_sides() const {
   return std::make_shared<const Cloud>(scatter(mesh, scattered));
 }
 
-Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, double points,
+std::vector<std::string> LoadedScan::remarks() const {
+  std::vector<std::string> lines;
+  for (const SceneModel& model : scene_.models)
+    for (const std::string& line : model.remarks) {
+      const std::string& path = is_one_file() ? input_.path : model.name;
+      const std::string name = is_one_file() ? "" : std::filesystem::path(path).filename().string() + ": ";
+      const bool has_path = line.starts_with(path + ": ");
+      lines.push_back(has_path ? name + line.substr(path.size() + 2) : line);
+    }
+  return lines;
+}
+
+Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, std::optional<double> points,
                                                            Progress* progress) const {
   if (is_one_file() && scene_.models[0].file->mesh.empty()) return cloud_;
   RELIEVO_TRY(const ViewSample sample, sample_for_view(scene_, view, points, progress));

@@ -30,9 +30,13 @@ class LoadedScan {
   // Returns the number of outliers: points of clouds that lie far outside.
   std::size_t left_out() const { return left_out_; }
 
+  // Returns what the readers of its files left out, in a line each, which begins with the file's name in a scene.
+  std::vector<std::string> remarks() const;
+
   // Returns the points that the relief of that view is made of, about `points` of them where they are taken from meshes
   // or scenes. Errors: those of sample_for_view().
-  Result<std::shared_ptr<const Cloud>> seen_from(const View& view, double points, Progress* progress) const;
+  Result<std::shared_ptr<const Cloud>> seen_from(const View& view, std::optional<double> points,
+                                                 Progress* progress) const;
 
  private:
   bool is_one_file() const;

@@ -169,7 +169,7 @@ PreparationTexts preparation_texts(const Json& json) {
            json.value("crumbs", none.crumbs), json.value("plane", none.plane),
            json.value("denoise", none.denoise)},
           json.value("mode", none.mode),
-          number(json, "points", {1000, 1e7, none.points}).value_or(none.points)};
+          json.value("points", Json()).is_null() ? std::nullopt : number(json, "points", {1000, 1e7, 0})};
 }
 
 Result<ExportOrder> export_order_from(const Json& json) {
@@ -181,7 +181,7 @@ Result<ExportOrder> export_order_from(const Json& json) {
 
 static Json to_json(const PreparationTexts& texts) {
   return {{"view", texts.view},   {"up", texts.up},           {"crop", texts.crop}, {"crumbs", texts.crumbs},
-          {"plane", texts.plane}, {"denoise", texts.denoise}, {"mode", texts.mode}, {"points", texts.points}};
+          {"plane", texts.plane}, {"denoise", texts.denoise}, {"mode", texts.mode}, {"points", texts.points ? Json(*texts.points) : Json()}};
 }
 
 Json to_json(const EngineStatus& status) {

@@ -34,7 +34,7 @@ struct NumericOptions {
   std::optional<double> rim_mm;          // width of a raised edge along the outline; none
   std::optional<double> rim_height_mm;   // above the ground; the relief's height, as far as the bevel fits
   std::optional<double> rim_bevel_mm;    // width of its slanting inner side; 0.3 of its height
-  double points = 3e5;                   // visible points to take from what is no cloud
+  std::optional<double> points;          // visible points to take from what is no cloud; see usual_points()
   std::optional<double> resolution_mm;   // finest step of the solid's samples; width / 700 or rho if less
   std::optional<double> tolerance_mm;    // largest error of a mesh made simpler; without it all points stay
   std::optional<double> triangles;       // most triangles of the solid; any number

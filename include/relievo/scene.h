@@ -35,6 +35,7 @@ struct SceneModel {
   std::string name;                       // in errors and notes
   std::shared_ptr<const CloudFile> file;  // not null
   Pose pose = {};
+  std::vector<std::string> remarks = {};  // what its reader left out of the file, and why, in a line each
 };
 
 // At least one model. A scene in which none has a `translate` is arranged, in the view in which it is seen.
@@ -72,7 +73,11 @@ View on_side(View view, const ViewGuess& side);
 // Returns the view, turned to the best side if that is still to be chosen (View::is_best).
 View chosen_view(const Scene& scene, const View& view);
 
-// Returns the points of all models as they stand, in the scene's frame.
+// Returns how many visible points to take where nobody says: 300,000, but fewer of meshes alone that have few triangles
+// and so no finer detail: 15 for each triangle, and at least 100,000, so that outlines stay smooth.
+double usual_points(const Scene& scene);
+
+// Returns the points of all models as they stand, in the scene's frame; without a number of points, usual_points().
 // - Meshes are drawn together and give about as many points as wanted; hidden parts are left out. Clouds come
 //   whole, without outliers.
 // - All models get about one sampling distance: that of the finest cloud, or the one at which as many points as
@@ -83,7 +88,7 @@ View chosen_view(const Scene& scene, const View& view);
 // - A single model that is not moved gives what its file has.
 // Errors: those of place_models() and sample_mesh(); kind geometry for fewer than 4 points or equal ones, naming
 // the model; kind cancelled.
-Result<ViewSample> sample_for_view(const Scene& scene, const View& view, double points,
+Result<ViewSample> sample_for_view(const Scene& scene, const View& view, std::optional<double> points,
                                    Progress* progress = nullptr);
 
 // Returns the plate with the relief of the scene, as make_relief() does for a file.

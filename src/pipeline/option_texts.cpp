@@ -240,7 +240,7 @@ std::vector<ReliefField> body_rows() {
       ReliefField{{"points", "N",
                    "visible points to take from a mesh, a scene, a depth image or a cloud too large for "
                    "memory",
-                   1000, 1e7},
+                   1000, 1e7, "300000; 15 for each triangle of meshes that have few, at least 100000"},
                   &OptionTexts::points},
       ReliefField{{.name = "form",
                    .unit = "FORM",

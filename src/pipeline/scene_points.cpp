@@ -214,7 +214,19 @@ Result<ViewSample> sample_file(const std::shared_ptr<const CloudFile>& file, con
 
 }  // namespace
 
-Result<ViewSample> sample_for_view(const Scene& scene, const View& view, double points, Progress* progress) {
+double usual_points(const Scene& scene) {
+  constexpr double for_each_triangle = 15, fewest = 1e5, most = MeshSampling{}.points;
+  double triangles = 0;
+  for (const SceneModel& model : scene.models) {
+    if (model.file->mesh.empty()) return most;
+    triangles += static_cast<double>(model.file->mesh.triangles.size());
+  }
+  return std::clamp(for_each_triangle * triangles, fewest, most);
+}
+
+Result<ViewSample> sample_for_view(const Scene& scene, const View& view, std::optional<double> wanted,
+                                   Progress* progress) {
+  const double points = wanted.value_or(usual_points(scene));
   RELIEVO_TRY(const std::vector<PlacedModel> places, place_models(scene, view));
   if (scene.models.size() == 1 && scene.models[0].pose == Pose{})
     return sample_file(scene.models[0].file, view, points, progress);

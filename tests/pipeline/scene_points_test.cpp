@@ -54,6 +54,38 @@ TEST(SeenScene, OfOneModelUnplacedIsThatModel) {
   }
 }
 
+// Returns a level square of 2 x side x side triangles.
+Mesh sheet(std::size_t side) {
+  Mesh mesh;
+  const auto at = [&](std::size_t x, std::size_t y) { return static_cast<Index>(y * (side + 1) + x); };
+  for (std::size_t y = 0; y <= side; ++y)
+    for (std::size_t x = 0; x <= side; ++x)
+      mesh.points.emplace_back(static_cast<double>(x), static_cast<double>(y), 0);
+  for (std::size_t y = 0; y < side; ++y)
+    for (std::size_t x = 0; x < side; ++x) {
+      mesh.triangles.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
+      mesh.triangles.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
+    }
+  return mesh;
+}
+
+TEST(SeenScene, TakesFewerPointsOfMeshesOfFewTriangles) {
+  const View front;
+  for (const auto& [side, usual] : {std::pair{1, 1e5}, {80, 15.0 * 2 * 80 * 80}, {110, 3e5}}) {
+    const Scene scene{{model_of(sheet(static_cast<std::size_t>(side)))}};
+    EXPECT_EQ(usual_points(scene), usual) << side;
+    const auto sample = sample_for_view(scene, front, {});
+    ASSERT_TRUE(sample) << sample.error().message();
+    EXPECT_NEAR(static_cast<double>(sample->cloud->size()), usual, .02 * usual) << side;
+    const auto asked = sample_for_view(scene, front, 2e4);
+    ASSERT_TRUE(asked) << asked.error().message();
+    EXPECT_NEAR(static_cast<double>(asked->cloud->size()), 2e4, .05 * 2e4) << side;
+  }
+  const SceneModel mesh = model_of(sheet(1)), cloud = model_of(test::sphere(1000, 1));
+  EXPECT_EQ(usual_points(Scene{{mesh, mesh}}), 1e5);
+  EXPECT_EQ(usual_points(Scene{{mesh, cloud}}), 3e5);
+}
+
 // The file as it is in the scene.
 CloudFile baked(const CloudFile& file, const PlacedModel& place, bool is_mirrored) {
   CloudFile made = file;

@@ -22,7 +22,7 @@ const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automa
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
 const PREPARING = ["up", "points", "mode"];
 const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
-const PLACEHOLDERS = {up: "automatic", diameter: "as needed", plate: "as needed", shift: "0,0",
+const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
 // What rows of shapes are for; the help of their options tells how their texts are written.
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",

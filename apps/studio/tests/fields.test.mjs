@@ -208,7 +208,7 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await set("Height in mm", "5.0");
   await untilGone();
   await enter(page.locator("#crop"), "abc");
-  await refused("expected shares X0,Y0,X1,Y1");
+  await refused("Crop: expected left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8, found 'abc'");
   await untilReady(page);
   assert.ok(await toast.isVisible());
   await enter(option("Margin in mm"), "6");

@@ -328,11 +328,11 @@ test("changes the method's own rim with it, and no other", {skip}, async () => {
   const rim = page.getByRole("slider", {name: "Soft outline"});
   const method = page.getByRole("combobox", {name: "Method"});
   const first = await picture();
-  assert.equal(await rim.getAttribute("aria-valuetext"), "0.3 sampling distances");
+  assert.equal(await rim.getAttribute("aria-valuetext"), "0.3 points of the scan");
   await method.selectOption("All forms alike");
   await becomesOther(first);
   await untilHeight(3, 0.01);
-  assert.equal(await rim.getAttribute("aria-valuetext"), "2.0 sampling distances");
+  assert.equal(await rim.getAttribute("aria-valuetext"), "2.0 points of the scan");
   await rim.press("ArrowRight");
   const touched = await rim.getAttribute("aria-valuetext");
   await method.selectOption("Fine forms first");
