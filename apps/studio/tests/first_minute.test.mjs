@@ -4,8 +4,9 @@ import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, enter, eventually, findBrowser, ignoreTimers, removeFolder, showScan, temporaryFolder,
-  untilListening, untilReady, untilTimersRan, writeSample} from "./support.mjs";
+import {deflateSync} from "node:zlib";
+import {EngineProcess, areKindsDrawn, enter, eventually, findBrowser, ignoreTimers, removeFolder, showScan,
+  temporaryFolder, untilListening, untilReady, untilTimersRan, writeSample} from "./support.mjs";
 
 const found = await findBrowser(), {skip} = found;
 
@@ -27,6 +28,7 @@ after(async () => {
 
 const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
 const button = (name) => page.getByRole("button", {name, exact: true});
+const offered = (name) => page.getByRole("group", {name: "Found on the scan"}).getByRole("button", {name}); // by the picture
 const text = (name) => page.getByRole("spinbutton", {name, exact: true}).inputValue();
 const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
 const openPanel = (name) => page.locator("summary", {hasText: name}).evaluate((summary) =>
@@ -135,6 +137,43 @@ test("offers the tour no longer to whoever begins to work", {skip}, async () => 
   await offered.waitFor({state: "hidden"});
   await other.getByRole("button", {name: "Undo"}).click();
   await other.close();
+});
+
+// The page is told of the exact relief only when it has asked for its facts.
+test("shows the kinds of work before the exact relief is there", {skip}, async () => {
+  const other = await page.context().newPage();
+  let letGo;
+  const held = new Promise((resolve) => (letGo = resolve));
+  await other.route("**/api/facts", async (route) => {
+    await held;
+    await route.continue();
+  });
+  const large = path.join(folder, "large.ply");
+  writeSample("still_life", 150000, large);
+  await other.goto(engine.address.replace(/#.*/, ""));
+  await other.waitForFunction(() => document.querySelector("#undo").onclick !== null); // it listens
+  await other.locator("#file").setInputFiles(large);
+  await other.getByText("large.ply", {exact: true}).waitFor();
+  assert.equal(await other.locator("#kinds svg:visible, #kinds [data-drawn]").count(), 6, "none is blank");
+  await other.waitForFunction(() => [...document.querySelectorAll("#kinds canvas")].every((canvas) =>
+    canvas.getContext("2d").getImageData(canvas.width / 2, canvas.height / 2, 1, 1).data[3] > 0));
+  letGo();
+  await other.waitForFunction(areKindsDrawn);
+  await other.close();
+});
+
+test("shows what the view and the six sides look like", {skip}, async () => {
+  const shown = (canvases) => canvases.evaluateAll((all) => all.map((canvas) => {
+    const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return data.filter((value, i) => i % 4 === 3 && value > 0).length;
+  }));
+  await eventually(async () => assert.ok((await shown(page.locator("#view-picture")))[0] > 300));
+  await button("Choose view").click();
+  await eventually(async () => {
+    const all = await shown(page.locator("#sides canvas"));
+    assert.ok(all.length === 6 && all.every((count) => count > 100), String(all));
+  });
+  await page.keyboard.press("Escape");
 });
 
 test("shows this scan as each kind of work", {skip}, async () => {
@@ -525,14 +564,66 @@ test("leaves out a small piece, and keeps it or not at the press of a button", {
   await openPanel("Scan");
   await page.locator("#notes").getByText(/^Left out 1 small piece/).waitFor();
   await untilWide(0.97, 1.03);
-  await button("Keep them").click();
+  await offered("Keep them").click();
   await page.locator("#notes").getByText("Small pieces are kept.").waitFor();
   await untilWide(1.15, 1.25); // from -1 to 1.465 radii, of a margin of a tenth
   assert.ok(await crumbs.isChecked());
-  await button("Leave them out").click();
+  await offered("Leave them out").click();
   await page.locator("#notes").getByText(/^Left out 1 small piece/).waitFor();
   await untilWide(0.97, 1.03);
   assert.ok(!await crumbs.isChecked());
+});
+
+// Returns the checksum of a part of a PNG.
+function crc32(bytes) {
+  let sum = ~0;
+  for (const byte of bytes) {
+    sum ^= byte;
+    for (let bit = 0; bit < 8; ++bit) sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
+  }
+  return ~sum >>> 0;
+}
+
+// Writes a picture of 120 x 90 pixels with `bytes` for each, as a PNG of that depth of bits and type of colours.
+function writePng(file, bits, colours, bytes) {
+  const chunk = (name, data) => {
+    const body = Buffer.concat([Buffer.from(name), data]), frame = Buffer.alloc(8);
+    frame.writeUInt32BE(data.length);
+    frame.writeUInt32BE(crc32(body), 4);
+    return Buffer.concat([frame.subarray(0, 4), body, frame.subarray(4)]);
+  };
+  const head = Buffer.alloc(13), [width, height] = [120, 90], rows = [];
+  head.writeUInt32BE(width);
+  head.writeUInt32BE(height, 4);
+  head.set([bits, colours], 8);
+  for (let y = 0; y < height; ++y) {
+    rows.push(0);
+    for (let x = 0; x < width; ++x) rows.push(...bytes(x, y));
+  }
+  writeFileSync(file, Buffer.concat([Buffer.from("\x89PNG\r\n\x1a\n", "latin1"), chunk("IHDR", head),
+    chunk("IDAT", deflateSync(Buffer.from(rows))), chunk("IEND", Buffer.alloc(0))]));
+}
+
+test("tells what is taken out of a depth image as background, and advises nothing that the page lacks", {skip}, async () => {
+  const depth = path.join(folder, "depth.png"), colours = path.join(folder, "colours.png");
+  writePng(depth, 16, 0, (x, y) => { // a ball before a wall
+    const off = Math.hypot(x - 60, y - 45), value = off < 30 ? 900 - Math.round(3 * Math.sqrt(900 - off * off)) : 4000;
+    return [value >> 8, value & 255];
+  });
+  writePng(colours, 8, 2, (x, y) => [x, y, x + y]);
+  await page.locator("#file").setInputFiles(depth);
+  await page.getByText("depth.png", {exact: true}).waitFor();
+  await untilReady(page);
+  const found = page.locator("#offers li", {hasText: /background/});
+  assert.match(await found.innerText(), /^120 x 90 depths, .*\d+ points of background taken out/);
+  await page.getByRole("button", {name: "Hide what was found"}).click();
+  await found.waitFor({state: "hidden"});
+  await page.locator("#file").setInputFiles(colours);
+  const said = page.getByRole("alert").getByText(/colours\.png/);
+  await said.waitFor();
+  assert.match(await said.innerText(), /Save it as a picture in greys/);
+  assert.doesNotMatch(await said.innerText(), /option|depth-values/);
+  await untilReady(page);
 });
 
 test("finds a table, and leaves it out at the press of a button", {skip}, async () => {
@@ -546,16 +637,16 @@ test("finds a table, and leaves it out at the press of a button", {skip}, async 
   await openPanel("Scan");
   const note = await page.locator("#notes li", {hasText: /^Found a table, \d+ % of the visible points\./}).innerText();
   const share = Number(note.match(/\d+/)[0]) / 100;
-  await button("Leave it out").click();
-  await page.getByText(/^Left out a table/).waitFor();
+  await offered("Leave it out").click();
+  await page.locator("#notes").getByText(/^Left out a table/).waitFor();
   await eventually(async () => {
     const left = (await points()) / before;
     assert.ok(Math.abs(left - (1 - share)) < 0.06, `${left} left of a table of ${share}`);
   });
   await untilReady(page);
   assert.ok(!await page.locator("#plane").isChecked());
-  await button("Keep it").click();
-  await page.getByText(/^Found a table/).waitFor();
+  await offered("Keep it").click();
+  await page.locator("#notes").getByText(/^Found a table/).waitFor();
   await eventually(async () => assert.equal(await points(), before));
   assert.equal(await page.locator("#notes").getByText(/fills its whole frame/).count(), 0);
 });

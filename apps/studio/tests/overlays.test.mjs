@@ -70,7 +70,9 @@ test("keeps the labels of measures apart", {skip}, async () => {
     const labels = () => page.locator("#overlay rect.ground").evaluateAll((all) =>
       all.map((rect) => rect.getBoundingClientRect().toJSON()));
     await eventually(async () => assert.equal((await labels()).length, 5));
-    const stage = await page.locator("#stage").boundingBox();
+    const stage = await page.locator("#stage").boundingBox(), figure = await page.locator("#overlay .bounds").boundingBox();
+    if (screen === SCREENS[0]) // elsewhere there is no room beside the plate: corners have the labels then
+      for (const label of await labels()) assert.ok(!overlap(label, figure), `${JSON.stringify(label)} on the figure`);
     for (const {x, y, width, height} of (await labels()).slice(0, 2)) {
       const [left, top] = [Math.max(stage.x + 5, x + width / 2 - 20), y + height / 2 + 8];
       await page.mouse.move(left, top);
@@ -87,6 +89,47 @@ test("keeps the labels of measures apart", {skip}, async () => {
     await page.reload();
     await untilReady(page);
   }
+});
+
+// Returns {length, mm} of the bar in the picture's corner.
+const scaleBar = () => page.evaluate(() => {
+  const {width} = document.querySelector("#overlay path.scale").getBoundingClientRect();
+  const [, number, unit] = document.querySelector("#overlay text.scale").textContent.match(/^([\d.]+) (mm|in)$/);
+  return {length: width, mm: number * (unit === "in" ? 25.4 : 1)};
+});
+
+test("tells the scale by a bar of a round length, and by rulers that begin at the piece's corner", {skip}, async () => {
+  await page.setViewportSize(SCREENS[0]);
+  await page.getByRole("radio", {name: "Measure"}).click();
+  await untilReady(page);
+  const pixels = await page.locator("#overlay line.dimension").evaluateAll((lines) =>
+    Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
+  const mm = parseFloat((await page.locator("#numbers").innerText()).match(/piece ([\d.]+)/)[1]), scale = pixels / mm;
+  const numbers = await page.locator('#overlay text.scale[text-anchor="middle"]').evaluateAll((all) =>
+    all.map((text) => ({at: Number(text.getAttribute("x")), mm: Number(text.textContent)})));
+  assert.ok(numbers.length > 4);
+  const zero = numbers.find((number) => number.mm === 0).at, left = await page.locator("#overlay line.dimension")
+    .evaluateAll((lines) => Math.min(...lines.map((line) => line.getAttribute("x1"))));
+  assert.ok(Math.abs(zero - left) < 6, `0 at ${zero}, the piece at ${left}`);
+  for (const {at, mm} of numbers) assert.ok(Math.abs(at - zero - mm * scale) < 0.5, `${mm} at ${at}`);
+  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await eventually(async () => assert.equal(await page.locator("#overlay path.scale").count(), 1));
+  for (const unit of ["mm", "in"]) {
+    await page.getByLabel("Unit of lengths").selectOption(unit);
+    const bar = await eventually(scaleBar);
+    assert.ok(Math.abs(bar.length - bar.mm * scale) < 3, JSON.stringify(bar));
+  }
+  await page.getByLabel("Unit of lengths").selectOption("mm");
+  const before = await scaleBar();
+  await page.locator("#stage").focus();
+  for (let step = 0; step < 8; ++step) await page.keyboard.press("+"); // 4.3 times as large
+  await untilReady(page);
+  await eventually(async () => {
+    const bar = await scaleBar();
+    assert.ok(bar.mm < before.mm && Math.abs(bar.length - bar.mm * scale * 1.2 ** 8) < 5, JSON.stringify(bar));
+  });
+  await page.getByRole("button", {name: "Fit"}).click();
+  await untilReady(page);
 });
 
 // The engine refuses pictures of more than eight million pixels.

@@ -157,6 +157,30 @@ test("scrolls the panel by a swipe that begins on a slider, which only a sideway
     await touched.close();
   });
 
+test("puts names, numbers and sliders in one order, curves within their box, and no dot before the first number", {skip},
+  async () => {
+    await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+    const [name, value, slider] = await Promise.all([page.getByText("Denoise", {exact: true}),
+      page.locator("#denoise-value"), page.locator("#denoise")].map((it) => it.boundingBox()));
+    assert.ok(name.x + name.width < value.x && slider.y >= name.y + name.height - 3 && slider.width > 200);
+    await page.getByLabel("Tone curve preset").selectOption("Even"); // along the upper end
+    const box = await page.locator("#curve svg").boundingBox();
+    for (const part of ["path.drawn", "circle"])
+      for (const it of await page.locator(`#curve ${part}`).all()) {
+        const {x, y, width, height} = await it.boundingBox();
+        assert.ok(x > box.x && y > box.y && x + width < box.x + box.width && y + height < box.y + box.height, part);
+      }
+    await page.getByRole("button", {name: "Undo"}).click();
+    for (const screen of [DESK, {width: 820, height: 1180}, PHONE]) {
+      await page.setViewportSize(screen);
+      await untilReady(page);
+      const before = await page.locator("#numbers span").evaluateAll((all) =>
+        getComputedStyle(all.find((it) => it.checkVisibility()), "::before").content);
+      assert.equal(before, "none", `${screen.width}`);
+    }
+    await page.setViewportSize(DESK);
+  });
+
 // Runs in the page: the controls that a line for people lies on.
 function covered() {
   const toast = document.querySelector("#toast").getBoundingClientRect();
