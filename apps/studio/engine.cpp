@@ -185,8 +185,7 @@ struct Engine::State {
     const ShownModel shown = shared.with([](const Shared& s) { return s.shown; });
     if (!shown.model) return nullptr;
     if (drawn_model != shown.number) {
-      drawing.emplace(TurnedRelief{shown.model, nullptr, 1}, shown.scan.left_out(),
-                      shown.scan.remarks());
+      drawing.emplace(TurnedRelief{shown.model, nullptr, 1}, shown.scan.left_out(), shown.scan.remarks());
       turned_view.reset();
       turned.reset();
     }

@@ -30,7 +30,8 @@ class LoadedScan {
   // Returns the number of outliers: points of clouds that lie far outside.
   std::size_t left_out() const { return left_out_; }
 
-  // Returns what the readers of its files left out, in a line each, which begins with the file's name in a scene.
+  // Returns what there is to be said of its files, in a line each: what their readers left out, after the file's name in
+  // a scene, and that points are taken from meshes.
   std::vector<std::string> remarks() const;
 
   // Returns the points that the relief of that view is made of, about `points` of them where they are taken from meshes

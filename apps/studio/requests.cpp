@@ -180,8 +180,10 @@ Result<ExportOrder> export_order_from(const Json& json) {
 }
 
 static Json to_json(const PreparationTexts& texts) {
-  return {{"view", texts.view},   {"up", texts.up},           {"crop", texts.crop}, {"crumbs", texts.crumbs},
-          {"plane", texts.plane}, {"denoise", texts.denoise}, {"mode", texts.mode}, {"points", texts.points ? Json(*texts.points) : Json()}};
+  return {{"view", texts.view},   {"up", texts.up},
+          {"crop", texts.crop},   {"crumbs", texts.crumbs},
+          {"plane", texts.plane}, {"denoise", texts.denoise},
+          {"mode", texts.mode},   {"points", texts.points ? Json(*texts.points) : Json()}};
 }
 
 Json to_json(const EngineStatus& status) {

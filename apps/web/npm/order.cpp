@@ -96,7 +96,8 @@ Result<LoadedOrder> load(const FileOrder& order, Progress& progress) {
   if (order.inputs.empty()) return option_error("inputs", "expected at least one file");
   RELIEVO_TRY(const std::optional<StoredProject> stored, find_project(order.inputs, order.scan_path));
   const auto read = [&](const ReliefOptions& options) {
-    return read_scene(order.inputs, order.in, {options.view, options.points.value_or(PointsWanted{}.points)}, &progress);
+    return read_scene(order.inputs, order.in, {options.view, options.points.value_or(PointsWanted{}.points)},
+                      &progress);
   };
   return load_order(order, stored, read, progress);
 }
