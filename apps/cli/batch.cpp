@@ -99,11 +99,14 @@ Result<void> take_folder(const std::string& path, bool is_read_only) {
   constexpr std::string_view owner = "batch";
   switch (is_read_only ? ownership_of(path, owner) : own_folder(path, owner)) {
     case Ownership::owned:
-    case Ownership::free: return {};
+    case Ownership::free:
+      return {};
     case Ownership::of_others:
-      return option_error("output", cat("expected an empty folder, or one of relievo batch, found other files in '",
-                                        path, "'"));
-    case Ownership::unusable: break;
+      return option_error(
+          "output",
+          cat("expected an empty folder, or one of relievo batch, found other files in '", path, "'"));
+    case Ownership::unusable:
+      break;
   }
   return system_error(ErrorKind::output, path, "expected a folder that can be written to");
 }

@@ -9,7 +9,7 @@
 #include "cli/commands.h"
 #include "relievo/core/text.h"
 #include "studio/actions.h"
-#include "studio/disk_store.h"
+#include "studio/disk/disk_store.h"
 #include "studio/server.h"
 
 namespace relievo::app::cli {

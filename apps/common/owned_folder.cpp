@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view mark_name = ".relievo_folder";
 
 std::string mark_of(std::string_view owner) {
-  return cat("relievo ", owner, " made this folder or found it empty, and may remove what it has put here.\n");
+  return cat("relievo ", owner,
+             " made this folder or found it empty, and may remove what it has put here.\n");
 }
 
 fs::path mark_in(const std::string& folder) {
@@ -29,7 +30,8 @@ fs::path mark_in(const std::string& folder) {
 bool has_mark(const std::string& folder, std::string_view owner) {
   std::error_code ignored;
   const fs::path mark = mark_in(folder);
-  return fs::is_regular_file(fs::symlink_status(mark, ignored)) && text_of_file(mark.string()) == mark_of(owner);
+  return fs::is_regular_file(fs::symlink_status(mark, ignored)) &&
+         text_of_file(mark.string()) == mark_of(owner);
 }
 
 // Returns whether the folder has nothing but a mark that another process is about to write.

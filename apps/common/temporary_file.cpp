@@ -95,7 +95,8 @@ std::string folder_for(const std::string& path) {
 
 // Returns the names of temporary files for that path, without their numbers. They are no longer than a file system takes.
 std::string stem_for(const std::string& path) {
-  constexpr std::size_t most = NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // digits of numbers
+  constexpr std::size_t most =
+      NAME_MAX - std::string_view(".relievo--").size() - 2 * 10;  // digits of numbers
   const std::filesystem::path whole = path;
   return (whole.parent_path() / (whole.filename().string().substr(0, most) + ".relievo-")).string();
 }
@@ -157,7 +158,8 @@ bool name_in_place(const Descriptor& file, const std::string& own, const std::st
   mark_unfinished(file);
   errno = EEXIST;
   for (TemporaryName name; errno == EEXIST && name.renew(stem);) {
-    const FileChange change;  // no memory is allocated meanwhile: where there is none, the process ends in order
+    const FileChange
+        change;  // no memory is allocated meanwhile: where there is none, the process ends in order
     if (!link_to(own, name.text)) continue;
     if (::rename(name.text, path.c_str()) == 0) return true;
     const int reason = errno;

@@ -168,7 +168,8 @@ Json Actions::recent_list() {
   const auto opened = opened_.with([](const auto& all) { return all; });
   for (const OpenDocuments::Entry& entry : documents_.all()) {
     const auto found = opened.find(entry.document);
-    if (found == opened.end() || entry.engine->status().error || !store_.document(entry.document).empty()) continue;
+    if (found == opened.end() || entry.engine->status().error || !store_.document(entry.document).empty())
+      continue;
     list.push_back({{"document", entry.document},
                     {"input", to_json(found->second.input)},
                     {"is_there", true},

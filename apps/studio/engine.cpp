@@ -72,7 +72,8 @@ struct Engine::State {
   explicit State(const std::function<void()>& report_change) : changed(report_change), maker(report_change) {}
 
   std::function<void()> changed;
-  Guarded<Shared> shared;  // locked within the session's lock, which `ready` runs under, and never around a call of it
+  // Locked within the session's lock, which `ready` runs under, and never around a call of the session.
+  Guarded<Shared> shared;
 
   Guarded<std::shared_ptr<Progress>> at_rest;  // of fine pictures and pieces; null after any other picture
 
@@ -83,7 +84,6 @@ struct Engine::State {
   std::uint64_t drawn_model = 0;
   std::optional<View> turned_view;  // of the drawing below
   std::optional<Drawing> turned;    // of the model while it is turned
-
   Mutex scan_mutex;  // guards what follows up to the session
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
@@ -171,8 +171,8 @@ struct Engine::State {
           turned.emplace(*std::move(relief), scan.left_out(), scan.remarks());
           turned_view = request.turned;
         }
-        if (turned && turned_view == request.turned) return turned->picture(request);
         model = drawn_model;
+        if (turned && turned_view == request.turned) return turned->picture(request);
       }
       RELIEVO_TRY(relief, session.turn(*request.turned));
     }

@@ -31,7 +31,8 @@ bool OpenDocuments::is_open(const std::string& document) {
 
 bool OpenDocuments::close(const std::string& document, const std::string& tab) {
   const Lock lock(mutex_);
-  if (const auto shown = tabs_.find(tab); shown != tabs_.end() && shown->second == document) tabs_.erase(shown);
+  if (const auto shown = tabs_.find(tab); shown != tabs_.end() && shown->second == document)
+    tabs_.erase(shown);
   if (is_shown(document)) return false;
   const auto found = std::ranges::find(entries_, document, &Entry::document);
   if (found != entries_.end()) close(found);

@@ -23,7 +23,8 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t most_json = 4U << 20;
 constexpr int most_waiting = 32, most_pages = 8;
-constexpr int most_files = 24;  // that arrive at the same time: a quarter of the threads, so that all else is answered
+constexpr int most_files =
+    24;  // that arrive at the same time: a quarter of the threads, so that all else is answered
 
 // Raises a counter by one for as long as it lives.
 class ScopedCount {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "studio/actions.h"
-#include "studio/disk_store.h"
+#include "studio/disk/disk_store.h"
 
 namespace relievo::app::studio {
 

@@ -12,7 +12,7 @@
 #include "fuzz/fuzz_program.h"
 #include "relievo/core/text.h"
 #include "studio/actions.h"
-#include "studio/disk_store.h"
+#include "studio/disk/disk_store.h"
 #include "studio/server.h"
 
 namespace {
@@ -23,7 +23,7 @@ using namespace relievo::app::studio;
 // A studio that answers for as long as the program lives.
 struct Studio {
   std::string folder = std::filesystem::temp_directory_path() / "relievo-fuzz-XXXXXX";
-  DiskStore store{::mkdtemp(folder.data())};
+  DiskStore store{*take_state_folder(::mkdtemp(folder.data()))};
   OpenDocuments documents;
   Actions actions{documents, store};
   Server server{actions, store, {0, "", std::chrono::hours(1000)}};

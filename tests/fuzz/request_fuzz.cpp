@@ -14,7 +14,7 @@
 #include "relievo/io/write.h"
 #include "relievo/samples/sample.h"
 #include "studio/actions.h"
-#include "studio/disk_store.h"
+#include "studio/disk/disk_store.h"
 #include "studio/requests.h"
 
 namespace {
@@ -30,7 +30,7 @@ constexpr const char* action_names[] = {"frame", "scan",    "profile", "export",
 // A studio that has opened a sample.
 struct Studio {
   std::string folder = std::filesystem::temp_directory_path() / "relievo-fuzz-XXXXXX";
-  DiskStore store{::mkdtemp(folder.data())};
+  DiskStore store{*take_state_folder(::mkdtemp(folder.data()))};
   OpenDocuments documents;
   Actions actions{documents, store};
   std::string document;

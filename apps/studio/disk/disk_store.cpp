@@ -1,4 +1,4 @@
-#include "studio/disk_store.h"
+#include "studio/disk/disk_store.h"
 
 #include <sys/stat.h>
 
@@ -27,12 +27,12 @@ constexpr unsigned private_file = 0600;
 // Returns why something cannot be kept, by the value of errno.
 std::unexpected<Error> not_kept(int reason) {
   const bool is_full = reason == ENOSPC || reason == EDQUOT || reason == EFBIG;
-  return std::unexpected(Error{ErrorKind::output,
-                               {},
-                               {},
-                               is_full ? "expected room to write the file, but the disk is full"
-                                       : cat("expected a folder of the studio that can be written to: ",
-                                             std::strerror(reason))});
+  return std::unexpected(Error{
+      ErrorKind::output,
+      {},
+      {},
+      is_full ? "expected room to write the file, but the disk is full"
+              : cat("expected a folder of the studio that can be written to: ", std::strerror(reason))});
 }
 
 // A dropped scan in a temporary file.
@@ -78,7 +78,8 @@ std::vector<fs::directory_entry> entries_of(const fs::path& folder) {
 
 std::uint64_t bytes_in(const fs::path& folder) {
   std::uint64_t bytes = 0;
-  for (const fs::directory_entry& entry : entries_of(folder)) bytes += app::file_size(entry.path()).value_or(0);
+  for (const fs::directory_entry& entry : entries_of(folder))
+    bytes += app::file_size(entry.path()).value_or(0);
   return bytes;
 }
 
@@ -171,7 +172,8 @@ std::vector<KeptDocument> DiskStore::recent() const {
 
 KeptAmount DiskStore::amount() const {
   KeptAmount all{newest_documents().size(), bytes_in(fs::path(folder_) / documents)};
-  for (const fs::directory_entry& scan : entries_of(fs::path(folder_) / scans)) all.bytes += bytes_in(scan.path());
+  for (const fs::directory_entry& scan : entries_of(fs::path(folder_) / scans))
+    all.bytes += bytes_in(scan.path());
   return all;
 }
 
@@ -196,7 +198,8 @@ StudioAddress DiskStore::address() const {
 
 // Who knows the address may use the studio: nobody else can read the file.
 void DiskStore::keep_address(const StudioAddress& address) const {
-  (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(), Durability::machine);
+  (void)write("address.json", Json{{"port", address.port}, {"token", address.token}}.dump(),
+              Durability::machine);
 }
 
 std::unique_ptr<DroppedScan> DiskStore::begin_scan(const std::string& name) const {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "studio/state_folder.h"
+#include "studio/disk/state_folder.h"
 #include "studio/store.h"
 
 namespace relievo::app::studio {

@@ -1,4 +1,4 @@
-#include "studio/state_folder.h"
+#include "studio/disk/state_folder.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -48,7 +48,8 @@ bool is_each(const fs::path& folder, bool (*is_wanted)(const fs::path&)) {
 bool is_kept_document(const fs::path& path) {
   const std::string ending = path.extension().string(), stem = path.stem().string();
   const bool is_unfinished = ending.starts_with(".relievo-") && is_document(stem.substr(0, stem.find('.')));
-  return is_file(path) && ((is_document(stem) && (ending == ".json" || ending == ".picture")) || is_unfinished);
+  return is_file(path) &&
+         ((is_document(stem) && (ending == ".json" || ending == ".picture")) || is_unfinished);
 }
 
 bool is_kept_scan(const fs::path& path) {
@@ -114,8 +115,9 @@ Result<StateFolder> take_state_folder(const std::string& chosen) {
     folder.is_ours = found == Ownership::owned;
     if (found == Ownership::of_others && i == 1) {
       if (!chosen.empty())
-        return option_error("state", cat("expected an empty folder, or one of relievo studio, found other files in '",
-                                         chosen, "'"));
+        return option_error(
+            "state",
+            cat("expected an empty folder, or one of relievo studio, found other files in '", chosen, "'"));
       reason = "Files of others are in ";
     }
     if (found == Ownership::of_others) continue;

@@ -9,9 +9,9 @@ namespace relievo::app::studio {
 
 struct StateFolder {
   std::string path;
-  std::string notice;   // what the user should know of it; usually empty
+  std::string notice;    // what the user should know of it; usually empty
   bool is_ours = false;  // else nothing in it may be read, written or removed
-  Descriptor lock{-1};  // no other studio has it while this is open
+  Descriptor lock{-1};   // no other studio has it while this is open
 };
 
 // Returns $XDG_STATE_HOME/relievo, or ~/.local/state/relievo, or without a home a folder for temporary files.
