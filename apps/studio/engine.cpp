@@ -84,7 +84,7 @@ struct Engine::State {
   std::uint64_t drawn_model = 0;
   std::optional<View> turned_view;  // of the drawing below
   std::optional<Drawing> turned;    // of the model while it is turned
-  Mutex scan_mutex;  // guards what follows up to the session
+  Mutex scan_mutex;                 // guards what follows up to the session
   std::shared_ptr<const Cloud> drawn_cloud;
   std::optional<CloudRenderer> cloud_renderer;
 

@@ -325,7 +325,9 @@ test("keeps every document with its scan until it is removed, and says how much 
   assert.deepEqual(inputs.map((input) => !existsSync(input.path)), inputs.map(isGone));
   assert.equal((await other.json("kept")).documents, count - 2);
   await other.post("open", {input: inputs[3], tab: "b"});
-  assert.equal(await remove(ids[3]), 409);
+  const shown = await other.post("remove", {document: ids[3], tab: "a"});
+  assert.equal(shown.status, 409);
+  assert.match(String(shown.body), /expected a document that no other tab shows/);
   await other.post("leave", {tab: "b"});
   assert.equal(await remove(ids[3]), 200);
   assert.equal((await other.json("recent")).recent.some(({document}) => document === ids[3]), false);

@@ -232,6 +232,8 @@ test("says when nothing can be kept, and works all the same", async () => {
   assert.match(other.errors, /cannot be written to/);
   await other.open({path: scan});
   assert.equal((await other.post("frame", FRAME)).status, 200);
-  assert.equal((await other.post("state", {state: {}})).status, 500);
+  const {status, body} = await other.post("state", {state: {}});
+  assert.equal(status, 500);
+  assert.match(String(body), /expected a folder of the studio that can be written to: Not a directory/);
   await other.stop();
 });
