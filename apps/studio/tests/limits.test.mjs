@@ -94,7 +94,8 @@ test("opens files only, and none that does not fit into memory", async () => {
 });
 
 test("says what is there in place of a scan", async () => {
-  const pipe = path.join(folder, "pipe.ply"), gone = path.join(folder, "gone.ply");
+  const pipe = path.join(folder, "in_place.ply"), gone = path.join(folder, "gone.ply");
+  assert.equal(spawnSync("mkfifo", [pipe]).status, 0);
   for (const [file, found] of [["/dev/zero", "a device"], [pipe, "a pipe"], [folder, "a folder"]]) {
     const text = `${file}: expected a file, found ${found}`, input = {path: file, name: "x"};
     assert.equal((await engine.json("document", {input})).error?.text, text);
