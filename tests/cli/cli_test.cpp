@@ -155,26 +155,13 @@ TEST_F(Cli, IsTheSameForAnyNumberOfThreads) {
   EXPECT_EQ(read_all(folder_ / "a.stl"), read_all(folder_ / "b.stl"));
 }
 
-TEST_F(Cli, Writes3mfAndTiff) {
-  EXPECT_EQ(
-      run("make torus.ply -o t.3mf --heightmap h.tif --tolerance 0.05 --report r.json --quiet").exit_code, 0);
-  EXPECT_EQ(read_all(folder_ / "t.3mf").substr(0, 4), "PK\3\4");
-  EXPECT_EQ(read_all(folder_ / "h.tif").substr(0, 2), "II");
-  EXPECT_NE(read_all(folder_ / "r.json").find("\"simplification_error_mm\": 0.0"), std::string::npos);
-}
-
-TEST_F(Cli, MakesEveryForm) {
-  for (const std::string form : {"mirror", "die", "lithophane"})
-    EXPECT_EQ(run("make torus.ply --quiet --height 2 --form " + form + " -o " + form + ".stl").exit_code, 0)
-        << form;
-  EXPECT_NE(read_all(folder_ / "mirror.stl"), read_all(folder_ / "die.stl"));
-  expect_refusal("make torus.ply -o t.stl --form coin", "--form");
-}
-
 TEST_F(Cli, ReadsMeshesAndDepthImages) {
   write_all(folder_ / "t.stl", ascii_stl());
   EXPECT_NE(run("info t.stl").out.find("triangles"), std::string::npos);
   EXPECT_EQ(run("make t.stl -o m.stl --points 2000 --view 1,1,3 --quiet").exit_code, 0);
+  const ReadSolid mesh = solid_in_stl(read_all(folder_ / "m.stl"));
+  EXPECT_TRUE(mesh.is_closed());
+  EXPECT_NEAR(mesh.box().size().head<2>().maxCoeff(), 100 + 2 * 5, 1e-2);
   Image16 dome{90, 60, 1, {}};
   for (int i = 0; i < 90 * 60; ++i) {
     const int x = i % 90 - 45, y = i / 90 - 30;
@@ -186,6 +173,10 @@ TEST_F(Cli, ReadsMeshesAndDepthImages) {
   EXPECT_NE(run("info d.png").out.find("90 x 60"), std::string::npos);
   EXPECT_EQ(run("make d.png -o a.stl --depth-values height --quiet").exit_code, 0);
   EXPECT_EQ(run("make d.png -o b.stl --camera camera.txt --quiet").exit_code, 0);
+  for (const char* file : {"a.stl", "b.stl"}) {
+    EXPECT_TRUE(solid_in_stl(read_all(folder_ / file)).is_closed()) << file;
+    EXPECT_NEAR(stl_size(read_all(folder_ / file)).x(), 100 + 2 * 5, .2) << file;
+  }
   expect_refusal("make d.png -o c.stl --camera 1,2", "--camera");
   expect_refusal("make d.png -o c.stl --depth-values far", "--depth-values");
   expect_refusal("make d.png -o c.stl --background cut", "--background");

@@ -13,6 +13,7 @@
 #include "relievo/samples/sample.h"
 #include "studio/drawing.h"
 #include "support/read_solid.h"
+#include "support/second_renderer.h"
 
 namespace relievo {
 namespace {
@@ -108,6 +109,51 @@ BaseOptions take_base(nlohmann::json& piece) {
   return base;
 }
 
+// Pearson's correlation.
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto n = static_cast<double>(a.size());
+  double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
+  for (std::size_t i = 0; i < a.size(); ++i)
+    sa += a[i], sb += b[i], saa += a[i] * a[i], sbb += b[i] * b[i], sab += a[i] * b[i];
+  return (n * sab - sa * sb) / std::sqrt((n * saa - sa * sa) * (n * sbb - sb * sb));
+}
+
+// Returns the correlation of the picture's green with the cosines where the piece is, and expects that it is drawn there
+// and nowhere else, but for pixels of its outline.
+double agreement(const Image8& picture, const Image<double>& cosines) {
+  std::vector<double> drawn, expected;
+  int beside = 0;
+  for (std::size_t i = 0; i < cosines.pixels.size(); ++i) {
+    const bool is_there = !std::isnan(cosines.pixels[i]), is_drawn = picture.pixels[4 * i + 3] > 250;
+    beside += is_there != is_drawn;
+    if (!is_there || !is_drawn) continue;
+    drawn.push_back(picture.pixels[4 * i + 1]);
+    expected.push_back(cosines.pixels[i]);
+  }
+  EXPECT_GT(drawn.size(), cosines.pixels.size() / 10);
+  EXPECT_LT(beside, .01 * static_cast<double>(drawn.size()));
+  return correlation(drawn, expected);
+}
+
+// Expects that without shadows the piece is as bright as the angle between surface and lamp says, by another renderer,
+// which shares no code with the library's.
+void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& drawing,
+                      app::studio::PictureRequest request) {
+  const Camera& camera = request.render.camera;
+  request.render.has_shadows = request.render.is_fine = false;
+  for (const Vec3& lamp : {Vec3(-1, 1, .8), Vec3(1.5, .4, 1)}) {
+    request.render.light = lamp.cast<float>();
+    const auto shown = drawing.picture(request);
+    ASSERT_TRUE(shown) << shown.error().message();
+    test::RayCamera rays{test::axes_after(camera.yaw_deg, camera.pitch_deg), file.box().centre(),
+                         shown->picture.pixels_per_mm, request.render.width, request.render.height};
+    rays.middle.z() = ground_mm;
+    EXPECT_GT(agreement(shown->picture.image, test::lamp_cosines(file, rays, lamp)), .93);
+    const Vec3 other = lamp.cwiseProduct(Vec3(-1, 1, 1));
+    EXPECT_LT(agreement(shown->picture.image, test::lamp_cosines(file, rays, other)), .8);
+  }
+}
+
 class PictureOfPiece : public testing::TestWithParam<const char*> {};
 
 TEST_P(PictureOfPiece, IsThatOfTheFile) {
@@ -134,8 +180,9 @@ TEST_P(PictureOfPiece, IsThatOfTheFile) {
   const auto made = make_relief(*model(), options);
   ASSERT_TRUE(made) << made.error().message();
   const std::string bytes = app::export_file(*made, *app::find_format("stl"), {}).bytes;
-  const auto solid =
-      std::make_shared<const Solid>(solid_of(test::solid_in_stl(bytes), made->solid.ground_mm));
+  const test::ReadSolid triangles = test::solid_in_stl(bytes);
+  expect_lit_piece(triangles, made->solid.ground_mm, drawing, request);
+  const auto solid = std::make_shared<const Solid>(solid_of(triangles, made->solid.ground_mm));
   Picture file;
   SolidRenderer(solid).render(request.render, file);
   EXPECT_GT(similarity(shown->picture.image, file.image), .98);

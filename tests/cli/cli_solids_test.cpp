@@ -1,0 +1,95 @@
+// The solids and height maps that the program writes, read without the library or measured by closed forms.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "common/archive.h"
+#include "relievo/io/read.h"
+#include "support/cli_folder.h"
+#include "support/read_solid.h"
+
+namespace relievo {
+namespace {
+
+using namespace test;
+
+using CliSolids = CliFolder;
+
+// The corners of a 3MF model's triangles.
+ReadSolid solid_in_3mf(const std::string& file) {
+  const auto archive = app::Archive::open(std::as_bytes(std::span(file)), "t.3mf");
+  const std::vector<std::byte> model = *archive->content("3D/3dmodel.model");
+  const std::string text(reinterpret_cast<const char*>(model.data()), model.size());
+  std::vector<Vec3f> points;
+  ReadSolid solid;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    Vec3f p;
+    std::array<std::size_t, 3> t{};
+    if (std::sscanf(line.c_str(), R"(<vertex x="%f" y="%f" z="%f"/>)", &p.x(), &p.y(), &p.z()) == 3)
+      points.push_back(p);
+    if (std::sscanf(line.c_str(), R"(<triangle v1="%zu" v2="%zu" v3="%zu"/>)", &t[0], &t[1], &t[2]) == 3)
+      solid.triangles.push_back({points.at(t[0]), points.at(t[1]), points.at(t[2])});
+  }
+  return solid;
+}
+
+// The model is the same as in STL, and the height map is as high as the relief, from its ground on.
+TEST_F(CliSolids, Writes3mfAndTiff) {
+  const std::string options = "make torus.ply --height 3 --tolerance 0.05 --quiet";
+  EXPECT_EQ(run(options + " -o t.3mf --heightmap h.tif --report r.json").exit_code, 0);
+  EXPECT_EQ(run(options + " -o t.stl").exit_code, 0);
+  const ReadSolid solid = solid_in_3mf(read_all(folder_ / "t.3mf"));
+  EXPECT_TRUE(solid.is_closed());
+  EXPECT_TRUE(solid.triangles == solid_in_stl(read_all(folder_ / "t.stl")).triangles);
+  const std::string tiff = read_all(folder_ / "h.tif");
+  const auto map = read_depth_image(std::as_bytes(std::span(tiff)), "h.tif");
+  ASSERT_TRUE(map) << map.error().message();
+  const auto [lowest, highest] = std::ranges::minmax(map->values.pixels);
+  EXPECT_NEAR(highest - lowest, 3, .02);
+  EXPECT_NEAR(map->values.pixels.front(), lowest, 1e-4);  // the margin
+  const nlohmann::json report = nlohmann::json::parse(read_all(folder_ / "r.json"), nullptr, false);
+  EXPECT_LE(report.value("simplification_error_mm", 1.0), .05);
+  EXPECT_GT(report.value("simplification_error_mm", 0.0), 0);
+}
+
+// A mirrored relief has the same points on the other side. A die fills what the relief leaves of the block around both. A
+// lithophane stands on .8 mm.
+TEST_F(CliSolids, MakesEveryForm) {
+  const auto made = [&](const std::string& form) {
+    const std::string file = form + ".stl";
+    EXPECT_EQ(run("make torus.ply --quiet --height 2 --form " + form + " -o " + file).exit_code, 0) << form;
+    ReadSolid solid = solid_in_stl(read_all(folder_ / file));
+    EXPECT_TRUE(solid.is_closed()) << form;
+    return solid;
+  };
+  const ReadSolid relief = made("relief"), mirror = made("mirror"), die = made("die"),
+                  lithophane = made("lithophane");
+  const Vec3 size = relief.box().size();
+  EXPECT_LT((mirror.box().size() - size).norm(), 1e-4);
+  EXPECT_LT((die.box().size() - size).norm(), 1e-4);
+  EXPECT_NEAR(size.z(), 3 + 2, 2e-3);
+  EXPECT_NEAR(lithophane.box().size().z(), .8 + 2, 2e-3);
+
+  const double middle = relief.box().centre().x() + mirror.box().centre().x();
+  std::multiset<std::array<float, 3>> points;
+  const auto rounded = [](double x) { return static_cast<float>(std::round(x * 100)); };
+  for (const auto& triangle : relief.triangles)
+    for (const Vec3f& p : triangle) points.insert({rounded(p.x()), rounded(p.y()), rounded(p.z())});
+  std::size_t same = 0;
+  for (const auto& triangle : mirror.triangles)
+    for (const Vec3f& p : triangle)
+      same += points.contains({rounded(middle - static_cast<double>(p.x())), rounded(p.y()), rounded(p.z())});
+  EXPECT_GT(static_cast<double>(same), .9 * static_cast<double>(points.size()));
+  EXPECT_NEAR(mirror.volume() / relief.volume(), 1, 1e-5);
+  const double block = size.x() * size.y() * (2 * 3 + 2);
+  EXPECT_NEAR((relief.volume() + die.volume()) / block, 1, 1e-4);
+  expect_refusal("make torus.ply -o t.stl --form coin", "--form");
+}
+
+}  // namespace
+}  // namespace relievo
