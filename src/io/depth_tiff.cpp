@@ -197,7 +197,7 @@ void interpret(const Layout& layout, std::optional<float> missing, DepthImage& i
                            layout.samples.kind == SampleKind::whole && layout.bits <= 32;
   const auto white = static_cast<float>(std::exp2(layout.bits) - 1);
   for (float& value : image.values.pixels) {
-    if (value == missing || value < lowest_height) {
+    if (value == missing || (std::isfinite(value) && value < lowest_height)) {
       value = std::numeric_limits<float>::quiet_NaN();
     } else if (is_inverted) {
       value = white - value;

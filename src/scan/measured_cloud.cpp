@@ -41,6 +41,29 @@ Result<void> check_extent(const Cloud& cloud, const Box& box) {
   return {};
 }
 
+// Returns the step between numbers of single precision at the largest coordinate; 0 if some coordinate has more digits.
+double step_of_digits(const Cloud& cloud) {
+  float largest = 0;
+  for (const Vec3& p : cloud.points)
+    for (const double c : p) {
+      const auto rounded = static_cast<float>(c);
+      if (static_cast<double>(rounded) != c) return 0;
+      largest = std::max(largest, std::abs(rounded));
+    }
+  return static_cast<double>(std::nextafter(largest, std::numeric_limits<float>::infinity()) - largest);
+}
+
+// Refuses points that rounding has moved about as far as they are apart.
+Result<void> check_digits(const Cloud& cloud, double rho) {
+  constexpr double least_steps = 1.5;
+  const double step = step_of_digits(cloud);
+  if (rho >= least_steps * step) return {};
+  return geometry_error(
+      cat("expected coordinates with more digits, found points ", rho, " apart in steps of ", step,
+          ": single precision has no more at this distance from the origin; save them in double "
+          "precision, or nearer to the origin"));
+}
+
 // Removes points from the order so that at most eight are left of those that coincide, which follow each other. Each
 // search around them would read all, so that many would take quadratic time. Which eight depends on the file's order.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
@@ -82,6 +105,7 @@ Result<std::shared_ptr<const MeasuredCloud>> MeasuredCloud::measure(const Cloud&
                       pick(measured->cloud_.colours, order), std::move(measured->cloud_.outlines),
                       cloud.is_height_field};
   RELIEVO_CHECK(measured->measure_points(view, progress));
+  RELIEVO_CHECK(check_digits(cloud, measured->spacing().rho));
   measured->repeated_points_ = cloud.size() - measured->cloud_.size();
   return measured;
 }

@@ -118,6 +118,18 @@ TEST(DepthTiff, ReadsFractions) {
   EXPECT_EQ(special->values[4], -2);
 }
 
+// Terrain models have it where nothing is known, and not all have a tag that says so.
+TEST(DepthTiff, TakesTheLowestFractionForNone) {
+  const auto image = read_tiff({32, 3}, pixels_of([](int i) {
+                                 constexpr float all[] = {-3.4028235e38F, -3.4e38F, -9999, 7};
+                                 return all[i % 4];
+                               }));
+  ASSERT_TRUE(image);
+  EXPECT_TRUE(std::isnan(image->values[0]) && std::isnan(image->values[1]));
+  EXPECT_EQ(image->values[2], -9999);
+  EXPECT_EQ(image->values[3], 7);
+}
+
 // Each row begins at a byte; the most significant bit of a number comes first.
 TEST(DepthTiff, ReadsPackedNumbers) {
   for (const std::uint32_t bits : {1U, 2U, 3U, 4U, 7U, 9U, 10U, 12U, 14U, 17U, 20U, 31U}) {

@@ -45,6 +45,21 @@ TEST(MeasuredCloud, KeepsAtMostEightPointsOfAPlace) {
   EXPECT_EQ(std::ranges::count(points, few - sphere->centre()), 4);
 }
 
+// As in UTM, whose northings are some millions of metres.
+TEST(MeasuredCloud, RefusesCoordinatesThatRoundingHasSpoilt) {
+  const Vec3 origin(500'000, 5'400'000, 100);
+  Cloud exact = test::sphere(20'000, 2), rounded;
+  for (Vec3& p : exact.points) p += origin;
+  rounded = exact;
+  for (Vec3& p : rounded.points) p = p.cast<float>().cast<double>();
+  EXPECT_TRUE(MeasuredCloud::measure(exact, {}));
+  const auto refused = MeasuredCloud::measure(rounded, {});
+  ASSERT_FALSE(refused);
+  const std::string text = refused.error().message();
+  EXPECT_NE(text.find("expected coordinates with more digits, found points "), std::string::npos) << text;
+  EXPECT_NE(text.find("in steps of 0.5"), std::string::npos) << text;
+}
+
 TEST(MeasuredCloud, KeepsTheCurvatureOfASphere) {
   const auto sphere = measured(test::sphere(20'000, 2));
   const std::vector<Index> some{3, 77, 1500};
