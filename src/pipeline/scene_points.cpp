@@ -7,8 +7,8 @@
 #include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
 #include "scan/front_mesh.h"
+#include "scan/merging/subsample.h"
 #include "scan/orient_normals.h"
-#include "scan/subsample.h"
 
 namespace relievo {
 namespace {

@@ -10,9 +10,9 @@
 #include "relievo/core/text.h"
 #include "relievo/scan/normals.h"
 #include "scan/measure_with_tree.h"
+#include "scan/merging/repeated_points.h"
 #include "scan/noise/noise.h"
 #include "scan/pick.h"
-#include "scan/repeated_points.h"
 
 namespace relievo {
 namespace {

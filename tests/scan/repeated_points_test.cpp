@@ -1,4 +1,4 @@
-#include "scan/repeated_points.h"
+#include "scan/merging/repeated_points.h"
 
 #include <gtest/gtest.h>
 

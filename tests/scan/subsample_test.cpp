@@ -1,4 +1,4 @@
-#include "scan/subsample.h"
+#include "scan/merging/subsample.h"
 
 #include <gtest/gtest.h>
 

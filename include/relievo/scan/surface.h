@@ -28,9 +28,9 @@ struct Surface {
   double diagonal = 0;         // L_d, the diagonal of the whole cloud's box
   std::size_t input_points = 0;
   std::size_t repeated_points = 0;  // of them that were left out, see without_repeated_points()
-  std::size_t visible_points = 0;  // of the cloud; the rest of `points` are hole fill points
-  std::size_t removed_points = 0;  // would be visible, but were taken for floating noise
-  std::size_t crumbs = 0;          // small pieces that were left out
+  std::size_t visible_points = 0;   // of the cloud; the rest of `points` are hole fill points
+  std::size_t removed_points = 0;   // would be visible, but were taken for floating noise
+  std::size_t crumbs = 0;           // small pieces that were left out
   // The table or background that was found, in the coordinates of `points`. It is left out unless View::has_plane.
   std::optional<SupportPlane> plane = {};
   double measured_noise = 0;  // along the normals, in sampling distances; 0 if little

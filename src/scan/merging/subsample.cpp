@@ -1,4 +1,4 @@
-#include "scan/subsample.h"
+#include "scan/merging/subsample.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
-#include "scan/point_group.h"
+#include "scan/merging/point_group.h"
 
 namespace relievo {
 namespace {

@@ -1,4 +1,4 @@
-#include "scan/repeated_points.h"
+#include "scan/merging/repeated_points.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "core/quantile.h"
 #include "relievo/core/parallel.h"
-#include "scan/point_group.h"
+#include "scan/merging/point_group.h"
 
 namespace relievo {
 namespace {
