@@ -29,7 +29,7 @@ struct SimplifyOptions {
 // triangulation to which the points of the front, or of its edges, with the largest error are added until
 // none exceeds the tolerance, or the number of triangles its limit. The highest and the lowest point stay. Flat ground becomes few triangles and
 // stays flat: the points on its boundary are kept. If `is_relief` is given, all points on the relief's rim are
-// kept and the result's `is_relief` is set. Errors: kind option for a tolerance that is not positive; kind
+// kept and the result's `is_relief` is set. A front that would get more triangles is returned as it is. Errors: kind option for a tolerance that is not positive; kind
 // geometry for a front without triangles, or whose triangles are not a Delaunay triangulation up to rounding,
 // so that they do not cover their hull; kind cancelled.
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
