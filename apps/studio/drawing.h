@@ -49,9 +49,9 @@ struct PictureAnswer {
   bool is_finished = false;  // shows the piece as export makes it, or the model itself
   bool is_plain = false;     // the piece is one that frames show, too
   double drawing_s = 0;
-  double width_mm = 0;                  // of the relief's longer side
-  Vec3 size_mm = Vec3::Zero();          // of the piece
-  bool is_size_exact = false;           // whether its file has that size, which one of few samples need not have
+  double width_mm = 0;          // of the relief's longer side
+  Vec3 size_mm = Vec3::Zero();  // of the piece
+  bool is_size_exact = false;   // whether its file has that size, which one of few samples need not have
   std::optional<double> most_width_mm;  // that fits into a plate of the size asked for
   std::optional<std::array<Vec2, 2>>
       relief_mm;  // corners of the relief's box from the middle of the piece; none if bent
@@ -64,8 +64,9 @@ struct PictureAnswer {
 
   // The rest tells how a relief was made; a picture of the model itself leaves it at its defaults.
   Compression compression;  // that was found
-  double height_mm = 0;         // that the file is to be made with
-  double relief_height_mm = 0;  // of the relief in the file, which a tool that leaves material makes less high
+  double height_mm = 0;     // that the file is to be made with
+  double relief_height_mm =
+      0;  // of the relief in the file, which a tool that leaves material makes less high
   bool is_height_met = true;
   FrameTimes times;
   CurveSamples curve;
