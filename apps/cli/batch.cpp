@@ -12,6 +12,7 @@
 #include "cli/commands.h"
 #include "cli/make_options.h"
 #include "cli/program.h"
+#include "cli/terminal.h"
 #include "common/files.h"
 #include "common/owned_folder.h"
 #include "common/read_inputs.h"
