@@ -88,9 +88,37 @@ export class Comparing {
     const {canvas} = this, context = canvas.getContext("2d");
     [canvas.width, canvas.height] = [image.width, image.height];
     context.putImageData(image, 0, 0);
-    if (!this.isMirrored) return;
-    context.globalCompositeOperation = "copy";
-    context.setTransform(-1, 0, 0, 1, image.width, 0);
-    context.drawImage(canvas, 0, 0);
+    if (this.isMirrored) {
+      context.globalCompositeOperation = "copy";
+      context.setTransform(-1, 0, 0, 1, image.width, 0);
+      context.drawImage(canvas, 0, 0);
+      context.resetTransform();
+    }
+    this.layOnPlate(context, image.width / this.stage.size.width);
+  }
+
+  // The model has a plate of its own, which is a rectangle: seen from the front it becomes the plate of the piece, where
+  // that is round or larger. `scale` is that of the picture's pixels.
+  layOnPlate(context, scale) {
+    const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
+    const {outline, plate, wrap, margin} = stage.doc.now.options, isRound = ["circle", "ellipse"].includes(outline);
+    if (!(isRound || plate) || wrap !== "none" || camera.yaw || camera.pitch || !figure) return;
+    const at = (x, y) => stage.toPixels([x, y]).map((pixel) => pixel * scale);
+    const [[left, bottom], [right, top]] = figure, [red, green, blue, opacity] =
+      context.getImageData(...at(left, bottom).map(Math.round), 1, 1).data;
+    if (opacity < 255) return; // beyond the picture
+    const fill = (how, draw, from, to) => {
+      context.globalCompositeOperation = how;
+      context.beginPath();
+      draw(from[0], to[1], to[0] - from[0], from[1] - to[1]);
+      context.fill();
+    };
+    const box = (...sides) => context.rect(...sides), piece = (x, y, wide, high) => (isRound
+      ? context.ellipse(x + wide / 2, y + high / 2, wide / 2, high / 2, 0, 0, 2 * Math.PI) : box(x, y, wide, high));
+    const corners = [at(-size[0] / 2, -size[1] / 2), at(size[0] / 2, size[1] / 2)];
+    context.fillStyle = `rgb(${red} ${green} ${blue})`;
+    fill("destination-in", box, at(left - margin, bottom - margin), at(right + margin, top + margin));
+    fill("destination-in", piece, ...corners);
+    fill("destination-over", piece, ...corners);
   }
 }

@@ -175,11 +175,21 @@ const edgesOff = () => page.evaluate(async () => {
   });
 });
 
+// Returns how opaque the model's picture is just within the piece on the left, right, above and below, and at the corners
+// of its box, which a round one does not fill.
+const plateOpacity = () => page.evaluate(() => {
+  const canvas = document.querySelector("#before"), [wide, high] = window.piece, context = canvas.getContext("2d");
+  const near = [[-0.48, 0], [0.48, 0], [0, -0.48], [0, 0.48]], corners = [-0.45, 0.45].flatMap((x) => [[x, -0.45], [x, 0.45]]);
+  return [...near, ...corners].map(([x, y]) => context.getImageData(Math.round(canvas.width / 2 + x * wide),
+    Math.round(canvas.height / 2 + y * high), 1, 1).data[3]);
+});
+
 test("lays the model over the relief, wherever that stands on its plate, and mirrored", {skip}, async () => {
   await page.setViewportSize(SCREENS[0]);
   await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
   await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail: {about}}) => {
     const {width, height, pixels_per_mm: scale, relief_mm: [[left, bottom], [right, top]]} = about;
+    window.piece = about.size_mm.map((mm) => mm * scale);
     window.figure = [[left, -top], [right, -bottom]]
       .map(([x, y]) => [Math.round(width / 2 + x * scale), Math.round(height / 2 + y * scale)]);
   }));
@@ -193,6 +203,7 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
       await untilReady(page);
       const off = (await edgesOff()).sort((a, b) => a - b); // a quarter with sloping walls or the rim may have others
       assert.ok(off[2] <= 2, `${kind}: ${off}`);
+      if (kind === "coin") assert.deepEqual(await plateOpacity(), [255, 255, 255, 255, 0, 0, 0, 0]);
     });
   }
   await page.locator("#stage").press("Escape");
