@@ -21,8 +21,9 @@ constexpr std::size_t most_by_nature = 3;
 constexpr double near_share = .1, sure_share = .01;  // of that distance
 constexpr double least_sure = .05,
                  least_near = .4;  // shares of places from which on the points repeat others
-// Points are merged within twice the distance that nine of ten repeats keep, or a quarter of the way to other places.
-constexpr double usual_repeats = .9, repeat_room = 2, most_of_gap = .25, least_of_gap = 1e-9;
+// Points are merged within three times the distance that three of four repeats keep, or a quarter of the way to other
+// places. The fourth may be a gap by chance, after points of several places.
+constexpr double usual_repeats = .75, repeat_room = 3, most_of_gap = .25, least_of_gap = 1e-9;
 
 // The distances from a point to the farthest one that repeats it, and to the nearest that does not.
 struct Gap {
