@@ -148,9 +148,12 @@ void expect_lit_piece(const test::ReadSolid& file, double ground_mm, Drawing& dr
     test::RayCamera rays{test::axes_after(camera.yaw_deg, camera.pitch_deg), file.box().centre(),
                          shown->picture.pixels_per_mm, request.render.width, request.render.height};
     rays.middle.z() = ground_mm;
-    EXPECT_GT(agreement(shown->picture.image, test::lamp_cosines(file, rays, lamp)), .93);
+    const double right = agreement(shown->picture.image, test::lamp_cosines(file, rays, lamp));
     const Vec3 other = lamp.cwiseProduct(Vec3(-1, 1, 1));
-    EXPECT_LT(agreement(shown->picture.image, test::lamp_cosines(file, rays, other)), .8);
+    const double wrong = agreement(shown->picture.image, test::lamp_cosines(file, rays, other));
+    // The sky adds to the lamp, and rounds large triangles and steep walls, which the other renderer does not.
+    EXPECT_GT(right, request.options.form == Form::lithophane ? .55 : .85);
+    EXPECT_LT(wrong, right - .2);
   }
 }
 
