@@ -26,7 +26,7 @@ export class Entries {
     if (!entry.isTried && this.pending.length === 0) return this.doc.change(entry.part(this.doc.now));
     this.waiting.push(entry);
     this.changed();
-    this.last = this.last.then(() => this.take(entry)).finally(() => this.end(entry));
+    this.last = this.last.then(() => this.take(entry)).finally(() => this.end(entry)).catch(console.error);
     return this.last;
   }
 
