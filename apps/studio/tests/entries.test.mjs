@@ -1,4 +1,4 @@
-// What is typed and chosen is taken in order, and files and projects wait for it, in Chromium or Firefox.
+// What is typed and chosen is taken in order, and files and projects wait for it.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";

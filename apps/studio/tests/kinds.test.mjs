@@ -1,4 +1,4 @@
-// Kinds of work: their numbers are those of their files, and what each takes along, in Chromium or Firefox.
+// Kinds of work: their numbers are those of their files, and what each takes along.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before, test} from "node:test";
