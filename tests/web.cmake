@@ -13,7 +13,7 @@ foreach(room core geometry solver scan relief plate picture io pipeline quality 
   set(sources "")
   foreach(source IN LISTS candidates)
     file(READ ${source} text)
-    if(NOT text MATCHES "rapidcheck|fstream|std::thread|qhull|shared_scans|admesh")
+    if(NOT text MATCHES "rapidcheck|fstream|std::thread|qhull|bad_alloc|shared_scans|admesh")
       list(APPEND sources ${source})
     endif()
   endforeach()

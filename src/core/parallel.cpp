@@ -2,16 +2,28 @@
 
 #include <atomic>
 #include <condition_variable>
+#include <exception>
+#include <limits>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 
 namespace relievo {
 namespace {
 
-// Set while a thread works on a block: a nested parallel call then works alone at once, as the other threads have blocks
-// of their own.
-thread_local bool is_inside_parallel_call = false;
+struct Job;
+
+// The block that a thread works on; no job between blocks. A nested parallel call works alone at once, as the other threads
+// have blocks of their own.
+struct BlockAtWork {
+  const Job* job = nullptr;
+  std::size_t block = 0;
+};
+thread_local BlockAtWork at_work;
+
+// What a block throws that waits for one that will never be done.
+struct Abandoned {};
 
 // The blocks of one parallel call. Threads take the next block from a shared counter until none is left.
 struct Job {
@@ -19,8 +31,11 @@ struct Job {
   void* context = nullptr;
   std::size_t blocks = 0;
   std::atomic<std::size_t> next = 0;
+  std::atomic<std::size_t> first_failed = std::numeric_limits<std::size_t>::max();
+  std::mutex failing{};               // guards what follows
+  std::exception_ptr exception = {};  // of that block
 
-  // An exception that left the caller's block would leave the others working on what no longer exists.
+  // An exception that left the caller's block at once would leave the others working on what no longer exists.
   void work() noexcept {
     while (work_on_next()) {
     }
@@ -30,11 +45,27 @@ struct Job {
   bool work_on_next() noexcept {
     const std::size_t b = next++;
     if (b >= blocks) return false;
-    is_inside_parallel_call = true;
-    f(context, b);
-    is_inside_parallel_call = false;
+    at_work = {this, b};
+    try {
+      f(context, b);
+    } catch (...) {
+      fail(b);
+    }
+    at_work = {};
     return true;
   }
+
+  // All blocks before the first that fails have begun, and so it is the same with any number of threads.
+  void fail(std::size_t block) {
+    const std::lock_guard lock(failing);
+    next = blocks;
+    if (block > first_failed) return;
+    first_failed = block;
+    exception = std::current_exception();
+  }
+
+  // Returns whether a block would wait in vain if what it waits for is not done: with one thread it would not have begun.
+  bool has_failed_before(std::size_t block) const { return first_failed < block; }
 };
 
 // The worker threads, which sleep between jobs. They do one job at a time. A caller that comes meanwhile works on its own
@@ -63,6 +94,14 @@ class Pool {
   // The caller works, too. It returns only when every worker has left the job, which lives on its stack.
   void run(std::size_t blocks, detail::BlockFunction f, void* context) {
     Job job{f, context, blocks};
+    work_on(job);
+    if (job.exception) std::rethrow_exception(job.exception);
+  }
+
+ private:
+  Pool() { start(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1); }
+
+  void work_on(Job& job) {
     while (!try_give(job))
       if (!job.work_on_next()) return;
     wake_.notify_all();
@@ -72,16 +111,13 @@ class Pool {
     job_ = nullptr;
   }
 
- private:
-  Pool() { start(static_cast<int>(std::max(1U, std::thread::hardware_concurrency())) - 1); }
-
-  // Starts that many workers, or fewer if the system refuses to create more threads. Results do not depend on their
-  // number.
+  // Starts that many workers, or fewer if the system or its memory allows no more. Results do not depend on their number.
   void start(int workers) {
     is_stopping_ = false;
     try {
       for (int i = 0; i < workers; ++i) workers_.emplace_back([this, seen = generation_] { loop(seen); });
     } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
     }
   }
 
@@ -140,7 +176,7 @@ void set_thread_count(int threads) {
 }
 
 void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
-  if (blocks <= 1 || is_inside_parallel_call || thread_count() == 1) {
+  if (blocks <= 1 || at_work.job || thread_count() == 1) {
     for (std::size_t b = 0; b < blocks; ++b) f(context, b);
   } else {
     Pool::instance().run(blocks, f, context);
@@ -150,7 +186,10 @@ void detail::run_blocks(std::size_t blocks, BlockFunction f, void* context) {
 void BlockFlags::wait(std::size_t block) const {
   // Waits are usually short: spin at first, and give the processor to other threads only after a while.
   for (int look = 0; flags_[block].load(std::memory_order_acquire) == 0; ++look)
-    if (look > 2000) std::this_thread::yield();
+    if (look > 2000) {
+      if (at_work.job && at_work.job->has_failed_before(at_work.block)) throw Abandoned{};
+      std::this_thread::yield();
+    }
 }
 
 // Lives until the thread has ended, as the destructor of BackgroundLoop joins it.
@@ -161,6 +200,14 @@ struct BackgroundLoop::State {
   bool is_woken = false, is_working = false, is_ending = false;
   std::thread thread;
 
+  bool is_to_go_on() noexcept {
+    try {
+      return step();
+    } catch (...) {
+      return false;
+    }
+  }
+
   void run() {
     std::unique_lock lock(mutex);
     for (;;) {
@@ -169,7 +216,7 @@ struct BackgroundLoop::State {
       is_woken = false;
       is_working = true;
       lock.unlock();
-      const bool goes_on = step();
+      const bool goes_on = is_to_go_on();
       lock.lock();
       is_working = false;
       is_woken |= goes_on;

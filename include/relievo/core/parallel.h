@@ -28,15 +28,17 @@ void set_thread_count(int threads);
 namespace detail {
 using BlockFunction = void (*)(void* context, std::size_t block);
 // Runs f(context, b) once for each b in [0, blocks), on all threads, and returns when all are done. Blocks
-// are started in ascending order. While the threads work for another call, the calling thread works alone; so it does
-// in a nested call.
+// are started in ascending order. If some throw, blocks that have not begun are left out, and the exception of the lowest
+// block that threw is thrown here: it is the same one with any number of threads. While the threads work for another call,
+// the calling thread works alone; so it does in a nested call.
 void run_blocks(std::size_t blocks, BlockFunction f, void* context);
 }  // namespace detail
 
 inline constexpr std::size_t default_grain = 4096;
 
 // Calls f(begin, end) for consecutive ranges of at most `grain` elements that together are [0, n). The ranges
-// run concurrently, so f may only write what belongs to its own range. f must not throw.
+// run concurrently, so f may only write what belongs to its own range. If f throws, some ranges after that are
+// left out, and the calling thread gets the exception; so it does from all functions below.
 template <typename F>
 void parallel_ranges(std::size_t n, std::size_t grain, F&& f) {
   struct Context {
@@ -59,8 +61,8 @@ void parallel_for(std::size_t n, F&& f, std::size_t grain = default_grain) {
   });
 }
 
-// Calls both, concurrently or one after the other, so neither may wait for the other, nor throw. A parallel call in one
-// of them runs on its thread alone.
+// Calls both, concurrently or one after the other, so neither may wait for the other. A parallel call in one of them
+// runs on its thread alone.
 template <typename First, typename Second>
 void parallel_both(First&& first, Second&& second) {
   parallel_for(
@@ -89,7 +91,8 @@ class BlockFlags {
     for (auto& flag : flags_) flag.store(0, std::memory_order_relaxed);
   }
   void set(std::size_t block) { flags_[block].store(1, std::memory_order_release); }
-  // Returns when the flag is set. Everything that was written before set() is then visible.
+  // Returns when the flag is set. Everything that was written before set() is then visible. Throws if the flag will never
+  // be set because an earlier block threw.
   void wait(std::size_t block) const;
 
  private:
@@ -129,7 +132,7 @@ class Guarded {
 };
 
 // A thread that calls one function repeatedly as long as it returns true, and then sleeps until wake(). Its
-// methods may be called from any other thread. Where there are no threads, wait_until_idle() calls the function.
+// methods may be called from any other thread. If the function throws, the loop sleeps as if it had returned false. Where there are no threads, wait_until_idle() calls the function.
 class BackgroundLoop {
  public:
   explicit BackgroundLoop(std::function<bool()> step);
