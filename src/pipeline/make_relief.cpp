@@ -9,6 +9,7 @@
 #include "pipeline/body.h"
 #include "pipeline/formed_body.h"
 #include "pipeline/report.h"
+#include "relievo/core/within_memory.h"
 #include "relievo/relief/draft.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/scan_file.h"
@@ -82,6 +83,11 @@ Result<Relief> relief_of_height(const ReliefModel& model, ReliefOptions options,
   return highest ? std::move(highest) : std::move(relief);
 }
 
+// The need of a body: the points of its model, and the resolution that was asked for.
+MemoryNeed need_of(const ReliefModel& model, const ReliefOptions& options) {
+  return {model.surface().points.size(), options.resolution_mm.value_or(0)};
+}
+
 // From a model to its body, by options that have passed check().
 Result<MadeRelief> make_checked(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
   const Surface& surface = model.surface();
@@ -115,35 +121,46 @@ double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
 }
 
 Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {
-  RELIEVO_TRY(Surface surface, find_surface(points, view, progress));
-  return ReliefModel::prepare(std::move(surface), progress, mode);
+  return within_memory({.points = points.size()}, [&]() -> Result<ReliefModel> {
+    RELIEVO_TRY(Surface surface, find_surface(points, view, progress));
+    return ReliefModel::prepare(std::move(surface), progress, mode);
+  });
 }
 
 Result<double> highest_with_draft(const ReliefModel& model, const ReliefOptions& asked, Progress* progress) {
-  RELIEVO_CHECK(check(asked));
-  RELIEVO_TRY(ReliefOptions options, with_width(model.surface(), asked));
-  options.height_mm.reset();
-  RELIEVO_TRY(const Relief relief, shape_relief(model, options, uncompressed(shape_of(options)), progress));
-  return relief.height * mm_per_unit(model.surface(), options);
+  return within_memory(need_of(model, asked), [&]() -> Result<double> {
+    RELIEVO_CHECK(check(asked));
+    RELIEVO_TRY(ReliefOptions options, with_width(model.surface(), asked));
+    options.height_mm.reset();
+    RELIEVO_TRY(const Relief relief, shape_relief(model, options, uncompressed(shape_of(options)), progress));
+    return relief.height * mm_per_unit(model.surface(), options);
+  });
 }
 
 Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& options, Progress* progress) {
-  RELIEVO_CHECK(check(options));
-  return make_checked(model, options, progress);
+  return within_memory(need_of(model, options), [&]() -> Result<MadeRelief> {
+    RELIEVO_CHECK(check(options));
+    return make_checked(model, options, progress);
+  });
 }
 
 Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options, Progress* progress) {
-  RELIEVO_CHECK(check(options));
-  const View view = chosen_view(scene, options.view);
-  RELIEVO_TRY(const ViewSample sample, sample_for_view(scene, view, options.points, progress));
-  RELIEVO_TRY(const ReliefModel model, prepare(*sample.cloud, view, options.mode, progress));
-  RELIEVO_TRY(MadeRelief made, make_checked(model, options, progress));
-  made.report.sample = sample.notes;
-  return made;
+  return within_memory([&]() -> Result<MadeRelief> {
+    RELIEVO_CHECK(check(options));
+    const View view = chosen_view(scene, options.view);
+    RELIEVO_TRY(const ViewSample sample, sample_for_view(scene, view, options.points, progress));
+    RELIEVO_TRY(const ReliefModel model, prepare(*sample.cloud, view, options.mode, progress));
+    RELIEVO_TRY(MadeRelief made, make_relief(model, options, progress));
+    made.report.sample = sample.notes;
+    return made;
+  });
 }
 
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress) {
-  return make_relief(Scene{{{{}, std::make_shared<const CloudFile>(std::move(file))}}}, options, progress);
+  return within_memory([&] {
+    const Scene scene{{{{}, std::make_shared<const CloudFile>(std::move(file))}}};
+    return make_relief(scene, options, progress);
+  });
 }
 
 Result<MadeRelief> make_relief(Cloud cloud, const ReliefOptions& options, Progress* progress) {

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "relievo/core/parallel.h"
+#include "relievo/core/within_memory.h"
 #include "relievo/relief/relief.h"
 #include "scan/measured_cloud.h"
 
@@ -15,11 +16,17 @@ struct Measured {
   std::shared_ptr<const MeasuredCloud> cloud;
 };
 
+struct Waiting {
+  Preparation wanted;
+  std::shared_ptr<Progress> progress;
+};
+
 // The state that the callers and the session's thread share.
 struct Shared {
-  std::optional<Preparation> waiting;
+  std::optional<Waiting> waiting;
   std::shared_ptr<Progress> progress;  // of the preparation that runs
   std::shared_ptr<const ReliefModel> model;
+  std::weak_ptr<const Cloud> of_model;  // the points that the model was made of
   SessionStatus status;
   Measured measured;  // last
   std::function<Preparation::Points(Progress&)> all_sides;
@@ -40,7 +47,10 @@ struct Shared {
 
   // Frees the points if no model was made of them. If there is a model, its next view may need them.
   void forget_unused() {
-    if (model) return;
+    if (!model) forget_points();
+  }
+
+  void forget_points() {
     measured = {};
     all_sides = nullptr;
     turntable = nullptr;
@@ -56,44 +66,53 @@ struct Session::State {
 
   // Prepares the model that waits, if any; returns whether there was one.
   bool step() {
-    const auto [wanted, progress] = shared.with([&](Shared& s) {
-      std::optional<Preparation> next = std::exchange(s.waiting, std::nullopt);
-      if (next) s.progress = watched(next->changed);
-      return std::pair(std::move(next), s.progress);
+    const std::optional<Waiting> next = shared.with([&](Shared& s) {
+      std::optional<Waiting> first = std::exchange(s.waiting, std::nullopt);
+      if (first) s.progress = first->progress;
+      return first;
     });
-    if (!wanted) return false;
-    const Result<Preparation::Model> made = prepare(*wanted, *progress);
-    finish(*wanted, *progress, made);
-    if (wanted->changed) wanted->changed();
+    if (!next) return false;
+    const auto& [wanted, progress] = *next;
+    finish(wanted, *progress, within_memory([&] { return prepare(wanted, *progress); }));
+    if (wanted.changed) wanted.changed();
     return true;
   }
 
-  void finish(const Preparation& wanted, const Progress& progress, const Result<Preparation::Model>& made) {
+  void finish(const Preparation& wanted, const Progress& progress, Result<Preparation::Model> made) {
     shared.with([&](Shared& s) {
       s.progress = nullptr;
       if (s.waiting) return;  // a newer opening has overtaken this one
       if (progress.is_cancelled()) return s.forget_unused();
       s.status.is_preparing = false;
+      if (made && wanted.ready) made = within_memory([&] { return wanted.ready(*made), made; });
       if (!made) {
-        s.status.error = made.error();
+        const bool is_short_of_memory = made.error().kind == ErrorKind::memory;
+        if (is_short_of_memory && s.measured.of != s.of_model.lock()) s.forget_points();
+        s.status.error = std::move(made).error();
         return;
       }
       s.status.fraction = 1;
-      s.model = *made;
+      s.model = *std::move(made);
+      s.of_model = s.measured.of;
       s.first.reset();
-      if (wanted.ready) wanted.ready(*made);
     });
   }
 
   Result<Preparation::Model> prepare(const Preparation& wanted, Progress& progress) {
     RELIEVO_TRY(const std::shared_ptr<const Cloud> cloud, wanted.points(progress));
+    return within_memory({.points = cloud->size()}, [&] { return prepare(cloud, wanted, progress); });
+  }
+
+  Result<Preparation::Model> prepare(const std::shared_ptr<const Cloud>& cloud, const Preparation& wanted,
+                                     Progress& progress) {
     const View view = wanted.chosen_view ? wanted.chosen_view() : wanted.view;
     RELIEVO_TRY(const auto measured, measure(cloud, view, progress));
+    auto all_sides = wanted.all_sides;
     shared.with([&](Shared& s) {
       if (progress.is_cancelled()) return;
       if (s.measured.cloud != measured) {
         s.measured = {cloud, measured};
-        s.all_sides = wanted.all_sides;
+        s.all_sides = std::move(all_sides);
         s.denoise = view.denoise;
         s.turntable = nullptr;
         s.first.reset();
@@ -114,18 +133,17 @@ struct Session::State {
     if (!progress) return;
     Result<TurnedRelief> made = turned(view, nullptr, progress);
     shared.with([&](Shared& s) {
-      if (made) s.first = std::move(*made), s.first_view = view;
       s.making_first = nullptr;
+      if (made) s.first = std::move(*made), s.first_view = view;
     });
   }
 
   Result<TurnedRelief> turned(const View& view, const ReliefModel* like,
                               const std::shared_ptr<Progress>& progress) {
-    Result<TurnedRelief> made = cancelled_error();
-    if (const auto table = turntable(view, *progress); !table)
-      made = std::unexpected(table.error());
-    else
-      made = (*table)->turn(view, like, progress.get());
+    Result<TurnedRelief> made = within_memory([&]() -> Result<TurnedRelief> {
+      RELIEVO_TRY(const auto table, turntable(view, *progress));
+      return table->turn(view, like, progress.get());
+    });
     shared.with([&](Shared& s) {
       if (s.turning == progress) s.turning = nullptr;
     });
@@ -164,15 +182,16 @@ struct Session::State {
     return made;
   }
 
-  std::shared_ptr<Progress> watched(const std::function<void()>& changed) {
-    return std::make_shared<Progress>([this, changed](std::string_view stage, double fraction) {
+  Result<Waiting> waiting(Preparation wanted) {
+    const auto watch = [this, changed = wanted.changed](std::string_view stage, double fraction) {
       shared.with([&](Shared& s) {
         if (s.waiting || s.progress->is_cancelled()) return;
         s.status.stage = stage;
         s.status.fraction = fraction;
       });
       if (changed) changed();
-    });
+    };
+    return Waiting{std::move(wanted), std::make_shared<Progress>(watch)};
   }
 };
 
@@ -183,11 +202,16 @@ Session::~Session() {
 }
 
 void Session::open(Preparation preparation) {
+  Result<Waiting> next = within_memory([&] { return state_->waiting(std::move(preparation)); });
   state_->shared.with([&](Shared& s) {
     if (s.progress) s.progress->cancel();
     s.cancel_first();
-    s.waiting = std::move(preparation);
-    s.status = {true, "waiting", 0, std::nullopt};
+    s.waiting.reset();
+    s.status = {next.has_value(), "waiting", 0, std::nullopt};
+    if (next)
+      s.waiting = *std::move(next);
+    else
+      s.status.error = std::move(next).error();
   });
   state_->loop.wake();
 }
@@ -207,15 +231,17 @@ void Session::cancel() {
 }
 
 Result<TurnedRelief> Session::turn(const View& view) {
-  const auto progress = std::make_shared<Progress>();
-  const auto [like, first] = state_->shared.with([&](Shared& s) {
-    s.cancel_turning();
-    const auto made = s.first_view == view ? s.first : std::nullopt;
-    s.turning = made ? nullptr : progress;
-    return std::pair(s.model, made);
+  return within_memory([&]() -> Result<TurnedRelief> {
+    const auto progress = std::make_shared<Progress>();
+    const auto [like, first] = state_->shared.with([&](Shared& s) {
+      s.cancel_turning();
+      const auto made = s.first_view == view ? s.first : std::nullopt;
+      s.turning = made ? nullptr : progress;
+      return std::pair(s.model, made);
+    });
+    if (first) return *first;
+    return state_->turned(view, like.get(), progress);
   });
-  if (first) return *first;
-  return state_->turned(view, like.get(), progress);
 }
 
 SessionStatus Session::status() const {

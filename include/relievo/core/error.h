@@ -14,11 +14,12 @@ enum class ErrorKind {
   geometry,   // the points do not determine a relief
   cancelled,  // Progress::cancel() was called
   output,     // a file could not be written
+  memory,     // an allocation failed; see within_memory.h
 };
 
 // Returns the kind's name, as it stands in files and messages: "input", "option" and so on.
 constexpr std::string_view name_of(ErrorKind kind) {
-  constexpr std::string_view names[] = {"input", "option", "geometry", "cancelled", "output"};
+  constexpr std::string_view names[] = {"input", "option", "geometry", "cancelled", "output", "memory"};
   return names[static_cast<int>(kind)];
 }
 

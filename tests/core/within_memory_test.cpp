@@ -1,0 +1,55 @@
+#include "relievo/core/within_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <vector>
+
+#include "relievo/core/parallel.h"
+
+namespace relievo {
+namespace {
+
+TEST(WithinMemory, PassesOnWhatIsReturned) {
+  EXPECT_EQ(within_memory([]() -> Result<int> { return 5; }), 5);
+  const auto refused = within_memory([]() -> Result<int> { return option_error("height", "expected 1"); });
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message(), "height: expected 1");
+}
+
+TEST(WithinMemory, NamesWhatIsKnownOfTheNeed) {
+  const auto message = [](const MemoryNeed& need) { return memory_error(need).message(); };
+  EXPECT_EQ(message({}), "expected more free memory, found none left");
+  EXPECT_EQ(message({.points = 12000}), "expected more free memory for 12000 points, found none left");
+  EXPECT_EQ(message({12000, .01}),
+            "expected more free memory for 12000 points at a resolution of 0.01 mm, found none left");
+  EXPECT_EQ(name_of(memory_error().kind), "memory");
+}
+
+TEST(WithinMemory, IsAnErrorOfTheInnermostCall) {
+  const auto failed = within_memory({.points = 5}, [] {
+    return within_memory({.points = 7}, []() -> Result<void> { throw std::bad_alloc(); });
+  });
+  ASSERT_FALSE(failed);
+  EXPECT_EQ(failed.error().message(), memory_error({.points = 7}).message());
+}
+
+// A vector of more elements than there are addresses, and one of more bytes than there are.
+TEST(WithinMemory, AnswersWhatNoMachineHas) {
+  for (const std::size_t size : {std::numeric_limits<std::size_t>::max(), std::size_t{1} << 55})
+    for (const int threads : {1, 2}) {
+      set_thread_count(threads);
+      const auto failed = within_memory([&]() -> Result<std::size_t> {
+        std::vector<std::vector<double>> all(8);
+        parallel_for(
+            8, [&](std::size_t i) { all[i].reserve(i == 6 ? size : 10); }, 1);
+        return all[6].capacity();
+      });
+      set_thread_count(0);
+      ASSERT_FALSE(failed);
+      EXPECT_EQ(failed.error().kind, ErrorKind::memory);
+    }
+}
+
+}  // namespace
+}  // namespace relievo
