@@ -52,8 +52,8 @@ using Bands = std::vector<std::vector<FrontDisc>>;
 
 class FrontDrawing {
  public:
-  FrontDrawing(std::span<const FrontPoint> points, const View& view)
-      : points_(points), R_(view.R_view_model.cast<float>()), crop_(view.crop) {
+  FrontDrawing(std::span<const FrontPoint> points, const View& view, NormalSigns signs)
+      : points_(points), signs_(signs), R_(view.R_view_model.cast<float>()), crop_(view.crop) {
     box_ = box_of(points, [this](const Vec3f& p) -> Vec3f { return R_ * p; });
     if (crop_ != Crop{}) box_ = cropped_box(box_, crop_);
   }
@@ -76,6 +76,11 @@ class FrontDrawing {
     return (p.array() >= box_.least.array()).all() && (p.array() <= box_.most.array()).all();
   }
 
+  Vec3f normal_of(const FrontPoint& point) const {
+    const bool is_reversed = signs_ == NormalSigns::unknown && point.normal.dot(R_.row(2).transpose()) < 0;
+    return is_reversed ? Vec3f(-point.normal) : point.normal;
+  }
+
   // Returns about how much of the box the points cover, by a coarse mask of those that face the viewer.
   float covered_area() const {
     constexpr int side = 64;
@@ -87,7 +92,7 @@ class FrontDrawing {
         [&](std::size_t begin, std::size_t end) {
           Mask part{};
           for (std::size_t i = begin; i < end; ++i) {
-            if (R_.row(2).dot(points_[i].normal) <= 0) continue;
+            if (R_.row(2).dot(normal_of(points_[i])) <= 0) continue;
             const Vec3f p = R_ * points_[i].place;
             if (!is_shown(p)) continue;
             const int x = std::min(static_cast<int>((p.x() - box_.least.x()) / cell), side - 1),
@@ -140,7 +145,7 @@ class FrontDrawing {
   }
 
   void add(const FrontPoint& point, Bands& to, std::vector<Vec2f>& behind) const {
-    const Vec3f turned = R_ * point.place, n = R_ * point.normal;
+    const Vec3f turned = R_ * point.place, n = R_ * normal_of(point);
     if (!is_shown(turned)) return;
     Vec3f place = turned / cells_.cell;
     place.head<2>() -= cells_.corner / cells_.cell;
@@ -164,6 +169,7 @@ class FrontDrawing {
   }
 
   std::span<const FrontPoint> points_;
+  NormalSigns signs_;
   Eigen::Matrix3f R_;
   Crop crop_;
   FlatBox box_;
@@ -174,8 +180,9 @@ class FrontDrawing {
 
 }  // namespace
 
-FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted) {
-  FrontCells cells = FrontDrawing(points, view).draw(wanted);
+FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted,
+                      NormalSigns signs) {
+  FrontCells cells = FrontDrawing(points, view, signs).draw(wanted);
   for (float& depth : cells.depth.pixels) depth *= cells.cell;
   return cells;
 }

@@ -9,6 +9,7 @@
 #include "relievo/core/image.h"
 #include "relievo/core/types.h"
 #include "relievo/scan/view.h"
+#include "scan/coarse_visibility.h"
 
 namespace relievo {
 
@@ -37,8 +38,9 @@ struct FrontCells {
 };
 
 // Draws what a view shows of the points. About `wanted` cells are covered, fewer where points lie so far apart that smaller
-// cells show nothing more. The same bits for any number of threads.
-FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted);
+// cells show nothing more. Normals of unknown sign are turned towards the viewer. The same bits for any number of threads.
+FrontCells draw_front(std::span<const FrontPoint> points, const View& view, std::size_t wanted,
+                      NormalSigns signs = NormalSigns::outward);
 
 // Clears what is connected to fewer than `least` covered cells.
 void clear_small_pieces(FrontCells& front, std::size_t least);

@@ -177,14 +177,6 @@ Boundary boundary_of(const FrontCells& front, std::span<const Vec2> points, cons
   return boundary;
 }
 
-std::vector<FrontPoint> facing(std::vector<FrontPoint> points, const View& view) {
-  const Vec3f to_viewer = view.R_view_model.row(2).transpose().cast<float>();
-  parallel_for(points.size(), [&](std::size_t i) {
-    if (points[i].normal.dot(to_viewer) < 0) points[i].normal = -points[i].normal;
-  });
-  return points;
-}
-
 }  // namespace
 
 TurningScan::TurningScan(const MeasuredCloud& measured)
@@ -229,10 +221,8 @@ TurningScan TurningScan::without_plane(const Surface& surface) const {
 Result<TurnedSurface> turned_surface(const TurningScan& scan, const View& view, std::size_t points,
                                      Progress* progress) {
   TurnedSurface made;
-  if (scan.do_normals_face_viewer)
-    made.front = draw_front(facing(scan.points, view), view, points * cells_per_point);
-  else
-    made.front = draw_front(scan.points, view, points * cells_per_point);
+  const NormalSigns signs = scan.do_normals_face_viewer ? NormalSigns::unknown : NormalSigns::outward;
+  made.front = draw_front(scan.points, view, points * cells_per_point, signs);
   RELIEVO_CHECK(check_cancelled(progress));
   if (!view.has_crumbs)
     clear_small_pieces(made.front, static_cast<std::size_t>(ScanLimits::crumb_share *
