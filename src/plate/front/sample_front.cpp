@@ -183,10 +183,11 @@ class Sampler {
       if (!is_fixed_[i] && !band_points_.add(plane(i), least)) continue;
       out_.points[kept] = out_.points[i];
       slopes_[kept] = slopes_[i];
+      is_fixed_[kept] = is_fixed_[i];
       if (!out_.colours.empty()) out_.colours[kept] = out_.colours[i];
       ++kept;
     }
-    out_.points.resize(kept), slopes_.resize(kept);
+    out_.points.resize(kept), slopes_.resize(kept), is_fixed_.resize(kept);
     if (!out_.colours.empty()) out_.colours.resize(kept);
   }
 
