@@ -5,6 +5,7 @@
 #include "cli/huge_pages.h"
 #include "cli/out_of_memory.h"
 #include "cli/program.h"
+#include "common/memory_reserve.h"
 #include "common/temporary_file.h"
 
 namespace {
@@ -19,7 +20,10 @@ bool is_printed() {
 int main(int argc, char** argv) {
   relievo::app::cli::restart_with_huge_pages(argv);
   // The studio refuses what is too large, and goes on.
-  if (argc > 1 && argv[1] != std::string_view("studio")) relievo::app::cli::exit_when_out_of_memory();
+  if (argc > 1 && argv[1] == std::string_view("studio"))
+    relievo::app::keep_memory_in_reserve();
+  else
+    relievo::app::cli::exit_when_out_of_memory();
   relievo::app::remove_temporary_files_on_signals();
   const relievo::app::cli::ProgramEnd end = relievo::app::cli::run_program({argv + 1, argv + argc});
   if (!end.message.empty()) std::fprintf(stderr, "relievo: %s\n", end.message.c_str());

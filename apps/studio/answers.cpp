@@ -19,6 +19,8 @@ int status_of(ErrorKind kind) {
       return 500;
     case ErrorKind::cancelled:
       return 202;
+    case ErrorKind::memory:
+      return 507;
     default:
       return 409;
   }

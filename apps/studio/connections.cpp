@@ -12,9 +12,12 @@
 #include <deque>
 #include <list>
 #include <mutex>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "common/memory_reserve.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -108,6 +111,7 @@ struct Connections::State {
     try {
       threads.emplace_back([this] { answer_requests(); });
     } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
     }
   }
 
@@ -136,14 +140,25 @@ struct Connections::State {
     }
     ++open;
     if (is_stopping) return close(socket);
-    waiting.push_back({socket, {}, Clock::now() + longest_head});
+    if (!wait_for_head({socket, {}, Clock::now() + longest_head})) close(socket);
+  }
+
+  // Returns false if there is no memory to wait with. The caller holds `mutex`.
+  bool wait_for_head(Connection connection) {
+    try {
+      waiting.push_back(std::move(connection));
+    } catch (const std::bad_alloc&) {
+      return false;
+    }
     interrupt_waiting();
+    return true;
   }
 
   // ------------------------------------------------------------------------------------- the thread that waits
 
   void wait_for_heads() {
     std::vector<pollfd> watched;
+    watched.reserve(1 + most_connections);  // from here on the thread allocates nothing of its own
     for (std::unique_lock lock(mutex); !is_stopping; lock.lock()) {
       watched.assign(1, {wake, POLLIN, 0});
       for (const Connection& connection : waiting) watched.push_back({connection.socket, POLLIN, 0});
@@ -166,12 +181,21 @@ struct Connections::State {
       const auto next = std::next(at);
       found = std::find_if(found, watched.end(), [&](const pollfd& each) { return each.fd == at->socket; });
       const bool has_news = found != watched.end() && found->revents != 0;
-      const Arrival arrival = has_news ? receive(*at) : Arrival::partial;
-      if (arrival == Arrival::whole)
-        make_ready(at);
-      else if (arrival == Arrival::over || now > at->last)
-        drop(at);
+      if (has_news ? !take_in(at, now) : now > at->last) drop(at);
       at = next;
+    }
+  }
+
+  // Takes in what arrived, and hands the connection over once its head is whole. Returns false if it is over or too late, or
+  // if there is no memory for it. The caller holds `mutex`.
+  bool take_in(std::list<Connection>::iterator at, Clock::time_point now) {
+    try {
+      const Arrival arrival = receive(*at);
+      if (arrival == Arrival::partial) return now <= at->last;
+      if (arrival == Arrival::whole) make_ready(at);
+      return arrival == Arrival::whole;
+    } catch (const std::bad_alloc&) {
+      return false;
     }
   }
 
@@ -194,23 +218,39 @@ struct Connections::State {
       Connection connection = std::move(ready.front());
       ready.pop_front();
       lock.unlock();
-      BufferedStream stream(connection.socket, std::move(connection.received));
-      const bool goes_on = answer(stream);
+      Connection answered = answer_on(std::move(connection));
       lock.lock();
-      put_back(goes_on ? Connection{connection.socket, stream.unread(), Clock::now() + longest_rest}
-                       : ending(connection.socket));
+      put_back(std::move(answered));
     }
+  }
+
+  // Answers the request that has come on a connection, and returns the connection as it goes on. It ends if something fails
+  // where no answer can say so any more, as memory while the answer is sent.
+  Connection answer_on(Connection connection) {
+    refill_memory_reserve();
+    try {
+      BufferedStream stream(connection.socket, std::move(connection.received));
+      if (answer(stream)) return {connection.socket, stream.unread(), Clock::now() + longest_rest};
+    } catch (const std::exception&) {
+    }
+    return ending(connection.socket);
   }
 
   // The caller holds `mutex`.
   void put_back(Connection connection) {
-    if (is_stopping) return close(connection.socket);
-    if (!connection.is_ending && has_whole_head(connection)) {
+    const int socket = connection.socket;
+    if (is_stopping || !try_put_back(std::move(connection))) close(socket);
+  }
+
+  bool try_put_back(Connection connection) {
+    if (connection.is_ending || !has_whole_head(connection)) return wait_for_head(std::move(connection));
+    try {
       ready.push_back(std::move(connection));
-      return has_request.notify_one();
+    } catch (const std::bad_alloc&) {
+      return false;
     }
-    waiting.push_back(std::move(connection));
-    interrupt_waiting();
+    has_request.notify_one();
+    return true;
   }
 
   void stop() {

@@ -4,13 +4,13 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
-#include <new>
 #include <utility>
 
 #include "common/wording.h"
 #include "relievo/core/choice.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
+#include "relievo/core/within_memory.h"
 #include "relievo/scan/surface.h"
 #include "relievo/session.h"
 #include "studio/loaded_scan.h"
@@ -27,14 +27,15 @@ Result<void> unless_cancelled(const Error& error) {
   return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
 }
 
-// A scan that does not fit into memory must not end the program.
-Result<Scene> load_scan(ScanSource& source, const std::function<bool()>& is_unwanted) {
-  try {
-    return load_input(source, {}, is_unwanted);
-  } catch (const std::bad_alloc&) {
-    return std::unexpected(
-        Error{ErrorKind::input, source.name, {}, "expected more free memory for so many points"});
-  }
+Result<LoadedScan> load_scan(const ScanSource& from, const std::function<bool()>& is_unwanted) {
+  Result<LoadedScan> scan = within_memory([&]() -> Result<LoadedScan> {
+    ScanSource source = from;
+    RELIEVO_TRY(Scene models, load_input(source, {}, is_unwanted));
+    if (is_unwanted()) return cancelled_error();
+    return LoadedScan(std::move(source), std::move(models));
+  });
+  if (!scan && scan.error().kind == ErrorKind::memory) scan.error().input = from.name;
+  return scan;
 }
 
 // Returns a number that no other model has, of this run or of others: the clock's milliseconds, or more.
@@ -90,8 +91,8 @@ struct Engine::State {
 
   Session session;  // last: its thread uses what stands above
 
-  // Prepares a view of the scan that was asked for last.
-  void prepare(const View& view, const PreparationTexts& texts) {
+  // Returns the preparation of a view of the scan that was asked for last.
+  Preparation preparation_of(const View& view, const PreparationTexts& texts) {
     Preparation preparation;
     const auto chosen = std::make_shared<View>(view);
     preparation.points = [this, chosen, number = texts.points](Progress& progress) {
@@ -107,7 +108,7 @@ struct Engine::State {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
     };
     preparation.changed = changed;
-    session.open(std::move(preparation));
+    return preparation;
   }
 
   // In the session's thread: returns the points that the view shows, of a scan that is read first if need be. A view that
@@ -128,12 +129,9 @@ struct Engine::State {
     const auto unread = shared.with([](const Shared& s) { return s.unread; });
     if (!unread) return {};
     if (auto go = progress.stage("read", 0); !go) return go;
-    ScanSource source = *unread;
     // Whoever chooses another view cancels the preparation, but not the reading.
     const auto is_unwanted = [&] { return shared.with([&](const Shared& s) { return s.unread != unread; }); };
-    Result<Scene> models = load_scan(source, is_unwanted);
-    std::optional<LoadedScan> scan;
-    if (models && !is_unwanted()) scan.emplace(std::move(source), std::move(*models));
+    Result<LoadedScan> scan = load_scan(*unread, is_unwanted);
     const bool is_wanted = shared.with([&](Shared& s) {
       if (s.unread != unread) return false;  // another scan was opened meanwhile, or this one cancelled
       s.unread = nullptr;
@@ -141,7 +139,7 @@ struct Engine::State {
       return true;
     });
     if (!is_wanted) return cancelled_error();
-    return models ? Result<void>{} : std::unexpected(models.error());
+    return scan ? Result<void>{} : std::unexpected(std::move(scan).error());
   }
 
   NumberedModel shown_model() const {
@@ -153,7 +151,7 @@ struct Engine::State {
     const SessionStatus status = session.status();
     const bool has_failed = !status.is_preparing && status.error;
     return shared.with([&](Shared& s) {
-      if (has_failed && s.shown.scan.cloud()) s.scan = s.shown.scan;
+      if (has_failed && s.shown.scan.cloud()) s.scan = LoadedScan(s.shown.scan);
       return s.scan;
     });
   }
@@ -199,13 +197,15 @@ Engine::Engine(const std::function<void()>& changed) : state_(std::make_unique<S
 Engine::~Engine() = default;
 
 void Engine::open(const ScanSource& input, const PreparationTexts& view) {
-  state_->shared.with([&](Shared& s) {
-    s.unread = std::make_shared<const ScanSource>(input);
-    s.wanted = input;
-    s.view = view;
+  Preparation preparation = state_->preparation_of(parse_view(view).value_or(View{}), view);
+  const auto unread = std::make_shared<const ScanSource>(input);
+  state_->shared.with([&, wanted = input, texts = view](Shared& s) mutable {
+    s.unread = unread;
+    s.wanted = std::move(wanted);
+    s.view = std::move(texts);
     s.best.reset();
   });
-  state_->prepare(parse_view(view).value_or(View{}), view);
+  state_->session.open(std::move(preparation));
 }
 
 void Engine::show(const ScanSource& input, const PreparationTexts& view) {
@@ -224,13 +224,14 @@ Result<void> Engine::choose_view(const PreparationTexts& view) {
   if (!parsed) return std::unexpected(parsed.error());
   RELIEVO_CHECK(parse_mode(view.mode));
   const LoadedScan scan = state_->scan_in_use();
-  const bool is_open = state_->shared.with([&](Shared& s) {
-    s.view = view;
+  Preparation preparation = state_->preparation_of(*parsed, view);
+  const bool is_open = state_->shared.with([&, texts = view](Shared& s) mutable {
+    s.view = std::move(texts);
     s.best.reset();
     return scan.cloud() || s.unread;
   });
   if (!is_open) return nothing_open();
-  state_->prepare(*parsed, view);
+  state_->session.open(std::move(preparation));
   return {};
 }
 
@@ -240,7 +241,7 @@ void Engine::cancel() {
   state_->session.cancel();
   state_->shared.with([](Shared& s) {
     s.unread = nullptr;
-    s.scan = s.shown.scan;
+    s.scan = LoadedScan(s.shown.scan);
   });
 }
 
@@ -355,6 +356,7 @@ Result<Picture> Engine::scan_picture(const View& view, int width, int height) {
   const LoadedScan scan = state_->scan_in_use();
   if (!scan.cloud()) return nothing_open();
   if (scan.cloud() != state_->drawn_cloud) {
+    state_->drawn_cloud.reset();
     RELIEVO_TRY(const auto points, scan.all_sides());
     state_->cloud_renderer.emplace(*points);
     state_->drawn_cloud = scan.cloud();

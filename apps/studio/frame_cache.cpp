@@ -14,6 +14,8 @@ constexpr double moving_tolerance = .03;
 CachedFrame FrameCache::exact(const FrameOptions& wanted) {
   const bool is_known = made_ == wanted;
   if (!is_known) {
+    made_.reset();  // so that nobody takes a frame for it that was only begun when memory ran out
+    last_ = {};
     maker_.make(wanted, frame_);
     if (wants_gains_) maker_.write_gains(gains_);
     made_ = wanted;

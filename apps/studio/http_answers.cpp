@@ -1,8 +1,11 @@
 #include "studio/http_answers.h"
 
+#include <new>
+#include <system_error>
 #include <utility>
 
 #include "relievo/core/text.h"
+#include "relievo/core/within_memory.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -36,7 +39,11 @@ void answer(Response& response, const std::exception_ptr& exception) {
   try {
     std::rethrow_exception(exception);
   } catch (const std::bad_alloc&) {
-    refuse(response, 507, "expected more free memory for so much");
+    send(answer_of(memory_error()), response);
+  } catch (const std::length_error&) {
+    send(answer_of(memory_error()), response);
+  } catch (const std::system_error&) {
+    refuse(response, 503, "expected more threads than the system gives");
   } catch (...) {
     refuse(response, 400, "expected fields of their types");
   }

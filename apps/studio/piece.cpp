@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "relievo/core/text.h"
+#include "relievo/core/within_memory.h"
+#include "relievo/scan/surface.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -42,10 +44,11 @@ void Piece::take(std::shared_ptr<const MadeRelief> made, const PieceOrder& order
   const std::shared_ptr<const Solid> solid(made, &made->solid);
   std::shared_ptr<const ToolReach> reach;
   if (made->report.reach) reach = {made, &*made->report.reach};
+  finished_.reset();
+  finished_key_ = order.key;
   const bool is_flat = order.options.wrap.kind == WrapKind::none;  // as is the front whose reach was measured
   finished_.emplace(solid, reach, SolidRenderer(solid, is_flat ? reach : nullptr),
                     relief_height_mm(*made, order.options));
-  finished_key_ = order.key;
 }
 
 Result<DrawnPiece*> Piece::drawn(const PieceOrder& order) {
@@ -53,8 +56,9 @@ Result<DrawnPiece*> Piece::drawn(const PieceOrder& order) {
   if (coarse_ && coarse_key_ == order.key) return &*coarse_;
   RELIEVO_TRY(MadeRelief made, make_relief(*model_, coarse(order.options)));
   const auto solid = std::make_shared<const Solid>(std::move(made.solid));
-  coarse_.emplace(solid, nullptr, SolidRenderer(solid), std::nullopt);
+  coarse_.reset();
   coarse_key_ = order.key;
+  coarse_.emplace(solid, nullptr, SolidRenderer(solid), std::nullopt);
   return &*coarse_;
 }
 
@@ -63,13 +67,14 @@ PieceMaker::Stage PieceMaker::stage() const {
 }
 
 template <typename Make>
-auto PieceMaker::watched(PieceUse use, const Make& make) {
+auto PieceMaker::watched(const NumberedModel& shown, PieceUse use, const Make& make) {
   Progress progress([this](std::string_view stage, double fraction) {
     making_.with([&](Making& m) { m.stage = {std::string(stage), fraction}; });
     if (changed_) changed_();
   });
   making_.with([&](Making& m) { m = {{"waiting", 0}, &progress, use}; });
-  auto made = make(&progress);
+  auto made =
+      within_memory({.points = shown.model->surface().points.size()}, [&] { return make(&progress); });
   making_.with([](Making& m) { m = {}; });
   return made;
 }
@@ -78,11 +83,13 @@ Result<std::shared_ptr<const MadeRelief>> PieceMaker::piece(const NumberedModel&
                                                             const ReliefOptions& options,
                                                             const std::string& key, PieceUse use) {
   const Lock lock(mutex_);
-  if (made_ && made_key_ == whole_key(shown, key)) return made_;
-  RELIEVO_TRY(MadeRelief made,
-              watched(use, [&](Progress* progress) { return make_relief(*shown.model, options, progress); }));
+  std::string whole = whole_key(shown, key);
+  if (made_ && made_key_ == whole) return made_;
+  RELIEVO_TRY(MadeRelief made, watched(shown, use, [&](Progress* progress) {
+                return make_relief(*shown.model, options, progress);
+              }));
   made_ = std::make_shared<const MadeRelief>(std::move(made));
-  made_key_ = whole_key(shown, key);
+  made_key_ = std::move(whole);
   return made_;
 }
 
@@ -90,7 +97,7 @@ Result<double> PieceMaker::draft_limit(PieceUse use, const NumberedModel& shown,
                                        const std::string& key) {
   const Lock lock(mutex_);
   if (const auto known = known_draft_limit(shown, key)) return *known;
-  RELIEVO_TRY(const double height_mm, watched(use, [&](Progress* progress) {
+  RELIEVO_TRY(const double height_mm, watched(shown, use, [&](Progress* progress) {
                 return highest_with_draft(*shown.model, options, progress);
               }));
   draft_limits_.with([&](auto& limits) {

@@ -106,7 +106,7 @@ class PieceMaker {
 
   // Calls make(progress), which is in stage() and can be cancelled meanwhile.
   template <typename Make>
-  auto watched(PieceUse use, const Make& make);
+  auto watched(const NumberedModel& shown, PieceUse use, const Make& make);
 
   std::function<void()> changed_;
   Guarded<Making> making_;
