@@ -2,14 +2,15 @@
 
 #include <chrono>
 #include <condition_variable>
-#include <deque>
 #include <exception>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
+#include "common/memory_reserve.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo::python {
@@ -42,22 +43,23 @@ class Messages {
   }
 
   // Waits for messages, but not longer than a signal may wait. Returns false once all is said.
-  bool wait(std::deque<Event>& events) {
+  bool wait(std::vector<Event>& events) {
     std::unique_lock lock(mutex_);
     changed_.wait_for(lock, signal_interval, [&] { return has_ended_ || !events_.empty(); });
-    events = std::exchange(events_, {});
+    events.clear();
+    events.swap(events_);
     return !has_ended_ || !events.empty();
   }
 
  private:
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Event> events_;
+  std::vector<Event> events_;
   bool has_ended_ = false;
 };
 
 // Looks for signals and calls the callback for each event.
-void report(const py::object& callback, const std::deque<Event>& events) {
+void report(const py::object& callback, const std::vector<Event>& events) {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
   if (callback.is_none()) return;
   for (const Event& event : events) callback(event.stage, event.fraction);
@@ -119,6 +121,7 @@ std::shared_mutex& working() {
 }
 
 void watched(const py::object& callback, const std::function<void(Progress&)>& work) {
+  app::refill_memory_reserve();
   Messages messages;
   Progress progress([&](std::string_view stage, double fraction) {
     messages.post({std::string(stage), fraction});
@@ -134,7 +137,7 @@ void watched(const py::object& callback, const std::function<void(Progress&)>& w
     }
     messages.end();
   });
-  std::deque<Event> events;
+  std::vector<Event> events;
   const auto wait = [&] {
     const py::gil_scoped_release release;
     return messages.wait(events);

@@ -17,11 +17,14 @@ namespace py = pybind11;
 std::string path_of(py::handle path);
 py::str text_of(std::string_view text);
 
-// Raises relievo.Error. Where the error names an option, the exception names its keyword.
+// Raises relievo.Error, or OutOfMemory for the kind memory. Where the error names an option, the exception names its keyword.
 [[noreturn]] void raise(const Error& error);
 
 // Raises relievo.Error of kind input: about an array called `name`, at that place in it.
 [[noreturn]] void raise_input(std::string name, std::string place, std::string expected);
+
+// Makes memory that runs out an error of the library wherever Python calls it.
+void add_errors();
 
 // Returns the value of a result, or raises its error.
 template <typename T>

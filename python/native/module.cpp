@@ -3,6 +3,7 @@
 #include <pybind11/stl.h>
 
 #include "native/call.h"
+#include "native/errors.h"
 #include "native/inputs.h"
 #include "native/options.h"
 #include "native/relief.h"
@@ -12,6 +13,7 @@
 
 PYBIND11_MODULE(_native, module) {
   module.attr("__version__") = relievo::version;
+  relievo::python::add_errors();
   relievo::python::add_threads(module);
   relievo::python::add_options(module);
   relievo::python::add_inputs(module);

@@ -7,7 +7,7 @@ the keyword ends in its unit: --rim-height is rim_height_mm, --draft is draft_de
 import os as _os
 
 from . import _native
-from ._errors import Error
+from ._errors import Error, OutOfMemory
 from ._relief import Relief, make, png
 from ._session import Frame, Session
 from ._stages import (
@@ -26,6 +26,7 @@ __version__: str = _native.__version__
 __all__ = [
     "Cloud",
     "Error",
+    "OutOfMemory",
     "Frame",
     "HeightSystem",
     "Relief",

@@ -6,7 +6,7 @@ from __future__ import annotations
 class Error(Exception):
     """An input, an option or a file that the library cannot use.
 
-    kind is "input", "option", "geometry", "output" or "cancelled"; input is the name of the file, the array or the
+    kind is "input", "option", "geometry", "output", "cancelled" or "memory"; input is the name of the file, the array or the
     keyword; place is where in it, as "line 12" or "row 7", or empty; expected says what was expected there, and what was
     found instead.
     """
@@ -27,3 +27,10 @@ class Error(Exception):
     def __reduce__(self) -> tuple[type[Error], tuple[str, str, str, str]]:
         """Errors travel between processes."""
         return type(self), (self.kind, self.input, self.place, self.expected)
+
+
+class OutOfMemory(Error, MemoryError):
+    """The error of kind "memory": there is too little of it for so many points or so fine a resolution.
+
+    What was made before is still there and can be used.
+    """
