@@ -1,6 +1,7 @@
 #include "relievo/io/stream.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -174,8 +175,7 @@ class ViewGrid {
       sum.at += p.at;
       sum.normal += p.normal;
       if (has_colours_)
-        for (int k = 0; k < 3; ++k)
-          sum.colour[k] += static_cast<float>(piece.colours[i][static_cast<std::size_t>(k)]);
+        for (std::size_t k = 0; k < 3; ++k) sum.colour[k] += piece.colours[i][k];
       ++sum.count;
     }
   }
@@ -188,8 +188,8 @@ class ViewGrid {
       cloud.points.push_back(back * (sum.at / sum.count) + scout_.middle);
       if (has_normals_) cloud.normals.push_back((back.cast<float>() * sum.normal).normalized());
       if (!has_colours_) continue;
-      const auto mean = [&](int k) {
-        return static_cast<std::uint8_t>(sum.colour[k] / static_cast<float>(sum.count) + .5F);
+      const auto mean = [&](std::size_t k) {
+        return static_cast<std::uint8_t>(static_cast<double>(sum.colour[k]) / sum.count + .5);
       };
       cloud.colours.push_back({mean(0), mean(1), mean(2)});
     }
@@ -206,7 +206,8 @@ class ViewGrid {
   };
   struct Sum {
     Vec3 at = Vec3::Zero();
-    Vec3f normal = Vec3f::Zero(), colour = Vec3f::Zero();
+    Vec3f normal = Vec3f::Zero();
+    std::array<std::uint32_t, 3> colour = {};  // whole numbers, as floats lose ones above 2^24
     std::uint32_t count = 0;
   };
 

@@ -97,6 +97,17 @@ TEST(StreamFront, MeansTakeNoiseAway) {
   EXPECT_LT(std::sqrt(sum_sq / static_cast<double>(n)), .001);  // of .002 in the scan
 }
 
+// Sums of colours in single precision came out as 256, which a byte holds as 0.
+TEST(StreamFront, KeepsAColourThatManyPointsOfASquareHave) {
+  Cloud cloud = test::sphere(20000, 1);
+  cloud.points.insert(cloud.points.end(), 300000, Vec3(0, 0, 1));
+  cloud.normals.insert(cloud.normals.end(), 300000, Vec3f::UnitZ());
+  cloud.colours.assign(cloud.size(), {255, 255, 255});
+  const auto colours = streamed(write_ply(cloud)).cloud.colours;
+  ASSERT_FALSE(colours.empty());
+  for (const auto& colour : colours) EXPECT_EQ(colour, (Colour{255, 255, 255}));
+}
+
 TEST(StreamFront, ShowsTheSideAskedFor) {
   const View left = *parse_view("left");
   for (const Vec3& p : streamed(write_ply(shells(100000)), left).cloud.points) EXPECT_LT(p.x(), .02);
