@@ -17,7 +17,7 @@
 #include "relievo/io/write.h"
 #include "relievo/samples/sample.h"
 #include "studio/actions.h"
-#include "studio/disk_store.h"
+#include "studio/disk/disk_store.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -54,7 +54,7 @@ class Studio {
  public:
   Studio() {
     fs::create_directory(state_);
-    store_ = std::make_unique<DiskStore>(state_);
+    store_ = std::make_unique<DiskStore>(*take_state_folder(state_));
     actions_ = std::make_unique<Actions>(documents_, *store_);
     for (const char* sample : {"shell", "still_life"}) {
       const std::vector<std::byte> ply = write_ply(*make_sample(sample, {.points = 2000}));
