@@ -12,8 +12,8 @@
 
 #include "common/descriptor.h"
 #include "common/files.h"
-#include "common/json_found.h"
 #include "common/read_inputs.h"
+#include "common/wording.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/option_field.h"
 #include "relievo/core/parallel.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/files.h"
-#include "common/json_found.h"
+#include "common/wording.h"
 #include "relievo/core/json_place.h"
 #include "relievo/core/text.h"
 

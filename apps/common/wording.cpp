@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "relievo/core/text.h"
@@ -109,6 +110,13 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
 std::string as_sentence(std::string line) {
   if (!line.empty()) line[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(line[0])));
   return line + ".";
+}
+
+std::string found(const nlohmann::json& value) {
+  if (value.is_null()) return ", found none";
+  std::string text = value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  if (text.size() > 32) text.replace(32, text.size(), "...");
+  return ", found " + text;
 }
 
 }  // namespace relievo::app

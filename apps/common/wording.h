@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -15,5 +16,9 @@ std::vector<std::string> remarks_on(const ReliefReport& report);
 
 // Returns the line with a capital and a full stop.
 std::string as_sentence(std::string line);
+
+// Returns ", found " and the value that a JSON file has in place of the expected one, as it is written in JSON, at most 32
+// bytes of it; ", found none" for null.
+std::string found(const nlohmann::json& value);
 
 }  // namespace relievo::app

@@ -10,7 +10,6 @@
 #include "relievo/core/choice.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
-#include "relievo/core/within_memory.h"
 #include "relievo/scan/surface.h"
 #include "relievo/session.h"
 #include "studio/loaded_scan.h"
@@ -25,17 +24,6 @@ std::unexpected<Error> nothing_open() {
 // A picture whose piece was given up shows what there is.
 Result<void> unless_cancelled(const Error& error) {
   return error.kind == ErrorKind::cancelled ? Result<void>{} : std::unexpected(error);
-}
-
-Result<LoadedScan> load_scan(const ScanSource& from, const std::function<bool()>& is_unwanted) {
-  Result<LoadedScan> scan = within_memory([&]() -> Result<LoadedScan> {
-    ScanSource source = from;
-    RELIEVO_TRY(Scene models, load_input(source, {}, is_unwanted));
-    if (is_unwanted()) return cancelled_error();
-    return LoadedScan(std::move(source), std::move(models));
-  });
-  if (!scan && scan.error().kind == ErrorKind::memory) scan.error().input = from.name;
-  return scan;
 }
 
 // Returns a number that no other model has, of this run or of others: the clock's milliseconds, or more.
@@ -131,7 +119,7 @@ struct Engine::State {
     if (auto go = progress.stage("read", 0); !go) return go;
     // Whoever chooses another view cancels the preparation, but not the reading.
     const auto is_unwanted = [&] { return shared.with([&](const Shared& s) { return s.unread != unread; }); };
-    Result<LoadedScan> scan = load_scan(*unread, is_unwanted);
+    Result<LoadedScan> scan = read_scan(*unread, is_unwanted);
     const bool is_wanted = shared.with([&](Shared& s) {
       if (s.unread != unread) return false;  // another scan was opened meanwhile, or this one cancelled
       s.unread = nullptr;

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "relievo/core/text.h"
+#include "relievo/core/within_memory.h"
 #include "relievo/scan/mesh.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/spacing.h"
@@ -100,6 +101,17 @@ Result<std::shared_ptr<const Cloud>> LoadedScan::seen_from(const View& view, std
   if (is_one_file() && scene_.models[0].file->mesh.empty()) return cloud_;
   RELIEVO_TRY(const ViewSample sample, sample_for_view(scene_, view, points, progress));
   return sample.cloud;
+}
+
+Result<LoadedScan> read_scan(const ScanSource& from, const std::function<bool()>& is_unwanted) {
+  Result<LoadedScan> scan = within_memory([&]() -> Result<LoadedScan> {
+    ScanSource source = from;
+    RELIEVO_TRY(Scene models, load_input(source, {}, is_unwanted));
+    if (is_unwanted()) return cancelled_error();
+    return LoadedScan(std::move(source), std::move(models));
+  });
+  if (!scan && scan.error().kind == ErrorKind::memory) scan.error().input = from.name;
+  return scan;
 }
 
 }  // namespace relievo::app::studio

@@ -1,6 +1,7 @@
 // A scan, or a scene of several, that was read.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "common/project.h"
@@ -48,5 +49,9 @@ class LoadedScan {
   std::shared_ptr<const Cloud> cloud_;
   std::size_t left_out_ = 0;
 };
+
+// Reads a scan. Errors: those of load_input(); kind memory, which names the scan; kind cancelled as soon as `is_unwanted`
+// returns true.
+Result<LoadedScan> read_scan(const ScanSource& from, const std::function<bool()>& is_unwanted);
 
 }  // namespace relievo::app::studio

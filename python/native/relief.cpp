@@ -173,7 +173,8 @@ PythonOrder order_of(const py::list& sources, const py::dict& keywords) {
 Result<app::LoadedOrder> load(const PythonOrder& order, Progress& progress) {
   RELIEVO_TRY(const std::optional<app::StoredProject> stored, find_project(order.sources, order.scan_path));
   const auto read = [&](const ReliefOptions& options) {
-    return read_sources(order.sources, order.in, {options.view, options.points.value_or(app::PointsWanted{}.points)}, &progress);
+    return read_sources(order.sources, order.in,
+                        {options.view, options.points.value_or(app::PointsWanted{}.points)}, &progress);
   };
   return app::load_order(order, stored, read, progress);
 }
