@@ -44,7 +44,6 @@ void add_walls(Solid& solid, const IndexPolygon& top, const IndexPolygon& bottom
 
 // Adds the walls under the outline and the bottom: a fan, or the lattice that a wrap needs to be bent.
 void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
-  solid.front_triangles = solid.triangles.size();
   const IndexPolygon bottom = add_below(solid, outline);
   add_walls(solid, outline, bottom);
   if (std::isfinite(spacing)) return fill_below(solid, bottom, spacing);
@@ -55,7 +54,6 @@ void close_plate(Solid& solid, const IndexPolygon& outline, double spacing) {
 // Adds the front's triangles once more as the bottom, and walls between the two along their boundary.
 void close_body(Solid& solid) {
   const std::vector<Triangle> front = solid.triangles;
-  solid.front_triangles = front.size();
   const auto n = static_cast<Index>(solid.points.size());
   for (Index i = 0; i < n; ++i) solid.points.emplace_back(solid.points[i].x(), solid.points[i].y(), 0);
   for (const auto& [a, b] : boundary_edges(front)) {
@@ -69,6 +67,7 @@ void close_body(Solid& solid) {
 Solid closed(PlateSurface surface, const PlateOptions& options) {
   raise(surface.solid, options.thickness_mm);
   surface.solid.error_mm += flip_thin_triangles(surface.solid, surface.outline.empty());
+  surface.solid.front_triangles = surface.solid.triangles.size();
   unfold(surface.solid, surface.outline);
   const double highest = used_box(surface.solid.points, surface.solid.triangles).max.z();
   if (options.outline == Outline::none)

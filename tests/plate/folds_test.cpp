@@ -19,11 +19,12 @@ Solid dense_surface(double size) {
   Solid solid;
   for (const Vec2& p : places) solid.points.emplace_back(p.x(), p.y(), 3 + share(random));
   solid.triangles = delaunay(places).triangles;
+  solid.front_triangles = solid.triangles.size();
   return solid;
 }
 
 TEST(Folds, AreTrianglesThatSinglePrecisionTurnsOver) {
-  Solid solid{{{1, 0, 0}, {1 + 1e-9, 1, 5}, {1 - 1e-9, 2, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+  Solid solid{{{1, 0, 0}, {1 + 1e-9, 1, 5}, {1 - 1e-9, 2, 0}, {0, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}, 2};
   EXPECT_EQ(find_folds(solid), std::vector<Index>{0});
   solid.points[1].x() = 1.1;
   EXPECT_TRUE(find_folds(solid).empty());
@@ -45,7 +46,7 @@ TEST(Folds, AreMendedByMovingPointsALittle) {
 TEST(Folds, LeavePointsOfTheOutlineAndTheSidesOfTheBoxWhereTheyAre) {
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0},           {1, 1, 0},
                                  {0, 1, 0}, {.5, .5 + 1e-12, 1}, {.5, .5, 2}};
-  Solid solid{points, {{0, 1, 5}, {1, 2, 5}, {2, 3, 4}, {3, 0, 4}, {0, 5, 4}, {5, 2, 4}}};
+  Solid solid{points, {{0, 1, 5}, {1, 2, 5}, {2, 3, 4}, {3, 0, 4}, {0, 5, 4}, {5, 2, 4}}, 6};
   unfold(solid, std::array<Index, 1>{5});
   EXPECT_TRUE(find_folds(solid).empty());
   for (const Index i : {0, 1, 2, 3, 5}) EXPECT_EQ(solid.points[i], points[i]) << i;
@@ -54,8 +55,8 @@ TEST(Folds, LeavePointsOfTheOutlineAndTheSidesOfTheBoxWhereTheyAre) {
 
 TEST(Folds, TakeThePointsBelowAlong) {
   Solid solid{{{0, 0, 1}, {4, 0, 1}, {4, 4, 1}, {2, 2 - 1e-9, 1}, {2, 2 - 1e-9, 0}, {0, 4, 1}},
-              {{0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 2, 5}, {0, 4, 1}}};
-  solid.front_triangles = 4;
+              {{0, 1, 3}, {1, 2, 3}, {0, 3, 2}, {0, 2, 5}, {0, 4, 1}},
+              4};
   unfold(solid);
   EXPECT_TRUE(find_folds(solid).empty());
   EXPECT_EQ(solid.points[4].head<2>(), solid.points[3].head<2>());

@@ -33,10 +33,8 @@ bool is_folded(std::span<const Vec2> places, const Triangle& t) {
   return orient2d(places[t[0]], places[t[1]], places[t[2]]) <= 0;
 }
 
-// The triangles of the front, which come first; all before there are walls.
 std::span<const Triangle> front_of(const Solid& solid) {
-  return std::span(solid.triangles)
-      .first(solid.front_triangles > 0 ? solid.front_triangles : solid.triangles.size());
+  return std::span(solid.triangles).first(solid.front_triangles);
 }
 
 std::vector<Index> folds_among(const Solid& solid, std::span<const Vec2> places) {
@@ -75,7 +73,7 @@ class Unfolder {
     const auto largest = static_cast<float>(
         std::max(box.max.head<2>().cwiseAbs().maxCoeff(), box.min.head<2>().cwiseAbs().maxCoeff()));
     step_ = static_cast<double>(std::nextafter(largest, 2 * largest) - largest);
-    const bool has_walls = solid_.front_triangles > 0;
+    const bool has_walls = solid_.front_triangles < solid_.triangles.size();
     for (Index i = 0; has_walls && i < solid_.points.size(); ++i)
       at_place_.emplace(std::pair(solid_.points[i].x(), solid_.points[i].y()), i);
   }
