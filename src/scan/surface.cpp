@@ -111,6 +111,11 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   Cloud& cloud = viewed.cloud;
   const Spacing& spacing = viewed.spacing();
   auto [visible, removed] = find_visible(cloud, spacing);
+  if (removed > visible.size())
+    return geometry_error(
+        cat("expected points that lie close together, found ", 100 * removed / (removed + visible.size()),
+            " % of those that face the viewer in small groups far from others, without which "
+            "most of the figure would be missing"));
   if (visible.size() < 4)
     return geometry_error(
         cat("expected at least 4 points that face the viewer, found ", visible.size(),
@@ -118,11 +123,6 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
                 ? ": all normals point away from the viewer; look from the other side, or take the "
                   "normals out of the file if they are wrong: they are then estimated"
                 : "; try another view"));
-  if (removed > visible.size())
-    return geometry_error(
-        cat("expected points that lie close together, found ", 100 * removed / (removed + visible.size()),
-            " % of those that face the viewer in small groups far from others, without which "
-            "most of the figure would be missing"));
   surface.removed_points = removed;
   RELIEVO_CHECK(check_cancelled(progress));
   std::vector<Index> hole_fill = hole_fill_points(cloud, spacing, visible);

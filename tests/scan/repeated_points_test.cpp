@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/surface.h"
@@ -48,6 +49,17 @@ double farthest_from_torus(const Surface& surface) {
   return farthest;
 }
 
+// Returns the largest distance of points and normals of two surfaces, which have the same number of points. It is not 0:
+// neighbours that stand in another order are summed in another order.
+double farthest_apart(const Surface& a, const Surface& b) {
+  if (a.points.size() != b.points.size()) return std::numeric_limits<double>::infinity();
+  double farthest = 0;
+  for (std::size_t i = 0; i < a.points.size(); ++i)
+    farthest = std::max(
+        {farthest, (a.points[i] - b.points[i]).norm(), double{(a.normals[i] - b.normals[i]).norm()}});
+  return farthest;
+}
+
 Surface surface_of(const Cloud& cloud) {
   return find_surface(cloud, {}).value();
 }
@@ -56,8 +68,7 @@ TEST(RepeatedPoints, ExactOnesGiveTheSurfaceOfTheSinglePoints) {
   const Surface alone = surface_of(single());
   for (const std::size_t copies : {2U, 3U, 5U, 20U}) {
     const Surface all = surface_of(repeated(single(), {copies}));
-    EXPECT_EQ(all.points, alone.points) << copies;
-    EXPECT_EQ(all.normals, alone.normals) << copies;
+    EXPECT_LT(farthest_apart(all, alone), 1e-6) << copies;
     EXPECT_EQ(all.repeated_points, (copies - 1) * single().size());
   }
 }
@@ -78,7 +89,7 @@ TEST(RepeatedPoints, OfAPartGiveTheSurfaceOfTheSinglePoints) {
   const Surface alone = surface_of(single());
   for (const double up_to : {-1.2, -.5, .5})
     for (const std::size_t copies : {5U, 20U})
-      EXPECT_EQ(surface_of(repeated(single(), {copies, 0, up_to})).points, alone.points)
+      EXPECT_LT(farthest_apart(surface_of(repeated(single(), {copies, 0, up_to})), alone), 1e-6)
           << up_to << " " << copies;
 }
 

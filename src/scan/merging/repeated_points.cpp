@@ -31,23 +31,24 @@ struct Gap {
   bool is_sure = false;
 };
 
-// Returns the gap after the nearest points, if one is wide. Of points scattered over a surface, the m-th is nearer than a
+// Returns the first wide gap after the nearest points: those farther on would be found by chance, as repeats make points
+// many and places few. Of points scattered over a surface, the m-th is nearer than a
 // share s of the distance to the next one with probability s^2m.
 std::optional<Gap> gap_around(const KdTree<Vec3>& tree, const Vec3& point) {
   std::array<Index, most_repeats + 2> found;
   std::array<double, most_repeats + 2> distances_sq;
   const std::size_t count = tree.nearest(point, found.size(), found.data(), distances_sq.data());
-  std::optional<Gap> gap;
   for (std::size_t m = 1; m + 1 < count; ++m) {
     const bool is_few = m < most_by_nature;
-    const double share_sq = distances_sq[m] / std::max(distances_sq[m + 1], 1e-300);
+    if (!(distances_sq[m + 1] > 0)) continue;
+    const double share_sq = distances_sq[m] / distances_sq[m + 1];
     const double most_sq =
         is_few ? near_share * near_share : std::min(.25, std::pow(gap_by_chance, 1 / static_cast<double>(m)));
     if (share_sq < most_sq)
-      gap = {std::sqrt(distances_sq[m]), std::sqrt(distances_sq[m + 1]),
-             !is_few || share_sq < sure_share * sure_share};
+      return Gap{std::sqrt(distances_sq[m]), std::sqrt(distances_sq[m + 1]),
+                 !is_few || share_sq < sure_share * sure_share};
   }
-  return gap;
+  return std::nullopt;
 }
 
 // Returns the distance within which points are to be merged; nothing if hardly any repeat others.
