@@ -76,6 +76,7 @@ def batch(workshop, kind, chance, number):
         whole = {name: content for name, content in workshop.whole["batch"].items() if name.endswith((".stl", ".png"))}
         if kind == "full disk":
             place.make_disk(place.out, chance.randint(32, sum(map(len, whole.values())) // 900))
+        place.mark_as_batch()
         place.add_foreign_files(place.out)
         code, errors, has_hit = run_with_fault(place, kind, chance, batch_command(place), "batch")
         check_end(kind, code, errors)

@@ -111,6 +111,12 @@ class Place:
             subprocess.run(["umount", "-l", path], check=False)
         shutil.rmtree(self.folder, ignore_errors=True)
 
+    def mark_as_batch(self):
+        """Makes the folder of outputs one that a batch has made, and that others have used since."""
+        self.out.mkdir(exist_ok=True)
+        (self.out / ".relievo_folder").write_text(
+            "relievo batch made this folder or found it empty, and may remove what it has put here.\n")
+
     def add_foreign_files(self, folder):
         """Writes files that no program may touch, and returns what they are."""
         folder.mkdir(exist_ok=True)
@@ -179,8 +185,8 @@ def files_in(folder):
 
 
 def temporaries(folder):
-    """Returns the names of temporary files, all of which end with six characters."""
-    return [path.name for path in folder.rglob("*.relievo-??????")] if folder.is_dir() else []
+    """Returns the names of temporary files, all of which end with two numbers."""
+    return [path.name for path in folder.rglob("*.relievo-[0-9]*-[0-9]*")] if folder.is_dir() else []
 
 
 def make_command(place, threads=2):
