@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "support/format_samples.h"
@@ -99,13 +100,18 @@ TEST(StreamFront, MeansTakeNoiseAway) {
 
 // Sums of colours in single precision came out as 256, which a byte holds as 0.
 TEST(StreamFront, KeepsAColourThatManyPointsOfASquareHave) {
-  Cloud cloud = test::sphere(20000, 1);
-  cloud.points.insert(cloud.points.end(), 300000, Vec3(0, 0, 1));
-  cloud.normals.insert(cloud.normals.end(), 300000, Vec3f::UnitZ());
-  cloud.colours.assign(cloud.size(), {255, 255, 255});
-  const auto colours = streamed(write_ply(cloud)).cloud.colours;
+  std::vector<Vec3> points = test::sphere(600'000, 1).points;
+  points.insert(points.end(), 400'000, Vec3(0, 0, 1));
+  std::string ply = cat("ply\nformat binary_little_endian 1.0\nelement vertex ", points.size(),
+                        "\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+                        "property uchar green\nproperty uchar blue\nend_header\n");
+  for (const Vec3& p : points) {
+    const Vec3f place = p.cast<float>();
+    ply.append(reinterpret_cast<const char*>(place.data()), sizeof place).append(3, '\xff');
+  }
+  const std::vector<Colour> colours = streamed(bytes_of(ply)).cloud.colours;
   ASSERT_FALSE(colours.empty());
-  for (const auto& colour : colours) EXPECT_EQ(colour, (Colour{255, 255, 255}));
+  for (const Colour& colour : colours) EXPECT_EQ(colour, (Colour{255, 255, 255}));
 }
 
 TEST(StreamFront, ShowsTheSideAskedFor) {
