@@ -103,6 +103,8 @@ test("leaves the picture room at a zoom of 200 %", {skip}, async () => {
     assert.ok(stage.width >= 300 && stage.height >= 180, `${tool}: ${stage.width} x ${stage.height}`);
     assert.ok(await page.locator(part).isVisible());
   }
+  await page.getByRole("button", {name: /notes? on the scan/}).click(); // which has what a higher screen offers, too
+  await page.locator("#notes").getByRole("button", {name: "Keep them"}).waitFor();
   await page.getByRole("radio", {name: "Light", exact: true}).click();
   await page.setViewportSize(DESK);
   await untilReady(page);
