@@ -1,8 +1,10 @@
 #include "cli/out_of_memory.h"
 
 #include <sys/resource.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -14,8 +16,8 @@
 namespace relievo::app::cli {
 namespace {
 
-void print(const char* text) {
-  (void)!::write(STDERR_FILENO, text, std::strlen(text));
+iovec part(const char* text) {
+  return {const_cast<char*>(text), std::strlen(text)};
 }
 
 // Nothing here may allocate.
@@ -26,9 +28,10 @@ void end_process() {
   char megabytes[24] = {};
   const long kilobytes = usage.ru_maxrss;
   std::to_chars(megabytes, megabytes + sizeof megabytes - 1, kilobytes / 1000 + 1);
-  print("relievo: expected more free memory than the ");
-  print(megabytes);
-  print(" MB that are in use; fewer points and a coarser resolution need less\n");
+  const std::array line = {part("relievo: expected more free memory than the "), part(megabytes),
+                           part(" MB that are in use; fewer points and a coarser resolution need less\n")};
+  // At once, as other processes of a batch may print at the same time.
+  (void)!::writev(STDERR_FILENO, line.data(), line.size());
   ::_exit(1);
 }
 

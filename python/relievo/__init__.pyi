@@ -11,6 +11,7 @@ __version__: str
 __all__ = [
     "Cloud",
     "Error",
+    "OutOfMemory",
     "Frame",
     "HeightSystem",
     "Relief",
@@ -41,6 +42,12 @@ class Error(Exception):
     place: str
     expected: str
     def __init__(self, kind: str, input: str, place: str, expected: str) -> None: ...
+
+class OutOfMemory(Exception):
+    kind: str
+    input: str
+    place: str
+    expected: str
 
 class Frame:
     def __init__(self, native: Any) -> None: ...
