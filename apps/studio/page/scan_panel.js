@@ -118,7 +118,7 @@ export class ScanPanel {
     for (const text of remarks) {
       const about = text.split(";")[0] + (text.includes(";") ? "." : "");
       if (crumbs > 0 && /small piece/.test(text)) notes.push([about, "Keep them", {crumbs: "keep"}]);
-      else if (plane && /with plane/.test(text))
+      else if (plane && /; --plane /.test(text))
         notes.push(plane.is_left_out ? [about, "Keep it", {plane: "keep"}] : [about, "Leave it out", {plane: "drop"}]);
       else if (noise > 0 && /^Removed noise/.test(text)) notes.push([about, "Keep the noise", {denoise: "0"}]);
       else notes.push([text]);

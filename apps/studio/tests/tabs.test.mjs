@@ -3,8 +3,8 @@ import assert from "node:assert/strict";
 import {readFileSync, renameSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {after, before, test} from "node:test";
-import {EngineProcess, enter, eventually, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder, untilReady,
-  writeSample} from "./support.mjs";
+import {EngineProcess, enter, eventually, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder,
+  untilListening, untilReady, writeSample} from "./support.mjs";
 
 const found = await findBrowser(), {skip} = found;
 
@@ -162,7 +162,7 @@ test("is one document in two tabs", {skip}, async () => {
   await tab.locator("#scan").evaluate((panel) => (panel.open = true));
   for (const [typed, taken] of [["0,0.3,1,1", "0,0.3,1,1"], ["abc", "0,0.3,1,1"], ["", ""]]) { // one is refused
     await enter(crop(tab), typed);
-    if (typed !== taken) await tab.getByText(/expected shares X0,Y0,X1,Y1/).waitFor();
+    if (typed !== taken) await tab.getByText(/expected left, bottom, right and top as shares/).waitFor();
     await eventually(async () => {
       for (const of of [tab, other]) await untilReady(of);
       assert.deepEqual(await crops(), [taken, taken]);
@@ -241,6 +241,7 @@ test("opens a project saved with its scan in another studio, where the scan is n
   renameSync(scan, moved);
   const elsewhere = await new EngineProcess(path.join(folder, "elsewhere")).ready();
   await tab.goto(elsewhere.address);
+  await untilListening(tab);
   await tab.locator("#samples button").first().waitFor();
   await tab.locator("#file").setInputFiles(project);
   await tab.getByText("of 20,000 points").waitFor();
@@ -306,6 +307,7 @@ test("goes on opening a scan after a reload, and with one that cannot be kept", 
   const other = await new EngineProcess(place).ready(), tab = await context.newPage();
   tab.setDefaultTimeout(120000);
   await tab.goto(other.address);
+  await untilListening(tab);
   await choose(tab, fileOf("shell"));
   await tab.getByText("of 6,000 points").waitFor();
   await untilReady(tab);
@@ -335,6 +337,7 @@ test("goes on opening a scan after a reload, and with one that cannot be kept", 
 test("removes what is kept, also what it shows", {skip}, async () => {
   const other = await new EngineProcess(path.join(folder, "removes")).ready(), tab = await context.newPage();
   await tab.goto(other.address);
+  await untilListening(tab);
   for (const [sample, points] of [["shell", "6,000"], ["green_man", "5,000"]]) {
     await choose(tab, fileOf(sample));
     await tab.getByText(`of ${points} points`).waitFor();
