@@ -151,7 +151,7 @@ bool link_to(const std::string& own, const char* path) {
   return ::linkat(AT_FDCWD, own.c_str(), AT_FDCWD, path, AT_SYMLINK_FOLLOW) == 0;
 }
 
-// What is there can be replaced by a file with a name only.
+// Only a file with a name can replace one that is there.
 bool name_in_place(const Descriptor& file, const std::string& own, const std::string& path) {
   const std::string stem = stem_for(path);
   remove_abandoned(stem);

@@ -25,7 +25,7 @@ bool is_there(const ScanSource& input) {
   return !input.sample.empty() || file_size(input.path);
 }
 
-// What is there in place of a scan, such as a device, is not one that has gone.
+// A device or a folder in the place of a scan is no scan that has gone.
 Result<void> check_place(const ScanSource& input) {
   return is_there(input) || !app::is_there(input.path) ? Result<void>{} : check_file(input.path);
 }

@@ -32,7 +32,7 @@ struct KeptDocument {
   std::string picture;  // as keep_picture() stored it; may be empty
 };
 
-// How many documents are kept, and how much they take with their scans.
+// The number of documents that are kept, and the bytes that they take with their scans.
 struct KeptAmount {
   std::size_t documents = 0;
   std::uint64_t bytes = 0;

@@ -22,7 +22,7 @@ struct BlockAtWork {
 };
 thread_local BlockAtWork at_work;
 
-// What a block throws that waits for one that will never be done.
+// A block throws this if it waits for one that will never be done.
 struct Abandoned {};
 
 // The blocks of one parallel call. Threads take the next block from a shared counter until none is left.

@@ -18,7 +18,7 @@ using Points = std::span<const Vec2>;
 // curves of more than 10 m files hold no less than this share of their radius.
 constexpr double finest_mm = 9e-4, finest_share = 1e-7;
 
-// How far a line is from the centre, for each size of the outline.
+// The distance of a line from the centre, as a function of the outline's size.
 struct Distance {
   double offset = 0, growth = 1;
 

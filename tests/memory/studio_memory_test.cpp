@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using test::FailingAllocation;
 
-// What a request was answered: with "memory" as its text if that was the error.
+// The answer to a request; its text is "memory" if that was the error.
 struct Told {
   int status = 0;
   std::string text;

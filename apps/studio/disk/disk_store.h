@@ -18,7 +18,7 @@ struct StudioAddress {
   std::string token;  // empty if not known
 };
 
-// What a file outlives, should it crash: the program, or the machine as well.
+// Says which crash a file survives: that of the program, or that of the machine as well.
 enum class Durability { program, machine };
 
 // Files in one folder, each replaced as a whole. What it removes are documents, when it is asked to, and scans that it has

@@ -1,4 +1,4 @@
-// What is typed or chosen for the piece: the document takes one entry after the other, in the order in which they were
+// The entries for the piece, typed or chosen: the document takes one after the other, in the order in which they were
 // made, each as a step of its own. Those of which the engine may not make a piece are tried before.
 
 import {$} from "./controls.js";
@@ -53,7 +53,7 @@ export class Entries {
     });
   }
 
-  // What was changed since the entry was made comes after it, as do all other entries.
+  // Changes that were made since the entry come after it, as do all other entries.
   insert(part, entry) {
     const before = this.doc.position;
     this.doc.changeAt(entry.position, part);

@@ -87,7 +87,7 @@ const PAUSE_MS = 60;
 
 const pause = () => new Promise((resolve) => setTimeout(resolve, PAUSE_MS));
 
-// What stands on a card until its picture is drawn: the outline of the piece, in a box of 48 x 36.
+// A card shows this outline of the piece until its picture is drawn, in a box of 48 x 36.
 const ROUND = "M12 18a12 12 0 1 0 24 0a12 12 0 1 0-24 0";
 const OUTLINES = {
   relief: "M9 8h30v20H9z", coin: `${ROUND}M15 18a9 9 0 1 0 18 0a9 9 0 1 0-18 0`,

@@ -275,7 +275,7 @@ function failed(error) {
   reopening = setTimeout(() => opened.closed().catch(failed), 200);
 }
 
-// What was typed before belongs to the work that is shown.
+// Text that was typed before belongs to the work that is shown.
 async function openInput(input, work) {
   await outcome.entered();
   return opened.open(input, work).catch(failed);

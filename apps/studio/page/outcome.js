@@ -1,4 +1,4 @@
-// What files and projects are made of: the document, once it has taken all entries and its picture is there.
+// Files and projects are made of the document once it has taken all entries and its picture is there.
 
 import {engineOptions} from "./document.js";
 import {confirmTyping} from "./inputs.js";

@@ -73,7 +73,7 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
 // Controls with a place of their own on the page, by the names of their options.
 const OTHERS = {alpha: "Flatness", crop: "Crop", crumbs: "Keep small pieces", denoise: "Denoise", method: "Method",
   plane: "Keep table, background", tone: "Tone curve", view: "View"};
-// What the engine calls otherwise than the page, or advises to whoever has a command line.
+// Replaces words of the engine that the page does not use, and advice that only a command line can follow.
 const WORDS = [[/expected shares X0,Y0,X1,Y1\b.*?(?=, found)/,
   "expected left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"],
 [/; the option channel takes one .*$/, ". Save it as a picture in greys, one value per pixel, and open that"]];
