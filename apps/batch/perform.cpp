@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "batch/memory_need.h"
+#include "batch/output_folder.h"
 #include "common/export_file.h"
 #include "common/files.h"
 #include "common/project.h"
@@ -56,10 +57,8 @@ bool is_still_true(const Record& before, const std::string& hash, const Workshop
 }
 
 std::optional<MakeError> make_outputs(const Job& job, const Workshop& workshop, int threads) {
-  std::error_code failed;
-  fs::create_directories((fs::path(workshop.outputs) / job.name).parent_path(), failed);
-  if (failed)
-    return MakeError{cat(job.name, ": expected a folder that can be written to: ", failed.message()), true};
+  if (const Result<void> made = make_output_folder(workshop.outputs, fs::path(job.name).parent_path()); !made)
+    return MakeError{cat(job.name, ": ", made.error().message()), true};
   return workshop.make(make_arguments(job, workshop, threads));
 }
 

@@ -13,6 +13,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "batch/output_folder.h"
 #include "common/files.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
@@ -23,16 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-fs::path journals_in(const std::string& outputs) {
-  return fs::path(outputs) / ".journal";
-}
+constexpr std::string_view journal_folder = ".journal";
 
-Result<void> make_journal_folder(const std::string& outputs) {
-  std::error_code failed;
-  fs::create_directories(journals_in(outputs), failed);
-  if (!failed) return {};
-  return std::unexpected(Error{
-      ErrorKind::output, outputs, {}, cat("expected a folder that can be written to: ", failed.message())});
+fs::path journals_in(const std::string& outputs) {
+  return fs::path(outputs) / journal_folder;
 }
 
 bool ends_in_a_line(const Descriptor& file) {
@@ -111,7 +106,7 @@ Records read_journals(const std::string& outputs) {
 }
 
 Result<Journal> Journal::open(const std::string& outputs) {
-  RELIEVO_CHECK(make_journal_folder(outputs));
+  RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
   const std::string path = (journals_in(outputs) / cat(host_name(), ".jsonl")).string();
   Descriptor file(::open(path.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666));
   if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a journal that can be written");
@@ -128,7 +123,7 @@ Result<void> Journal::append(const Record& record) const {
 }
 
 Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard) {
-  RELIEVO_CHECK(make_journal_folder(outputs));
+  RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
   const std::string path = (journals_in(outputs) / cat("lock", shard)).string();
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");
@@ -139,7 +134,7 @@ Result<Descriptor> lock_run(const std::string& outputs, const std::string& shard
 }
 
 Result<Descriptor> lock_job(const std::string& outputs, const std::string& name) {
-  RELIEVO_CHECK(make_journal_folder(outputs));
+  RELIEVO_CHECK(make_output_folder(outputs, journal_folder));
   const std::string path = (journals_in(outputs) / "jobs.lock").string();
   Descriptor file(::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
   if (!file.is_open()) return system_error(ErrorKind::output, path, "expected a lock that can be written");

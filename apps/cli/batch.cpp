@@ -6,6 +6,7 @@
 
 #include "batch/finish.h"
 #include "batch/memory_need.h"
+#include "batch/output_folder.h"
 #include "batch/processes.h"
 #include "batch/run.h"
 #include "cli/batch_progress.h"
@@ -14,7 +15,6 @@
 #include "cli/program.h"
 #include "cli/terminal.h"
 #include "common/files.h"
-#include "common/owned_folder.h"
 #include "common/read_inputs.h"
 #include "relievo/core/text.h"
 
@@ -94,24 +94,6 @@ std::optional<batch::MakeError> call_make(const std::vector<std::string>& argume
   return batch::MakeError{end.message, end.may_succeed};
 }
 
-// Makes the folder of the outputs that of this command, so that no file of somebody else is replaced; `is_read_only` changes
-// nothing.
-Result<void> take_folder(const std::string& path, bool is_read_only) {
-  constexpr std::string_view owner = "batch";
-  switch (is_read_only ? ownership_of(path, owner) : own_folder(path, owner)) {
-    case Ownership::owned:
-    case Ownership::free:
-      return {};
-    case Ownership::of_others:
-      return option_error(
-          "output",
-          cat("expected an empty folder, or one of relievo batch, found other files in '", path, "'"));
-    case Ownership::unusable:
-      break;
-  }
-  return system_error(ErrorKind::output, path, "expected a folder that can be written to");
-}
-
 Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
   if (arguments.outputs.empty()) return option_error("output", "expected a folder, found none");
   RELIEVO_TRY(std::vector<batch::OutputKind> kinds, batch::parse_output_kinds(arguments.kinds));
@@ -131,7 +113,8 @@ Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& com
                                    given_options(command)};
   RELIEVO_TRY(order.jobs, batch::list_jobs(catalogue, is_option));
   order.skipped = batch::skipped_files(catalogue, order.jobs);
-  RELIEVO_CHECK(take_folder(arguments.outputs, arguments.is_list));
+  RELIEVO_CHECK(arguments.is_list ? batch::check_output_folder(arguments.outputs)
+                                  : batch::make_output_folder(arguments.outputs));
   return order;
 }
 
@@ -227,7 +210,7 @@ Result<batch::Record> do_job(const std::string& listed, const batch::Workshop& w
 // Does the jobs in turn. A job that fails does not keep the others from being done.
 Result<void> do_jobs(const BatchArguments& arguments) {
   RELIEVO_TRY(const batch::Workshop workshop, workshop_of(arguments));
-  RELIEVO_CHECK(take_folder(arguments.outputs, false));
+  RELIEVO_CHECK(batch::make_output_folder(arguments.outputs));
   RELIEVO_TRY(const batch::Journal journal, batch::Journal::open(workshop.outputs));
   std::string failed;
   for (const std::string& listed : arguments.jobs) {

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -20,8 +21,10 @@ iovec part(const char* text) {
   return {const_cast<char*>(text), std::strlen(text)};
 }
 
-// Nothing here may allocate.
+// Nothing here may allocate. Of several threads that fail at once, the first alone speaks.
 void end_process() {
+  static std::atomic_flag is_ending;
+  while (is_ending.test_and_set()) ::pause();
   remove_temporary_files();
   rusage usage{};
   ::getrusage(RUSAGE_SELF, &usage);

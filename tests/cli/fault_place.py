@@ -117,6 +117,9 @@ class Place:
         (self.out / ".relievo_folder").write_text(
             "relievo batch made this folder or found it empty, and may remove what it has put here.\n")
 
+    def is_marked(self):
+        return (self.out / ".relievo_folder").exists()
+
     def add_foreign_files(self, folder):
         """Writes files that no program may touch, and returns what they are."""
         folder.mkdir(exist_ok=True)

@@ -1,0 +1,19 @@
+// The folder that a batch fills. Tested by tests/cli/foreign_files and scripts/fault-campaign.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "relievo/core/error.h"
+
+namespace relievo::app::batch {
+
+// Returns whether a batch may fill the folder. Nothing changes. Errors: of kind option if it has files of others, of kind
+// output if it cannot be read.
+Result<void> check_output_folder(const std::string& outputs);
+
+// Makes the folder that of a batch, and a folder inside it. They may be missing, also while a run is at work, whose user
+// may have removed them. Errors: as above.
+Result<void> make_output_folder(const std::string& outputs, const std::filesystem::path& inner = {});
+
+}  // namespace relievo::app::batch
