@@ -27,11 +27,17 @@ fs::path mark_in(const std::string& folder) {
   return fs::path(folder) / mark_name;
 }
 
-bool has_mark(const std::string& folder, std::string_view owner) {
+// Returns owned, of_others, or unusable if there is a mark that cannot be read.
+Ownership read_mark(const std::string& folder, std::string_view owner) {
   std::error_code ignored;
   const fs::path mark = mark_in(folder);
-  return fs::is_regular_file(fs::symlink_status(mark, ignored)) &&
-         text_of_file(mark.string()) == mark_of(owner);
+  if (!fs::is_regular_file(fs::symlink_status(mark, ignored))) return Ownership::of_others;
+  const auto bytes = read_file(mark.string());
+  if (const int reason = errno; !bytes && is_there(mark.string())) {
+    errno = reason;
+    return Ownership::unusable;
+  }
+  return bytes && text_in(*bytes) == mark_of(owner) ? Ownership::owned : Ownership::of_others;
 }
 
 // Returns whether the folder has nothing but a mark that another process is about to write.
@@ -47,7 +53,7 @@ bool is_empty(const std::string& folder, std::error_code& failed) {
 
 Ownership ownership_of(const std::string& folder, std::string_view owner) {
   if (!is_there(folder) && errno == ENOENT) return Ownership::free;
-  if (has_mark(folder, owner)) return Ownership::owned;
+  if (const Ownership found = read_mark(folder, owner); found != Ownership::of_others) return found;
   std::error_code failed;
   const bool is_free = is_empty(folder, failed);
   if (failed) {
@@ -55,7 +61,7 @@ Ownership ownership_of(const std::string& folder, std::string_view owner) {
     return Ownership::unusable;
   }
   if (is_free) return Ownership::free;
-  return has_mark(folder, owner) ? Ownership::owned : Ownership::of_others;  // marked meanwhile
+  return read_mark(folder, owner);  // it may have been marked meanwhile
 }
 
 Ownership own_folder(const std::string& folder, std::string_view owner, unsigned mode) {

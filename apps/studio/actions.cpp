@@ -71,27 +71,29 @@ void Actions::run(std::string_view name, const Json& json, Answer& to) {
 }
 
 // Returns a document as the page kept it; null if it did not.
-Json Actions::kept_state(const std::string& id) const {
-  const Json state = Json::parse(store_.document(id), nullptr, false);
+Result<Json> Actions::kept_state(const std::string& id) const {
+  RELIEVO_TRY(const std::string text, store_.document(id));
+  const Json state = Json::parse(text, nullptr, false);
   return state.is_object() ? state : Json();
 }
 
 // With `storing_` locked: returns when the state of a document that is kept was changed.
-double Actions::time_of_newest(const std::string& id) {
+Result<double> Actions::time_of_newest(const std::string& id) {
   const std::optional<double> known = opened_.with([&](const std::map<std::string, Opened>& opened) {
     const auto found = opened.find(id);
     return found == opened.end() ? std::nullopt : std::optional(found->second.time_ms);
   });
   if (known) return *known;
-  const Json state = kept_state(id);
+  RELIEVO_TRY(const Json state, kept_state(id));
   return state.is_object() ? time_of(state) : 0;
 }
 
-std::shared_ptr<Engine> Actions::open_document(const ScanSource& input, const std::string& tab) {
+Result<std::shared_ptr<Engine>> Actions::open_document(const ScanSource& input, const std::string& tab) {
   const std::string id = document_of(input);
   const auto engine = documents_.open(id, tab);
   const Lock lock(storing_);
-  Opened now{input, time_of_newest(id), {}};
+  RELIEVO_TRY(const double time_ms, time_of_newest(id));
+  Opened now{input, time_ms, {}};
   opened_.with([&](std::map<std::string, Opened>& opened) {
     std::erase_if(opened, [&](const auto& each) { return !documents_.is_open(each.first); });
     if (const auto found = opened.find(id); found != opened.end()) now.tab = found->second.tab;
@@ -108,17 +110,18 @@ void Actions::document(const Json& json, Answer& to) {
   if (!is_there(*input)) input = store_.find_scan(input->hash).value_or(*input);
   if (const auto ok = check_place(*input); !ok) return answer(to, ok.error());
   const std::string id = document_of(*input);
-  answer(to, {{"document", id},
-              {"input", to_json(*input)},
-              {"is_there", is_there(*input)},
-              {"kept", kept_state(id)}});
+  const Result<Json> kept = kept_state(id);
+  if (!kept) return answer(to, kept.error());
+  answer(to, {{"document", id}, {"input", to_json(*input)}, {"is_there", is_there(*input)}, {"kept", *kept}});
 }
 
 void Actions::open(const Json& json, Answer& to) {
   const Result<ScanSource> input = input_in(json);
   if (!input) return answer(to, input.error());
   const std::string id = document_of(*input);
-  open_document(*input, json.value("tab", ""))->show(*input, preparation_texts(json));
+  const auto engine = open_document(*input, json.value("tab", ""));
+  if (!engine) return answer(to, engine.error());
+  (*engine)->show(*input, preparation_texts(json));
   const Lock lock(storing_);
   store_.touch(id);
   answer(to, {{"document", id}});
@@ -135,7 +138,9 @@ void Actions::keep(const Json& json, Answer& to) {
   const Json state = json.value("state", Json());
   if (!state.is_object()) return refuse(to, 400, "expected a state");
   const Lock lock(storing_);
-  if (time_of(state) < time_of_newest(id))
+  const Result<double> newest = time_of_newest(id);
+  if (!newest) return answer(to, newest.error());
+  if (time_of(state) < *newest)
     return answer(to, {{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
   const auto ok = store_.keep_document(id, state.dump(), json.value("is_moving", false));
   if (!ok) return answer(to, ok.error());
@@ -168,7 +173,7 @@ Json Actions::recent_list() {
   const auto opened = opened_.with([](const auto& all) { return all; });
   for (const OpenDocuments::Entry& entry : documents_.all()) {
     const auto found = opened.find(entry.document);
-    if (found == opened.end() || entry.engine->status().error || !store_.document(entry.document).empty())
+    if (found == opened.end() || entry.engine->status().error || store_.document(entry.document) != "")
       continue;
     list.push_back({{"document", entry.document},
                     {"input", to_json(found->second.input)},
@@ -291,10 +296,11 @@ Result<void> Actions::begin_with(const std::string& path, const std::string& ful
   const ScanSource input{{}, place.lexically_normal().string(), place.filename().string(), {}};
   first_ = {{"input", to_json(input)}, {"is_there", true}};
   // The page prepares a kept document in its own view.
-  if (store_.document(document_of(input)).empty()) {
+  if (store_.document(document_of(input)) == "") {
     PreparationTexts first_view;
     first_view.view = "auto";
-    open_document(input, {})->open(input, first_view);
+    RELIEVO_TRY(const auto engine, open_document(input, {}));
+    engine->open(input, first_view);
   }
   return {};
 }

@@ -85,9 +85,9 @@ class Actions {
   Result<nlohmann::json> project_in(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder);
   nlohmann::json recent_list();
-  nlohmann::json kept_state(const std::string& id) const;
-  double time_of_newest(const std::string& id);
-  std::shared_ptr<Engine> open_document(const ScanSource& input, const std::string& tab);
+  Result<nlohmann::json> kept_state(const std::string& id) const;
+  Result<double> time_of_newest(const std::string& id);
+  Result<std::shared_ptr<Engine>> open_document(const ScanSource& input, const std::string& tab);
   nlohmann::json status_of(const OpenDocuments::Entry& entry);
 
   static const std::map<std::string, Action, std::less<>> actions_;

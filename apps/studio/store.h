@@ -51,8 +51,8 @@ class Store {
   // Returns what the user should know of the place: that it is another one, or cannot be written to. Usually empty.
   virtual const std::string& notice() const = 0;
 
-  // Returns a document as keep_document() stored it; an empty text before, and if it cannot be read.
-  virtual std::string document(const std::string& id) const = 0;
+  // Returns a document as keep_document() stored it; an empty text before. Errors: kind output if it cannot be read.
+  virtual Result<std::string> document(const std::string& id) const = 0;
 
   // Keeps a document; its state is JSON of the page. If `is_moving`, the next state follows soon. Errors: kind input if
   // the name is none, kind output.

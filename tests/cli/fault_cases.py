@@ -9,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 from fault_place import (PATIENCE, SIGNALS, BROKEN, NO_ROOM, Faults, Find, Place, Skip, batch_command, files_in, finish, make_command,
                          require, temporaries)
@@ -161,6 +162,25 @@ class Page:
         return status, content
 
 
+    def keep_a_scan(self):
+        """Keeps a document of a scan that was dropped on the page. Returns the scan's path."""
+        content = self.must("upload?name=dropped.ply", (self.place.folder / "scan.ply").read_bytes() + b"dropped")
+        dropped = json.loads(content)["input"]
+        document = json.loads(self.must("open", {"input": dropped, "tab": "u", "view": "front"}))["document"]
+        self.must("state", {"document": document, "state": {"changed": 1, "text": dropped["path"]}})
+        return Path(dropped["path"])
+
+
+def start_without_reading(place, chance):
+    """Starts a studio that cannot read all of its files, and ends it."""
+    place.faults.arm(Faults.READS, chance.randint(1, 12), chance.choice([1, 10**9]))
+    process = place.start([place.program, "studio", "--no-browser", "--state", "state"], {})
+    process.stdout.readline()
+    process.terminate()
+    finish(process)
+    place.faults.disarm()
+
+
 def frame_of(document):
     return {"document": document, "options": {"method": "paper", "resolution": 1}, "width": 60, "height": 40}
 
@@ -174,7 +194,7 @@ def failing_allocations(faults, chance):
 def work(page, document, chance):
     """Asks for one thing that users do."""
     frame = frame_of(document)
-    action = chance.choice(["open", "view", "frame", "turn", "piece", "export", "scan", "keep", "upload", "save", "recent"])
+    action = chance.choice(["open", "view", "frame", "turn", "piece", "export", "scan", "keep", "upload", "save", "recent", "remove"])
     if action == "open":
         page.open(chance.choice(["shell", "still_life", "green_man"]))
     elif action == "view":
@@ -194,6 +214,10 @@ def work(page, document, chance):
         page.ask(f"upload?name={chance.randint(1, 99)}.ply", (page.place.folder / "scan.ply").read_bytes() + bytes([chance.randint(0, 255)]))
     elif action == "save":
         page.ask("save", {"project": {"input": {"path": str(page.place.folder / "scan.ply")}, "options": {}}})
+    elif action == "remove":
+        other = page.open("still_life")
+        page.ask("remove", {"document": other, "tab": "t"})
+        page.open("shell")
     else:
         page.ask("recent", {})
 
@@ -278,6 +302,7 @@ def studio(workshop, kind, chance, number):
         document = page.open("shell")
         page.wait(document)
         frame = page.must("frame", frame_of(document))
+        dropped = page.keep_a_scan() if kind != "full disk" else None
         has_hit = fault_in_studio(page, kind, chance, document)
         if kind != "kill":
             check_studio(page, kind, document, frame)
@@ -289,7 +314,10 @@ def studio(workshop, kind, chance, number):
         if kind == "folder gone":
             return has_hit
         place.faults[Faults.CLOCK] = 0
+        if kind == "read":
+            start_without_reading(place, chance)
         page = Page(place)
+        require(not dropped or dropped.exists(), "studio: the scan of a document is gone")
         path = str(place.folder / "scans" / "shell.ply")
         state = json.loads(page.must("document", {"input": {"path": path}}))["kept"] or {"changed": 0, "text": ""}
         require(state["changed"] in (kept, kept + 1), "studio: kept", state["changed"], "after", kept)

@@ -1,12 +1,17 @@
 // Preloaded into programs, makes faults happen in them. tests/cli/faults sets these in the environment: THREADS, of which no
 // more are given; SHRINK, the file that becomes shorter when it is about to be read; CLOCK_BACK, with which the clock is
-// set back by an hour whenever it is read. scripts/fault-campaign sets FAULTS, a file of numbers that all processes of a
-// program share, and which say what fails when: see the enumeration below. Allocations are counted from main() on, or from the
-// start if AT_ONCE is set; those of modules whose paths contain a word of EXCEPT are not.
+// set back by an hour whenever it is read. With NO_TMPFILE, no file can be made without a name. scripts/fault-campaign
+// sets FAULTS, a file of numbers that all processes of a program share, and which say what fails when: see the enumeration
+// below. Allocations are counted from main() on, or from the start if AT_ONCE is set; those of modules whose paths contain
+// a word of EXCEPT are not.
 #define _GNU_SOURCE
+#define open declared_open  // with another number of arguments
+#define open64 declared_open64
+#include <fcntl.h>
+#undef open
+#undef open64
 #include <dlfcn.h>
 #include <errno.h>
-#include <fcntl.h>
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
@@ -23,6 +28,17 @@ extern void* __libc_calloc(size_t, size_t);
 extern void* __libc_realloc(void*, size_t);
 extern void* __libc_memalign(size_t, size_t);
 
+// With NO_TMPFILE programs behave as on a file system that makes no files without names.
+static int open_with(const char* path, int flags, mode_t mode) {
+  if ((flags & O_TMPFILE) == O_TMPFILE && getenv("NO_TMPFILE")) {
+    errno = EOPNOTSUPP;
+    return -1;
+  }
+  return (int)syscall(SYS_openat, AT_FDCWD, path, flags, mode);
+}
+int open(const char* path, int flags, mode_t mode) { return open_with(path, flags, mode); }
+int open64(const char* path, int flags, mode_t mode) { return open_with(path, flags, mode); }
+
 // Of each kind of call: its number so far, the first that fails, 0 for none, and how many do so one after the other. Allocations
 // of fewer than `least_bytes` are not counted and do not fail.
 enum { allocations = 0, writes = 3, reads = 6, write_error = 9, clock_shift_s = 10, least_bytes = 11, numbers = 16 };
@@ -33,7 +49,7 @@ static __thread int is_inside __attribute__((tls_model("initial-exec")));
 
 __attribute__((constructor)) static void begin(void) {
   const char* path = getenv("FAULTS");
-  const int file = path ? open(path, O_RDWR | O_CLOEXEC) : -1;
+  const int file = path ? open_with(path, O_RDWR | O_CLOEXEC, 0) : -1;
   if (file >= 0) {
     void* map = mmap(0, sizeof none, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
     if (map != MAP_FAILED) shared = map;

@@ -56,6 +56,16 @@ struct ScanFile final : DroppedScan {
   TemporaryFile file;
 };
 
+Result<std::string> read_kept(const std::string& path) {
+  const auto bytes = read_file(path);
+  if (bytes) return std::string(text_in(*bytes));
+  return std::unexpected(
+      Error{ErrorKind::output,
+            {},
+            {},
+            cat("expected a folder of the studio that can be read: ", bytes.error().expected)});
+}
+
 Result<void> check_id(const std::string& id) {
   if (is_document(id)) return {};
   return std::unexpected(Error{ErrorKind::input, "document", {}, "expected the name of a document"});
@@ -123,8 +133,9 @@ Result<void> DiskStore::write(const std::string& name, std::string_view text, Du
   return not_kept(errno);
 }
 
-std::string DiskStore::document(const std::string& id) const {
-  return is_document(id) ? text_of_file(fs::path(folder_) / documents / (id + ".json")) : std::string();
+Result<std::string> DiskStore::document(const std::string& id) const {
+  const std::string path = fs::path(folder_) / documents / (id + ".json");
+  return is_document(id) && app::is_there(path) ? read_kept(path) : std::string();
 }
 
 Result<void> DiskStore::keep_document(const std::string& id, std::string_view state, bool is_moving) {
@@ -161,7 +172,7 @@ std::vector<KeptDocument> DiskStore::recent() const {
   std::vector<KeptDocument> all;
   for (const std::string& id : newest_documents()) {
     if (all.size() == most_recent) break;
-    const std::optional<ScanSource> input = input_of(document(id));
+    const std::optional<ScanSource> input = input_of(document(id).value_or(""));
     if (!input) continue;
     std::error_code ignored;
     const bool is_there = !input->sample.empty() || fs::exists(input->path, ignored);
@@ -179,7 +190,8 @@ KeptAmount DiskStore::amount() const {
 
 Result<void> DiskStore::remove(const std::string& id) {
   RELIEVO_CHECK(check_id(id));
-  const std::set<std::string> its_scans = scans_of({document(id)});
+  RELIEVO_TRY(std::string text, document(id));
+  RELIEVO_TRY(const std::set<std::string> its_scans, scans_of({std::move(text)}));
   std::error_code failed;
   for (const char* const ending : {".json", ".picture"})
     if (!failed) fs::remove(fs::path(folder_) / documents / (id + ending), failed);
@@ -225,25 +237,33 @@ std::optional<ScanSource> DiskStore::find_scan(const std::string& hash) const {
 }
 
 // Returns the folders of kept scans that texts name, and those that the scenes among them name.
-std::set<std::string> DiskStore::scans_of(std::vector<std::string> texts) const {
+Result<std::set<std::string>> DiskStore::scans_of(std::vector<std::string> texts) const {
   std::set<std::string> found;
   for (std::size_t i = 0; i < texts.size(); ++i)
-    for (const std::string& scan : scans_in(texts[i]))
-      if (found.insert(scan).second)
-        for (const fs::directory_entry& file : entries_of(fs::path(folder_) / scans / scan))
-          if (file.path().extension() == ".json") texts.push_back(text_of_file(file.path()));
+    for (const std::string& scan : scans_in(texts[i])) {
+      if (!found.insert(scan).second) continue;
+      for (const fs::directory_entry& file : entries_of(fs::path(folder_) / scans / scan)) {
+        if (file.path().extension() != ".json") continue;
+        RELIEVO_TRY(texts.emplace_back(), read_kept(file.path()));
+      }
+    }
   return found;
 }
 
-// Of these scans, removes those that no document needs. A file whose content is not that by which its folder is named was
-// put there by somebody else, and stays.
+// Removes those of the scans that no document needs; none of them while one document cannot be read. A file stays if its
+// folder is not named by its content: somebody else has put it there.
 void DiskStore::remove_unneeded(const std::set<std::string>& candidates) const {
   if (candidates.empty()) return;
   std::vector<std::string> texts;
-  for (const std::string& id : newest_documents()) texts.push_back(document(id));
-  const std::set<std::string> needed = scans_of(std::move(texts));
+  for (const std::string& id : newest_documents()) {
+    Result<std::string> text = document(id);
+    if (!text) return;
+    texts.push_back(*std::move(text));
+  }
+  const Result<std::set<std::string>> needed = scans_of(std::move(texts));
+  if (!needed) return;
   for (const std::string& scan : candidates) {
-    if (!is_document(scan) || needed.contains(scan)) continue;
+    if (!is_document(scan) || needed->contains(scan)) continue;
     const fs::path folder = fs::path(folder_) / scans / scan;
     std::error_code ignored;
     for (const fs::directory_entry& file : entries_of(folder))

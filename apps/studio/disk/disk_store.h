@@ -28,7 +28,7 @@ class DiskStore final : public Store {
   explicit DiskStore(StateFolder folder);
 
   const std::string& notice() const override { return notice_; }
-  std::string document(const std::string& id) const override;
+  Result<std::string> document(const std::string& id) const override;
   Result<void> keep_document(const std::string& id, std::string_view state, bool is_moving) override;
   Result<void> keep_picture(const std::string& id, std::string_view picture) override;
   void touch(const std::string& id) override;
@@ -46,7 +46,7 @@ class DiskStore final : public Store {
  private:
   Result<void> write(const std::string& name, std::string_view text, Durability durability) const;
   std::vector<std::string> newest_documents() const;
-  std::set<std::string> scans_of(std::vector<std::string> texts) const;
+  Result<std::set<std::string>> scans_of(std::vector<std::string> texts) const;
   void remove_unneeded(const std::set<std::string>& candidates) const;
 
   std::string folder_, notice_;

@@ -12,7 +12,7 @@ namespace relievo::app::web {
 class BrowserStore final : public studio::Store {
  public:
   const std::string& notice() const override { return notice_; }
-  std::string document(const std::string&) const override { return {}; }
+  Result<std::string> document(const std::string&) const override { return {}; }
   Result<void> keep_document(const std::string&, std::string_view, bool) override { return {}; }
   Result<void> keep_picture(const std::string&, std::string_view) override { return {}; }
   void touch(const std::string&) override {}
