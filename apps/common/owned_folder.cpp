@@ -49,6 +49,14 @@ bool is_empty(const std::string& folder, std::error_code& failed) {
   });
 }
 
+// Marks a folder whatever is in it. Returns owned or unusable.
+Ownership mark_folder(const std::string& folder, std::string_view owner) {
+  const std::string path = mark_in(folder).string(), text = mark_of(owner);
+  TemporaryFile mark(path);
+  const bool is_marked = mark.append(std::as_bytes(std::span(text))) && mark.finish() && mark.keep(path);
+  return is_marked ? Ownership::owned : Ownership::unusable;
+}
+
 }  // namespace
 
 Ownership ownership_of(const std::string& folder, std::string_view owner) {
@@ -73,13 +81,6 @@ Ownership own_folder(const std::string& folder, std::string_view owner, unsigned
   if (failed) errno = failed.value();
   if (failed || (::mkdir(folder.c_str(), mode) != 0 && errno != EEXIST)) return Ownership::unusable;
   return mark_folder(folder, owner);
-}
-
-Ownership mark_folder(const std::string& folder, std::string_view owner) {
-  const std::string path = mark_in(folder).string(), text = mark_of(owner);
-  TemporaryFile mark(path);
-  const bool is_marked = mark.append(std::as_bytes(std::span(text))) && mark.finish() && mark.keep(path);
-  return is_marked ? Ownership::owned : Ownership::unusable;
 }
 
 }  // namespace relievo::app

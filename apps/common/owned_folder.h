@@ -21,7 +21,4 @@ Ownership ownership_of(const std::string& folder, std::string_view owner);
 // is the owner's now. In a folder of others nothing changes.
 Ownership own_folder(const std::string& folder, std::string_view owner, unsigned mode = 0777);
 
-// Marks a folder whatever is in it. Returns owned or unusable.
-Ownership mark_folder(const std::string& folder, std::string_view owner);
-
 }  // namespace relievo::app

@@ -74,16 +74,6 @@ std::string unknown_name(const Json& json) {
 
 constexpr const char* base_image_name = "base-image";
 
-// Projects of older versions use former names.
-Json renamed(Json json) {
-  if (json.contains("surface")) {
-    json["finish"] = json["surface"];
-    json.erase("surface");
-  }
-  if (json.value("method", Json()) == "ours") json["method"] = "layered";
-  return json;
-}
-
 }  // namespace
 
 OptionTexts with_given(OptionTexts own, const OptionTexts& given,
@@ -111,9 +101,8 @@ Json to_json(const OptionTexts& options) {
   return json;
 }
 
-Result<OptionTexts> texts_from_json(const Json& given, std::string_view name) {
-  if (!given.is_object()) return fail(name, "options", "expected an object" + found(given));
-  const Json json = renamed(given);
+Result<OptionTexts> texts_from_json(const Json& json, std::string_view name) {
+  if (!json.is_object()) return fail(name, "options", "expected an object" + found(json));
   OptionTexts options;
   FieldReader reader{json, {}, {}};
   visit(options, reader);

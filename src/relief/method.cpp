@@ -17,7 +17,6 @@ const MethodInfo& info_of(Method method) {
 }  // namespace
 
 Result<Method> parse_method(std::string_view name, std::string_view option) {
-  if (name == "ours") name = name_of(Method::layered);
   const auto found = std::ranges::find(methods, name, &MethodInfo::name);
   if (found != methods.end()) return found->method;
   std::vector<std::string_view> names;

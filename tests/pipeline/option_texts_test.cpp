@@ -63,15 +63,6 @@ TEST(OptionTexts, EachBecomesItsValue) {
   EXPECT_EQ(parse_options(texts)->base.height_mm, 2);
 }
 
-TEST(OptionTexts, TheFormerNameOfAMethodStillWorks) {
-  OptionTexts texts;
-  texts.method = "ours";
-  texts.height_mm = 3;  // which that method needs
-  const auto options = parse_options(texts);
-  ASSERT_TRUE(options) << options.error().message();
-  EXPECT_EQ(options->method, Method::layered);
-}
-
 TEST(OptionTexts, AWrongOneIsNamedWithoutDashes) {
   const std::pair<std::string OptionTexts::*, std::string> texts[] = {
       {&OptionTexts::method, "method"},   {&OptionTexts::tone, "tone"}, {&OptionTexts::mode, "mode"},

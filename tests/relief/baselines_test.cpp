@@ -234,7 +234,6 @@ TEST(Method, NamesLeadBack) {
     EXPECT_EQ(parse_method(info.name), info.method);
     EXPECT_EQ(name_of(info.method), info.name);
   }
-  EXPECT_EQ(parse_method("ours"), Method::layered);
   const std::string message = parse_method("carving").error().message();
   EXPECT_TRUE(message.starts_with("method: expected one of layered, paper, linear, ")) << message;
   EXPECT_TRUE(message.ends_with(", found 'carving'")) << message;

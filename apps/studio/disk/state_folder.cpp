@@ -3,17 +3,13 @@
 #include <fcntl.h>
 #include <sys/file.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "common/files.h"
 #include "common/owned_folder.h"
 #include "relievo/core/text.h"
-#include "studio/store.h"
 
 namespace relievo::app::studio {
 namespace {
@@ -27,53 +23,6 @@ constexpr unsigned private_folder = 0700;
 std::string variable(const char* name) {
   const char* const value = std::getenv(name);
   return value ? value : "";
-}
-
-bool is_file(const fs::path& path) {
-  std::error_code ignored;
-  return fs::is_regular_file(fs::symlink_status(path, ignored));
-}
-
-// Returns whether all entries of a folder, which may be missing, are as wanted.
-bool is_each(const fs::path& folder, bool (*is_wanted)(const fs::path&)) {
-  std::error_code failed;
-  const fs::file_status status = fs::symlink_status(folder, failed);
-  if (!fs::exists(status)) return true;
-  if (!fs::is_directory(status)) return false;
-  for (fs::directory_iterator entry(folder, failed), end; !failed && entry != end; entry.increment(failed))
-    if (!is_wanted(entry->path())) return false;
-  return !failed;
-}
-
-bool is_kept_document(const fs::path& path) {
-  const std::string ending = path.extension().string(), stem = path.stem().string();
-  const bool is_unfinished = ending.starts_with(".relievo-") && is_document(stem.substr(0, stem.find('.')));
-  return is_file(path) &&
-         ((is_document(stem) && (ending == ".json" || ending == ".picture")) || is_unfinished);
-}
-
-bool is_kept_scan(const fs::path& path) {
-  return is_document(path.filename().string()) && is_each(path, is_file);
-}
-
-bool is_of_state(const fs::path& path) {
-  const std::string name = path.filename().string();
-  if (name == "documents") return is_each(path, is_kept_document);
-  if (name == "scans") return is_each(path, is_kept_scan);
-  return is_file(path) && (name == "lock" || name == "address.json" || name.starts_with("upload.relievo-"));
-}
-
-// Versions of 2026 marked no folder. One of theirs has an empty lock and an address with a token, and nothing that is not a
-// studio's.
-bool is_former(const fs::path& folder) {
-  const auto address = nlohmann::json::parse(text_of_file(folder / "address.json"), nullptr, false);
-  const bool has_token = address.is_object() && address.contains("port") && address.contains("token");
-  return has_token && file_size(folder / "lock") == 0 && is_each(folder, is_of_state);
-}
-
-Ownership own_or_adopt(const std::string& folder) {
-  const Ownership found = own_folder(folder, mark_owner, private_folder);
-  return found == Ownership::of_others && is_former(folder) ? mark_folder(folder, mark_owner) : found;
 }
 
 // Locks the folder until this program ends; otherwise errno tells why not.
@@ -111,7 +60,7 @@ Result<StateFolder> take_state_folder(const std::string& chosen) {
   StateFolder folder;
   for (int i = 1; i <= most_studios; ++i) {
     folder.path = i == 1 ? first : cat(first, "-", i);
-    const Ownership found = own_or_adopt(folder.path);
+    const Ownership found = own_folder(folder.path, mark_owner, private_folder);
     folder.is_ours = found == Ownership::owned;
     if (found == Ownership::of_others && i == 1) {
       if (!chosen.empty())

@@ -29,9 +29,6 @@ const MOST_STEPS = 200, MOST_U = 1e12; // as the engine takes it
 // Returns the parameter u of the compression that the paper's alpha and beta make.
 export const uOfAlpha = (alpha, beta) => Math.min(alpha ** -beta, MOST_U);
 
-// Documents of older versions call the method `layered` by its former name.
-const renamed = (options) => (options?.method === "ours" ? {...options, method: "layered"} : options);
-
 const isSame = (a, b) => JSON.stringify(a) === JSON.stringify(b);
 
 // Returns a step with a part's values in place of its own.
@@ -173,7 +170,7 @@ export class Document {
   // Returns whether the kept state could be used.
   restore(kept) {
     if (kept?.version !== 1 || !Array.isArray(kept.steps) || !kept.steps[kept.at]?.input) return false;
-    this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...renamed(step.options)}}));
+    this.steps = kept.steps.map((step) => ({...FIRST, ...step, options: {...FIRST.options, ...step.options}}));
     this.at = kept.at;
     this.changedAt = kept.changed ?? 0;
     this.stroke = null;

@@ -58,38 +58,6 @@ test("keeps a document for each scan, and the newer state of each", async () => 
     assert.ok((await keep(engine, document, {changed: 1})).status >= 400, `${document}`);
 });
 
-// Starts a studio that is to refuse its folder.
-const refusal = async (place) => {
-  const refused = new EngineProcess(place), {code} = await refused.ended;
-  return {code, text: refused.errors};
-};
-
-test("takes over a folder of a version that marked none, and no other", async () => {
-  const former = path.join(folder, "former"), mark = path.join(former, ".relievo_folder"), input = {path: scan};
-  let other = await new EngineProcess(former).ready();
-  const {document} = await other.json("document", {input});
-  await keep(other, document, stateOf(input, 7, 1));
-  const target = `${other.url.pathname}api/upload?name=a.xyz`;
-  const dropped = JSON.parse((await other.request(target, {method: "POST", body: "0 0 0\n"})).body).input;
-  await keep(other, (await other.json("document", {input: dropped})).document, stateOf(dropped, 8, 1));
-  await other.stop();
-  rmSync(mark);
-  other = await new EngineProcess(former).ready();
-  assert.equal((await other.json("document", {input})).kept.steps[0].options.height, 7);
-  assert.equal((await other.json("recent")).recent.length, 2);
-  await other.stop();
-  for (const name of ["notes.txt", "documents/letter.txt", "scans/bust.ply"]) {
-    rmSync(mark);
-    writeFileSync(path.join(former, name), "mine");
-    const {code, text} = await refusal(former);
-    assert.equal(code, 2);
-    assert.match(text, /^relievo: --state: expected an empty folder, or one of relievo studio, found other files in .*\n$/);
-    assert.ok(!existsSync(mark) && existsSync(path.join(former, name)) && existsSync(dropped.path));
-    rmSync(path.join(former, name));
-    await (await new EngineProcess(former).ready()).stop();
-  }
-});
-
 test("is found at the same address after it was killed", async () => {
   const place = path.join(folder, "again"), first = await new EngineProcess(place).ready();
   await first.stop("SIGKILL");

@@ -48,8 +48,7 @@ inline constexpr std::array methods{
     MethodInfo{Method::base_detail, "detail", base_and_detail_relief, true},
 };
 
-// Returns the method of that name; `ours` is the former name of `layered`. Errors: kind option for any other,
-// naming `option`.
+// Returns the method of that name. Errors: kind option for any other, naming `option`.
 Result<Method> parse_method(std::string_view name, std::string_view option = "method");
 std::string_view name_of(Method method);
 
