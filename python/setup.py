@@ -1,4 +1,5 @@
-"""Builds the wheel: its native module comes from CMake, as `cmake --build build/python --target relievo_python` builds it.
+"""Builds the wheel: its native module comes from CMake, as `cmake --build build/python --target relievo_python_package`
+builds it, and so do the types for checkers.
 
 RELIEVO_BUILD names a build folder to use, which may have been built already; `../build/python` is made otherwise.
 """
@@ -25,9 +26,10 @@ class CMakeBuild(build_ext):
                 + [f"-DPython_EXECUTABLE={sys.executable}"],
                 check=True,
             )
-        subprocess.run(["cmake", "--build", folder, "--target", "relievo_python"], check=True)
-        built = folder / "python" / "relievo" / Path(self.get_ext_filename(ext.name)).name
-        self.copy_file(built, self.get_ext_fullpath(ext.name))
+        subprocess.run(["cmake", "--build", folder, "--target", "relievo_python_package"], check=True)
+        module = Path(self.get_ext_fullpath(ext.name))
+        for name in (module.name, "__init__.pyi"):
+            self.copy_file(folder / "python" / "relievo" / name, module.parent / name)
 
 
 def version():
