@@ -1,5 +1,4 @@
-// The solver on Laplacians of Delaunay graphs of random points, by number of points; CHOLMOD beside it on the
-// same matrix where it is installed.
+// The solver on Laplacians of Delaunay graphs of random points, by number of points.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -9,10 +8,6 @@
 #include "relievo/core/parallel.h"
 #include "relievo/geometry/triangulation.h"
 #include "relievo/solver/cholesky.h"
-
-#if defined(RELIEVO_BENCH_CHOLMOD)
-#include "cholmod_system.h"
-#endif
 
 namespace relievo {
 namespace {
@@ -111,33 +106,17 @@ void cholesky_solve_double(benchmark::State& state) {
     factor->solve(std::span<const double>(system.b.data(), n), std::span<double>(x.data(), n), workspace);
 }
 
-#if defined(RELIEVO_BENCH_CHOLMOD)
-void cholmod_factor_all(benchmark::State& state) {
-  for (auto _ : state) CholmodSystem(system_of(state).A, static_cast<int>(state.range(1)));
-}
-
-void cholmod_solve_again(benchmark::State& state) {
-  CholmodSystem cholmod(system_of(state).A, static_cast<int>(state.range(1)));
-  std::vector<double> b(static_cast<std::size_t>(system_of(state).A.cols()), 1.0);
-  for (auto _ : state) benchmark::DoNotOptimize(cholmod.solve(b));
-}
-#endif
-
 void by_size(benchmark::internal::Benchmark* b) {
   b->Arg(50000)->Arg(150000)->Arg(316000)->Arg(450000)->Unit(benchmark::kMillisecond)->UseRealTime();
 }
-void by_size_and(benchmark::internal::Benchmark* b, std::int64_t first, std::int64_t second) {
-  for (const std::int64_t n : {50000, 150000, 316000, 450000}) b->Args({n, first})->Args({n, second});
+void by_size_and_threads(benchmark::internal::Benchmark* b) {
+  for (const std::int64_t n : {50000, 150000, 316000, 450000}) b->Args({n, 1})->Args({n, 2});
   b->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 
 BENCHMARK(cholesky_factor)->Apply(by_size);
-BENCHMARK(cholesky_solve_single)->Apply([](auto* b) { by_size_and(b, 1, 2); });
+BENCHMARK(cholesky_solve_single)->Apply(by_size_and_threads);
 BENCHMARK(cholesky_solve_double)->Apply(by_size);
-#if defined(RELIEVO_BENCH_CHOLMOD)
-BENCHMARK(cholmod_factor_all)->Apply([](auto* b) { by_size_and(b, CHOLMOD_AMD, CHOLMOD_METIS); });
-BENCHMARK(cholmod_solve_again)->Apply([](auto* b) { by_size_and(b, CHOLMOD_AMD, CHOLMOD_METIS); });
-#endif
 
 }  // namespace
 }  // namespace relievo
