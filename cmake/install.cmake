@@ -21,7 +21,7 @@ function(relievo_install_library target kind)
 endfunction()
 
 # A static library leaves the libraries it calls to those who link it; a shared one does not.
-set(private_libraries "libpng libtiff-4 liblzf libzip")
+set(private_libraries "spng libtiff-4 liblzf libzip")
 if(BUILD_SHARED_LIBS)
   relievo_install_library(relievo shared)
 else()

@@ -2,7 +2,7 @@
 # processor. It is linked from the objects of the program, and from the static libraries of Debian and of
 # scripts/build-static-libraries; without the latter there is no such target.
 set(RELIEVO_STATIC_LIBRARIES ${PROJECT_SOURCE_DIR}/build/static CACHE PATH "Folder of scripts/build-static-libraries")
-if(NOT EXISTS ${RELIEVO_STATIC_LIBRARIES}/libcpp-httplib.a)
+if(NOT EXISTS ${RELIEVO_STATIC_LIBRARIES}/libspng.a)
   message(STATUS "scripts/build-static-libraries has not run: there is no target relievo_portable")
   return()
 endif()
@@ -15,4 +15,4 @@ target_link_directories(relievo_portable PRIVATE ${RELIEVO_STATIC_LIBRARIES})
 target_link_libraries(relievo_portable PRIVATE
   $<TARGET_FILE:relievo_app> $<TARGET_FILE:relievo_samples> $<TARGET_FILE:relievo>
   cpp-httplib ssl crypto brotlienc brotlidec brotlicommon zip lzf
-  png16 tiff webp Lerc zstd lzma jpeg deflate z)
+  spng tiff webp Lerc zstd lzma jpeg deflate z)

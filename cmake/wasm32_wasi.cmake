@@ -1,6 +1,5 @@
 # The toolchain of the preset `web`: Debian's clang for WebAssembly, with wasi-libc. Instructions for 128-bit vectors are
 # always on. There are no threads, and no C++ exceptions: code that throws ends the program, see apps/web/no_exceptions.cpp.
-# libpng's longjmp() is an exception of WebAssembly itself.
 set(CMAKE_SYSTEM_NAME Generic)
 set(CMAKE_SYSTEM_PROCESSOR wasm32)
 set(CMAKE_C_COMPILER clang-19)
@@ -10,8 +9,8 @@ set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
 set(CMAKE_AR llvm-ar-19)
 set(CMAKE_RANLIB llvm-ranlib-19)
 set(CMAKE_EXECUTABLE_SUFFIX .wasm)
-set(CMAKE_C_FLAGS_INIT "-msimd128 -mllvm -wasm-enable-sjlj")
-set(CMAKE_CXX_FLAGS_INIT "-msimd128 -mllvm -wasm-enable-sjlj -fignore-exceptions -fno-rtti")
+set(CMAKE_C_FLAGS_INIT "-msimd128")
+set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fignore-exceptions -fno-rtti")
 set(RELIEVO_WEB ON)
 
 # Nothing of the machine that builds may be found, but for what scripts/build-web-libraries puts there.

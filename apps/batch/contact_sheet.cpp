@@ -1,10 +1,11 @@
 #include "batch/contact_sheet.h"
 
-#include <png.h>
+#include <spng.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <memory>
 
 namespace relievo::app::batch {
 namespace {
@@ -57,15 +58,17 @@ void put(const Image8& tile, int left, int top, Image8& sheet) {
 }  // namespace
 
 Image8 read_png(std::span<const std::byte> bytes) {
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) == 0) return {};
-  png.format = PNG_FORMAT_RGB;
-  Image8 image{static_cast<int>(png.width), static_cast<int>(png.height), 3, {}};
-  image.pixels.resize(PNG_IMAGE_SIZE(png));
-  const png_color ground{paper[0], paper[1], paper[2]};
-  if (png_image_finish_read(&png, &ground, image.pixels.data(), 0, nullptr) == 0) return {};
-  return image;
+  const std::unique_ptr<spng_ctx, decltype([](spng_ctx* each) { spng_ctx_free(each); })> spng(
+      spng_ctx_new(0));
+  spng_ihdr header;
+  if (!spng || spng_set_png_buffer(spng.get(), bytes.data(), bytes.size()) != 0 ||
+      spng_get_ihdr(spng.get(), &header) != 0)
+    return {};
+  Image8 image;
+  image.resize(static_cast<int>(header.width), static_cast<int>(header.height), 3);
+  const int failed =
+      spng_decode_image(spng.get(), image.pixels.data(), image.pixels.size(), SPNG_FMT_RGB8, 0);
+  return failed == 0 ? image : Image8{};
 }
 
 Image8 tile_of_preview(const Image8& preview, int side) {

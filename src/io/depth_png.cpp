@@ -1,12 +1,10 @@
-// PNG through libpng, which reports errors by longjmp: the functions that call setjmp have no local object
-// with a destructor.
-#include <png.h>
+// PNG through libspng.
+#include <spng.h>
 
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <csetjmp>
 #include <cstring>
+#include <memory>
 #include <optional>
 
 #include "io/pictures.h"
@@ -16,105 +14,103 @@
 namespace relievo::io {
 namespace {
 
-// The state that libpng's callbacks share; owned by Reader.
-struct Job {
-  std::string_view bytes;
-  std::size_t at = 0;
-  png_uint_32 width = 0, height = 0;
-  int channels = 0, bits = 0;
-  char message[96] = {};
-};
+constexpr std::uint32_t longest_side_px = 1'000'000;
 
-void fail(png_structp png, png_const_charp message) {
-  auto& job = *static_cast<Job*>(png_get_error_ptr(png));
-  std::strncpy(job.message, message, sizeof job.message - 1);
-  png_longjmp(png, 1);
-}
-
-void ignore(png_structp, png_const_charp) {}
-
-void take(png_structp png, png_bytep to, png_size_t size) {
-  auto& job = *static_cast<Job*>(png_get_io_ptr(png));
-  if (size > job.bytes.size() - job.at) png_error(png, "the end of the file");
-  std::memcpy(to, job.bytes.data() + job.at, size);
-  job.at += size;
-}
-
-// Sets up the conversion: grey to 8 or 16 bits, palettes to colours, no transparency.
-bool read_header(png_structp png, png_infop info, Job& job) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_set_read_fn(png, &job, take);
-  // libpng allocates what a chunk's length promises before it reads the chunk: all are skipped that are not needed. A
-  // palette and its transparency have places of fixed size.
-  png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
-  png_read_info(png, info);
-  png_set_expand(png);
-  png_set_strip_alpha(png);
-  if (std::endian::native == std::endian::little) png_set_swap(png);
-  png_set_interlace_handling(png);
-  png_read_update_info(png, info);
-  job.width = png_get_image_width(png, info);
-  job.height = png_get_image_height(png, info);
-  job.channels = png_get_channels(png, info);
-  job.bits = png_get_bit_depth(png, info);
-  return true;
-}
-
-bool read_rows(png_structp png, png_bytepp rows) {
-  if (setjmp(png_jmpbuf(png))) return false;
-  png_read_image(png, rows);
-  png_read_end(png, nullptr);
-  return true;
-}
-
-class Reader {
+// Gives libspng the bytes of a file without its ancillary chunks. These may be large or broken, and libspng would allocate
+// what their lengths promise.
+class NeededChunks {
  public:
-  Reader(const Source& source, const PictureChannels& wanted) : source_(source), wanted_(wanted) {
-    job_.bytes = source.bytes;
-  }
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
-  ~Reader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  explicit NeededChunks(std::string_view bytes) : bytes_(bytes) {}
 
-  Result<DepthImage> read() {
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &job_, fail, ignore);
-    info_ = png_ ? png_create_info_struct(png_) : nullptr;
-    if (!info_) return source_.error({}, "expected memory for the picture, found none");
-    if (!read_header(png_, info_, job_)) return broken();
-    const std::size_t pixels = std::size_t{job_.width} * job_.height;
-    if (pixels > most_pixels)
-      return source_.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
-    const std::size_t row = png_get_rowbytes(png_, info_);
-    if (row * job_.height / best_packing > source_.bytes.size())
-      return source_.error({}, cat("expected more data for ", pixels, " pixels, found ", source_.bytes.size(),
-                                   " bytes; the file is cut, get it anew"));
-    std::vector<png_byte> bytes(row * job_.height);
-    std::vector<png_bytep> rows(job_.height);
-    for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = bytes.data() + r * row;
-    if (!read_rows(png_, rows.data())) return broken();
-    return as_depths(bytes);
+  std::size_t at() const { return at_; }
+
+  static int read(spng_ctx*, void* chunks, void* to, std::size_t size) {
+    return static_cast<NeededChunks*>(chunks)->take(static_cast<char*>(to), size);
   }
 
  private:
-  std::unexpected<Error> broken() const {
-    return source_.error_at_byte(job_.at,
-                                 "expected the data of a PNG picture, found " + printable(job_.message));
+  int take(char* to, std::size_t size) {
+    while (size > 0) {
+      if (at_ == end_) find_needed();
+      const std::size_t part =
+          std::min<std::size_t>(size, std::min<std::uint64_t>(end_, bytes_.size()) - at_);
+      if (part == 0) return SPNG_IO_EOF;
+      std::memcpy(to, bytes_.data() + at_, part);
+      at_ += part, to += part, size -= part;
+    }
+    return 0;
   }
 
-  Result<DepthImage> as_depths(const std::vector<png_byte>& bytes) const {
-    DepthImage image{{}, 1, "PNG, " + std::to_string(job_.bits) + " bits"};
-    image.values.resize(static_cast<int>(job_.width), static_cast<int>(job_.height));
-    if (wanted_.channel > job_.channels)
-      return source_.error({}, "expected a channel from 1 to " + std::to_string(job_.channels) + ", found " +
-                                   std::to_string(wanted_.channel));
-    const std::size_t value_size = static_cast<std::size_t>(job_.bits / 8);
-    const auto channels = static_cast<std::size_t>(job_.channels);
+  // Moves to the next chunk that is no ancillary one: these have a small letter at the beginning of their names.
+  void find_needed() {
+    constexpr std::size_t head = 8, around_data = 12;
+    while (bytes_.size() - at_ >= head) {
+      std::uint64_t length = 0;
+      for (std::size_t i = 0; i < 4; ++i) length = 256 * length + static_cast<unsigned char>(bytes_[at_ + i]);
+      end_ = at_ + around_data + length;
+      if ((bytes_[at_ + 4] & 0x20) == 0) return;
+      at_ = static_cast<std::size_t>(std::min<std::uint64_t>(end_, bytes_.size()));
+    }
+    end_ = bytes_.size();
+  }
+
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+  std::uint64_t end_ = 8;  // of the signature, or of the chunk that is being read
+};
+
+class Reader {
+ public:
+  Reader(const Source& source, const PictureChannels& wanted)
+      : source_(source), wanted_(wanted), chunks_(source.bytes) {}
+
+  Result<DepthImage> read() {
+    if (!spng_) return source_.error({}, "expected memory for the picture, found none");
+    spng_set_image_limits(spng_.get(), longest_side_px, longest_side_px);
+    spng_set_png_stream(spng_.get(), NeededChunks::read, &chunks_);
+    if (const int failure = spng_get_ihdr(spng_.get(), &header_)) return broken(failure);
+    choose_format();
+    const std::size_t pixels = std::size_t{header_.width} * header_.height;
+    if (pixels > most_pixels)
+      return source_.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
+    if (pixels * colours_ * value_size_ / best_packing > source_.bytes.size())
+      return source_.error({}, cat("expected more data for ", pixels, " pixels, found ", source_.bytes.size(),
+                                   " bytes; the file is cut, get it anew"));
+    std::vector<std::uint8_t> values(pixels * channels_ * value_size_);
+    int failure = spng_decode_image(spng_.get(), values.data(), values.size(), format_, 0);
+    if (failure == 0) failure = spng_decode_chunks(spng_.get());
+    if (failure != 0) return broken(failure);
+    return as_depths(values);
+  }
+
+ private:
+  // Palettes become colours, and grey of few bits 8 bits of grey; alpha is read, but not used.
+  void choose_format() {
+    const int type = header_.color_type;
+    const bool has_palette = type == SPNG_COLOR_TYPE_INDEXED, is_narrow = header_.bit_depth < 8;
+    const bool has_alpha = type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA || type == SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+    const bool is_grey = type == SPNG_COLOR_TYPE_GRAYSCALE || type == SPNG_COLOR_TYPE_GRAYSCALE_ALPHA;
+    format_ = has_palette ? SPNG_FMT_RGB8 : is_narrow ? SPNG_FMT_G8 : SPNG_FMT_PNG;
+    colours_ = is_grey ? 1 : 3;
+    channels_ = colours_ + (has_alpha ? 1 : 0);
+    value_size_ = header_.bit_depth == 16 ? 2 : 1;
+  }
+
+  std::unexpected<Error> broken(int failure) const {
+    const std::string_view what = failure == SPNG_EOF ? "the end of the file" : spng_strerror(failure);
+    return source_.error_at_byte(chunks_.at(), cat("expected the data of a PNG picture, found ", what));
+  }
+
+  Result<DepthImage> as_depths(const std::vector<std::uint8_t>& values) const {
+    DepthImage image{{}, 1, cat("PNG, ", 8 * value_size_, " bits")};
+    image.values.resize(static_cast<int>(header_.width), static_cast<int>(header_.height));
+    if (wanted_.channel > static_cast<int>(colours_))
+      return source_.error({}, cat("expected a channel from 1 to ", colours_, ", found ", wanted_.channel));
     for (std::size_t i = 0; i < image.values.size(); ++i) {
-      const auto value = value_of(bytes.data() + i * channels * value_size);
+      const auto value = value_of(values.data() + i * channels_ * value_size_);
       if (!value)
-        return source_.error(
-            "column " + std::to_string(i % job_.width + 1) + ", row " + std::to_string(i / job_.width + 1),
-            cat("expected a grey picture of depths, found colours", way_out_of_colours));
+        return source_.error(cat("column ", i % header_.width + 1, ", row ", i / header_.width + 1),
+                             cat("expected a grey picture of depths, found colours", way_out_of_colours));
       image.values[i] = *value;
     }
     return image;
@@ -122,15 +118,15 @@ class Reader {
 
   // Returns the value of a pixel; nothing if its channels differ: then the picture is a photograph, or depths were
   // painted in colours.
-  std::optional<float> value_of(const png_byte* pixel) const {
-    std::array<float, 4> all{};
-    for (std::size_t c = 0; c < static_cast<std::size_t>(job_.channels); ++c) {
+  std::optional<float> value_of(const std::uint8_t* pixel) const {
+    std::array<float, 3> all{};
+    for (std::size_t c = 0; c < colours_; ++c) {
       std::uint16_t value = pixel[c];
-      if (job_.bits == 16) std::memcpy(&value, pixel + 2 * c, 2);
+      if (value_size_ == 2) std::memcpy(&value, pixel + 2 * c, 2);
       all[c] = value;
     }
     if (wanted_.channel > 0) return all[static_cast<std::size_t>(wanted_.channel) - 1];
-    const bool is_grey = job_.channels < 3 || (all[0] == all[1] && all[1] == all[2]);
+    const bool is_grey = colours_ == 1 || (all[0] == all[1] && all[1] == all[2]);
     if (is_grey) return all[0];
     if (!wanted_.is_luminance_wanted) return std::nullopt;
     return luminance_shares[0] * all[0] + luminance_shares[1] * all[1] + luminance_shares[2] * all[2];
@@ -138,9 +134,11 @@ class Reader {
 
   const Source& source_;
   const PictureChannels& wanted_;
-  Job job_;
-  png_structp png_ = nullptr;
-  png_infop info_ = nullptr;
+  NeededChunks chunks_;
+  std::unique_ptr<spng_ctx, decltype([](spng_ctx* spng) { spng_ctx_free(spng); })> spng_{spng_ctx_new(0)};
+  spng_ihdr header_{};
+  int format_ = SPNG_FMT_PNG;
+  std::size_t colours_ = 0, channels_ = 0, value_size_ = 0;  // channels: colours and alpha
 };
 
 }  // namespace

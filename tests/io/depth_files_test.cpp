@@ -150,7 +150,6 @@ TEST(ReadDepthImage, AllocatesNothingForTextsInPng) {
   const std::string good = as_string(write_png(grey16()));
   const std::size_t behind_header = 8 + 25;
   for (const char* type : {"tEXt", "zTXt", "iTXt", "sPLT", "sCAL", "pCAL", "iCCP", "quIt"}) {
-    // Less than libpng itself refuses, which is 8 MB.
     const std::string huge = std::string(good).insert(behind_header, png_chunk(type, 7'000'000, "a"));
     largest_allocation = 0;
     EXPECT_NE(message_of(huge), "no error") << type;

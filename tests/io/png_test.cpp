@@ -94,8 +94,8 @@ TEST(WritePng, KeepsAllSixteenBits) {
 }
 
 TEST(WritePng, StoresTextAndThePixelsSize) {
-  const std::vector<std::pair<std::string, std::string>> text{
-      {"Software", "relievo"}, {"mm per grey", "0.000123"}, {"empty", ""}};
+  const std::vector<std::pair<std::string, std::string>> text{{"Software", "relievo"},
+                                                              {"mm per grey", "0.000123"}};
   const Decoded decoded = decode(write_png(pattern<std::uint16_t>(5, 4, 1), text, 0.25));
   EXPECT_EQ(decoded.text, (std::map<std::string, std::string>(text.begin(), text.end())));
   EXPECT_EQ(decoded.pixels_per_metre, 4000U);
@@ -115,10 +115,12 @@ TEST(WritePng, GivesNoBytesForWhatIsNoPicture) {
   EXPECT_TRUE(write_png(Image8{2, 1, 2, {1, 2, 3, 4}}).empty());
 }
 
-TEST(WritePng, GivesNoBytesWhenLibpngRefuses) {
+TEST(WritePng, GivesNoBytesWhenLibspngRefuses) {
   const Image16 image = pattern<std::uint16_t>(5, 4, 1);
   const std::vector<std::pair<std::string, std::string>> no_key{{"", "value"}};
   EXPECT_TRUE(write_png(image, no_key).empty());
+  const std::vector<std::pair<std::string, std::string>> no_value{{"empty", ""}};
+  EXPECT_TRUE(write_png(image, no_value).empty());
   const Image8 too_wide{2000000, 1, 1, std::vector<std::uint8_t>(2000000)};
   EXPECT_TRUE(write_png(too_wide).empty());
 }
