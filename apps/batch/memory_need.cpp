@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr double mb = 1 << 20;
 
-// The figures are upper bounds of measurements (docs/capacity.md). However small the scan is, the blur of normals may have
+// The figures are upper bounds of measurements (docs/batch.md). However small the scan is, the blur of normals may have
 // 2^24 cells of 12 bytes, and the solid about half a million samples; a point of a cloud costs what reading, preparing and
 // sampling it cost together.
 constexpr double least_mb = 220, bytes_per_point = 340, bytes_per_triangle = 150, bytes_per_pixel = 60,

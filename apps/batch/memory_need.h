@@ -6,7 +6,7 @@
 namespace relievo::app::batch {
 
 // Returns about the most memory that the job takes, in megabytes, from the headers of its files and its options. The
-// figures are those of docs/capacity.md. It opens each file and reads 64 kB of it.
+// figures are those of docs/batch.md. It opens each file and reads 64 kB of it.
 double memory_need_mb(const Job& job);
 
 // Returns the memory that this process may still take, in megabytes: what the machine has available, or what the

@@ -1,5 +1,5 @@
-// Ranks the sides of a model. Declared in view.h; docs/best-view.md has what it finds on real scans, from which the
-// constants here were chosen.
+// Ranks the sides of a model. Declared in view.h. The constants were chosen on real scans:
+// docs/decisions/best-view.md.
 #include <algorithm>
 #include <array>
 #include <functional>

@@ -114,7 +114,7 @@ void close_gaps(const Graph& graph, Bisection& cut) {
 // Estimates the factor entries that a bisection causes. The separator of s vertices is eliminated as a dense
 // triangle, s^2 / 2, plus s times the rows below it, on average 2.2 sqrt(n). The other term is what unequal
 // sides need more than equal ones: 2 n (1 - H), with H the entropy of the split in bits. See
-// docs/cholesky.md.
+// docs/decisions/solver.md.
 double cost(const Bisection& cut) {
   if (cut.first == 0 || cut.second == 0) return std::numeric_limits<double>::infinity();
   const double n = static_cast<double>(cut.side.size()), s = cut.separator;

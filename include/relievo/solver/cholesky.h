@@ -10,7 +10,7 @@
 
 namespace relievo::solver {
 
-// Owns the factorisation of one matrix, in single precision, and a copy of the matrix. docs/cholesky.md
+// Owns the factorisation of one matrix, in single precision, and a copy of the matrix. docs/decisions/solver.md
 // explains how it works. Concurrent solves are safe, each with a workspace of its own. Results have the same
 // bits for any number of threads.
 class Cholesky {
