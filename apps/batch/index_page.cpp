@@ -91,7 +91,7 @@ std::string size_text(std::uintmax_t bytes) {
 }
 
 std::string link(const std::string& path, const std::string& text) {
-  return cat("<a href=\"", url_of_path(path), "\">", escaped_html(text), "</a>");
+  return cat("<a href=\"", url_of_path(path), "\">", escaped_markup(text), "</a>");
 }
 
 std::string card(const Job& job, const Record& record, const Workshop& workshop, const Options& common) {
@@ -109,11 +109,11 @@ std::string card(const Job& job, const Record& record, const Workshop& workshop,
   Options own = job.options;
   for (const auto& [option, value] : common) own.erase(option);
   const std::string options = options_text(own);
-  return cat("<div class=\"card\" data-name=\"", escaped_html(lower(cat(job.name, " ", options))),
+  return cat("<div class=\"card\" data-name=\"", escaped_markup(lower(cat(job.name, " ", options))),
              "\"><a class=\"view\" href=\"", url_of_path(preview),
              "\"><span class=\"front\"><img loading=\"lazy\" src=\"", url_of_path(preview), "\" alt=\"",
-             escaped_html(job.name), ", from the front and obliquely\"></span></a><div class=\"text\"><b>",
-             escaped_html(job.name), "</b><span>", escaped_html(options), "</span><span>", links,
+             escaped_markup(job.name), ", from the front and obliquely\"></span></a><div class=\"text\"><b>",
+             escaped_markup(job.name), "</b><span>", escaped_markup(options), "</span><span>", links,
              "</span></div></div>\n");
 }
 
@@ -127,7 +127,7 @@ std::string heading(const std::vector<Job>& jobs, const Summary& sum,
   for (std::size_t i = 0; i < sheets.size(); ++i)
     text += cat(i == 0 ? "" : " ", link(sheets[i], i == 0 ? std::string("Contact sheet") : cat(i + 1)));
   const std::string common = options_text(common_options(jobs));
-  if (!common.empty()) text += cat(".<br>All with ", escaped_html(common));
+  if (!common.empty()) text += cat(".<br>All with ", escaped_markup(common));
   return text + ".</p>\n";
 }
 
@@ -143,8 +143,8 @@ std::string index_page(const std::vector<Job>& jobs, const Records& records, con
     if (found->second.is_made)
       cards += card(job, found->second, workshop, common);
     else
-      failed += cat("<tr data-name=\"", escaped_html(lower(job.name)), "\"><th>", escaped_html(job.name),
-                    "</th><td>", escaped_html(found->second.error), "</td></tr>\n");
+      failed += cat("<tr data-name=\"", escaped_markup(lower(job.name)), "\"><th>", escaped_markup(job.name),
+                    "</th><td>", escaped_markup(found->second.error), "</td></tr>\n");
   }
   const Summary sum = summary_of(jobs, records);
   std::string html =

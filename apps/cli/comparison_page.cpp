@@ -1,6 +1,5 @@
 #include "cli/comparison_page.h"
 
-#include "common/html.h"
 #include "common/wording.h"
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
@@ -70,7 +69,7 @@ std::string table(const Comparison& comparison) {
 }  // namespace
 
 std::string comparison_page(const Comparison& comparison) {
-  const std::string title = cat("Reliefs of ", escaped_html(comparison.scan));
+  const std::string title = cat("Reliefs of ", escaped_markup(comparison.scan));
   std::string html = cat(
       "<!DOCTYPE html>\n<html lang=\"en\"><meta charset=\"utf-8\"><title>", title, "</title><style>", style,
       "</style>\n<h1>", title, "</h1>\n<p>", comparison.visible_points, " visible points, ",
@@ -78,7 +77,7 @@ std::string comparison_page(const Comparison& comparison) {
       " pixels measured. Heights are shares of the width. The reliefs are better the larger shading, detail, "
       "order and used are, and the smaller all others are.</p>\n");
   for (const std::string& remark : comparison.remarks)
-    html += cat("<p>", escaped_html(as_sentence(remark)), "</p>\n");
+    html += cat("<p>", escaped_markup(as_sentence(remark)), "</p>\n");
   return html + table(comparison) + "</html>\n";
 }
 

@@ -6,13 +6,6 @@
 
 namespace relievo::app {
 
-std::string escaped_html(std::string_view text) {
-  std::string out;
-  for (const char c : text)
-    out += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '"' ? "&quot;" : std::string(1, c);
-  return out;
-}
-
 std::string url_of_path(std::string_view path) {
   constexpr std::string_view digits = "0123456789ABCDEF";
   std::string url;

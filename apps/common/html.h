@@ -6,9 +6,6 @@
 
 namespace relievo::app {
 
-// Returns the text for a page, with the characters escaped that HTML gives a meaning.
-std::string escaped_html(std::string_view text);
-
 // Returns the relative path as an address for a link, with all but letters, digits, - . _ / written as %XX.
 std::string url_of_path(std::string_view path);
 

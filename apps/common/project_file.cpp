@@ -1,7 +1,5 @@
 #include "common/project_file.h"
 
-#include <zip.h>
-
 #include <filesystem>
 
 #include "common/archive.h"
@@ -9,30 +7,13 @@
 #include "common/read_inputs.h"
 #include "relievo/core/text.h"
 #include "relievo/io/read.h"
+#include "relievo/io/write.h"
 
 namespace relievo::app {
 namespace {
 
 constexpr const char* project_name = "project.json";
 constexpr const char *scan_folder = "scan/", *base_folder = "base/";
-
-using ZipArchive = std::unique_ptr<zip_t, decltype([](zip_t* archive) { zip_discard(archive); })>;
-using ZipSource =
-    std::unique_ptr<zip_source_t, decltype([](zip_source_t* source) { zip_source_free(source); })>;
-
-std::unexpected<Error> not_packed() {
-  return std::unexpected(Error{ErrorKind::output, "project", {}, "expected memory for the packed scan"});
-}
-
-// Adds bytes to be compressed, which must live until the archive is closed.
-bool add(zip_t* archive, const std::string& name, std::span<const std::byte> bytes) {
-  ZipSource source(zip_source_buffer(archive, bytes.data(), bytes.size(), 0));
-  const zip_int64_t index = zip_file_add(archive, name.c_str(), source.get(), ZIP_FL_ENC_UTF_8);
-  if (index < 0) return false;
-  (void)source.release();                             // belongs to the archive now
-  const zip_uint16_t midnight = 0, first_day = 0x21;  // so that the same project gives the same bytes
-  return zip_file_set_dostime(archive, static_cast<zip_uint64_t>(index), midnight, first_day, 0) == 0;
-}
 
 // Returns the only file of a folder of the archive; null if there is none.
 Result<std::shared_ptr<const PackedFile>> file_in(const Archive& archive, std::string_view folder) {
@@ -70,22 +51,12 @@ Result<ProjectFile> unpack_project(std::span<const std::byte> bytes, std::string
 
 Result<std::vector<std::byte>> pack_project(std::string_view text, const PackedFile& scan,
                                             const PackedFile* base_image) {
-  const ZipSource memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
-  ZipArchive archive(memory ? zip_open_from_source(memory.get(), ZIP_TRUNCATE, nullptr) : nullptr);
-  if (!archive) return not_packed();
-  zip_source_keep(memory.get());  // the archive frees it, too
-  const bool is_added =
-      add(archive.get(), project_name, std::as_bytes(std::span(text))) &&
-      add(archive.get(), cat(scan_folder, scan.name), scan.bytes) &&
-      (!base_image || add(archive.get(), cat(base_folder, base_image->name), base_image->bytes));
-  if (!is_added || zip_close(archive.get()) != 0) return not_packed();
-  (void)archive.release();
-  zip_stat_t stat;
-  if (zip_source_stat(memory.get(), &stat) != 0 || zip_source_open(memory.get()) != 0) return not_packed();
-  std::vector<std::byte> bytes(stat.size);
-  const zip_int64_t got = zip_source_read(memory.get(), bytes.data(), bytes.size());
-  zip_source_close(memory.get());
-  if (got != static_cast<zip_int64_t>(bytes.size())) return not_packed();
+  std::vector<ZipEntry> entries{{project_name, std::as_bytes(std::span(text))},
+                                {cat(scan_folder, scan.name), scan.bytes}};
+  if (base_image) entries.push_back({cat(base_folder, base_image->name), base_image->bytes});
+  std::vector<std::byte> bytes = write_zip(entries, 0);
+  if (bytes.empty())
+    return std::unexpected(Error{ErrorKind::output, "project", {}, "expected memory for the packed scan"});
   return bytes;
 }
 

@@ -19,6 +19,24 @@ void append(std::string& out, double number) {
 #endif
 }
 
+std::string escaped_markup(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    const bool is_allowed = static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t';
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '>')
+      out += "&gt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += is_allowed ? c : ' ';
+  }
+  return out;
+}
+
 std::optional<std::vector<double>> parse_numbers(std::string_view text) {
   std::vector<double> numbers;
   while (true) {

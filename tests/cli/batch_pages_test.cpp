@@ -51,7 +51,7 @@ TEST(ContactSheet, HasAPlaceForEachTile) {
 }
 
 TEST(Html, EscapesWhatIsNoText) {
-  EXPECT_EQ(escaped_html("a<b>&\"c\""), "a&lt;b>&amp;&quot;c&quot;");
+  EXPECT_EQ(escaped_markup("a<b>&\"c\""), "a&lt;b&gt;&amp;&quot;c&quot;");
   EXPECT_EQ(url_of_path("a b/c#1%.stl"), "a%20b/c%231%25.stl");
   EXPECT_EQ(url_of_path("\xC3\xA4.stl"), "%C3%A4.stl");
 }

@@ -35,6 +35,10 @@ std::string cat(const Parts&... parts) {
   return out;
 }
 
+// Returns the text for XML or HTML: with the characters escaped that have a meaning there, and blanks in the place of
+// control characters, which these do not allow.
+std::string escaped_markup(std::string_view text);
+
 // Parses finite numbers with commas between them. Returns nothing for any other text.
 std::optional<std::vector<double>> parse_numbers(std::string_view text);
 

@@ -28,6 +28,16 @@ std::vector<std::byte> write_obj(const Solid& solid);
 std::vector<std::byte> write_3mf(const Solid& solid,
                                  std::span<const std::pair<std::string, std::string>> metadata = {});
 
+// A file in an archive. Its content must live as long as the entry.
+struct ZipEntry {
+  std::string name;  // in UTF-8, with its folders
+  std::span<const std::byte> content;
+};
+
+// Returns a ZIP archive of the files, in their order, deflated at that level from 1 to 9, or for 0 as small as may
+// be. The same files give the same bytes: no dates. Empty if memory does not suffice.
+std::vector<std::byte> write_zip(std::span<const ZipEntry> entries, unsigned level);
+
 // Returns the cloud as binary little-endian PLY with float properties x y z (double when float would lose
 // digits that matter, i.e. if the box lies more than 1,000 times its diagonal from the origin, or overflow)
 // and float nx ny nz if present. `comment` goes into the header, in one line.

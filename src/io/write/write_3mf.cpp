@@ -1,11 +1,9 @@
 // 3MF: a ZIP archive with the model as XML.
-#include <zip.h>
-
 #include <array>
 #include <charconv>
-#include <memory>
 
 #include "relievo/core/parallel.h"
+#include "relievo/core/text.h"
 #include "relievo/io/write.h"
 
 namespace relievo {
@@ -20,24 +18,6 @@ constexpr std::string_view relationships =
 <Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Target="/3D/3dmodel.model" Id="model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>
 )";
 constexpr std::size_t grain = 16384;
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    const bool is_allowed = static_cast<unsigned char>(c) >= ' ' || c == '\n' || c == '\t';
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += is_allowed ? c : ' ';
-  }
-  return out;
-}
 
 template <typename T>
 void append_number(std::string& to, T value) {
@@ -76,49 +56,6 @@ std::string triangles_of(const Solid& solid) {
   });
 }
 
-using ZipSource =
-    std::unique_ptr<zip_source_t, decltype([](zip_source_t* source) { zip_source_free(source); })>;
-using ZipArchive = std::unique_ptr<zip_t, decltype([](zip_t* archive) { zip_discard(archive); })>;
-
-struct ZipEntry {
-  const char* name;
-  std::string_view content;
-};
-
-// Adds a file to be deflated; its date is the first that ZIP knows, so that the same solid gives the same bytes.
-bool add_entry(zip_t* archive, const ZipEntry& entry) {
-  ZipSource source(zip_source_buffer(archive, entry.content.data(), entry.content.size(), 0));
-  const zip_int64_t added = zip_file_add(archive, entry.name, source.get(), 0);
-  if (added < 0) return false;
-  (void)source.release();  // belongs to the archive now
-  const auto index = static_cast<zip_uint64_t>(added);
-  const zip_uint32_t level = 6;
-  const zip_uint16_t midnight = 0, first_day = 0x21;
-  return zip_set_file_compression(archive, index, ZIP_CM_DEFLATE, level) == 0 &&
-         zip_file_set_dostime(archive, index, midnight, first_day, 0) == 0;
-}
-
-std::vector<std::byte> content_of(zip_source_t* source) {
-  zip_stat_t stat;
-  if (zip_source_stat(source, &stat) != 0 || zip_source_open(source) != 0) return {};
-  std::vector<std::byte> bytes(stat.size);
-  if (zip_source_read(source, bytes.data(), bytes.size()) != static_cast<zip_int64_t>(bytes.size()))
-    return {};
-  return bytes;
-}
-
-std::vector<std::byte> zipped(std::span<const ZipEntry> entries) {
-  const ZipSource memory(zip_source_buffer_create(nullptr, 0, 0, nullptr));
-  ZipArchive archive(zip_open_from_source(memory.get(), ZIP_TRUNCATE, nullptr));
-  if (!archive) return {};
-  zip_source_keep(memory.get());  // the archive frees it, too
-  for (const ZipEntry& entry : entries)
-    if (!add_entry(archive.get(), entry)) return {};
-  if (zip_close(archive.get()) != 0) return {};
-  (void)archive.release();
-  return content_of(memory.get());
-}
-
 }  // namespace
 
 std::vector<std::byte> write_3mf(const Solid& solid,
@@ -128,14 +65,16 @@ std::vector<std::byte> write_3mf(const Solid& solid,
                       "\" xml:lang=\"en-US\" "
                       "xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\">\n";
   for (const auto& [key, value] : metadata)
-    model += "<metadata name=\"" + escaped(key) + "\">" + escaped(value) + "</metadata>\n";
+    model += "<metadata name=\"" + escaped_markup(key) + "\">" + escaped_markup(value) + "</metadata>\n";
   model +=
       "<resources>\n<object id=\"1\" type=\"model\">\n<mesh>\n<vertices>\n" + vertices_of(solid) +
       "</vertices>\n<triangles>\n" + triangles_of(solid) +
       "</triangles>\n</mesh>\n</object>\n</resources>\n<build>\n<item objectid=\"1\"/>\n</build>\n</model>\n";
-  const ZipEntry entries[] = {
-      {"[Content_Types].xml", content_types}, {"_rels/.rels", relationships}, {"3D/3dmodel.model", model}};
-  return zipped(entries);
+  const auto bytes = [](std::string_view text) { return std::as_bytes(std::span(text)); };
+  const ZipEntry entries[] = {{"[Content_Types].xml", bytes(content_types)},
+                              {"_rels/.rels", bytes(relationships)},
+                              {"3D/3dmodel.model", bytes(model)}};
+  return write_zip(entries, 6);
 }
 
 }  // namespace relievo
