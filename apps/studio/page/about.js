@@ -3,8 +3,9 @@
 
 import {Engine} from "./engine.js";
 import {toast} from "./messages.js";
+import {Transport} from "./transport.js";
 
-export const engine = new Engine();
+export const engine = new Engine(new Transport());
 
 async function ask() {
   try {

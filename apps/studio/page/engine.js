@@ -1,224 +1,184 @@
-// The engine as the page sees it, in the program `relievo studio`. Everything that knows HTTP is in this file. In the
-// page that is one file alone, apps/web/page/engine.js takes its place.
+// The engine as the page sees it. How requests reach it is the transport's concern: transport.js sends them to the program
+// `relievo studio` by HTTP, and in the page that is one file alone apps/web/page/transport.js takes its place.
 //
-// An Engine has
-//   about()                     -> version, options, readable, endings, formats, views, materials, stages, curve,
-//                                  samples, recent, first (what the program was started with), notice (about the place
-//                                  where work is kept), most_upload (bytes), limits (texts: what this engine cannot do)
+// A transport has
+//   traits                         {takesSeveral: whether several files are uploaded together, of which one refers to the
+//                                  others; drawsMeanwhile: whether pictures are drawn while a piece is made; canRemove:
+//                                  whether work is kept until it is removed; slowMs: frames that take longer are drawn
+//                                  with fewer pixels}, which the Engine has, too
+//   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture, with
+//                                  an object about it; the request may be left out
 //   addressOf(file)             -> the address of one of the page's pictures
-//   takesSeveral                   whether upload() takes several files together, of which one refers to the others
-//   drawsMeanwhile                 whether pictures are drawn while a piece is made
-//   slowMs                         of a frame: frames that take longer are drawn with fewer pixels
 //   follow(onStatus, onLost, say)  calls back with each new status of each open document, in all tabs, and once with
 //                                  {run} alone when an engine is found; onLost when it has gone; say with a text for
 //                                  people
-//   find(input)                 -> {document, input, is_there, kept}: the document of a scan, and its state
-//                                  if it is kept
-//   open(input, view)              makes that scan's document the one that all of the following concern
-//   upload(files)               -> input for files of the browser; readProject(file) -> {input, is_there,
-//                                  options, studio}
-//   chooseView(view), cancel()     view is {view, up, crop, crumbs, plane, denoise, mode, points} as make has it
-//   facts(), suggestViews()     -> facts about the model; {view, up} of each side, best first
-//   frame(request, {signal}), scan(request)-> {image: ImageData, about}; a picture that is aborted is cancelled
-//   profile(request)            -> heights in mm
-//   reach(options)              -> the largest height in mm
-//   check(options)                 throws unless the options can be read
-//   piece(options)              -> {triangles, points, size_mm, height_mm} of the finished piece, which is
-//                                  then at hand for exportFile(); cancelPiece()
-//   exportFile(request)         -> Blob; packProject(project) -> Blob of a project file with its scan
-//   recent()                    -> documents that were changed last: {document, input, is_there, picture}
-//   kept(), remove(document)    -> {documents, bytes} of all that is kept until it is removed; where the browser keeps work,
-//                                  the engine has neither
-//   keep(document, state, isMoving), keepPicture(document, picture), leave()
 // and throws EngineError with a text for people.
 
-import {CANCELLED, EngineError, TAB} from "./engine_base.js";
-
-export {EngineError, TAB};
-
-async function complain(response) {
-  let error = {kind: "request", text: `The engine answered ${response.status}.`};
-  try {
-    error = (await response.json()).error ?? error;
-  } catch {
-    // not JSON: the status must do
+export class EngineError extends Error {
+  constructor({kind, text}) {
+    super(text);
+    this.kind = kind;
   }
-  throw new EngineError(error.kind, error.text);
 }
 
-async function send(path, options) {
-  let response;
-  try {
-    response = await fetch(path, options);
-  } catch {
-    if (options?.signal?.aborted) throw new EngineError("cancelled", "Cancelled.");
-    throw new EngineError("lost", "The engine does not answer. Start relievo studio again.");
-  }
-  if (!response.ok || response.status === CANCELLED) await complain(response);
-  return response;
-}
+export const CANCELLED = 202; // the status of an answer that was given up
 
-const post = (path, body, options = {}) =>
-  send(`api/${path}`, {method: "POST", body: JSON.stringify(body), ...options});
+export const cancelled = () => new EngineError({kind: "cancelled", text: "Cancelled."});
 
-async function picture(path, request, options) {
-  const response = await post(path, request, options);
-  const about = JSON.parse(response.headers.get("X-Relievo"));
-  const pixels = new Uint8ClampedArray(await response.arrayBuffer());
-  return {image: new ImageData(pixels, about.width, about.height), about};
-}
-
-const ASK = "status?"; // of a new tab to the one that has the stream
+export const TAB = Math.random().toString(36).slice(2); // the name of this page among those that are open
 
 export class Engine {
-  document = "";
-  takesSeveral = false;
-  drawsMeanwhile = true;
-  slowMs = 55;
+  document = ""; // the one that most requests concern
+  #transport;
+  #making = null;
+
+  constructor(transport) {
+    Object.assign(this, transport.traits);
+    this.#transport = transport;
+  }
+
+  #call(name, request, options) {
+    return this.#transport.call(name, {document: this.document, ...request}, options);
+  }
+
+  async #ask(name, request, options) {
+    return (await this.#call(name, request, options)).body;
+  }
 
   addressOf(file) {
-    return file;
+    return this.#transport.addressOf(file);
   }
 
-  post(path, body = {}, options = {}) {
-    return post(path, {document: this.document, ...body}, options);
+  follow(...listeners) {
+    this.#transport.follow(...listeners);
   }
 
+  // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (what the
+  // program was started with), notice (about the place where work is kept), most_upload (bytes), and perhaps limits (texts
+  // that say what this engine cannot do).
   async about() {
-    return {limits: [], ...(await (await send("api/about")).json())};
+    return (await this.#transport.call("about")).body;
   }
 
-  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab that
-  // has the lock opens the stream and passes on what it says; when that tab goes, another has the lock.
-  follow(onStatus, onLost) {
-    const tabs = new BroadcastChannel(location.pathname);
-    const take = (status) => (status ? onStatus(status) : onLost());
-    tabs.onmessage = ({data}) => data !== ASK && take(data);
-    tabs.postMessage(ASK);
-    navigator.locks.request(location.pathname, () => {
-      const last = new Map(); // by document; by nothing the run
-      const pass = (status) => {
-        if (!status || !status.document) last.clear();
-        if (status) last.set(status.document, status);
-        tabs.postMessage(status);
-        take(status);
-      };
-      tabs.onmessage = ({data}) => data === ASK && [...last.values()].forEach((status) => tabs.postMessage(status));
-      this.listen(pass);
-      return new Promise(() => {}); // for as long as this page lives
-    });
+  // Returns {document, input, is_there, kept}: the document of a scan, and its state if it is kept.
+  find(input) {
+    return this.#ask("document", {input});
   }
 
-  // A stream that broke off connects again by itself, one that was refused does not.
-  listen(pass) {
-    const source = new EventSource("api/events");
-    source.onmessage = (event) => pass(JSON.parse(event.data));
-    source.onerror = () => {
-      pass(null);
-      if (source.readyState === EventSource.CLOSED) setTimeout(() => this.listen(pass), 1000);
-    };
+  // Prepares the scan of the document that is shown. A view is {view, up, crop, crumbs, plane, denoise, mode, points}, as
+  // `relievo make` has it.
+  open(input, view) {
+    return this.#ask("open", {input, tab: TAB, ...view});
   }
 
-  async find(input) {
-    return (await post("document", {input})).json();
+  // Returns the input that files of the browser make.
+  async upload(files) {
+    return (await this.#ask("upload", {name: files[0].name}, {files})).input;
   }
 
-  async open(input, view) {
-    const {document} = await (await post("open", {input, tab: TAB, ...view})).json();
-    this.document = document;
+  // Returns {input, is_there, options, studio} of a project file.
+  readProject(file) {
+    return this.#ask("project", {name: file.name}, {files: [file]});
   }
 
-  // Sends the bytes of a file of the browser.
-  async upload([file]) {
-    const answer = await send(`api/upload?name=${encodeURIComponent(file.name)}`, {method: "POST", body: file});
-    return (await answer.json()).input;
+  chooseView(view) {
+    return this.#ask("view", view);
   }
 
-  async readProject(file) {
-    return (await send(`api/project?name=${encodeURIComponent(file.name)}`, {method: "POST", body: file})).json();
+  cancel() {
+    return this.#ask("cancel");
   }
 
-  async chooseView(view) {
-    await this.post("view", view);
+  // Returns facts about the model.
+  facts() {
+    return this.#ask("facts");
   }
 
-  async cancel() {
-    await this.post("cancel");
-  }
-
-  async facts() {
-    return (await this.post("facts")).json();
-  }
-
+  // Returns {view, up} of each side, best first.
   async suggestViews() {
-    return (await (await this.post("views")).json()).views;
+    return (await this.#ask("views")).views;
   }
 
+  async #picture(name, request, options) {
+    const {about, body} = await this.#call(name, request, options);
+    const pixels = new Uint8ClampedArray(body.buffer, body.byteOffset, body.length);
+    return {image: new ImageData(pixels, about.width, about.height), about};
+  }
+
+  // Returns {image: ImageData, about}. A picture that is aborted by its signal is cancelled.
   frame(request, options) {
-    return picture("frame", {document: this.document, ...request}, options);
+    return this.#picture("frame", request, options);
   }
 
   scan(request) {
-    return picture("scan", {document: this.document, ...request});
+    return this.#picture("scan", request);
   }
 
+  // Returns heights in mm along a line.
   async profile(request) {
-    return (await (await this.post("profile", request)).json()).heights_mm;
+    return (await this.#ask("profile", request)).heights_mm;
   }
 
+  // Returns the largest height in mm.
   async reach(options) {
-    return (await (await this.post("reach", {options})).json()).height_mm;
+    return (await this.#ask("reach", {options})).height_mm;
   }
 
-  async check(options) {
-    await this.post("check", {options});
+  // Throws unless the options can be read.
+  check(options) {
+    return this.#ask("check", {options});
   }
 
-  async piece(options) {
-    return (await this.postMaking("piece", {options})).json();
+  #make(name, request) {
+    this.#making = new AbortController();
+    return this.#ask(name, request, {signal: this.#making.signal});
+  }
+
+  // Returns {triangles, points, size_mm, height_mm} of the finished piece, which is then at hand for exportFile().
+  piece(options) {
+    return this.#make("piece", {options});
+  }
+
+  // Returns the file of a piece as a Blob.
+  exportFile(request) {
+    return this.#make("export", request);
   }
 
   // Gives up the request for the piece or its file as well: what the engine answers then is of no use.
-  async cancelPiece() {
-    this.making?.abort();
-    await this.post("cancel_piece");
+  cancelPiece() {
+    this.#making?.abort();
+    return this.#ask("cancel_piece");
   }
 
-  async exportFile(request) {
-    return (await this.postMaking("export", request)).blob();
+  // Returns a project file with its scan as a Blob.
+  packProject(project) {
+    return this.#ask("save", {project});
   }
 
-  postMaking(path, body) {
-    this.making = new AbortController();
-    return this.post(path, body, {signal: this.making.signal});
-  }
-
-  async packProject(project) {
-    return (await post("save", {project})).blob();
-  }
-
+  // Returns {document, input, is_there, picture} of the documents that were changed last.
   async recent() {
-    return (await (await post("recent", {})).json()).recent;
+    return (await this.#ask("recent")).recent;
   }
 
-  async kept() {
-    return (await post("kept", {})).json();
+  // Returns {documents, bytes} of all that is kept until it is removed.
+  kept() {
+    return this.#ask("kept");
   }
 
-  async remove(document) {
-    await post("remove", {document, tab: TAB});
+  remove(document) {
+    return this.#ask("remove", {document, tab: TAB});
   }
 
-  async keep(document, state, isMoving) {
-    await post("state", {document, state, tab: TAB, is_moving: isMoving});
+  keep(document, state, isMoving) {
+    return this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});
   }
 
-  async keepPicture(document, picture) {
-    await post("picture", {document, picture});
+  keepPicture(document, picture) {
+    return this.#ask("picture", {document, picture});
   }
 
-  // The page goes: this request outlives it.
+  // The page goes, and nothing is left to do if that cannot be told.
   leave() {
-    post("leave", {tab: TAB}, {keepalive: true}).catch(() => {});
+    this.#ask("leave", {tab: TAB}).catch(() => {});
   }
 }

@@ -377,7 +377,7 @@ async function start() {
   chooseUnit($("#unit").value);
   try {
     $("#readable").textContent = about.readable;
-    $("#limits").replaceChildren(...about.limits.map((text) => make("li", {}, text)));
+    $("#limits").replaceChildren(...(about.limits ?? []).map((text) => make("li", {}, text)));
     $("#file").accept = [...about.endings, ".zip", ".relievo"].join();
     showSamples(openInput);
     engine.follow((status) => opened.followed(status), engineLost, toast);

@@ -25,7 +25,7 @@ export class Shelf {
   }
 
   async show() {
-    const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.kept?.()]);
+    const {engine} = this, [recent, kept] = await Promise.all([engine.recent(), engine.canRemove && engine.kept()]);
     $("#recent-shelf").hidden = recent.length === 0;
     $("#recent").replaceChildren(...recent.map((entry) => this.card(entry)));
     $("#kept").textContent = kept ? inTotal(kept, recent.length) : "";
@@ -40,7 +40,7 @@ export class Shelf {
     const ask = () => offer(`Remove your work on ${nameOf(input)} for good, with the scan if it was dropped here?`, "Remove",
       () => this.remove(document).catch(this.failed));
     const remove = {class: "remove", "aria-label": "Remove", title: "Remove this work and its dropped scan", onclick: ask};
-    return make("li", {}, open, ...(this.engine.remove ? [make("button", remove, "×")] : []));
+    return make("li", {}, open, ...(this.engine.canRemove ? [make("button", remove, "×")] : []));
   }
 
   // The page begins anew without the document that it showed.

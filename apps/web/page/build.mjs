@@ -12,11 +12,10 @@ const esbuild = createRequire(path.join(here, "../../../npm/test/"))("esbuild");
 const [module, folder] = process.argv.slice(2);
 const read = (name) => fs.readFileSync(path.join(page, name), "utf8");
 
-// The page's engine.js is the one that knows HTTP.
-const otherEngine = {
+// The page's transport.js is the one that knows HTTP.
+const otherTransport = {
   name: "engine in a worker",
-  setup: (build) => build.onResolve({filter: /\/engine\.js$/}, ({importer}) =>
-    (importer.startsWith(page + path.sep) ? {path: path.join(here, "engine.js")} : undefined)),
+  setup: (build) => build.onResolve({filter: /\/transport\.js$/}, () => ({path: path.join(here, "transport.js")})),
 };
 
 function bundle(entry, options) {
@@ -28,7 +27,7 @@ function bundle(entry, options) {
 async function bundlePage() {
   const contents = `import "${path.join(page, "main.js")}"; import "${path.join(here, "installable.js")}";`;
   const {outputFiles: [file]} = await esbuild.build({stdin: {contents, resolveDir: here}, bundle: true, write: false,
-    minify: true, format: "esm", target: "es2022", charset: "utf8", legalComments: "none", plugins: [otherEngine]});
+    minify: true, format: "esm", target: "es2022", charset: "utf8", legalComments: "none", plugins: [otherTransport]});
   return file.text;
 }
 

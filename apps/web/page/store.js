@@ -1,5 +1,5 @@
 // Keeps documents and scans in the browser (IndexedDB): documents with their pictures, and the files of scans.
-import {EngineError} from "../../studio/page/engine_base.js";
+import {EngineError} from "../../studio/page/engine.js";
 import {bytesOf, inputOf, scansOf} from "./inputs.js";
 
 const MOST_RECENT = 24; // documents that are kept, with their scans
@@ -68,7 +68,7 @@ export class BrowserStore {
       this.#memory[name].delete(key);
     } catch (error) {
       this.#memory[name].set(key, changed);
-      throw Object.assign(new EngineError("output", `${reason(error)}.`), {cause: error});
+      throw Object.assign(new EngineError({kind: "output", text: `${reason(error)}.`}), {cause: error});
     }
   }
 
@@ -80,7 +80,7 @@ export class BrowserStore {
   // Throws an error of kind "older" if a newer state is kept, "output" if this one cannot be.
   keepDocument(id, state) {
     return this.#change("documents", id, (kept) => {
-      if (kept?.state?.changed > state.changed) throw new EngineError("older", "a newer state is kept");
+      if (kept?.state?.changed > state.changed) throw new EngineError({kind: "older", text: "a newer state is kept"});
       return {...kept, id, state, touched: Date.now()};
     });
   }

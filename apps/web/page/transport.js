@@ -1,17 +1,14 @@
-// The engine of the page that is one file: WebAssembly in a worker, and work that the browser keeps. The interface is that
-// of apps/studio/page/engine.js, whose place this file takes.
+// Takes requests to the engine in WebAssembly, which runs in a worker, and to the work that the browser keeps. It takes
+// the place of apps/studio/page/transport.js, and engine.js there says what a transport has.
 import {compile} from "../../../npm/src/compile.js";
-import {CANCELLED, EngineError, TAB} from "../../studio/page/engine_base.js";
+import {CANCELLED, EngineError, TAB, cancelled} from "../../studio/page/engine.js";
 import {BASE_IMAGE, bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
 import {BrowserStore} from "./store.js";
-
-export {EngineError, TAB};
 
 const MOST_UPLOAD = 2 ** 31; // bytes: half of the memory that WebAssembly has
 const RUN = TAB; // the engine lives as long as its page
 const content = (id) => document.getElementById(id).textContent;
-const closed = () => new EngineError("closed", "expected a document that is open");
-const cancelled = () => new EngineError("cancelled", "Cancelled.");
+const closed = () => new EngineError({kind: "closed", text: "expected a document that is open"});
 
 const LIMITS = [
   "This page has the engine inside: it needs no program and no network, and nothing leaves this machine.",
@@ -21,22 +18,35 @@ const LIMITS = [
   "Scans and work stay in this browser, for the 24 documents used last; save a project to keep or to move one.",
 ];
 
-export class Engine {
-  document = "";
-  takesSeveral = true;
-  slowMs = 31; // so that 30 are drawn in a second
+export class Transport {
+  traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31}; // so that 30 are drawn in a second
   #store = new BrowserStore();
   #module = null;
   #pictures = null; // of the page, by name
   #worker = null;
   #waiting = new Map(); // by number of the message
   #last = 0;
+  #opened = {document: "", input: null}; // what was opened last
   #isOpen = new Set(); // documents, in this worker
   #statuses = new Map(); // by document, as told last
   #kept = new Map(); // by document, when it was kept last, and by which tab
   #onStatus = () => {};
   #say = () => {};
   #tabs = null;
+  // What takes the place of the program's files and threads.
+  #own = {
+    about: () => this.#about(), document: ({input}) => this.#find(input), open: (request) => this.#open(request),
+    upload: (_, files) => this.#upload(files), project: ({name}, [file]) => this.#readProject(name, file),
+    view: (request) => this.#chooseView(request), cancel: () => this.#cancel(), cancel_piece: () => this.#cancelPiece(),
+    save: ({project}) => this.#packProject(project), recent: async () => ({recent: await this.#recent()}),
+    state: ({document, state}) => this.#keep(document, state), leave: () => {},
+    picture: ({document, picture}) => this.#store.keepPicture(document, picture),
+  };
+
+  async call(name, request = {}, {files = []} = {}) {
+    const own = this.#own[name];
+    return own ? {body: await own(request, files)} : this.#ask(name, request);
+  }
 
   // ------------------------------------------------------------------------------------------------- the worker
 
@@ -49,7 +59,8 @@ export class Engine {
     worker.onmessage = ({data}) => worker === this.#worker && this.#take(data);
     worker.onerror = (event) => {
       event.preventDefault();
-      this.#end(new EngineError("failure", `The engine cannot run here: ${event.message ?? "workers are forbidden"}.`));
+      const text = `The engine cannot run here: ${event.message ?? "workers are forbidden"}.`;
+      this.#end(new EngineError({kind: "failure", text}));
     };
     worker.postMessage({module});
   }
@@ -61,11 +72,16 @@ export class Engine {
     this.#isOpen.clear();
     const waiting = [...this.#waiting.values()];
     this.#waiting.clear();
-    for (const {call, reject} of waiting) reject(["piece", "export"].includes(call) ? error : others);
+    for (const {isMaking, reject} of waiting) reject(isMaking ? error : others);
+  }
+
+  // Ends what the worker prepares, of which nothing is wanted any more.
+  #endPreparation() {
+    if (this.#worker && this.#status().busy) this.#end(cancelled(), closed());
   }
 
   // WebKit lets the worker of a page that was opened from disk read no files: the page reads them as a whole then.
-  async #call(call, request, files = []) {
+  async #work(call, request, files = []) {
     try {
       return await this.#send(call, request, files);
     } catch (error) {
@@ -76,50 +92,59 @@ export class Engine {
 
   async #send(call, request = {}, files = []) {
     await this.#start();
-    const id = ++this.#last;
+    const id = ++this.#last, isMaking = call === "piece" || call === "export";
     return new Promise((resolve, reject) => {
-      this.#waiting.set(id, {call, resolve, reject});
+      this.#waiting.set(id, {isMaking, resolve, reject});
       this.#worker.postMessage({id, call, request, files});
     });
   }
 
-  // A call about the document that is shown.
-  async #ask(call, request = {}) {
-    const {document} = this;
-    if (!this.#isOpen.has(document)) throw closed();
-    return (await this.#call(call, {document, ...request}, await this.#imageOf(request.options))).body;
+  // A call about a document, which has to be open.
+  async #ask(call, request) {
+    if (!this.#isOpen.has(request.document)) throw closed();
+    return this.#work(call, request, await this.#imageOf(request.options));
   }
 
   // Returns the files that options name: the height map of a base.
   async #imageOf(options) {
     const path = options?.[BASE_IMAGE];
-    return path ? (await this.#store.scan(scanOf({path})))?.files ?? [] : [];
+    return path ? this.#filesOf({path}) : [];
+  }
+
+  async #filesOf(input) {
+    return (await this.#store.scan(scanOf(input)))?.files ?? [];
   }
 
   #take({id, statuses, error, isOver, status, about, type, body}) {
     if (statuses) return statuses.forEach((each) => this.#tell(each));
     const waiting = this.#waiting.get(id);
     this.#waiting.delete(id);
-    if (isOver) this.#failed(new EngineError(error.kind, error.text));
-    if (error ?? (status >= 400 || status === CANCELLED)) {
-      const {kind, text} = error ?? body.error;
-      return waiting?.reject(new EngineError(kind, text));
-    }
-    waiting?.resolve({about, type, body});
+    if (isOver) this.#failed(error);
+    const refusal = error ?? (status >= 400 || status === CANCELLED ? body.error : null);
+    if (refusal) return waiting?.reject(new EngineError(refusal));
+    const isFile = body instanceof Uint8Array && !about;
+    waiting?.resolve({about, body: isFile ? new Blob([body], {type}) : body});
   }
 
   // The memory was not enough, or the engine has a fault: the document cannot be shown, and the page says why.
   #failed(error) {
-    this.#end(error, closed());
-    this.#tell({...this.#status(), busy: false, model: 0, error: {kind: error.kind, text: error.message}});
+    this.#end(new EngineError(error), closed());
+    this.#tell({...this.#status(), busy: false, model: 0, error});
+  }
+
+  // Nothing reaches a worker that computes, so it is ended.
+  #cancel() {
+    this.#end(cancelled(), closed());
+    this.#tell({...this.#status(), busy: false, error: {kind: "cancelled", text: "Cancelled."}});
+  }
+
+  #cancelPiece() {
+    if ([...this.#waiting.values()].some(({isMaking}) => isMaking)) this.#end(cancelled(), closed());
   }
 
   #status() {
-    return this.#statuses.get(this.document) ?? {document: this.document, model: 0, input: null, shown: {}, making: {}};
-  }
-
-  get #isBusy() {
-    return Boolean(this.#worker && this.#status().busy);
+    const {document} = this.#opened;
+    return this.#statuses.get(document) ?? {document, model: 0, input: null, shown: {}, making: {}};
   }
 
   #tell(status) {
@@ -129,17 +154,17 @@ export class Engine {
     this.#onStatus({...status, run: RUN, kept});
   }
 
-  // ------------------------------------------------------------------------------------------------ the interface
+  // ---------------------------------------------------------------------------------------------------- the page
 
   addressOf(file) {
     this.#pictures ??= JSON.parse(content("pictures"));
     return this.#pictures[file];
   }
 
-  async about() {
+  async #about() {
     await this.#store.open();
-    const {body} = await this.#call("about");
-    return {...body, recent: await this.recent(), notice: this.#store.notice, limits: LIMITS, most_upload: MOST_UPLOAD};
+    const {body} = await this.#work("about");
+    return {...body, recent: await this.#recent(), notice: this.#store.notice, limits: LIMITS, most_upload: MOST_UPLOAD};
   }
 
   follow(onStatus, _onLost, say) {
@@ -157,7 +182,9 @@ export class Engine {
     onStatus({run: RUN});
   }
 
-  async find(input) {
+  // ----------------------------------------------------------------------------------------- scans and documents
+
+  async #find(input) {
     const scan = input.sample ? null : await this.#store.scan(scanOf(input));
     const found = scan ? {path: scan.main, name: input.name, hash: input.hash || `fnv1a64:${scan.digits}`} : input;
     const document = documentOf(found), kept = (await this.#store.document(document))?.state ?? null;
@@ -166,23 +193,27 @@ export class Engine {
   }
 
   // The preparation of another document is of no use any more.
-  async open(input, view) {
+  async #open({document: _, input, ...view}) {
     const document = documentOf(input);
-    if (this.#isBusy && !this.#isOpen.has(document)) this.#end(cancelled(), closed());
-    this.document = document;
+    if (!this.#isOpen.has(document)) this.#endPreparation();
+    this.#opened = {document, input};
     this.#statuses.delete(document);
-    const {files = []} = (await this.#store.scan(scanOf(input))) ?? {};
-    this.input = input;
-    await this.#call("open", {input, tab: TAB, ...view}, files);
+    await this.#work("open", {input, ...view}, await this.#filesOf(input));
     this.#isOpen.add(document);
     await this.#store.touch(document).catch(() => {}); // the page says what is not kept
+    return {document};
   }
 
-  async upload(files) {
+  #chooseView(request) {
+    if (!this.#isOpen.has(request.document)) return this.#open({input: this.#opened.input, tab: TAB, ...request});
+    return this.#ask("view", request);
+  }
+
+  async #upload(files) {
     const main = mainOf(files), all = files.includes(main) ? files : [main, ...files];
-    if (this.#isBusy) this.#end(cancelled(), closed());
-    const {hash} = (await this.#call("hash", {path: "scan"}, [["scan", main]])).body;
-    return this.#keepScan(hash, main.name, all.map((file) => [file.name, file]));
+    this.#endPreparation();
+    const {hash} = (await this.#work("hash", {path: "scan"}, [["scan", main]])).body;
+    return {input: await this.#keepScan(hash, main.name, all.map((file) => [file.name, file]))};
   }
 
   async #keepScan(hash, name, files) {
@@ -196,91 +227,28 @@ export class Engine {
     return {path: scan.main, name, hash};
   }
 
-  async readProject(file) {
-    if (this.#isBusy) this.#end(cancelled(), closed());
-    const {body: project} = await this.#call("project", {path: "project", name: file.name}, [["project", file]]);
+  async #readProject(name, file) {
+    this.#endPreparation();
+    const {body: project} = await this.#work("project", {path: "project", name}, [["project", file]]);
     const {input, options} = project;
     await this.#keepUnpacked(input.path);
     await this.#keepUnpacked(options[BASE_IMAGE]);
-    return {...project, ...(await this.find(input))};
+    return {...project, ...(await this.#find(input))};
   }
 
   // Keeps a file that was part of the project that was read last.
   async #keepUnpacked(path) {
     if (!path) return;
-    const {body: bytes} = await this.#call("unpacked", {path}), name = path.slice(path.lastIndexOf("/") + 1);
-    if (bytes.buffer) await this.#keepScan(`fnv1a64:${scanOf({path})}`, name, [[name, new Blob([bytes])]]);
+    const {body: file} = await this.#work("unpacked", {path}), name = path.slice(path.lastIndexOf("/") + 1);
+    if (file instanceof Blob) await this.#keepScan(`fnv1a64:${scanOf({path})}`, name, [[name, file]]);
   }
 
-  async chooseView(view) {
-    if (!this.#isOpen.has(this.document)) return this.open(this.input, view);
-    await this.#ask("view", view);
+  async #packProject(project) {
+    const files = [...(await this.#filesOf(project.input)), ...(await this.#imageOf(project.options))];
+    return (await this.#work("save", {project}, files)).body;
   }
 
-  // Nothing reaches a worker that computes, so it is ended.
-  async cancel() {
-    this.#end(cancelled(), closed());
-    this.#tell({...this.#status(), busy: false, error: {kind: "cancelled", text: "Cancelled."}});
-  }
-
-  facts() {
-    return this.#ask("facts");
-  }
-
-  async suggestViews() {
-    return (await this.#ask("views")).views;
-  }
-
-  async #picture(call, request) {
-    const {document} = this;
-    if (!this.#isOpen.has(document)) throw closed();
-    const {about, body} = await this.#call(call, {document, ...request}, await this.#imageOf(request.options));
-    const pixels = new Uint8ClampedArray(body.buffer, body.byteOffset, body.length);
-    return {image: new ImageData(pixels, about.width, about.height), about};
-  }
-
-  frame(request) {
-    return this.#picture("frame", request);
-  }
-
-  scan(request) {
-    return this.#picture("scan", request);
-  }
-
-  async profile(request) {
-    return (await this.#ask("profile", request)).heights_mm;
-  }
-
-  async reach(options) {
-    return (await this.#ask("reach", {options})).height_mm;
-  }
-
-  check(options) {
-    return this.#ask("check", {options});
-  }
-
-  piece(options) {
-    return this.#ask("piece", {options});
-  }
-
-  async cancelPiece() {
-    if ([...this.#waiting.values()].some(({call}) => call === "piece" || call === "export")) this.#end(cancelled(), closed());
-  }
-
-  async exportFile(request) {
-    const {document} = this;
-    if (!this.#isOpen.has(document)) throw closed();
-    const {type, body} = await this.#call("export", {document, ...request}, await this.#imageOf(request.options));
-    return new Blob([body], {type});
-  }
-
-  async packProject(project) {
-    const {files = []} = (await this.#store.scan(scanOf(project.input))) ?? {};
-    const all = [...files, ...(await this.#imageOf(project.options))];
-    return new Blob([(await this.#call("save", {project}, all)).body], {type: "application/zip"});
-  }
-
-  async recent() {
+  async #recent() {
     const documents = await this.#store.recent();
     return Promise.all(documents.map(async ({id, state, picture = ""}) => {
       const input = inputOf(state);
@@ -288,16 +256,10 @@ export class Engine {
     }));
   }
 
-  async keep(document, state) {
+  async #keep(document, state) {
     await this.#store.keepDocument(document, state);
     const kept = {changed: state.changed, tab: TAB};
     this.#kept.set(document, kept);
     this.#tabs?.postMessage({document, kept});
   }
-
-  keepPicture(document, picture) {
-    return this.#store.keepPicture(document, picture);
-  }
-
-  leave() {}
 }

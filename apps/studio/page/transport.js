@@ -1,0 +1,77 @@
+// Takes requests to the program `relievo studio`. This is the only file of the page that knows HTTP.
+
+import {CANCELLED, EngineError, cancelled} from "./engine.js";
+
+const ASK = "status?"; // of a new tab to the one that has the stream
+
+async function errorIn(response) {
+  try {
+    const {error} = await response.json();
+    if (error) return new EngineError(error);
+  } catch {
+    // not JSON: the status must do
+  }
+  return new EngineError({kind: "request", text: `The engine answered ${response.status}.`});
+}
+
+async function send(path, options) {
+  let response;
+  try {
+    response = await fetch(path, options);
+  } catch {
+    if (options.signal?.aborted) throw cancelled();
+    throw new EngineError({kind: "lost", text: "The engine does not answer. Start relievo studio again."});
+  }
+  if (!response.ok || response.status === CANCELLED) throw await errorIn(response);
+  return response;
+}
+
+export class Transport {
+  traits = {takesSeveral: false, drawsMeanwhile: true, canRemove: true, slowMs: 55};
+
+  // A file is sent as it is; the request has its name. The last request outlives the page.
+  async call(name, request, {files: [file] = [], signal} = {}) {
+    const path = file ? `api/${name}?name=${encodeURIComponent(file.name)}` : `api/${name}`;
+    const body = file ?? JSON.stringify(request), keepalive = name === "leave";
+    const response = await send(path, request ? {method: "POST", body, signal, keepalive} : {});
+    if (response.headers.get("Content-Type") === "application/json") return {body: await response.json()};
+    const about = response.headers.get("X-Relievo");
+    if (!about) return {body: await response.blob()};
+    return {about: JSON.parse(about), body: new Uint8Array(await response.arrayBuffer())};
+  }
+
+  addressOf(file) {
+    return file;
+  }
+
+  // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab that
+  // has the lock opens the stream and passes on what it says; when that tab goes, another has the lock.
+  follow(onStatus, onLost) {
+    const tabs = new BroadcastChannel(location.pathname);
+    const take = (status) => (status ? onStatus(status) : onLost());
+    tabs.onmessage = ({data}) => data !== ASK && take(data);
+    tabs.postMessage(ASK);
+    navigator.locks.request(location.pathname, () => {
+      const last = new Map(); // by document; by nothing the run
+      const pass = (status) => {
+        if (!status || !status.document) last.clear();
+        if (status) last.set(status.document, status);
+        tabs.postMessage(status);
+        take(status);
+      };
+      tabs.onmessage = ({data}) => data === ASK && [...last.values()].forEach((status) => tabs.postMessage(status));
+      this.listen(pass);
+      return new Promise(() => {}); // for as long as this page lives
+    });
+  }
+
+  // A stream that broke off connects again by itself, one that was refused does not.
+  listen(pass) {
+    const source = new EventSource("api/events");
+    source.onmessage = (event) => pass(JSON.parse(event.data));
+    source.onerror = () => {
+      pass(null);
+      if (source.readyState === EventSource.CLOSED) setTimeout(() => this.listen(pass), 1000);
+    };
+  }
+}
