@@ -45,88 +45,10 @@ export class Engine {
     return (await this.#call(name, request, options)).body;
   }
 
-  addressOf(file) {
-    return this.#transport.addressOf(file);
-  }
-
-  follow(...listeners) {
-    this.#transport.follow(...listeners);
-  }
-
-  // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (what the
-  // program was started with), notice (about the place where work is kept), most_upload (bytes), and perhaps limits (texts
-  // that say what this engine cannot do).
-  async about() {
-    return (await this.#transport.call("about")).body;
-  }
-
-  // Returns {document, input, is_there, kept}: the document of a scan, and its state if it is kept.
-  find(input) {
-    return this.#ask("document", {input});
-  }
-
-  // Prepares the scan of the document that is shown. A view is {view, up, crop, crumbs, plane, denoise, mode, points}, as
-  // `relievo make` has it.
-  open(input, view) {
-    return this.#ask("open", {input, tab: TAB, ...view});
-  }
-
-  // Returns the input that files of the browser make.
-  async upload(files) {
-    return (await this.#ask("upload", {name: files[0].name}, {files})).input;
-  }
-
-  // Returns {input, is_there, options, studio} of a project file.
-  readProject(file) {
-    return this.#ask("project", {name: file.name}, {files: [file]});
-  }
-
-  chooseView(view) {
-    return this.#ask("view", view);
-  }
-
-  cancel() {
-    return this.#ask("cancel");
-  }
-
-  // Returns facts about the model.
-  facts() {
-    return this.#ask("facts");
-  }
-
-  // Returns {view, up} of each side, best first.
-  async suggestViews() {
-    return (await this.#ask("views")).views;
-  }
-
   async #picture(name, request, options) {
     const {about, body} = await this.#call(name, request, options);
     const pixels = new Uint8ClampedArray(body.buffer, body.byteOffset, body.length);
     return {image: new ImageData(pixels, about.width, about.height), about};
-  }
-
-  // Returns {image: ImageData, about}. A picture that is aborted by its signal is cancelled.
-  frame(request, options) {
-    return this.#picture("frame", request, options);
-  }
-
-  scan(request) {
-    return this.#picture("scan", request);
-  }
-
-  // Returns heights in mm along a line.
-  async profile(request) {
-    return (await this.#ask("profile", request)).heights_mm;
-  }
-
-  // Returns the largest height in mm.
-  async reach(options) {
-    return (await this.#ask("reach", {options})).height_mm;
-  }
-
-  // Throws unless the options can be read.
-  check(options) {
-    return this.#ask("check", {options});
   }
 
   #make(name, request) {
@@ -134,15 +56,48 @@ export class Engine {
     return this.#ask(name, request, {signal: this.#making.signal});
   }
 
-  // Returns {triangles, points, size_mm, height_mm} of the finished piece, which is then at hand for exportFile().
-  piece(options) {
-    return this.#make("piece", {options});
-  }
+  addressOf = (file) => this.#transport.addressOf(file);
+  follow = (...listeners) => this.#transport.follow(...listeners);
 
-  // Returns the file of a piece as a Blob.
-  exportFile(request) {
-    return this.#make("export", request);
-  }
+  // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (what the
+  // program was started with), notice (about the place where work is kept), most_upload (bytes), and perhaps limits (texts
+  // that say what this engine cannot do).
+  about = async () => (await this.#transport.call("about")).body;
+
+  // Returns {document, input, is_there, kept}: the document of a scan, and its state if it is kept.
+  find = (input) => this.#ask("document", {input});
+  // Returns the input that files of the browser make.
+  upload = async (files) => (await this.#ask("upload", {name: files[0].name}, {files})).input;
+  // Returns {input, is_there, options, studio} of a project file.
+  readProject = (file) => this.#ask("project", {name: file.name}, {files: [file]});
+
+  // Prepares the scan of the document that is shown. A view is {view, up, crop, crumbs, plane, denoise, mode, points}, as
+  // `relievo make` has it.
+  open = (input, view) => this.#ask("open", {input, tab: TAB, ...view});
+  chooseView = (view) => this.#ask("view", view);
+  cancel = () => this.#ask("cancel");
+
+  // Returns facts about the model.
+  facts = () => this.#ask("facts");
+  // Returns {view, up} of each side, best first.
+  suggestViews = async () => (await this.#ask("views")).views;
+
+  // Return {image: ImageData, about}. A picture that is aborted by its signal is cancelled.
+  frame = (request, options) => this.#picture("frame", request, options);
+  scan = (request) => this.#picture("scan", request);
+
+  // Returns heights in mm along a line.
+  profile = async (request) => (await this.#ask("profile", request)).heights_mm;
+  // Returns the largest height in mm.
+  reach = async (options) => (await this.#ask("reach", {options})).height_mm;
+  // Throws unless the options can be read.
+  check = (options) => this.#ask("check", {options});
+
+  // Returns {triangles, points, size_mm, height_mm} of the finished piece, which is then at hand for exportFile().
+  piece = (options) => this.#make("piece", {options});
+  // Return the file of a piece, and a project file with its scan, as a Blob.
+  exportFile = (request) => this.#make("export", request);
+  packProject = (project) => this.#ask("save", {project});
 
   // Gives up the request for the piece or its file as well: what the engine answers then is of no use.
   cancelPiece() {
@@ -150,35 +105,13 @@ export class Engine {
     return this.#ask("cancel_piece");
   }
 
-  // Returns a project file with its scan as a Blob.
-  packProject(project) {
-    return this.#ask("save", {project});
-  }
-
   // Returns {document, input, is_there, picture} of the documents that were changed last.
-  async recent() {
-    return (await this.#ask("recent")).recent;
-  }
-
+  recent = async () => (await this.#ask("recent")).recent;
   // Returns {documents, bytes} of all that is kept until it is removed.
-  kept() {
-    return this.#ask("kept");
-  }
-
-  remove(document) {
-    return this.#ask("remove", {document, tab: TAB});
-  }
-
-  keep(document, state, isMoving) {
-    return this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});
-  }
-
-  keepPicture(document, picture) {
-    return this.#ask("picture", {document, picture});
-  }
-
+  kept = () => this.#ask("kept");
+  remove = (document) => this.#ask("remove", {document, tab: TAB});
+  keep = (document, state, isMoving) => this.#ask("state", {document, state, tab: TAB, is_moving: isMoving});
+  keepPicture = (document, picture) => this.#ask("picture", {document, picture});
   // The page goes, and nothing is left to do if that cannot be told.
-  leave() {
-    this.#ask("leave", {tab: TAB}).catch(() => {});
-  }
+  leave = () => this.#ask("leave", {tab: TAB}).catch(() => {});
 }
