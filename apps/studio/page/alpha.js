@@ -1,7 +1,8 @@
-// The flatness, which is the paper's height coefficient alpha: it and the saturation decide how high a relief is, which has no height to keep.
+// The flatness, which is the paper's height coefficient alpha. It and the saturation decide how high a relief is that has
+// no height to keep.
 
 import {optionOf} from "./about.js";
-import {$, make} from "./controls.js";
+import {$, pair, sentence, textField} from "./controls.js";
 import {uOfAlpha} from "./document.js";
 import {isUnfinished} from "./inputs.js";
 import {typedNumber} from "./lengths.js";
@@ -11,19 +12,15 @@ export class AlphaRow {
     Object.assign(this, {doc, say});
     const {help, min, max} = optionOf("alpha");
     this.range = {label: "Flatness", unit: "", min, max};
-    this.input = make("input", {id: "alpha", "data-option": "alpha", autocomplete: "off", inputmode: "decimal",
-      "aria-label": "Flatness", placeholder: "no effect"});
-    this.input.onchange = () => this.take();
-    this.input.onkeydown = ({key}) => {
-      if (key === "Escape") this.show(this.frame);
-    };
-    this.help = help[0].toUpperCase() + help.slice(1);
-    this.element = make("label", {class: "pair"}, make("span", {}, "Flatness"), this.input);
+    this.input = textField({id: "alpha", "data-option": "alpha", inputmode: "decimal", "aria-label": "Flatness",
+      placeholder: "no effect"}, {take: (text) => this.take(text), show: () => this.show(this.frame)});
+    this.help = sentence(help);
+    this.element = pair("Flatness", this.input);
     $("#tuning").before(this.element);
   }
 
-  take() {
-    const alpha = typedNumber(this.input.value, this.range, this.say);
+  take(text) {
+    const alpha = typedNumber(text, this.range, this.say);
     if (alpha === null) return this.show(this.frame);
     this.doc.change({isHeightLocked: false, u: uOfAlpha(alpha, this.doc.now.options.saturation)});
   }

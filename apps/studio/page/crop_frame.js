@@ -1,10 +1,9 @@
 // The crop on the picture: the whole scan as the view shows it, and a frame that can be drawn, moved and resized. What
 // lies outside is left out of the relief.
 
-import {$, clamp, make} from "./controls.js";
+import {$, clamp, make, paint} from "./controls.js";
+import {directionsOf} from "./directions.js";
 import {WHOLE, cropText, numbersOf} from "./scan_panel.js";
-import {paint} from "./stage.js";
-import {directionsOf} from "./turning.js";
 
 const LEAST = 0.05; // of the scan's box, that a side of the frame keeps
 const NEAR = 14; // pixels from a side of the frame at which the pointer takes it

@@ -2,7 +2,8 @@
 // curve, or without one the paper's formula, and sends the samples with each picture.
 
 import {about} from "./about.js";
-import {$, clamp, make} from "./controls.js";
+import {$, ARROWS, Pause, clamp, make} from "./controls.js";
+import {REST_MS} from "./slider.js";
 
 const WIDTH = 320, HEIGHT = 150, NEAREST = 0.02;
 const AROUND = 9; // units around the diagram, so that a handle at its end lies within the box
@@ -24,6 +25,7 @@ export class CurveEditor {
   // Calls onChange(tone), which returns the tone to be shown, while a point moves; onEnd() after it.
   constructor(onChange, onEnd) {
     Object.assign(this, {onChange, onEnd, tone: "", samples: {share: [], kept: []}, histogram: []});
+    this.rest = new Pause(onEnd, REST_MS);
     this.svg = make("svg", {
       viewBox: [-AROUND, -AROUND, WIDTH + 2 * AROUND, HEIGHT + 2 * AROUND].join(" "), role: "group", "aria-label": "Tone curve",
     });
@@ -132,14 +134,13 @@ export class CurveEditor {
   }
 
   key(event, i) {
-    const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+    const step = ARROWS[event.key];
     const {points} = this;
     if (step) {
       event.preventDefault();
       const size = event.shiftKey ? 0.002 : 0.02;
       this.movePoint(i, points[i][0] + step[0] * size, points[i][1] + step[1] * size);
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.onEnd(), 400);
+      this.rest.begin();
     } else if ((event.key === "Delete" || event.key === "Backspace") && points.length > 1) {
       event.preventDefault();
       this.change(format(points.filter((_, j) => j !== i)), true);

@@ -1,7 +1,8 @@
 // The sliders: options of the engine, each with a label, a place, and the range that a hand needs.
 
 import {optionOf} from "./about.js";
-import {spread} from "./controls.js";
+import {sentence} from "./controls.js";
+import {spread} from "./slider.js";
 
 // Labels say what the eye sees; `symbol` is that of the paper, for the tip. `hand` is what the slider spans. A
 // number may be typed within the whole range of the option.
@@ -24,8 +25,6 @@ const UNITS = {
   DEG: {unit: "°", unitName: "degrees"},
   W: {unit: "points", unitName: "points of the scan"},
 };
-
-const sentence = (text) => text[0].toUpperCase() + text.slice(1);
 
 export const FIELDS = Object.fromEntries(Object.entries(SLIDERS).map(([name, slider]) => {
   const {unit, help, min, max} = optionOf(name);

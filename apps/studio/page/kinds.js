@@ -1,11 +1,10 @@
 // The kinds of work, as pictures of this scan: each sets the piece, its size and its material.
 
 import {defaultOf} from "./about.js";
-import {$, check, make} from "./controls.js";
+import {$, check, make, paint} from "./controls.js";
 import {FIRST, LITHOPHANE, MARGIN_IN_DIAMETER, shownOptions} from "./document.js";
 import {takeArrowKeys} from "./inputs.js";
 import {shortLength, shown} from "./lengths.js";
-import {paint} from "./stage.js";
 
 // A rectangular plate with nothing besides.
 const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", shift: "", rim: null,

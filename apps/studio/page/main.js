@@ -2,16 +2,16 @@
 
 import {about, engine} from "./about.js";
 import {AlphaRow} from "./alpha.js";
-import {$, clamp, make} from "./controls.js";
+import {takeCommands} from "./commands.js";
+import {$, Pause, clamp, make} from "./controls.js";
 import {CropFrame} from "./crop_frame.js";
 import {CurveEditor} from "./curve.js";
 import {Document} from "./document.js";
 import {Entries} from "./entries.js";
 import {ExportDialog} from "./export.js";
 import {FIELDS} from "./fields.js";
-import {keepPanels, takeDrops, takeKeys} from "./inputs.js";
 import {Keeper} from "./keeper.js";
-import {shown, withUnit} from "./lengths.js";
+import {shown} from "./lengths.js";
 import {engineLost, toast} from "./messages.js";
 import {Modes} from "./modes.js";
 import {KindPanel} from "./kind_panel.js";
@@ -36,7 +36,7 @@ import {ViewDialog} from "./views.js";
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
 const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
 
-const doc = new Document((before) => changed(before), () => showing && showDocument());
+const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
 const entries = new Entries({engine, doc, changed: showEntries, refused});
 const sliders = new Sliders({doc, entries, frame: () => last, say: refuse});
 const shownWidth = () => sliders.shownWidth();
@@ -132,16 +132,13 @@ function stateCame() {
 }
 
 // A drag moves its own control; the others follow when it pauses or ends, as they cost as much as a picture.
-let showing = 0;
+const showing = new Pause(showDocument, SHOW_MS);
 function showDocumentSoon() {
-  clearTimeout(showing);
-  if (doc.stroke === null) showDocument();
-  else showing = setTimeout(showDocument, SHOW_MS);
+  doc.stroke === null ? showDocument() : showing.begin();
 }
 
 function showDocument() {
-  clearTimeout(showing);
-  showing = 0;
+  showing.end();
   const {options, material, input} = doc.now;
   sliders.show();
   curve.show({tone: options.tone});
@@ -171,7 +168,7 @@ addEventListener("pagehide", () => engine.leave());
 
 // --------------------------------------------------------------------------------------------------- pictures
 
-let pictureTimer = 0;
+const pictureRests = new Pause(keepPicture, PICTURE_MS);
 async function keepPicture() {
   const {id} = opened, small = opened.isReady ? smallPicture($("#picture")) : "";
   if (small) await engine.keepPicture(id, small).catch(() => {}); // it is not missed where nothing can be kept
@@ -187,8 +184,7 @@ function pictured(frame, ms, isFine) {
   sliders.showWidth();
   if (opened.status.busy) showProgress(opened.status, false);
   alphaRow.show(frame);
-  clearTimeout(pictureTimer);
-  if (isFine) pictureTimer = setTimeout(keepPicture, PICTURE_MS);
+  isFine ? pictureRests.begin() : pictureRests.end();
   curve.show({samples: frame.curve, histogram: facts?.histogram ?? []});
   if (opened.isReady) reach.pictured(frame, isFine, stage.model);
   if (isFine) kinds.pictured(opened.isReady ? stage.model : 0, stage.turning.shown);
@@ -264,15 +260,14 @@ async function arrived(status) {
   stage.invalidate();
 }
 
-let reopening = 0;
+const reopening = new Pause(() => opened.closed().catch(failed), 200);
 function failed(error) {
   const isReady = opened.isReady && !opened.status.busy;
   if (error.kind === "geometry" && !isReady) return; // the next status will show it
   if (placing.fit(error, last)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
   if (error.kind !== "closed") return (error.kind === "lost" ? toast : refuse)(inWords(error.message));
-  clearTimeout(reopening);
-  reopening = setTimeout(() => opened.closed().catch(failed), 200);
+  reopening.begin();
 }
 
 // Text that was typed before belongs to the work that is shown.
@@ -312,53 +307,6 @@ function showStart(isShown) {
 
 const showRecentNow = () => keepPicture().then(() => shelf.show());
 
-// ------------------------------------------------------------------------------------------------------- wiring
-
-function wire() {
-  keepPanels(document.querySelectorAll(".inspector details"), localStorage);
-  const click = (selector, action) => ($(selector).onclick = action);
-  click("#undo", () => entries.undo());
-  click("#redo", () => entries.redo());
-  click("#open", () => $("#file").click());
-  click("#drop", () => $("#file").click());
-  click("#save", saveProject);
-  click("#export", () => exporting.open());
-  click("#help", () => help.showModal());
-  const help = $("#help-dialog");
-  tour.follow(help);
-  click("#home", () => showStart(true));
-  click("#back", () => showStart(false));
-  click("#cancel", () => opened.cancel().catch(failed));
-  click("#choose-view", () => views.show(doc.now.options));
-  $("#file").onchange = (event) => {
-    openFiles([...event.target.files]);
-    event.target.value = "";
-  };
-  $("#unit").onchange = (event) => chooseUnit(event.target.value);
-  takeDrops($("#veil"), openFiles);
-  takeKeys({
-    commands: COMMANDS, always: {"?": () => $("#help-dialog").showModal()}, keys: KEYS,
-    isReady: () => facts && !$("#studio").hidden, hold: (isHolding) => stage.comparing.set({isHolding}),
-  });
-}
-
-// Nothing that is not shown changes by a key.
-const ofDocument = (act) => () => $("#studio").hidden || act();
-const COMMANDS = {
-  z: ofDocument(() => entries.undo()), Z: ofDocument(() => entries.redo()), y: ofDocument(() => entries.redo()),
-  s: ofDocument(() => facts && saveProject()), e: ofDocument(() => facts && exporting.open()),
-  o: () => $("#file").click(),
-};
-const KEYS = {
-  l: () => modes.setTool("light"), r: () => modes.setTool("turn"), o: () => modes.setTool("orbit"),
-  h: () => modes.setTool("pan"), p: () => modes.setTool("place"), s: () => modes.setTool("section"),
-  m: () => modes.setTool("measure"), x: () => modes.setTool("crop"), f: () => stage.fit(),
-  t: () => modes.toggleTable(),
-  Escape: () => cropFrame.giveUp() || stage.takeBack() || modes.leave(),
-  c: () => modes.toggleComparing(), v: () => views.show(doc.now.options),
-  ...Object.fromEntries(about.materials.map(({id}, i) => [i + 1, () => doc.change({material: id})])),
-};
-
 // ------------------------------------------------------------------------------------------------------- start
 
 // Shows the document that the address names, or what the program was started with, or the one that was changed last.
@@ -371,7 +319,8 @@ async function resume({first, recent}) {
 }
 
 async function start() {
-  wire();
+  takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, save: saveProject, openFiles,
+    isThere: () => facts !== null, showStart, chooseUnit, failed});
   document.body.inert = false; // what was clicked before would have been lost
   $("#unit").value = localStorage.getItem("unit") === "in" ? "in" : "mm";
   chooseUnit($("#unit").value);

@@ -1,7 +1,7 @@
 // Measures on the picture from the front: dimensions of the piece, the height under the pointer, distances, and the
 // line of the section. Places are in mm from the middle of the piece.
 
-import {clamp, make, scaleOfType} from "./controls.js";
+import {clamp, make, oneAtATime, scaleOfType} from "./controls.js";
 import {withUnit} from "./lengths.js";
 
 const NEAR = 12; // pixels from an end of a line at which the pointer takes it
@@ -71,7 +71,7 @@ function dimension(from, to, text, picture, at) {
 }
 
 // Returns the part of a line that lies on a plate of that size; null if it passes by.
-export function onPlate({from, to}, [width, height], isRound) {
+function onPlate({from, to}, [width, height], isRound) {
   const scaled = ([x, y]) => [2 * x / width, 2 * y / height], a = scaled(from), d = scaled(sub(to, from));
   let low = 0, high = 1;
   const within = (enters, leaves) => ([low, high] = [Math.max(low, enters), Math.min(high, leaves)]);
@@ -88,6 +88,7 @@ export class Measure {
   // `stage` turns places into pixels and back, and has the newest picture's {size_mm, relief_mm}.
   constructor(stage) {
     this.stage = stage;
+    this.askHeight = oneAtATime(() => this.tellHeight());
     this.clear();
   }
 
@@ -101,6 +102,14 @@ export class Measure {
   middleLine() {
     const half = this.stage.about.size_mm[0] / 2;
     return {from: [-half, 0], to: [half, 0]};
+  }
+
+  // Has the heights along the part of a line that lies on the piece shown.
+  async cut(line) {
+    const {stage} = this, {outline, wrap} = stage.doc.now.options;
+    const isRound = ["circle", "ellipse"].includes(outline) && wrap === "none";
+    const {from, to} = onPlate(line, stage.about.size_mm, isRound) ?? {};
+    stage.on.section(from ? await stage.heights(from, to) : [], from, to);
   }
 
   // Returns the end of the line that is under a pixel: "from", "to" or null.
@@ -169,20 +178,18 @@ export class Measure {
   // -------------------------------------------------------------------------------------------------- the pointer
 
   // Asks for the height under the pointer, one place at a time, always of the newest one; null: the pointer has left.
-  async point(place) {
+  point(place) {
     this.wanted = place;
-    if (!place) this.pointer = null;
-    if (this.isAsking || !place) return this.stage.drawOverlay();
-    this.isAsking = true;
-    while (this.wanted) {
-      const place = this.wanted;
-      this.wanted = null;
-      const [height] = await this.stage.heights(place, place).catch(() => []);
-      if (this.stage.tool !== "measure") break;
-      this.pointer = {place, height};
-      this.stage.drawOverlay();
-    }
-    this.isAsking = false;
+    if (place) return this.askHeight();
+    this.pointer = null;
+    this.stage.drawOverlay();
+  }
+
+  async tellHeight() {
+    const {wanted: place, stage} = this, [height] = place ? await stage.heights(place, place).catch(() => []) : [];
+    if (!this.wanted || stage.tool !== "measure") return; // the pointer has left
+    this.pointer = {place, height};
+    stage.drawOverlay();
   }
 
   async setLine(line) {

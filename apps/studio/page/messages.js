@@ -1,8 +1,9 @@
 // Lines for people, at the edge of the page.
 
-import {$, make} from "./controls.js";
+import {$, Pause, make} from "./controls.js";
 
-let timer = 0, isLost = false;
+const shown = new Pause(hideToast, 8000);
+let isLost = false;
 
 // What stands above the line makes room for it, and what has the focus stays in sight.
 new ResizeObserver(() => {
@@ -17,8 +18,7 @@ export function toast(text, isLasting = false) {
   const line = make("span", {}, text);
   $("#toast p").replaceChildren(line);
   $("#toast").hidden = false;
-  clearTimeout(timer);
-  if (!isLasting) timer = setTimeout(hideToast, 8000);
+  isLasting ? shown.end() : shown.begin();
   return () => line.isConnected && hideToast();
 }
 
@@ -29,7 +29,7 @@ export function offer(text, label, action, ms = Infinity, others = []) {
     takeBack(); // before the action, which may say something itself
     chosen();
   };
-  if (ms < Infinity) timer = setTimeout(hideToast, ms);
+  if (ms < Infinity) shown.begin(ms);
   for (const [name, chosen] of [[label, action], ...others])
     $("#toast p span").append(" ", make("button", {onclick: act(chosen)}, name));
   return takeBack;

@@ -2,15 +2,14 @@
 
 import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
-import {$, UPWARDS, clamp, make, nextValue} from "./controls.js";
+import {$, Pause, clamp, make, pair, sentence} from "./controls.js";
 import {FIRST, LITHOPHANE, NOT_PRINTED} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
 import {KINDS} from "./kinds.js";
 import {millimetresPerUnit, parseLength, shortLength, shown as lengthUnit, typedNumber} from "./lengths.js";
 import {SHAPES, ShapeRow} from "./shapes.js";
-
-const sentence = (text) => text[0].toUpperCase() + text.slice(1);
+import {REST_MS, UPWARDS, nextValue} from "./slider.js";
 
 const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   shift: "Moved by", rim: "Rim width",
@@ -29,7 +28,7 @@ const TIPS = {base: "Surface under the relief", wrap: "Body around which the fin
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
 const ROWS = Object.keys(LABELS);
-const LEAST_STEP = 0.001, REST_MS = 400; // of arrow keys
+const LEAST_STEP = 0.001; // of arrow keys
 
 // The options of two lengths, by what stands between them.
 const PAIRS = {plate: {between: "x", split: /[x×]/}, shift: {between: ",", split: ","}};
@@ -116,14 +115,15 @@ export class PieceRows {
         placeholder: PLACEHOLDERS[name] ?? String(otherwise || "none"),
       });
     const label = UNITS[unit] === "°" ? `${LABELS[name]} (°)` : LABELS[name];
-    const element = make("label", {class: "pair", title: sentence(help)}, make("span", {}, label), input);
+    const element = pair(label, input, {title: sentence(help)});
+    const rest = new Pause(() => input.dispatchEvent(new Event("change")), REST_MS);
     input.onchange = () => this.take(name);
-    input.oninput = ({isTrusted}) => isTrusted && this.endRest(name); // typing follows the keys
+    input.oninput = ({isTrusted}) => isTrusted && rest.end(); // typing follows the keys
     input.onkeydown = (event) => {
-      if (event.key === "Escape") this.endRest(name), this.show();
+      if (event.key === "Escape") rest.end(), this.show();
       if (event.key in UPWARDS) this.step(event, name);
     };
-    return {element, input, isNumber: min !== undefined, unit: UNITS[unit], min, max};
+    return {element, input, rest, isNumber: min !== undefined, unit: UNITS[unit], min, max};
   }
 
   // Arrow keys go from a number to the next round one, with shift finely; it is taken when they rest.
@@ -135,19 +135,13 @@ export class PieceRows {
     const next = clamp(nextValue(value, UPWARDS[event.key], event.shiftKey, LEAST_STEP) * scale, min, max);
     input.value = isLength ? shortLength(next) : String(Number(next.toPrecision(12)));
     input.dispatchEvent(new Event("input")); // as typing does
-    this.endRest(name);
-    row.rest = setTimeout(() => input.dispatchEvent(new Event("change")), REST_MS);
-  }
-
-  endRest(name) {
-    clearTimeout(this.rows[name].rest);
-    this.rows[name].rest = 0;
+    row.rest.begin();
   }
 
   // Takes what was chosen or typed, unless it is no number where one is wanted.
   take(name) {
-    const {input, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
-    this.endRest(name);
+    const {input, rest, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
+    rest.end();
     let value = text === "" ? FIRST.options[name] : text;
     if (isNumber && text !== "") value = typedNumber(text, {label: LABELS[name], unit, min, max}, this.say);
     if (isNumber && text !== "" && value === null) return this.show();
@@ -168,7 +162,7 @@ export class PieceRows {
 
   // Takes what arrow keys have stepped to and do not rest on yet.
   takeSteps() {
-    for (const [name, {rest}] of Object.entries(this.rows)) if (rest) this.take(name);
+    for (const [name, {rest}] of Object.entries(this.rows)) if (rest?.isRunning) this.take(name);
   }
 
   // Shows the document's values, but not in a field in which something is typed or whose entry is being tried.

@@ -1,7 +1,7 @@
 // Moves, turns and scales the figure on its plate by hand.
 
 import {clamp} from "./controls.js";
-import {viewTurned} from "./views.js";
+import {viewTurned} from "./directions.js";
 
 const LEAST = 1, MOST = 1e5; // mm of a figure's longer side
 const TURN_STEP = 1; // degrees

@@ -2,7 +2,7 @@
 // along its edges, which begin at the lower left corner of the piece.
 
 import {make, scaleOfType} from "./controls.js";
-import {lengthText, millimetresPerUnit, shown} from "./lengths.js";
+import {millimetresPerUnit, shortLength, shown} from "./lengths.js";
 
 const BAR = 150; // pixels that the bar has at most, where type has its usual size
 const APART = 64, FINE = 6; // least pixels between numbers of a ruler, and between its strokes
@@ -14,13 +14,10 @@ function roundBelow(mm) {
   return [5, 2, 1].find((digit) => digit * power <= units * (1 + 1e-9)) * power * millimetresPerUnit();
 }
 
-// Returns a round length as text, without zeros at its end.
-const roundText = (mm) => String(Number(lengthText(mm, 4)));
-
 function scaleBar({pixelsPerMm, size: {height}}) {
   const type = scaleOfType(), mm = roundBelow(BAR * type / pixelsPerMm), length = mm * pixelsPerMm, y = height - EDGE;
   return [make("path", {class: "scale", d: `M${EDGE} ${y - STROKE}V${y}H${EDGE + length}v${-STROKE}`}),
-    make("text", {class: "scale", x: EDGE + 6, y: y - 6}, `${roundText(mm)} ${shown.unit}`)];
+    make("text", {class: "scale", x: EDGE + 6, y: y - 6}, `${shortLength(mm)} ${shown.unit}`)];
 }
 
 // Returns the strokes of a ruler that is at 0 at a pixel and goes over so many to the right or, with the sign -1,
@@ -30,7 +27,7 @@ function strokes({pixelsPerMm}, zero, sign, pixels) {
   const parts = [10, 5, 2, 1].find((n) => step * pixelsPerMm / n >= FINE), apart = sign * step / parts * pixelsPerMm;
   const [first, last] = [-zero / apart, (pixels - zero) / apart].sort((a, b) => a - b), all = [];
   for (let i = Math.ceil(first); i <= last; ++i)
-    all.push({at: zero + i * apart, number: i % parts === 0 ? roundText(i / parts * step) : null});
+    all.push({at: zero + i * apart, number: i % parts === 0 ? shortLength(i / parts * step) : null});
   return all;
 }
 

@@ -1,6 +1,6 @@
 // The panel shows the findings about a scan, each with its remedy, and sets where the scan is cut and its noise.
 
-import {$, make} from "./controls.js";
+import {$, make, pair} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
 
 export const WHOLE = [0, 0, 1, 1, 0, 1];
@@ -32,7 +32,8 @@ export class ScanPanel {
       const output = make("output");
       input.oninput = () => this.showCut({input, output}, input.value);
       input.onchange = () => this.cut(at, Number(input.value) / 100);
-      $("#cuts").append(make("label", {class: "pair cut"}, make("span", {}, label), input, output));
+      $("#cuts").append(pair(label, input, {class: "pair cut"}));
+      input.after(output);
       return {input, output, at};
     });
     $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));

@@ -1,6 +1,6 @@
 // The models of a scene: how each is turned and how large it is. A change makes another scene file, which is opened.
 
-import {$, make} from "./controls.js";
+import {$, make, pair, textField} from "./controls.js";
 import {typedNumber} from "./lengths.js";
 
 const nameOf = (path) => path.split(/[/\\]/).at(-1);
@@ -29,18 +29,12 @@ export class ScenePanel {
   row(model, at) {
     const name = nameOf(model.file), [across, upright, roll] = model.rotate;
     const field = (label, range, value, part) => {
-      const input = make("input", {
-        value, inputmode: "decimal", autocomplete: "off", "aria-label": `${label} of ${name}`,
-      });
-      input.onkeydown = ({key}) => {
-        if (key === "Escape") input.value = value;
+      const show = () => (input.value = value), take = (text) => {
+        const number = typedNumber(text, range, this.say);
+        number === null ? show() : this.change(at, part(number));
       };
-      input.onchange = () => {
-        const number = typedNumber(input.value, range, this.say);
-        if (number === null) input.value = value;
-        else this.change(at, part(number));
-      };
-      return make("label", {class: "pair"}, make("span", {}, label), input);
+      const input = textField({value, inputmode: "decimal", "aria-label": `${label} of ${name}`}, {take, show});
+      return pair(label, input);
     };
     const mirror = make("input", {type: "checkbox", checked: model.mirror, "aria-label": `Mirror ${name}`});
     mirror.onchange = () => this.change(at, {mirror: mirror.checked});
@@ -51,7 +45,7 @@ export class ScenePanel {
       field("Turn left or right (°)", TURN, upright, (turn) => ({rotate: [across, turn, roll]})),
       field("Tilt (°)", TURN, roll, (turn) => ({rotate: [across, upright, turn]})),
       field("Size (%)", SIZE, Number((100 * model.scale).toPrecision(4)), (size) => ({scale: size / 100})),
-      make("label", {class: "pair"}, make("span", {}, "Mirrored"), mirror));
+      pair("Mirrored", mirror));
   }
 
   change(at, part) {

@@ -1,7 +1,7 @@
 // Options whose texts are shapes with parameters, such as "wave:height=3,length=40,hollow" or the tool "v:60:0.5": a
 // menu of the shapes, and a field for each parameter of the chosen one.
 
-import {make} from "./controls.js";
+import {make, pair, textField} from "./controls.js";
 import {isUnfinished} from "./inputs.js";
 import {parseLength, shortLength, shown, shownUnit, typedNumber} from "./lengths.js";
 
@@ -62,8 +62,7 @@ export class ShapeRow {
     this.input = make("select", {id: option, "data-option": option, "aria-label": label},
       ...Object.entries(SHAPES[option]).map(([name, {label}]) => make("option", {value: name}, label)));
     this.input.onchange = ({target: {value}}) => take(() => FIRST_TEXTS[value] ?? value);
-    this.element = make("div", {class: "shape", title}, make("label", {class: "pair"}, make("span", {}, label),
-      this.input));
+    this.element = make("div", {class: "shape", title}, pair(label, this.input));
   }
 
   // Shows the text of the option.
@@ -82,15 +81,12 @@ export class ShapeRow {
   }
 
   field(name, about) {
-    const attributes = {"aria-label": `${this.label}: ${about.label}`, autocomplete: "off"};
-    const input = make("input", about.isWord ? {...attributes, type: "checkbox"}
-      : {...attributes, inputmode: "decimal", placeholder: about.otherwise ?? "automatic"});
-    input.onchange = () => this.changed(name, about, input);
-    input.onkeydown = ({key}) => {
-      if (key === "Escape") this.show(this.shown.text);
-    };
+    const kind = about.isWord ? {type: "checkbox"}
+      : {inputmode: "decimal", placeholder: about.otherwise ?? "automatic"};
+    const input = textField({"aria-label": `${this.label}: ${about.label}`, ...kind},
+      {take: () => this.changed(name, about, input), show: () => this.show(this.shown.text)});
     const label = about.isWord ? about.label : `${about.label} (${shownUnit(about.unit)})`;
-    this.element.append(make("label", {class: "pair parameter"}, make("span", {}, label), input));
+    this.element.append(pair(label, input, {class: "pair parameter"}));
     return {name, about, input};
   }
 

@@ -1,10 +1,11 @@
 // The sliders on the page, with the lock of the height and the method: shows the document's values, and changes them.
 
 import {defaultOf} from "./about.js";
-import {$, Slider, lockButton, make} from "./controls.js";
+import {$, make} from "./controls.js";
 import {FIRST} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
+import {Slider, lockButton} from "./slider.js";
 
 // What shapes heights: a lithophane, which is made from light and colours, has none of it.
 const SHAPING = ["detail", "boundary", "steepest", "steps"];

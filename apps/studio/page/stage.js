@@ -2,25 +2,19 @@
 // and keys.
 
 import {Comparing} from "./comparing.js";
-import {$, clamp, make} from "./controls.js";
+import {$, Pause, clamp, make, paint} from "./controls.js";
 import {shownOptions} from "./document.js";
-import {TABLE_LIGHTS, degrees, direction} from "./lights.js";
-import {Measure, onPlate} from "./measure.js";
+import {TABLE_LIGHTS} from "./lights.js";
+import {Measure} from "./measure.js";
 import {takeFingers} from "./pinch.js";
 import {scaleMarks} from "./ruler.js";
-import {takeKey} from "./stage_keys.js";
+import {TOOLS, takeKey} from "./tools.js";
 import {Turning} from "./turning.js";
 
 const FRONT = Object.freeze({yaw: 0, pitch: 0, zoom: 1, x: 0, y: 0});
 const REST_MS = 160; // pause without changes after which the fine picture is asked for
 const FINISH_MS = 500; // and after which the finished piece is made
 const MOST_PIXELS = 7.9e6; // a little less than the engine draws: a window on a screen of 5,120 x 2,880 has more
-
-export function paint(canvas, image) {
-  if (canvas.width !== image.width) canvas.width = image.width;
-  if (canvas.height !== image.height) canvas.height = image.height;
-  canvas.getContext("2d").putImageData(image, 0, 0);
-}
 
 export class Stage {
   // Calls on.picture(about, ms, isFine), on.section(heights, from, to), on.failed(error), and on.viewRests() where the
@@ -35,6 +29,7 @@ export class Stage {
     this.share = 1; // of the pixels of a side, while things move
     this.wanted = this.shown = this.drawn = this.fine = this.finished = 0;
     Object.assign(this, {isReady: false, pixelsPerMm: 1, resting: []}); // `resting`: who waits for rest()
+    this.pause = new Pause(() => this.pump());
     this.measure = new Measure(this);
     this.comparing = new Comparing(this);
     this.turning = new Turning(this);
@@ -98,9 +93,7 @@ export class Stage {
     if (this.shown !== this.wanted) return this.draw(false);
     if (this.finished === this.wanted) return;
     const pause = this.fine === this.wanted ? FINISH_MS : REST_MS, rest = this.changedAt + pause - performance.now();
-    clearTimeout(this.timer);
-    if (rest > 0) this.timer = setTimeout(() => this.pump(), rest);
-    else this.draw(true);
+    rest > 0 ? this.pause.begin(rest) : this.draw(true);
   }
 
   async draw(isFine) {
@@ -166,7 +159,7 @@ export class Stage {
     this.on.picture(about, performance.now() - changedAt, isFine);
     if (this.comparing.isShown) await this.comparing.draw(isFine);
     // The tool and the document may have changed meanwhile; the next picture shows that.
-    if (this.tool === "section" && this.line && this.about) await this.cut();
+    if (this.tool === "section" && this.line && this.about) await this.measure.cut(this.line);
     if (this.tool === "measure") this.measure.pictured();
   }
 
@@ -203,15 +196,9 @@ export class Stage {
   setTool(tool) {
     this.tool = tool;
     this.element.dataset.tool = tool;
-    const does = {
-      light: "move the light", turn: "turn the model", orbit: "orbit the relief", pan: "move the picture",
-      section: "move the section", measure: "measure", place: "move the figure on its plate",
-      crop: "move the frame of the crop",
-    };
-    this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${does[tool]}.`);
-    if (["section", "measure", "place"].includes(tool)) this.camera = {...this.camera, yaw: 0, pitch: 0};
+    this.element.setAttribute("aria-label", `Relief. Drag or use the arrow keys to ${TOOLS[tool].does}.`);
+    this.look(TOOLS[tool].isLevel ? {yaw: 0, pitch: 0} : {});
     this.drawOverlay();
-    this.invalidate();
   }
 
   setTable(isTable) {
@@ -219,9 +206,13 @@ export class Stage {
     this.invalidate();
   }
 
-  fit() {
-    this.camera = {...FRONT};
+  look(part) {
+    this.camera = {...this.camera, ...part};
     this.invalidate();
+  }
+
+  fit() {
+    this.look(FRONT);
   }
 
   // --------------------------------------------------------------------- section
@@ -229,13 +220,6 @@ export class Stage {
   // Returns heights in mm along a line.
   heights(from, to) {
     return this.engine.profile(this.request({from, to}));
-  }
-
-  async cut() {
-    const {outline, wrap} = this.doc.now.options;
-    const isRound = ["circle", "ellipse"].includes(outline) && wrap === "none";
-    const {from, to} = onPlate(this.line, this.about.size_mm, isRound) ?? {};
-    this.on.section(from ? await this.heights(from, to) : [], from, to);
   }
 
   // ------------------------------------------------------------------- positions
@@ -288,25 +272,15 @@ export class Stage {
     const isDivider = event.button === 0 && this.comparing.isAt(event.offsetX);
     const tool = event.button === 1 ? "pan" : isDivider ? "divider" : this.tool;
     if (tool === "place" && !this.on.placing.begin(this.about.size_mm)) return this.release();
-    const {offsetX: x, offsetY: y} = event, line = tool === "section" ? this.line : this.measure.line;
-    const {pointerId} = event;
+    const {offsetX: x, offsetY: y, pointerId} = event, line = tool === "section" ? this.line : this.measure.line;
     this.drag = {pointerId, tool, x, y, from: this.toPlace(x, y), end: this.measure.endAt(line, x, y)};
-    if (tool === "light") this.move(event);
-    if (tool === "turn") this.turning.begin();
+    TOOLS[tool].press?.(this, event);
   }
 
   move(event) {
-    const {tool, x, y} = this.drag, dx = event.offsetX - x, dy = event.offsetY - y;
-    if (tool === "divider") this.comparing.drag(event.offsetX);
-    if (tool === "light") this.lightFrom(event.offsetX, event.offsetY);
-    if (tool === "turn") this.turning.drag(dx, dy, event.shiftKey);
-    if (tool === "orbit") this.orbit(dx * 0.4, dy * 0.4);
-    if (tool === "pan") this.shift(-dx / this.pixelsPerMm, dy / this.pixelsPerMm);
-    if (tool === "place") this.place(event, dx, dy);
-    const place = this.toPlace(event.offsetX, event.offsetY), isDrawn = Math.hypot(dx, dy) > 3;
-    if (tool === "section" && isDrawn) this.setLine(this.measure.dragged(this.line, this.drag, place));
-    if (tool === "measure" && isDrawn) this.measure.setLine(this.measure.dragged(this.measure.line, this.drag, place));
-    if (["orbit", "pan", "turn"].includes(tool)) Object.assign(this.drag, {x: event.offsetX, y: event.offsetY});
+    const {drag} = this, {offsetX: x, offsetY: y} = event, {move, isStepwise} = TOOLS[drag.tool];
+    move?.(this, {x, y, dx: x - drag.x, dy: y - drag.y, event});
+    if (isStepwise) Object.assign(drag, {x, y});
   }
 
   // The cursor tells what a drag would take.
@@ -318,36 +292,11 @@ export class Stage {
   }
 
   release() {
-    const isTurned = this.drag?.tool === "turn";
-    if (this.drag?.angle) this.on.placing.turn(this.drag.angle);
-    this.drag = null;
-    if (isTurned) this.turning.end();
-    this.sun = null;
+    const {drag} = this;
+    this.drag = this.sun = null;
+    TOOLS[drag?.tool]?.release?.(this, drag);
     this.element.classList.remove("dragging");
     this.doc.endStroke();
-    this.drawOverlay();
-  }
-
-  // Sets the light: over the middle of the picture it comes from the viewer, towards the rim it rakes.
-  lightFrom(x, y) {
-    const {width, height} = this.size, radius = Math.min(width, height) / 2;
-    const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;
-    this.sun = [x, y];
-    this.setLight(degrees(Math.atan2(dy, dx)), 82 - 72 * Math.min(1, Math.hypot(dx, dy)));
-    this.drawOverlay();
-  }
-
-  setLight(azimuth, elevation) {
-    const light = direction(azimuth, clamp(elevation, 8, 88)).map((x) => Math.round(x * 1e4) / 1e4);
-    this.doc.change({light}, "light");
-  }
-
-  // With shift the figure is turned, about its middle, when the drag ends: the model is then prepared anew.
-  place(event, dx, dy) {
-    const {drag} = this, [x, y] = this.toPixels(this.figureMiddle());
-    const angleAt = (px, py) => degrees(Math.atan2(y - py, px - x));
-    if (event.shiftKey) drag.angle = angleAt(event.offsetX, event.offsetY) - angleAt(drag.x, drag.y);
-    else if (!drag.angle) this.on.placing.move(dx / this.pixelsPerMm, -dy / this.pixelsPerMm);
     this.drawOverlay();
   }
 
@@ -358,13 +307,11 @@ export class Stage {
 
   orbit(yaw, pitch) {
     const {camera} = this;
-    this.camera = {...camera, yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)};
-    this.invalidate();
+    this.look({yaw: clamp(camera.yaw + yaw, -80, 80), pitch: clamp(camera.pitch + pitch, -80, 80)});
   }
 
   shift(x, y) {
-    this.camera = {...this.camera, x: this.camera.x + x, y: this.camera.y + y};
-    this.invalidate();
+    this.look({x: this.camera.x + x, y: this.camera.y + y});
   }
 
   setLine(line) {
@@ -394,11 +341,9 @@ export class Stage {
 
   // Zooms around a pixel.
   zoomBy(factor, atX, atY) {
-    const zoom = clamp(this.camera.zoom * factor, 0.3, 40);
-    const [x, y] = this.toPlace(atX, atY), rest = 1 - this.camera.zoom / zoom;
-    const {camera} = this;
-    this.camera = {...camera, zoom, x: camera.x + rest * (x - camera.x), y: camera.y + rest * (y - camera.y)};
-    if (zoom <= 1) this.camera = {...this.camera, x: 0, y: 0};
-    this.invalidate();
+    const {camera} = this, zoom = clamp(camera.zoom * factor, 0.3, 40), rest = 1 - camera.zoom / zoom;
+    const [x, y] = this.toPlace(atX, atY);
+    this.look(zoom <= 1 ? {zoom, x: 0, y: 0}
+      : {zoom, x: camera.x + rest * (x - camera.x), y: camera.y + rest * (y - camera.y)});
   }
 }

@@ -1,10 +1,10 @@
 // The start page: samples, and the documents that were changed last, with their pictures.
 
 import {about, engine} from "./about.js";
-import {$, fileSize, make} from "./controls.js";
+import {$, fileSize, make, sentence} from "./controls.js";
 import {offer} from "./messages.js";
 
-const sampleName = (name) => (name[0].toUpperCase() + name.slice(1)).replaceAll("_", " ");
+const sampleName = (name) => sentence(name).replaceAll("_", " ");
 
 export const nameOf = (input) => (input?.sample ? sampleName(input.sample) : input?.name ?? "");
 

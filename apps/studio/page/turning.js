@@ -1,26 +1,11 @@
 // Turns the model on the picture: a drag shows its relief from other sides while the view moves, and the view in which
 // it rests becomes that of the document.
 
-import {about} from "./about.js";
-import {cross, dot, text, triple, turned, unit, upright} from "./vectors.js";
+import {SIDES, directionsOf, optionsOf, turnedByHand} from "./directions.js";
+import {cross, dot, upright} from "./vectors.js";
 
-const SIDES = Object.fromEntries(about.views.map(({name, towards, up}) => [name, {towards, up}]));
 const NEAR = Math.cos(6 * Math.PI / 180); // views this near to a side or to level snap to it
 const HALF_TURN = 0.9; // of the shorter side of the picture, that a drag takes for half a turn
-
-// Returns the directions of a document's view; nothing where the engine is still to choose it.
-export function directionsOf({view, up}) {
-  if (view === "auto") return null;
-  const towards = unit(SIDES[view]?.towards ?? triple(view));
-  return {towards, up: upright(up ? triple(up) : SIDES[view]?.up ?? [0, 1, 0], towards)};
-}
-
-// Returns the view as options: a side by its name, others by their directions.
-function optionsOf({towards, up}) {
-  const isAt = ([, side]) => dot(side.towards, towards) > 1 - 1e-9 && dot(side.up, up) > 1 - 1e-9;
-  const side = Object.entries(SIDES).find(isAt);
-  return side ? {view: side[0], up: ""} : {view: text(towards), up: text(up)};
-}
 
 // Returns the nearest side if the view is near to one, else the same view without its roll if that is small.
 function snapped({towards, up}) {
@@ -55,17 +40,11 @@ export class Turning {
   }
 
   begin() {
-    this.view = directionsOf(this.stage.doc.now.options) ?? directionsOf({view: "front"});
+    this.view = directionsOf(this.stage.doc.now.options) ?? SIDES.front;
   }
 
-  // Turns the model with the hand, which is to turn the viewer the other way. Angles in radians.
-  turn(dx, dy, roll = 0) {
-    let {towards, up} = this.view;
-    for (const [axis, angle] of [[up, -dx], [cross(up, towards), -dy], [towards, -roll]]) {
-      towards = unit(turned(towards, axis, angle));
-      up = upright(turned(up, axis, angle), towards);
-    }
-    this.view = {towards, up};
+  turn(...angles) {
+    this.view = turnedByHand(this.view, ...angles);
     this.show(snapped(this.view));
   }
 

@@ -1,24 +1,7 @@
 // The dialog in which the view is chosen: by turning the model in space, or as one of the six sides.
 
-import {about} from "./about.js";
-import {$, make} from "./controls.js";
-import {paint} from "./stage.js";
-import {directionsOf} from "./turning.js";
-import {cross, text, triple, turned, unit, upright} from "./vectors.js";
-
-const SIDES = about.views.map(({name}) => name);
-const TOWARDS = Object.fromEntries(about.views.map(({name, towards, up}) => [name, [towards, up]]));
-
-// Returns "Front", or "Turned by hand" for other directions.
-export const viewName = (view) => (view === "auto" ? "Best side"
-  : SIDES.includes(view) ? view[0].toUpperCase() + view.slice(1) : "Turned by hand");
-
-// Returns the view of options with the model turned by degrees, to the left for positive ones.
-export function viewTurned({view, up}, degrees) {
-  const towards = unit(TOWARDS[view]?.[0] ?? triple(view)), upright = up ? triple(up) : TOWARDS[view]?.[1] ?? [0, 1, 0];
-  const right = cross(upright, towards), level = cross(towards, unit(right));
-  return {view: text(towards), up: text(turned(level, towards, -degrees * Math.PI / 180))};
-}
+import {$, ARROWS, Pause, make, oneAtATime, paint} from "./controls.js";
+import {SIDES, directionsOf, optionsOf, turnedByHand, viewName} from "./directions.js";
 
 const SIDE = {width: 120, height: 90}; // pixels of the picture of a side
 
@@ -29,11 +12,13 @@ export class ViewDialog {
     this.model = $("#model");
     this.canvas = $("canvas", this.model);
     const button = (side) =>
-      make("button", {type: "button", "data-side": side, onclick: () => this.face(side)},
+      make("button", {type: "button", "data-side": side, onclick: () => this.look(SIDES[side])},
         make("canvas", {width: SIDE.width, height: SIDE.height, "aria-hidden": "true"}), viewName(side));
-    $("#sides").append(...SIDES.map(button));
+    $("#sides").append(...Object.keys(SIDES).map(button));
+    this.drawQuickly = oneAtATime(() => this.drawAt(1).catch(onFailed));
+    this.rest = new Pause(() => this.drawAt(2).catch(onFailed), 200);
     $("#suggest").onclick = () => this.suggest();
-    this.dialog.onclose = () => this.dialog.returnValue === "apply" && this.onApply(this.result());
+    this.dialog.onclose = () => this.dialog.returnValue === "apply" && this.onApply(optionsOf(this.view));
     this.listen();
   }
 
@@ -56,8 +41,7 @@ export class ViewDialog {
   // Draws what each side shows.
   async drawSides() {
     for (const button of $("#sides").children) {
-      const [towards, up] = TOWARDS[button.dataset.side];
-      const {image} = await this.engine.scan({towards, up, ...SIDE});
+      const {image} = await this.engine.scan({...SIDES[button.dataset.side], ...SIDE});
       if (!this.dialog.open) return;
       paint($("canvas", button), image);
     }
@@ -66,83 +50,41 @@ export class ViewDialog {
   show(options) {
     this.dialog.returnValue = "cancel";
     $("#suggestion").textContent = "";
-    if (options.view === "auto") this.face("front"); // not chosen yet
-    else if (TOWARDS[options.view] && !options.up) this.face(options.view);
-    else {
-      this.side = null;
-      this.towards = unit(TOWARDS[options.view]?.[0] ?? triple(options.view));
-      this.up = options.up ? triple(options.up) : [0, 1, 0];
-      this.straighten();
-    }
     this.dialog.showModal();
-    this.draw();
+    this.look(directionsOf(options) ?? SIDES.front); // which is not chosen yet
     this.drawSides().catch(this.onFailed);
   }
 
-  // Makes `up` perpendicular to the view.
-  straighten() {
-    this.up = upright(this.up, this.towards);
-    this.right = cross(this.up, this.towards);
-    this.mark();
-  }
-
-  // Shows a side, upright as usual or with another direction upwards, given as text.
-  face(side, up = "") {
-    [this.towards, this.up] = TOWARDS[side];
-    if (up) this.up = triple(up);
-    this.side = up ? null : side;
-    this.straighten();
+  look(view) {
+    this.view = view;
+    const {view: side} = optionsOf(view);
+    for (const button of $("#sides").children) button.setAttribute("aria-pressed", button.dataset.side === side);
     this.draw();
   }
 
-  mark() {
-    for (const button of $("#sides").children) button.setAttribute("aria-pressed", button.dataset.side === this.side);
+  turn(...angles) {
+    this.look(turnedByHand(this.view, ...angles));
   }
 
-  // Turns the model with the hand, which is to turn the viewer the other way.
-  turn(dx, dy, roll = 0) {
-    const {up, right} = this;
-    for (const [axis, angle] of [[up, -dx], [right, -dy], [this.towards, -roll]]) {
-      this.towards = unit(turned(this.towards, axis, angle));
-      this.up = unit(turned(this.up, axis, angle));
-    }
-    this.side = null;
-    this.straighten();
-    this.draw();
-  }
-
-  result() {
-    return this.side ? {view: this.side, up: ""} : {view: text(this.towards), up: text(this.up)};
-  }
-
+  // Draws the model, and again with more pixels when nothing else is drawn for a while.
   async draw() {
-    this.isWanted = true;
-    if (this.isBusy || !this.dialog.open) return;
-    this.isBusy = true;
-    while (this.isWanted && this.dialog.open) {
-      this.isWanted = false;
-      clearTimeout(this.timer);
-      try {
-        await this.drawAt(1);
-      } catch (error) {
-        this.onFailed(error);
-      }
-    }
-    this.isBusy = false;
-    this.timer = setTimeout(() => !this.isBusy && this.dialog.open && this.drawAt(2).catch(this.onFailed), 200);
+    this.rest.end();
+    await this.drawQuickly();
+    this.rest.begin();
   }
 
   async drawAt(scale) {
-    const width = this.model.clientWidth * scale, height = this.model.clientHeight * scale, before = this.towards;
-    const {image} = await this.engine.scan({towards: this.towards, up: this.up, width, height});
-    if (scale === 1 || before === this.towards) paint(this.canvas, image);
+    const {dialog, model, view} = this, width = model.clientWidth * scale, height = model.clientHeight * scale;
+    if (!dialog.open) return;
+    const {image} = await this.engine.scan({...view, width, height});
+    if (scale === 1 || view === this.view) paint(this.canvas, image);
   }
 
   async suggest() {
     $("#suggestion").textContent = "Looking at all six sides …";
     try {
       const [best, second] = await this.engine.suggestViews();
-      this.face(best.view, best.up);
+      this.look(directionsOf(best));
       $("#suggestion").textContent = `The ${best.view} suits a relief best, then the ${second.view}.`;
     } catch (error) {
       this.onFailed(error);
@@ -163,11 +105,10 @@ export class ViewDialog {
     };
     model.onpointerup = model.onpointercancel = () => (this.last = null);
     model.onkeydown = (event) => {
-      const step = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1]}[event.key];
-      if (!step) return;
+      if (!ARROWS[event.key]) return;
       event.preventDefault();
-      const size = 5 * Math.PI / 180;
-      event.shiftKey ? this.turn(0, 0, -step[0] * size) : this.turn(step[0] * size, step[1] * size);
+      const [x, y] = ARROWS[event.key].map((step) => step * 5 * Math.PI / 180);
+      event.shiftKey ? this.turn(0, 0, -x) : this.turn(x, -y);
     };
   }
 }

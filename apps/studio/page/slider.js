@@ -1,0 +1,185 @@
+// Sliders with a number beside them.
+
+import {Pause, clamp, make} from "./controls.js";
+import {finish, isUnfinished} from "./inputs.js";
+import {lengthText, millimetresPerUnit, shown, shownUnit, typedNumber} from "./lengths.js";
+
+// Ways to spread values over a slider.
+export const spread = {
+  linear: {to: (v, min, max) => (v - min) / (max - min), from: (p, min, max) => min + p * (max - min)},
+  root: {to: (v, min, max) => Math.sqrt((v - min) / (max - min)), from: (p, min, max) => min + p * p * (max - min)},
+  log: {to: (v, min, max) => Math.log(v / min) / Math.log(max / min), from: (p, min, max) => min * (max / min) ** p},
+};
+
+const STEPS = 1000;
+export const REST_MS = 400; // after which keys and the wheel have ended a movement
+export const UPWARDS = {ArrowUp: 1, ArrowDown: -1};
+const FORWARDS = {...UPWARDS, ArrowRight: 1, ArrowLeft: -1};
+
+// Returns the next value in a direction that has one digit less than `value`, or with `isFine` as many, but no step is
+// smaller than `least`.
+export function nextValue(value, direction, isFine, least) {
+  const inner = Math.abs(value) * (Math.sign(value) === direction ? 1 + 1e-9 : 1 - 1e-9); // 10 is left downwards by 0.1
+  const step = Math.max(least, 10 ** (Math.floor(Math.log10(inner || least)) - 1)) / (isFine ? 10 : 1);
+  const steps = value / step;
+  return (direction > 0 ? Math.floor(steps + 1e-6) + 1 : Math.ceil(steps - 1e-6) - 1) * step;
+}
+
+// A labelled slider with a number field. `field` is {label, unit, unitName, hand, min, max, otherwise, decimals,
+// spread, help}: the slider spans `hand`, the number is from `min` to `max`, a double click sets `otherwise`. Calls
+// onInput(value, isTyped) while the slider moves, onEnd() when a movement is over, and say(text) if a number is
+// refused.
+export class Slider {
+  constructor(field, onInput, onEnd, say) {
+    Object.assign(this, {spread: spread.linear, decimals: 2, ...field, onInput, onEnd, say});
+    this.value = this.otherwise;
+    this.rest = new Pause(onEnd, REST_MS);
+    this.range = make("input", {type: "range", min: 0, max: STEPS, step: 1, "aria-label": this.label});
+    // No input of type number: browsers make 18 of "1/8in" there, and nothing of "2,5".
+    this.number = make("input", {role: "spinbutton", inputmode: "decimal", autocomplete: "off"});
+    this.name = make("span", {class: "name", title: this.help}, this.label);
+    this.shownUnit = make("span", {class: "unit", "aria-hidden": "true"});
+    this.mark = make("span", {class: "reach", hidden: true});
+    const boxed = make("span", {class: "number"}, this.number, this.shownUnit);
+    this.row = make("div", {class: "row"}, this.name, ...(this.extra ? [this.extra] : []), boxed);
+    this.element = make("div", {class: "slider"}, this.row, make("div", {class: "way"}, this.range, this.mark));
+    this.listen();
+    this.showUnit();
+  }
+
+  get isLength() {
+    return this.unit === "mm";
+  }
+
+  // Shows the unit of lengths, which may have changed.
+  showUnit() {
+    const unit = shownUnit(this.unit), scale = this.isLength ? millimetresPerUnit() : 1;
+    const name = unit === "in" ? "inches" : this.unitName ?? unit;
+    this.shownUnit.textContent = unit ?? "";
+    this.number.setAttribute("aria-label", `${this.label}${name ? ` in ${name}` : " value"}`);
+    this.number.setAttribute("aria-valuemin", Number((this.min / scale).toPrecision(6)));
+    this.number.setAttribute("aria-valuemax", Number((this.max / scale).toPrecision(6)));
+    this.show(this.value);
+  }
+
+  listen() {
+    this.range.oninput = () => this.moved(this.valueAt(this.range.value));
+    this.range.onchange = () => this.onEnd();
+    this.number.onchange = () => this.typed();
+    this.number.onkeydown = (event) => (event.key === "Escape" ? this.takeBack() : this.step(event, UPWARDS));
+    const reset = (event) => {
+      event.preventDefault();
+      this.moved(this.otherwise);
+      this.onEnd();
+    };
+    this.range.ondblclick = reset;
+    this.name.ondblclick = reset;
+    this.element.addEventListener("wheel", (event) => this.wheel(event), {passive: false});
+    this.range.onkeydown = (event) => this.step(event, FORWARDS);
+  }
+
+  // Takes the number that was typed, with more decimals than the slider has if they were typed.
+  typed() {
+    const value = typedNumber(this.number.value, this, this.say);
+    this.exact = value === null ? this.exact : Number(value.toFixed(4));
+    if (value === null) this.show(this.value);
+    else this.moved(this.exact, true);
+    this.onEnd();
+  }
+
+  // Escape: the number is again what it was before something was typed.
+  takeBack() {
+    this.show(this.value);
+    this.number.select();
+  }
+
+  // The wheel moves the slider that has the focus. Over any other it scrolls the panel, and changes nothing.
+  wheel(event) {
+    if (this.range.disabled || event.ctrlKey || !this.element.contains(document.activeElement)) return;
+    event.preventDefault();
+    const step = -Math.sign(event.deltaY) * (event.shiftKey ? 1 : 8);
+    this.moved(this.valueAt(clamp(this.position() + step, 0, STEPS)));
+    this.rest.begin();
+  }
+
+  // Arrow keys go to the next round number, with shift finely.
+  step(event, directions) {
+    const direction = directions[event.key];
+    if (!direction) return;
+    event.preventDefault();
+    if (isUnfinished(this.number)) finish(), this.typed();
+    const scale = this.isLength ? millimetresPerUnit() : 1;
+    const decimals = this.isLength && shown.unit === "in" ? 3 : this.decimals;
+    const least = Math.max(10 ** -decimals, 10 ** Math.ceil(Math.log10(this.hand[1] / scale / 1000)));
+    const isFine = event.shiftKey && least > 10 ** -decimals;
+    this.moved(clamp(nextValue(this.value / scale, direction, isFine, least) * scale, this.min, this.max));
+    this.rest.begin();
+  }
+
+  valueAt(position) {
+    return this.spread.from(position / STEPS, ...this.hand);
+  }
+
+  position(value = this.value) {
+    return Math.round(this.spread.to(clamp(value, ...this.hand), ...this.hand) * STEPS);
+  }
+
+  moved(value, isTyped = false) {
+    this.show(value);
+    this.onInput(value === this.exact ? value : this.rounded(value), isTyped);
+  }
+
+  // Returns the value that the shown number stands for.
+  rounded(value) {
+    const number = Number(this.text(value));
+    return this.isLength ? Number((number * millimetresPerUnit()).toFixed(4)) : number;
+  }
+
+  // Returns the number as it is shown.
+  text(value) {
+    const typed = value === this.exact ? `${value}`.split(".")[1]?.length ?? 0 : 0;
+    const decimals = Math.max(this.decimals, typed);
+    return this.isLength ? lengthText(value, decimals) : value.toFixed(decimals);
+  }
+
+  show(value) {
+    this.value = value;
+    const text = this.text(value);
+    this.range.value = this.position();
+    this.range.style.setProperty("--filled", `${this.position() / STEPS * 100}%`);
+    this.range.setAttribute("aria-valuetext", `${text} ${shownUnit(this.unitName ?? this.unit) ?? ""}`.trim());
+    this.number.setAttribute("aria-valuenow", text);
+    if (!isUnfinished(this.number)) this.number.value = text;
+  }
+
+  // Marks a value on the slider, such as the largest that can be reached, and says what it is; none for null.
+  showMark(value, title = "") {
+    this.mark.hidden = value === null || value > this.hand[1];
+    this.range.title = value === null ? "" : title; // the mark is too thin to be pointed at
+    if (value !== null) this.mark.style.setProperty("--at", this.position(value) / STEPS);
+  }
+
+  // Marks the number as one that the piece has not, with a text that says why; "" if the piece has it.
+  complain(text) {
+    this.number.title = text;
+    this.number.setAttribute("aria-invalid", text !== "");
+  }
+
+  // Takes no entries, for the reason that is given; takes them again without one.
+  disable(why) {
+    this.range.disabled = this.number.disabled = Boolean(why);
+    this.element.classList.toggle("disabled", Boolean(why));
+    this.element.title = why;
+  }
+}
+
+// Returns a button that says whether the height is kept while other things change.
+export function lockButton(onclick) {
+  const lock = make("button", {
+    class: "lock", "aria-label": "Lock the height", "aria-pressed": "true", onclick,
+    title: "Keep this height while other things change",
+  });
+  lock.innerHTML = '<svg viewBox="0 0 24 24" aria-hidden="true"><rect x="5" y="11" width="14" height="9" rx="2"/>' +
+    '<path class="shackle" d="M8 11V8a4 4 0 0 1 8 0v3"/></svg>';
+  return lock;
+}

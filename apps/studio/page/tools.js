@@ -1,0 +1,96 @@
+// The tools of the picture: what a drag with each of them moves, and what the arrow keys do. An entry has
+//   does                    for the name of the picture
+//   isLevel                 whether the relief is seen from the front with it
+//   isStepwise              whether a drag is taken step by step, from where the pointer was last
+//   press(stage, event)     for what comes before a drag
+//   move(stage, to)         `to` is {x, y, dx, dy, event}: where the pointer is, and how far it went
+//   release(stage, drag)    when a drag has ended
+//   step(stage, x, y)       by arrow keys, finely with Shift
+
+import {ARROWS, clamp} from "./controls.js";
+import {angles, degrees, direction} from "./lights.js";
+
+function setLight(stage, azimuth, elevation) {
+  const light = direction(azimuth, clamp(elevation, 8, 88)).map((x) => Math.round(x * 1e4) / 1e4);
+  stage.doc.change({light}, "light");
+}
+
+// Over the middle of the picture the light comes from the viewer, towards the rim it rakes.
+function lightFrom(stage, {x, y}) {
+  const {width, height} = stage.size, radius = Math.min(width, height) / 2;
+  const dx = (x - width / 2) / radius, dy = (height / 2 - y) / radius;
+  stage.sun = [x, y];
+  setLight(stage, degrees(Math.atan2(dy, dx)), 82 - 72 * Math.min(1, Math.hypot(dx, dy)));
+  stage.drawOverlay();
+}
+
+// With shift the figure is turned, about its middle, when the drag ends: the model is then prepared anew.
+function place(stage, {dx, dy, event}) {
+  const {drag, pixelsPerMm} = stage, [x, y] = stage.toPixels(stage.figureMiddle());
+  const angleAt = (px, py) => degrees(Math.atan2(y - py, px - x));
+  if (event.shiftKey) drag.angle = angleAt(event.offsetX, event.offsetY) - angleAt(drag.x, drag.y);
+  else if (!drag.angle) stage.on.placing.move(dx / pixelsPerMm, -dy / pixelsPerMm);
+  stage.drawOverlay();
+}
+
+// Calls set(line) with a line that is drawn, or of which an end is dragged.
+function drawLine(stage, line, {x, y, dx, dy}, set) {
+  if (Math.hypot(dx, dy) > 3) set(stage.measure.dragged(line, stage.drag, stage.toPlace(x, y)));
+}
+
+export const TOOLS = {
+  light: {
+    does: "move the light", move: lightFrom,
+    press: (stage, {offsetX: x, offsetY: y}) => lightFrom(stage, {x, y}),
+    step(stage, x, y) {
+      const {azimuth, elevation} = angles(stage.doc.now.light);
+      setLight(stage, azimuth - x * 10, elevation + y * 5);
+    },
+  },
+  turn: {
+    does: "turn the model", isStepwise: true, press: ({turning}) => turning.begin(),
+    move: ({turning}, {dx, dy, event}) => turning.drag(dx, dy, event.shiftKey), release: ({turning}) => turning.end(),
+    step: ({turning}, x, y) => turning.step(x, y),
+  },
+  orbit: {
+    does: "orbit the relief", isStepwise: true, move: (stage, {dx, dy}) => stage.orbit(dx * 0.4, dy * 0.4),
+    step: (stage, x, y) => stage.orbit(x * 5, -y * 5),
+  },
+  pan: {
+    does: "move the picture", isStepwise: true,
+    move: (stage, {dx, dy}) => stage.shift(-dx / stage.pixelsPerMm, dy / stage.pixelsPerMm),
+    step: (stage, x, y) => stage.shift(x * 20 / stage.pixelsPerMm, y * 20 / stage.pixelsPerMm),
+  },
+  place: {
+    does: "move the figure on its plate", isLevel: true, move: place,
+    release: ({on: {placing}}, {angle}) => angle && placing.turn(angle),
+    step({about, on: {placing}}, x, y) {
+      if (about && placing.begin(about.size_mm)) placing.move(x, y);
+    },
+  },
+  crop: {does: "move the frame of the crop", step: ({on: {cropFrame}}, x, y) => cropFrame.step(x, y)},
+  section: {
+    does: "move the section", isLevel: true,
+    move: (stage, to) => drawLine(stage, stage.line, to, (line) => stage.setLine(line)),
+    step(stage, x, y) {
+      const {line} = stage, moved = ([px, py]) => [px + x, py + y];
+      if (line) stage.setLine({from: moved(line.from), to: moved(line.to)});
+    },
+  },
+  measure: {
+    does: "measure", isLevel: true,
+    move: (stage, to) => drawLine(stage, stage.measure.line, to, (line) => stage.measure.setLine(line)),
+  },
+  divider: {move: ({comparing}, {x}) => comparing.drag(x)},
+  none: {}, // of a drag that was taken back
+};
+
+// Takes keys on the relief: arrows move what the tool in hand moves, and + and - zoom.
+export function takeKey(stage, event) {
+  const {width, height} = stage.size, step = ARROWS[event.key], size = event.shiftKey ? 0.2 : 1;
+  if (event.key === "+") return stage.zoomBy(1.2, width / 2, height / 2);
+  if (event.key === "-") return stage.zoomBy(1 / 1.2, width / 2, height / 2);
+  if (!step || event.target !== stage.element) return;
+  event.preventDefault();
+  TOOLS[stage.tool].step?.(stage, step[0] * size, step[1] * size);
+}
