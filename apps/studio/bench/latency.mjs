@@ -6,7 +6,7 @@
 // made is shown by the next one.
 import path from "node:path";
 import {pathToFileURL} from "node:url";
-import {EngineProcess, areKindsDrawn, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
+import {EngineProcess, areKindsDrawn, findBrowser, openPanels, removeFolder, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
 // The sliders by their names, today's and former ones; a drag goes over these shares of a slider or of the picture.
@@ -36,7 +36,7 @@ async function measure(scan) {
   const page = await newPage();
   const end = await (html ? openInPage(page, scan) : openInProgram(page, scan));
   await page.getByText(/points.*height/).waitFor({timeout: 120000});
-  await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await openPanels(page);
   await page.waitForFunction(areKindsDrawn, null, {timeout: 120000});
   await page.waitForTimeout(2000);
   const points = (await page.getByRole("contentinfo", {name: "Numbers"}).innerText()).match(/[\d,]+/)[0];

@@ -1,15 +1,15 @@
 // Takes a picture of each state of the studio's page on a desk and a phone, light and dark, to be looked at:
 // node apps/studio/bench/states.mjs FOLDER
 import path from "node:path";
-import {STATES, openPanels, showScene} from "../tests/states.mjs";
-import {EngineProcess, findBrowser, removeFolder, temporaryFolder, untilReady, writeSample} from "../tests/support.mjs";
+import {STATES, showScene} from "../tests/states.mjs";
+import {EngineProcess, findBrowser, openPanels, removeFolder, temporaryFolder, untilReady,
+  writeScans} from "../tests/support.mjs";
 
 const SCREENS = [{width: 1280, height: 800}, {width: 390, height: 844}];
 const [into] = process.argv.slice(2), found = await findBrowser();
 if (!into || found.missing) throw new Error(found.missing ?? "expected a folder for the pictures");
 const browser = await found.launch(), folder = temporaryFolder();
-const scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
-for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 30000, scan);
+const scans = writeScans(folder, 30000);
 const engine = await new EngineProcess(path.join(folder, "state"), scans[0]).ready();
 const page = await (await browser.newContext({viewport: SCREENS[0]})).newPage();
 

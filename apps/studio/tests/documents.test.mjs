@@ -5,32 +5,18 @@ import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, 
   writeFileSync, writeSync} from "node:fs";
 import http from "node:http";
 import path from "node:path";
-import {after, before, test} from "node:test";
+import {test} from "node:test";
 import {Keeper} from "../page/keeper.js";
-import {EngineProcess, PROGRAM, eventually, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
+import {engine, folder, scan, studioIn, withEngine} from "./engine_suite.mjs";
+import {EngineProcess, PROGRAM, eventually, sleep} from "./support.mjs";
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
-let engine;
+withEngine("shell", 5000, () => {});
 
-before(async () => {
-  writeSample("shell", 5000, scan);
-  engine = await new EngineProcess(state).ready();
-});
-
-after(async () => {
-  await engine.stop();
-  removeFolder(folder);
-});
-
-const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 const stateOf = (input, height, changed) => ({version: 1, changed, at: 0, steps: [{input, options: {height}}]});
 const keep = (of, document, kept, tab = "a") => of.post("state", {document, state: kept, tab});
 const filesIn = (place) => readdirSync(place, {recursive: true}).sort();
-const upload = async (name, bytes, action = "upload") => {
-  const target = `${engine.url.pathname}api/${action}?name=${name}`;
-  const answer = await engine.request(target, {method: "POST", body: bytes});
-  return {status: answer.status, ...JSON.parse(answer.body)};
-};
+const dropped = async (of, name, bytes) => (await of.upload(name, bytes)).input;
+const heightKept = async (of, input) => (await of.kept(input)).steps[0].options.height;
 
 test("keeps a document for each scan, and the newer state of each", async () => {
   const inputs = [{sample: "shell"}, {sample: "green_man"}, {path: scan}], ids = [];
@@ -59,14 +45,14 @@ test("keeps a document for each scan, and the newer state of each", async () => 
 });
 
 test("is found at the same address after it was killed", async () => {
-  const place = path.join(folder, "again"), first = await new EngineProcess(place).ready();
+  const place = path.join(folder, "again"), first = await studioIn("again");
   await first.stop("SIGKILL");
-  const second = await new EngineProcess(place).ready();
+  const second = await studioIn("again");
   assert.equal(second.address, first.address);
   await second.stop();
   for (const name of ["", "address.json", "documents"].filter((each) => existsSync(path.join(place, each))))
     assert.equal(statSync(path.join(place, name)).mode & 0o077, 0, name); // each by itself keeps others from the token
-  const other = await new EngineProcess(path.join(folder, "elsewhere")).ready();
+  const other = await studioIn("elsewhere");
   assert.notEqual(other.url.pathname, first.url.pathname);
   await other.stop();
 });
@@ -212,29 +198,29 @@ test("packs a scan into a project, from which make and another machine make the 
   assert.equal(make(linked, "--scan", moved).status, 0);
   assert.ok(readFileSync(path.join(folder, "out.stl")).equals(wanted));
 
-  const unpacked = await upload("packed.relievo", saved.body, "project");
+  const unpacked = await engine.upload("packed.relievo", saved.body, "project");
   assert.equal(unpacked.is_there, true);
   assert.deepEqual(readFileSync(unpacked.input.path), bytes);
   assert.deepEqual(unpacked.studio, project.studio);
-  const asked = await upload("linked.relievo", JSON.stringify(project), "project");
+  const asked = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(asked.is_there, false);
   project.input.hash = unpacked.input.hash; // known by its content, it is found among the scans that were dropped
-  const found = await upload("linked.relievo", JSON.stringify(project), "project");
+  const found = await engine.upload("linked.relievo", JSON.stringify(project), "project");
   assert.equal(found.input.path, unpacked.input.path);
   for (let cut = 0; cut < saved.body.length; cut += Math.ceil(saved.body.length / 40))
-    assert.equal((await upload("cut.relievo", saved.body.subarray(0, cut), "project")).status, 400, `${cut}`);
+    assert.equal((await engine.upload("cut.relievo", saved.body.subarray(0, cut), "project")).status, 400, `${cut}`);
   writeFileSync(scan, bytes);
 });
 
 test("packs the height map of a base, and keeps it with the document", async () => {
-  const place = path.join(folder, "based"), map = path.join(folder, "map.png"), out = path.join(folder, "out.stl");
+  const map = path.join(folder, "map.png"), out = path.join(folder, "out.stl");
   const make = (input, ...args) => {
     const {status, stderr} = spawnSync(PROGRAM, ["make", input, "-o", out, "--quiet", ...args]);
     return status === 0 ? readFileSync(out) : String(stderr);
   };
   make(scan, "--height", "3", "--heightmap", map, "--heightmap-size", "64");
   const wanted = make(scan, "--height", "2", "--width", "40", "--base", "image:height=3", "--base-image", map);
-  const {input: {path: kept}} = await upload("map.png", readFileSync(map));
+  const {path: kept} = await dropped(engine, "map.png", readFileSync(map));
   const options = {height: 2, width: 40, base: "image:height=3", "base-image": kept};
   const project = {relievo: 1, input: {path: scan, name: "scan.ply"}, options};
   const linked = path.join(folder, "based.relievo"), packed = path.join(folder, "based_packed.relievo");
@@ -248,38 +234,32 @@ test("packs the height map of a base, and keeps it with the document", async () 
   assert.ok(wanted.equals(make(packed)));
   assert.ok(wanted.equals(make(linked, "--base-image", map)));
 
-  const other = await new EngineProcess(place).ready();
-  const {body} = await other.request(`${other.url.pathname}api/project?name=p.relievo`,
-    {method: "POST", body: readFileSync(packed)});
-  const {input, options: {"base-image": unpacked}} = JSON.parse(body);
+  const other = await studioIn("based");
+  const {input, options: {"base-image": unpacked}} = await other.upload("p.relievo", readFileSync(packed), "project");
   assert.ok(readFileSync(unpacked).equals(readFileSync(map)));
   const {document} = await other.json("document", {input});
   const steps = [{input, options: {"base-image": unpacked}}, {input, options: {}}]; // an undone step has it, too
   await keep(other, document, {version: 1, changed: 5, at: 1, steps});
   await other.stop();
-  const next = await new EngineProcess(place).ready();
+  const next = await studioIn("based");
   assert.ok(existsSync(unpacked));
   await next.stop();
 });
 
 test("keeps every document with its scan until it is removed, and says how much that is", async () => {
   const place = path.join(folder, "many"), count = 30, inputs = [], ids = [];
-  const drop = async (of, name, body) => {
-    const target = `${of.url.pathname}api/upload?name=${name}`;
-    return JSON.parse((await of.request(target, {method: "POST", body})).body).input;
-  };
-  let other = await new EngineProcess(place).ready();
+  let other = await studioIn("many");
   for (let i = 0; i < count; ++i) {
-    inputs.push(await drop(other, `${i}.xyz`, `${i} 0 0\n`));
+    inputs.push(await dropped(other, `${i}.xyz`, `${i} 0 0\n`));
     ids.push((await other.json("document", {input: inputs[i]})).document);
     await keep(other, ids[i], stateOf(inputs[i], 3, 5));
   }
   const models = [{file: inputs[0].path}, {file: inputs[1].path}];
-  const scene = await drop(other, "scene.json", JSON.stringify({models}));
+  const scene = await dropped(other, "scene.json", JSON.stringify({models}));
   const ofScene = (await other.json("document", {input: scene})).document;
   await keep(other, ofScene, stateOf(scene, 3, 5));
   await other.stop();
-  other = await new EngineProcess(place).ready();
+  other = await studioIn("many");
   assert.ok(inputs.every((input) => existsSync(input.path)));
   const sizes = filesIn(place).filter((name) => /^(documents|scans).*\./.test(name));
   const bytes = sizes.reduce((sum, name) => sum + statSync(path.join(place, name)).size, 0);
@@ -304,7 +284,7 @@ test("keeps every document with its scan until it is removed, and says how much 
 });
 
 test("lists a document while its scan is being opened, before anything of it is kept", async () => {
-  const place = path.join(folder, "opening"), other = await new EngineProcess(place).ready(), input = {path: scan};
+  const other = await studioIn("opening"), input = {path: scan};
   const {document} = await other.json("open", {input, tab: "a"});
   const {recent} = await other.json("recent");
   assert.deepEqual(recent.map((entry) => [entry.document, entry.input.path, entry.is_there]), [[document, scan, true]]);
@@ -342,20 +322,17 @@ int fsync(int file) { while (access(getenv("GO"), F_OK)) usleep(5000); return sy
 });
 
 test("keeps dropped scans for as long as it runs and their documents are kept", async () => {
-  const place = path.join(folder, "dropped"), other = await new EngineProcess(place).ready(), inputs = [];
-  for (let i = 0; i < 12; ++i) {
-    const target = `${other.url.pathname}api/upload?name=${i}.xyz`;
-    inputs.push(JSON.parse((await other.request(target, {method: "POST", body: `${i} 0 0\n`})).body).input);
-  }
+  const other = await studioIn("dropped"), inputs = [];
+  for (let i = 0; i < 12; ++i) inputs.push(await dropped(other, `${i}.xyz`, `${i} 0 0\n`));
   for (const input of inputs) assert.ok(existsSync(input.path));
   const {document} = await other.json("document", {input: inputs[0]});
   await keep(other, document, stateOf(inputs[0], 3, 5));
   await other.stop();
-  const next = await new EngineProcess(place).ready();
+  const next = await studioIn("dropped");
   assert.deepEqual(inputs.map((input) => existsSync(input.path)), inputs.map((_, i) => i === 0));
   rmSync(inputs[0].path);
   assert.equal((await next.json("recent")).recent[0].is_there, false);
-  assert.equal((await next.json("document", {input: inputs[0]})).kept.steps[0].options.height, 3);
+  assert.equal(await heightKept(next, inputs[0]), 3);
   await next.stop();
 });
 
@@ -396,30 +373,29 @@ test("keeps what it has while the disk is full, and says so", async (t) => {
   mkdirSync(disk);
   if (spawnSync("mount", ["-t", "tmpfs", "-o", "size=512k", "none", disk]).status !== 0)
     return t.skip("a disk that can be filled needs root and tmpfs");
-  let other = await new EngineProcess(states).ready();
+  let other = await studioIn("disk/state");
   try {
     await other.open(input);
-    const {document} = other, heightKept = async () =>
-      (await other.json("document", {input})).kept.steps[0].options.height;
+    const {document} = other;
     assert.equal((await keep(other, document, stateOf(input, 1, 1))).status, 200);
     const files = filesIn(states), filler = fill(disk), noRoom = /expected room to write the file, but the disk is full/;
     const large = stateOf(input, 2, 2);
     large.steps[0].note = "x".repeat(100000);
-    const refused = [await keep(other, document, large),
-      await other.request(`${other.url.pathname}api/upload?name=a.ply`, {method: "POST", body: readFileSync(scan)})];
-    for (const {status, body} of refused) {
+    const kept = await keep(other, document, large), refused = [{status: kept.status, ...JSON.parse(kept.body)},
+      await other.upload("a.ply", readFileSync(scan))];
+    for (const {status, error: {text}} of refused) {
       assert.equal(status, 500);
-      assert.match(String(body), noRoom);
-      assert.ok(!String(body).includes(disk), `${body}`);
+      assert.match(text, noRoom);
+      assert.ok(!text.includes(disk), text);
     }
     assert.deepEqual(filesIn(states), files, "nothing is left of what was refused");
-    assert.equal(await heightKept(), 1);
+    assert.equal(await heightKept(other, input), 1);
     await other.stop("SIGKILL");
-    other = await new EngineProcess(states).ready();
-    assert.equal(await heightKept(), 1);
+    other = await studioIn("disk/state");
+    assert.equal(await heightKept(other, input), 1);
     rmSync(filler);
     assert.equal((await keep(other, document, large)).status, 200);
-    assert.equal(await heightKept(), 2);
+    assert.equal(await heightKept(other, input), 2);
   } finally {
     await other.stop();
     spawnSync("umount", [disk]);

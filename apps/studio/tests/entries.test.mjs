@@ -1,37 +1,22 @@
 // What is typed and chosen is taken in order, and files and projects wait for it.
 import assert from "node:assert/strict";
 import path from "node:path";
-import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, readStl, removeFolder, savedFiles, showScan, temporaryFolder, type,
-  untilReady, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {button, choose, engine, exportDialog as dialog, exportFiles as files, folder, found, option, page,
+  radio as kind, scan, skip, undo, undoAll, untilTold, withPage} from "./page_suite.mjs";
+import {enter, eventually, openPanels, readStl, savedFiles, type, untilReady, writeSample} from "./support.mjs";
 import {runSequence, showSmallScan} from "./random_entries.mjs";
 
-const found = await findBrowser(), {skip} = found;
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-let browser, engine, page, tried; // `tried` holds the requests of entries that are being tried, until they are let go
+let tried; // the requests of entries that are being tried, until they are let go
 
-before(async () => {
-  if (skip) return;
-  writeSample("green_man", 4000, scan);
-  browser = await found.launch();
-  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan}));
-  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+withPage("green_man", 4000, () => chooseResolution());
+
+async function chooseResolution() {
   await enter(option("resolution"), "0.4");
   await untilReady(page);
-});
+}
 
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
-
-const option = (name) => page.locator(`[data-option="${name}"]`).first();
 const value = (name) => option(name).inputValue();
-const kind = (name) => page.getByRole("radio", {name, exact: true});
-const undo = () => page.getByRole("button", {name: "Undo", exact: true}).click();
-const dialog = () => page.getByRole("dialog", {name: "Export"});
-const told = () => page.locator("#export-size").getByText(/triangles$/);
 const waits = (text) => page.locator("#trying").getByText(text).waitFor();
 
 // Entries wait until release().
@@ -49,25 +34,14 @@ async function release() {
 async function free() {
   if (tried) await release();
   await page.unroute("**/api/profile");
-  const button = page.getByRole("button", {name: "Undo", exact: true});
-  while ((await value("resolution")) !== "" && (await button.isEnabled())) await button.click();
-  await enter(option("resolution"), "0.4");
-  await untilReady(page);
-}
-
-// Returns the files of an export whose dialog is open.
-async function files(count = 1) {
-  await told().waitFor();
-  const saved = await savedFiles(found, page, count, () => dialog().getByRole("button", {name: "Export"}).click());
-  await dialog().waitFor({state: "hidden"});
-  return saved;
+  await undoAll(page, async () => (await value("resolution")) === "");
+  await chooseResolution();
 }
 
 const sizeOf = (bytes) => readStl(bytes).size.map((mm) => mm.toFixed(2));
 
 test("exports a size that was typed just before", {skip}, async () => {
-  await kind("Coin").click();
-  await untilReady(page);
+  await choose("Coin");
   await hold();
   await enter(option("diameter"), "25");
   await page.keyboard.press("Control+e");
@@ -84,15 +58,14 @@ test("exports a size that was typed just before", {skip}, async () => {
 for (const [how, press] of Object.entries({
   "its button": () => page.locator("#export").click(), "its keys": () => page.keyboard.press("Control+e")}))
   test(`exports by ${how} what Enter has not confirmed`, {skip}, async () => {
-    await kind("Coin").click();
-    await untilReady(page);
+    await choose("Coin");
     await type(option("diameter"), "31");
     await press();
     const [{bytes}] = await files();
     assert.deepEqual(sizeOf(bytes).slice(0, 2), ["31.00", "31.00"]);
     await type(option("height"), "1.25"); // a slider's number
     await press();
-    await told().waitFor();
+    await page.locator("#export-size").getByText(/triangles$/).waitFor();
     assert.match(await page.locator("#export-size").innerText(), /relief 1\.25 mm high/);
     await page.keyboard.press("Escape");
     await free();
@@ -111,8 +84,7 @@ test("exports what arrow keys have stepped to", {skip}, async () => {
 });
 
 test("saves a project of what was typed just before", {skip}, async () => {
-  await kind("Coin").click();
-  await untilReady(page);
+  await choose("Coin");
   await hold();
   await enter(option("diameter"), "27");
   await type(option("thickness"), "2.75");
@@ -172,12 +144,12 @@ test("takes back the newest entry that is waiting, and redoes nothing over it", 
   await hold();
   await enter(option("plate"), "150x120");
   await enter(option("rim"), "1");
-  assert.ok(await page.getByRole("button", {name: "Redo"}).isDisabled());
+  assert.ok(await button("Redo").isDisabled());
   await page.keyboard.press("Control+Shift+Z");
   await undo();
   assert.equal(await value("rim"), rim);
   await release();
-  await page.getByText(/piece 150\.00 × 120\.00/).waitFor();
+  await untilTold(/piece 150\.00 × 120\.00/);
   assert.deepEqual([await value("rim"), await value("height")], [rim, "5.00"]);
   await free();
 });
@@ -199,7 +171,7 @@ test("goes on with what is being typed while the panel of another kind comes", {
 
 test("makes the piece of an export that is opened right after another one was given up", {skip}, async () => {
   await page.locator("#export").click();
-  await told().waitFor();
+  await page.locator("#export-size").getByText(/triangles$/).waitFor();
   await page.evaluate(() => {
     document.querySelector("#export-cancel").click(); // of which the page is told later
     document.querySelector("#export").click();
@@ -222,14 +194,13 @@ test("gives what was typed to the scan that it was typed for, when another one i
   await page.locator("#file").setInputFiles(scan);
   await page.locator("#title").getByText("scan.ply", {exact: true}).waitFor();
   await untilReady(page);
-  const kept = (await engine.json("document", {input: {path: scan}})).kept;
-  assert.equal(kept.steps[kept.at].options.plate, "170x130");
+  assert.equal((await engine.newestStep(scan)).options.plate, "170x130");
 });
 
 test("waits with an export for a view that is being prepared", {skip}, async () => {
   await page.goto(`${engine.address}#`);
   await untilReady(page);
-  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await openPanels(page);
   await enter(option("resolution"), "0.4");
   await type(option("crop"), "0,0,0.5,1");
   await page.keyboard.press("Control+e");

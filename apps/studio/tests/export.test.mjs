@@ -1,23 +1,11 @@
 // How far an export has come, and that nothing of it goes on once it is cancelled, in Chromium or Firefox.
 import assert from "node:assert/strict";
-import path from "node:path";
-import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
-  writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {button, engine, exportDialog as dialog, page, set, skip, withPage} from "./page_suite.mjs";
+import {enter, eventually, untilReady} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
-
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-let browser, engine, page;
-
-before(async () => {
-  if (skip) return;
-  writeSample("still_life", 8000, scan);
-  browser = await found.launch();
-  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan}));
-  engine.document = new URL(page.url()).hash.slice(1);
-  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
-  await page.getByRole("button", {name: "Light table"}).click(); // which shows no finished piece: only exports make one
+withPage("still_life", 8000, async () => {
+  await button("Light table").click(); // which shows no finished piece: only exports make one
   await enter(page.locator("#resolution"), "0.07"); // takes seconds
   await untilReady(page);
   await page.evaluate(() => {
@@ -31,13 +19,6 @@ before(async () => {
   });
 });
 
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
-
-const dialog = () => page.getByRole("dialog", {name: "Export"});
 const making = async () => (await engine.json("status")).making.stage;
 const open = () => page.locator("#export").click();
 
@@ -61,7 +42,7 @@ test("shows how far a piece has come", {skip}, async () => {
 });
 
 test("ends the engine's work when it is cancelled, and saves no file of it", {skip}, async () => {
-  await enter(page.getByRole("spinbutton", {name: "Height in mm"}), "4"); // another piece, which is not made yet
+  await set("Height in mm", 4); // another piece, which is not made yet
   await untilReady(page);
   await open();
   await eventually(async () => assert.notEqual(await making(), ""));

@@ -1,40 +1,22 @@
 // Numbers, keys and the reach of heights on the page, in Chromium or Firefox.
 import assert from "node:assert/strict";
 import path from "node:path";
-import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, ignoreTimers, readStl, removeFolder, savedFiles, showScan, temporaryFolder,
-  type, untilReady, untilTimersRan, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {button, choose, chooseView, drag, engine, exportDialog, field, folder, found, labelled, middleOf, openExport,
+  page, preset, press, radio, scan, set, skip, slider, text, toast, undo, undoAll, untilText, untilTold,
+  withPage} from "./page_suite.mjs";
+import {enter, eventually, ignoreTimers, savedFiles, type, untilReady, untilTimersRan,
+  writeSample} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
+withPage("still_life", 8000);
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-let browser, engine, page;
-
-before(async () => {
-  if (skip) return;
-  writeSample("still_life", 8000, scan);
-  browser = await found.launch();
-  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan}));
-  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
-});
-
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
-
-const field = (name) => page.getByRole("spinbutton", {name, exact: true});
-const slider = (name) => page.getByRole("slider", {name, exact: true});
-const text = (name) => field(name).inputValue();
-
-async function set(name, number) {
-  await enter(field(name), String(number));
-}
+// Waits until the piece is as large as a text says.
+const untilPiece = (size) => untilTold(`piece ${size}`);
+const reach = () => page.locator("#reach");
 
 test("steps by round numbers with arrow keys", {skip}, async () => {
   const next = (...args) => page.evaluate(async (values) =>
-    (await import(new URL("controls.js", location))).nextValue(...values), args);
+    (await import(new URL("slider.js", location))).nextValue(...values), args);
   for (const [value, direction, isFine, least, wanted] of [[4, 1, false, 0.1, 4.1], [4.13, 1, false, 0.1, 4.2],
     [4.13, -1, false, 0.1, 4.1], [12.3, 1, false, 0.1, 13], [10, -1, false, 0.1, 9.9], [10, 1, false, 0.1, 11],
     [0, 1, false, 0.01, 0.01], [0.25, 1, false, 0.01, 0.26], [4, 1, true, 0.1, 4.01], [76, -1, false, 1, 75]])
@@ -60,115 +42,75 @@ test("takes back with Escape what is typed or dragged, and undoes in fields", {s
   await field("Height in mm").press("Control+Shift+Z");
   assert.equal(await text("Height in mm"), "5.00");
 
-  const box = await slider("Fine detail").boundingBox(), y = box.y + box.height / 2;
-  await page.mouse.move(box.x + box.width / 2, y);
+  const box = await slider("Fine detail").boundingBox(), [middle, y] = await middleOf(slider("Fine detail"));
   const before = await text("Fine detail value");
-  await page.mouse.down();
-  await page.mouse.move(box.x + box.width / 3, y, {steps: 4});
+  await press([middle, y], [box.x + box.width / 3, y]);
   assert.notEqual(await text("Fine detail value"), before);
   await page.keyboard.press("Escape");
   assert.equal(await text("Fine detail value"), before);
   await page.mouse.move(box.x + box.width / 4, y, {steps: 4});
   await page.mouse.up();
   assert.equal(await text("Fine detail value"), before);
-  await page.getByRole("button", {name: "Undo"}).click();
+  await undo();
   assert.equal(await text("Height in mm"), "4.00");
 });
 
 test("undoes what a field of the plate has taken, but not while something is typed", {skip}, async () => {
-  const plate = page.getByLabel("Plate size", {exact: true});
-  const untilPlate = (text) => eventually(async () => assert.equal(await plate.inputValue(), text));
+  const plate = labelled("Plate size");
   for (const size of ["150x120", "160x120"]) {
     await enter(plate, size);
-    await page.getByText(`piece ${size.slice(0, 3)}.00 × 120.00`).waitFor();
+    await untilPiece(`${size.slice(0, 3)}.00 × 120.00`);
   }
   await type(plate, "17");
   await plate.press("Control+z");
-  await page.getByText("piece 160.00 × 120.00").waitFor();
+  await untilPiece("160.00 × 120.00");
   await plate.press("Escape");
-  await untilPlate("160x120");
+  await untilText(plate, "160x120");
   await plate.press("Control+z");
-  await page.getByText("piece 150.00 × 120.00").waitFor();
-  await untilPlate("150x120");
+  await untilPiece("150.00 × 120.00");
+  await untilText(plate, "150x120");
   await plate.press("Control+z");
-  await untilPlate("");
-});
-
-test("undoes entries in the order in which they were made, also one that is still being tried", {skip}, async () => {
-  const plate = page.getByLabel("Plate size", {exact: true}), undo = page.getByRole("button", {name: "Undo"});
-  const height = await text("Height in mm"), slowly = (route) => setTimeout(() => route.continue(), 1500);
-  const isTried = page.locator('[aria-busy="true"]').filter({has: plate});
-  await page.route("**/api/profile", slowly);
-  await enter(plate, "220x150");
-  await isTried.waitFor();
-  await set("Height in mm", 4.5);
-  assert.equal(await plate.inputValue(), "220x150");
-  await page.getByText("piece 220.00 × 150.00").waitFor();
-  await undo.click();
-  assert.deepEqual([await plate.inputValue(), await text("Height in mm")], ["220x150", height]);
-  await undo.click();
-  assert.equal(await plate.inputValue(), "");
-  await set("Height in mm", 4.5); // so that there is a step before the entry
-  await enter(plate, "210x140");
-  await isTried.waitFor();
-  const answered = page.waitForResponse("**/api/profile");
-  await undo.click();
-  assert.equal(await plate.inputValue(), "");
-  await answered;
-  await untilTimersRan(page, 100); // the page has done with the answer what it would
-  assert.deepEqual([await plate.inputValue(), await text("Height in mm")], ["", "4.50"]);
-  await enter(plate, "210x140");
-  await isTried.waitFor();
-  await page.getByRole("radio", {name: "Coin"}).click();
-  await page.getByText("The size of the plate stays with Plaque, and comes back with it.").waitFor();
-  assert.ok(await page.getByRole("radio", {name: "Coin"}).isChecked());
-  assert.equal(await plate.inputValue(), "");
-  await undo.click();
-  assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
-  assert.equal(await plate.inputValue(), "210x140");
-  await page.unroute("**/api/profile");
-  for (let step = 0; step < 2; ++step) await undo.click();
+  await untilText(plate, "");
 });
 
 test("keeps the controls of a rim with it, and takes it off a piece without an outline", {skip}, async () => {
-  const option = (name) => page.getByLabel(name, {exact: true}), undo = page.getByRole("button", {name: "Undo"});
   const isFirst = async () => (await page.locator("#kind-rows").getByLabel("Rim width").count()) > 0;
-  await page.getByRole("radio", {name: "Coin"}).click();
+  await radio("Coin").click();
   assert.ok(await isFirst());
-  await option("Outline").selectOption("Rectangle");
+  await labelled("Outline").selectOption("Rectangle");
   await page.getByRole("radio", {name: "Plaque", checked: true}).waitFor();
   assert.ok(await isFirst());
-  await option("Outline").selectOption("None");
-  await eventually(async () => assert.equal(await option("Rim width").inputValue(), ""));
-  assert.equal(await option("Outline").inputValue(), "none");
-  for (let step = 0; step < 3; ++step) await undo.click();
+  await labelled("Outline").selectOption("None");
+  await untilText(labelled("Rim width"), "");
+  assert.equal(await labelled("Outline").inputValue(), "none");
+  await undo(3);
   assert.ok(!(await isFirst()));
 });
 
 test("keeps the figure's size on another plate, as long as it fits", {skip}, async () => {
-  const plate = page.getByLabel("Plate size", {exact: true});
+  const plate = labelled("Plate size"), shift = page.locator("#shift");
   const longer = async () => Number(await text("Longer side in mm"));
   await enter(plate, "200x150");
-  await page.getByText("piece 200.00 × 150.00").waitFor();
+  await untilPiece("200.00 × 150.00");
   assert.ok((await longer()) > 120, "as large as fits");
   await set("Longer side in mm", 64);
   await enter(plate, "200x151");
-  await page.getByText("piece 200.00 × 151.00").waitFor();
+  await untilPiece("200.00 × 151.00");
   assert.equal(await longer(), 64);
   await enter(plate, "60x50");
   await page.getByText("The figure was too large for its plate: now it is as large as fits.").waitFor();
-  await page.getByText("piece 60.00 × 50.00").waitFor();
+  await untilPiece("60.00 × 50.00");
   assert.ok((await longer()) < 50);
-  await enter(page.locator("#shift"), "45,0"); // farther than half of the plate
+  await enter(shift, "45,0"); // farther than half of the plate
   await page.getByText("The plate has no room for the figure there: it stays where it is.").waitFor();
-  assert.equal(await page.locator("#shift").inputValue(), "");
-  for (let i = 0; i < 2; ++i) await page.getByRole("button", {name: "Undo"}).click();
-  await page.getByText("piece 200.00 × 151.00").waitFor();
-  await enter(page.locator("#shift"), "60,0");
+  assert.equal(await shift.inputValue(), "");
+  await undo(2);
+  await untilPiece("200.00 × 151.00");
+  await enter(shift, "60,0");
   await enter(plate, "100x80"); // whose edge is nearer than that
   await page.getByText("The plate has no room for the figure there: it is in the middle again.").waitFor();
-  assert.deepEqual([await page.locator("#shift").inputValue(), await longer()], ["", 64]);
-  while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
+  assert.deepEqual([await shift.inputValue(), await longer()], ["", 64]);
+  await undoAll(page, async () => (await plate.inputValue()) === "");
 });
 
 test("takes letters as keys again after Enter, and goes on with Tab from the field", {skip}, async () => {
@@ -176,7 +118,7 @@ test("takes letters as keys again after Enter, and goes on with Tab from the fie
   await type(field("Height in mm"), "4");
   await page.keyboard.press("Enter");
   await page.keyboard.press("m");
-  assert.ok(await page.getByRole("radio", {name: "Measure"}).isChecked());
+  assert.ok(await radio("Measure").isChecked());
   await page.keyboard.press("l");
   await page.keyboard.press("Shift+Tab");
   await page.keyboard.press("Tab");
@@ -184,23 +126,21 @@ test("takes letters as keys again after Enter, and goes on with Tab from the fie
 });
 
 test("takes back what no piece can be made of", {skip}, async () => {
-  const wrap = page.getByLabel("Bent around", {exact: true});
-  await wrap.selectOption("Cylinder");
+  await labelled("Bent around").selectOption("Cylinder");
   const diameter = page.getByLabel("Bent around: Diameter");
   await enter(diameter, "1");
   await page.getByText(/^Bent around: expected a diameter of at least/).waitFor();
   assert.equal(await diameter.inputValue(), "");
-  assert.ok(await page.getByRole("alert").isVisible());
+  assert.ok(await toast().isVisible());
   await enter(diameter, "200");
-  await page.getByRole("alert").waitFor({state: "hidden"});
-  for (let step = 0; step < 2; ++step) await page.getByRole("button", {name: "Undo"}).click();
-  assert.ok(await page.getByRole("radio", {name: "Plaque"}).isChecked());
+  await toast().waitFor({state: "hidden"});
+  await undo(2);
+  assert.ok(await radio("Plaque").isChecked());
 });
 
 test("says why an entry is refused until the next one is taken, even one that changes nothing", {skip}, async () => {
-  const option = (name) => page.getByLabel(name, {exact: true}), toast = page.locator("#toast");
-  const refused = (text) => toast.getByText(text).waitFor();
-  const untilGone = () => toast.waitFor({state: "hidden"});
+  const option = labelled, refused = (text) => toast().getByText(text).waitFor();
+  const untilGone = () => toast().waitFor({state: "hidden"});
   await page.evaluate(ignoreTimers, 8000); // after which a line goes by itself
   await set("Height in mm", 5);
   await set("Height in mm", "high");
@@ -210,17 +150,17 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await enter(page.locator("#crop"), "abc");
   await refused("Crop: expected left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8, found 'abc'");
   await untilReady(page);
-  assert.ok(await toast.isVisible());
+  assert.ok(await toast().isVisible());
   await enter(option("Margin in mm"), "6");
   await untilGone();
   await enter(page.locator("#crop"), "0,0,0.001,0.001"); // which keeps nothing
   await refused("expected");
-  await eventually(async () => assert.equal(await page.locator("#crop").inputValue(), ""));
-  assert.ok(await toast.isVisible());
+  await untilText(page.locator("#crop"), "");
+  assert.ok(await toast().isVisible());
   await enter(option("Margin in mm"), "5");
   await untilGone();
   await option("Outline").selectOption("hexagon");
-  await page.getByRole("radio", {name: "Place", exact: true}).click();
+  await radio("Place").click();
   await page.locator("#stage").click();
   await refused("Give the plate a size first: then the figure can be moved on it.");
   await option("Outline").selectOption("ellipse");
@@ -230,24 +170,19 @@ test("says why an entry is refused until the next one is taken, even one that ch
   await refused("The plate has no room for the figure there: it stays where it is.");
   await enter(option("Moved by"), "1,0");
   await untilGone();
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
-  await untilReady(page);
-  while (await option("Outline").inputValue() !== "rectangle") await page.getByRole("button", {name: "Undo"}).click();
+  await choose("Light");
+  await undoAll(page, async () => (await option("Outline").inputValue()) === "rectangle");
   await page.evaluate(ignoreTimers, Infinity);
 });
 
 test("says without a break that a figure is dragged beyond its plate", {skip}, async () => {
-  const toast = page.locator("#toast"), shift = page.locator("#shift"), longer = "Longer side in mm";
-  const before = await text(longer);
-  await enter(page.getByLabel("Plate size", {exact: true}), "200x150");
+  const shift = page.locator("#shift"), longer = "Longer side in mm", before = await text(longer);
+  await enter(labelled("Plate size"), "200x150");
   await set(longer, 100);
-  await page.getByRole("radio", {name: "Place", exact: true}).click();
-  await untilReady(page);
-  const {x, y, width, height} = await page.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
-  await page.mouse.move(...middle);
-  await page.mouse.down();
-  await page.mouse.move(middle[0] + 0.4 * width, middle[1]);
-  await toast.getByText("The plate has no room for the figure there").waitFor();
+  await choose("Place");
+  const middle = await middleOf(page.locator("#stage")), {width} = await page.locator("#stage").boundingBox();
+  await press(middle, [middle[0] + 0.4 * width, middle[1]]);
+  await toast().getByText("The plate has no room for the figure there").waitFor();
   await page.evaluate(() => {
     window.hidden = 0;
     new MutationObserver(() => (window.hidden += document.querySelector("#toast").hidden))
@@ -257,48 +192,45 @@ test("says without a break that a figure is dragged beyond its plate", {skip}, a
     await page.mouse.move(middle[0] + 0.4 * width + i, middle[1]);
     await untilTimersRan(page, 50);
   }
-  assert.ok(await toast.isVisible());
+  assert.ok(await toast().isVisible());
   assert.equal(await page.evaluate(() => window.hidden), 0);
   await page.mouse.up();
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
-  await untilReady(page);
-  while (await shift.inputValue() || await text(longer) !== before)
-    await page.getByRole("button", {name: "Undo"}).click();
+  await choose("Light");
+  await undoAll(page, async () => !await shift.inputValue() && (await text(longer)) === before);
 });
 
 test("knows what a draft angle allows, and exports no piece that cannot be made", {skip}, async () => {
-  const reach = page.locator("#reach"), dialog = page.getByRole("dialog", {name: "Export"});
-  const option = (name) => page.getByLabel(name, {exact: true});
+  const dialog = exportDialog(), option = labelled;
   await enter(option("Draft angle"), "60");
   await set("Height in mm", 15);
-  await reach.getByText(/^The draft angle keeps the height at [\d.]+ mm\./).waitFor();
-  const reached = (await reach.innerText()).match(/[\d.]+ mm/)[0];
+  await reach().getByText(/^The draft angle keeps the height at [\d.]+ mm\./).waitFor();
+  const reached = (await reach().innerText()).match(/[\d.]+ mm/)[0];
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
   await page.keyboard.press("Control+e");
   await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
   assert.ok(await dialog.getByText(`relief ${reached} high,`).isVisible());
-  assert.ok(await dialog.getByRole("button", {name: "Export", exact: true}).isEnabled());
-  await dialog.getByRole("button", {name: "Cancel"}).click();
+  assert.ok(await button("Export", dialog).isEnabled());
+  await button("Cancel", dialog).click();
   const bevel = 1.1 * parseFloat(reached) * Math.tan(Math.PI / 3); // leans enough for the height that is reached
   await enter(option("Rim width"), (bevel + 1).toFixed(2));
   await enter(option("Rim bevel"), bevel.toFixed(2));
   await untilReady(page);
   assert.equal(Number(await option("Rim bevel").inputValue()), Number(bevel.toFixed(2)));
-  await page.getByRole("button", {name: "Undo"}).click();
+  await undo();
   await enter(option("Rim bevel"), "0.3");
   await page.getByText(/^Rim bevel: expected at least [\d.]+ mm, so that the rim of/).waitFor();
   assert.equal(await option("Rim bevel").inputValue(), "");
-  await reach.getByRole("button", {name: "Drop the draft angle"}).click();
-  await reach.getByText("draft angle").waitFor({state: "hidden"});
+  await button("Drop the draft angle").click();
+  await reach().getByText("draft angle").waitFor({state: "hidden"});
   assert.equal(await option("Draft angle").inputValue(), "");
-  for (let step = 0; step < 4; ++step) await page.getByRole("button", {name: "Undo"}).click();
+  await undo(4);
 });
 
 test("steps numbers of the plate by arrow keys", {skip}, async () => {
-  const rim = page.getByLabel("Rim width", {exact: true});
+  const rim = labelled("Rim width");
   await enter(rim, "3");
   const kept = async () => {
-    const {steps, at} = (await engine.json("document", {input: {path: scan}})).kept;
+    const {steps, at} = await engine.kept({path: scan});
     return [steps[at - 1].options.rim, steps[at].options.rim];
   };
   await eventually(async () => assert.equal((await kept())[1], 3));
@@ -307,20 +239,18 @@ test("steps numbers of the plate by arrow keys", {skip}, async () => {
   await rim.press("Shift+ArrowDown");
   assert.equal(await rim.inputValue(), "3.09");
   await eventually(async () => assert.deepEqual(await kept(), [3, 3.09])); // in one step, when the keys rest
-  await page.getByRole("button", {name: "Undo"}).click();
+  await undo();
   assert.equal(await rim.inputValue(), "3");
-  await page.getByRole("button", {name: "Undo"}).click();
+  await undo();
 });
 
 test("takes back with Escape what a point of the curve is dragged to, and draws no refused curve", {skip}, async () => {
-  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
+  await preset().selectOption("Bold edges first");
   const point = page.getByRole("slider", {name: "Curve point 2 of 4", exact: true});
   await point.evaluate((element) => element.scrollIntoView({block: "center"}));
   const value = () => point.getAttribute("aria-valuenow"), before = await value();
-  const box = await point.boundingBox(), x = box.x + box.width / 2, y = box.y + box.height / 2;
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x, y - 30, {steps: 4});
+  const [x, y] = await middleOf(point);
+  await press([x, y], [x, y - 30]);
   assert.notEqual(await value(), before);
   await page.keyboard.press("Escape");
   assert.equal(await value(), before);
@@ -328,12 +258,9 @@ test("takes back with Escape what a point of the curve is dragged to, and draws 
   assert.equal(await value(), before);
   await page.mouse.up();
   assert.equal(await value(), before);
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  await page.mouse.move(x, y - 20, {steps: 4});
-  await page.mouse.up();
+  await drag([x, y], [x, y - 20]);
   assert.notEqual(await value(), before, "the next drag counts again");
-  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("As Edge emphasis says");
+  await preset().selectOption("As Edge emphasis says");
 });
 
 test("adds a point to the tone curve by a double click, which Delete removes", {skip}, async () => {
@@ -347,7 +274,7 @@ test("adds a point to the tone curve by a double click, which Delete removes", {
   assert.equal(await page.evaluate(() => getSelection().toString()), "");
   await page.keyboard.press("Delete");
   assert.equal(await count(), before);
-  for (let step = 0; step < 2; ++step) await page.getByRole("button", {name: "Undo"}).click();
+  await undo(2);
 });
 
 test("shows and takes inches, and keeps millimetres", {skip}, async () => {
@@ -370,116 +297,86 @@ test("shows and takes inches, and keeps millimetres", {skip}, async () => {
 });
 
 test("exports when Enter is pressed", {skip}, async () => {
-  await page.keyboard.press("Control+e");
-  const dialog = page.getByRole("dialog", {name: "Export"});
-  await dialog.getByText(/triangles/).waitFor();
-  const [file] = await savedFiles(found, page, 1, () => enter(dialog.getByLabel("File name"), "medal"));
+  await openExport();
+  const [file] = await savedFiles(found, page, 1, () => enter(labelled("File name"), "medal"));
   assert.equal(file.name, "medal.stl");
-  await dialog.waitFor({state: "hidden"});
-});
-
-test("names files for their form", {skip}, async () => {
-  const dialog = page.getByRole("dialog", {name: "Export"}), form = page.locator("#form");
-  for (const name of ["die", "lithophane"]) {
-    await form.selectOption(name);
-    await eventually(async () => assert.equal(await form.inputValue(), name));
-    await untilReady(page);
-    await page.keyboard.press("Control+e");
-    await dialog.getByText(/triangles$/).waitFor();
-    const [file] = await savedFiles(found, page, 1, () => dialog.getByRole("button", {name: "Export"}).click());
-    assert.equal(file.name, `scan-${name}.stl`);
-    assert.ok(readStl(file.bytes).isClosed);
-    await dialog.waitFor({state: "hidden"});
-    await page.getByRole("button", {name: "Undo"}).click();
-  }
+  await exportDialog().waitFor({state: "hidden"});
 });
 
 test("says what was saved of an export that is cancelled", {skip}, async () => {
-  const dialog = page.getByRole("dialog", {name: "Export"});
+  const dialog = exportDialog();
   let asked = 0;
   await page.route("**/api/export", (route) => asked++ === 0 && route.continue()); // no file but the first comes
   for (const [written, saved] of [["2 of 2", "Saved: scan.stl."], ["1 of 2", "Nothing was saved."]]) {
-    await page.keyboard.press("Control+e");
-    await dialog.getByText(/triangles$/).waitFor();
+    await openExport();
     await dialog.getByRole("checkbox", {name: /^3MF/}).check();
     await dialog.getByRole("button", {name: "Export"}).click();
     await dialog.getByText(`Writing file ${written}`).waitFor();
     await dialog.getByRole("button", {name: "Cancel"}).click();
-    await page.getByRole("alert").getByText(`Cancelled. ${saved}`).waitFor();
+    await toast().getByText(`Cancelled. ${saved}`).waitFor();
   }
   await page.unroute("**/api/export");
 });
 
+// Returns the height that is marked on the slider.
+const marked = async () => (await page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/)
+  .getAttribute("title")).match(/[\d.]+ mm/)[0];
+
 // Returns the height and the thickness that the status line and the export tell.
 async function toldSizes() {
-  const dialog = page.getByRole("dialog", {name: "Export"}), numbers = /height ([\d.]+).*× ([\d.]+) mm/;
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-  const shown = (await page.locator("#numbers").innerText()).match(numbers).slice(1);
-  await page.keyboard.press("Control+e");
-  await dialog.getByText(/triangles$/).waitFor();
+  await untilReady(page);
+  const shown = (await page.locator("#numbers").innerText()).match(/height ([\d.]+).*× ([\d.]+) mm/).slice(1);
+  await openExport();
   const [, thick, high] = (await page.locator("#export-size").innerText()).match(/× ([\d.]+) mm, relief ([\d.]+)/);
-  await dialog.getByRole("button", {name: "Cancel"}).click();
+  await button("Cancel", exportDialog()).click();
   return {shown, exported: [high, thick]};
 }
 
 test("tells the same height and thickness everywhere", {skip}, async () => {
   await set("Height in mm", 3.175);
   assert.equal(await text("Height in mm"), "3.175");
-  await page.getByText(/height 3\.175 mm/).waitFor();
+  await untilTold(/height 3\.175 mm/);
   assert.equal(await text("Plate thickness in mm"), "3.0"); // below the relief
   assert.deepEqual(await toldSizes(), {shown: ["3.175", "6.18"], exported: ["3.175", "6.18"]});
-  await page.getByRole("radio", {name: "Measure"}).click();
+  await radio("Measure").click();
   await page.locator("#overlay").getByText("6.18 mm thick").waitFor();
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
-  await page.getByLabel("Outline", {exact: true}).selectOption("round");
+  await radio("Light").click();
+  await labelled("Outline").selectOption("round");
   await set("Height in mm", 300);
-  await page.locator("#reach").getByText(/at most|keeps the height at/).waitFor();
+  await reach().getByText(/at most|keeps the height at/).waitFor();
   const {shown, exported} = await toldSizes();
   assert.deepEqual(shown, exported);
   assert.ok(Math.abs(shown[1] - shown[0] - 3) < 0.006, `${shown}`);
-  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
+  await undo(3);
 });
 
 test("marks the height that can be reached, and loosens what limits it", {skip}, async () => {
-  const mark = page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/);
-  const reach = page.locator("#reach");
-  const untilMarked = async () => {
-    await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-    await mark.waitFor();
-  };
   await set("Longer side in mm", 60);
-  await untilMarked();
-  const reachable = async () => Number((await mark.getAttribute("title")).match(/[\d.]+/)[0]), most = await reachable();
+  await untilReady(page);
+  const reachable = async () => parseFloat(await marked()), most = await reachable();
   await set("Steepest wall in degrees", 30);
   let limited;
   await eventually(async () => assert.ok((limited = await reachable()) < most, `${limited} of ${most}`));
   await set("Height in mm", 300); // more than steps at depth jumps can make up for
-  await reach.getByText(/The steepest wall keeps the height at [\d.]+ mm/).waitFor();
+  await reach().getByText(/The steepest wall keeps the height at [\d.]+ mm/).waitFor();
   assert.equal(await field("Height in mm").getAttribute("aria-invalid"), "true");
-  const reached = (await reach.innerText()).match(/[\d.]+ mm/)[0];
+  const reached = (await reach().innerText()).match(/[\d.]+ mm/)[0];
   await page.getByTitle(`Out of reach: the relief is ${reached} high`).waitFor();
   await page.keyboard.press("Control+e"); // the file has another height than the one that was asked for
-  const dialog = page.getByRole("dialog", {name: "Export"});
-  await dialog.getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
-  await dialog.getByRole("button", {name: "Cancel"}).click();
-  await reach.getByRole("button", {name: "Allow steeper walls"}).click();
+  await exportDialog().getByText(/^A height of [\d.]+ mm is out of reach here\.$/).waitFor();
+  await button("Cancel", exportDialog()).click();
+  await button("Allow steeper walls").click();
   assert.equal(await text("Steepest wall in degrees"), "85");
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await untilReady(page);
   await eventually(async () => assert.ok((await reachable()) > most, `${await reachable()} of ${most}`));
 });
 
 test("marks the height that the view reaches which is shown", {skip}, async () => {
-  const mark = page.getByTitle(/^Reach(able|ed) with(out)? steps at depth jumps: [\d.]+ mm$/);
-  const marked = async () => (await mark.getAttribute("title")).match(/[\d.]+ mm/)[0];
   await set("Height in mm", 3); // well within reach
   await untilReady(page);
   const front = await marked();
   for (const view of ["Left", "Front"]) {
-    await page.getByRole("button", {name: "Choose view"}).first().click();
-    const dialog = page.getByRole("dialog", {name: "Choose the view"});
-    await dialog.getByRole("button", {name: view, exact: true}).click();
-    await dialog.getByRole("button", {name: "Use this view"}).click();
-    await page.locator("#view-name").getByText(view).waitFor();
+    await chooseView(view);
     await eventually(async () => {
       await untilReady(page);
       assert.equal((await marked()) === front, view === "Front");
@@ -488,45 +385,33 @@ test("marks the height that the view reaches which is shown", {skip}, async () =
 });
 
 test("says what a plate leaves to who types a longer side than that", {skip}, async () => {
-  const plate = page.getByLabel("Plate size", {exact: true});
+  const plate = labelled("Plate size");
   await enter(plate, "60x50");
-  await page.getByText("piece 60.00 × 50.00").waitFor();
+  await untilPiece("60.00 × 50.00");
   await set("Longer side in mm", 30);
   await set("Longer side in mm", 90);
   await page.getByText(/^The plate leaves [\d.]+ mm for the longer side: the figure is as large as that\.$/).waitFor();
   assert.ok(Number(await text("Longer side in mm")) < 50);
-  while (await plate.inputValue()) await page.getByRole("button", {name: "Undo"}).click();
-});
-
-test("says nothing over the field that it is about", {skip}, async () => {
-  for (const name of ["Height in mm", "Edge emphasis value"]) {
-    const it = field(name);
-    await it.scrollIntoViewIfNeeded();
-    await set(name, -5);
-    const toast = await page.locator("#toast").boundingBox(), own = await it.boundingBox();
-    assert.ok(toast.y > own.y + own.height || toast.y + toast.height < own.y, `${name}: ${toast.y}, ${own.y}`);
-    await page.getByRole("button", {name: "Dismiss"}).click();
-  }
+  await undoAll(page, async () => (await plate.inputValue()) === "");
 });
 
 test("names the tone curve and the view where they limit the height, and loosens them", {skip}, async () => {
-  const reach = page.locator("#reach"), preset = page.getByRole("combobox", {name: "Tone curve preset"});
-  await preset.selectOption("Fine detail first");
+  await preset().selectOption("Fine detail first");
   await set("Height in mm", 2000);
-  await reach.getByText(/^The tone curve keeps the height at [\d.]+ mm\./).waitFor();
-  await reach.getByRole("button", {name: "Drop the tone curve"}).click();
-  assert.equal(await preset.inputValue(), "");
-  await reach.getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
-  await reach.getByRole("button", {name: "Choose view"}).click();
+  await reach().getByText(/^The tone curve keeps the height at [\d.]+ mm\./).waitFor();
+  await button("Drop the tone curve").click();
+  assert.equal(await preset().inputValue(), "");
+  await reach().getByText(/^This view reaches [\d.]+ mm at most\./).waitFor();
+  await button("Choose view", reach()).click();
   await page.getByRole("dialog", {name: "Choose the view"}).waitFor();
   await page.keyboard.press("Escape");
-  for (let step = 0; step < 3; ++step) await page.getByRole("button", {name: "Undo"}).click();
+  await undo(3);
 });
 
-test("can redo after a drag that was taken back", {skip}, async () => {
-  const heights = await page.evaluate(async () => {
-    const {Document, FIRST} = await import(new URL("document.js", location));
-    const doc = new Document(() => {}), seen = [], see = () => seen.push(doc.now.options.height);
+test("can redo after a drag that was taken back, and ends none after another slider's pause", {skip}, async () => {
+  const [heights, counts] = await page.evaluate(async () => {
+    const {Document, FIRST} = await import(new URL("document.js", location)), doc = new Document(() => {});
+    const seen = [], see = () => seen.push(doc.now.options.height), counts = [];
     doc.begin(FIRST);
     for (const height of [6, 7]) doc.change({options: {height}});
     doc.undo();
@@ -536,16 +421,22 @@ test("can redo after a drag that was taken back", {skip}, async () => {
     see();
     doc.redo();
     see();
-    return seen;
+    doc.begin(FIRST);
+    for (const [height, ended] of [[6, "width"], [7, "height"], [8, null]]) {
+      doc.change({options: {height}}, "height");
+      counts.push(doc.steps.length);
+      doc.endStroke(ended);
+    }
+    return [seen, counts];
   });
-  assert.deepEqual(heights, [9, 6, 7]);
+  assert.deepEqual([heights, counts], [[9, 6, 7], [2, 2, 3]]);
 });
 
 test("shows no mark of the piece before while another scan opens", {skip}, async () => {
   const marks = () => page.locator("#overlay > *").count(), other = path.join(folder, "other.ply"), complaints = [];
   page.on("pageerror", (error) => complaints.push(error.message));
   writeSample("shell", 5000, other);
-  await page.getByRole("radio", {name: "Place"}).click();
+  await radio("Place").click();
   await eventually(async () => assert.ok(await marks() > 8));
   let open;
   await page.route("**/api/open", (route) => (open = () => route.continue()));
@@ -559,19 +450,4 @@ test("shows no mark of the piece before while another scan opens", {skip}, async
   await page.getByText(/of 5,000 points/).waitFor();
   await eventually(async () => assert.ok(await marks() > 8));
   assert.deepEqual(complaints, []);
-});
-
-test("ends no drag when the pause after another slider's step is over", {skip}, async () => {
-  const steps = await page.evaluate(async () => {
-    const {Document, FIRST} = await import(new URL("document.js", location));
-    const doc = new Document(() => {}), counts = [];
-    doc.begin(FIRST);
-    for (const [height, ended] of [[6, "width"], [7, "height"], [8, null]]) {
-      doc.change({options: {height}}, "height");
-      counts.push(doc.steps.length);
-      doc.endStroke(ended);
-    }
-    return counts;
-  });
-  assert.deepEqual(steps, [2, 2, 3]);
 });

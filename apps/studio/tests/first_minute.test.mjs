@@ -3,36 +3,32 @@
 import assert from "node:assert/strict";
 import {writeFileSync} from "node:fs";
 import path from "node:path";
-import {after, before, test} from "node:test";
-import {deflateSync} from "node:zlib";
-import {EngineProcess, areKindsDrawn, enter, eventually, findBrowser, ignoreTimers, removeFolder, showScan,
-  temporaryFolder, untilListening, untilReady, untilTimersRan, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {DESK, browser, button, choose, drag, engine, field, folder, middleOf, numbers, openFile, option, page,
+  pieceSize, press, radio, skip, slider, startEngine, text, toast, undo, undoAll, untilText, untilTold,
+  visiblePoints as points, withBrowser} from "./page_suite.mjs";
+import {EngineProcess, areKindsDrawn, enter, eventually, holdRequests, ignoreTimers, openPanels, run, untilListening,
+  untilReady, untilTimersRan, writeSample, writeScans} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
+const scans = skip ? [] : writeScans(folder, 6000);
 
-const folder = temporaryFolder(), scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
-let browser, engine, page;
-
-before(async () => {
-  if (skip) return;
-  for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 6000, scan);
-  browser = await found.launch();
-  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan: scans[0]}));
+withBrowser(async () => {
+  const first = await (await browser.newContext({viewport: DESK})).newPage();
+  await first.goto((await startEngine(scans[0])).address);
+  await untilReady(first);
+  return first;
 });
 
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
-
-const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
-const button = (name) => page.getByRole("button", {name, exact: true});
+const kind = radio;
 const offered = (name) => page.getByRole("group", {name: "Found on the scan"}).getByRole("button", {name}); // by the picture
-const text = (name) => page.getByRole("spinbutton", {name, exact: true}).inputValue();
-const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
-const openPanel = (name) => page.locator("summary", {hasText: name}).evaluate((summary) =>
-  (summary.parentElement.open = true));
+const note = (text) => page.locator("#notes").getByText(text);
+
+// Opens a scan in a page, and waits until its relief is there.
+async function openScan(file, points, of = page) {
+  await of.locator("#file").setInputFiles(file);
+  await of.getByText(`of ${points} points`).waitFor();
+  await untilReady(of);
+}
 
 // Returns the pictures of the kinds, as numbers of pixels that show something and the sum of their colours.
 const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.map((canvas) => {
@@ -46,7 +42,7 @@ const pictures = () => page.locator("#kinds canvas").evaluateAll((all) => all.ma
 }));
 
 test("leads through five steps, once by itself and then from the help", {skip}, async () => {
-  await page.getByRole("alert").getByRole("button", {name: "Show me"}).click();
+  await button("Show me", toast()).click();
   const tour = page.getByRole("dialog", {name: "Tour"});
   for (let step = 1; step <= 5; ++step) {
     await tour.getByText(`${step} of 5`).waitFor();
@@ -76,21 +72,15 @@ test("leads back to the relief for the tour, and says that it needs one", {skip}
   const empty = await new EngineProcess(path.join(folder, "empty")).ready();
   const other = await (await browser.newContext()).newPage();
   await other.goto(empty.address);
-  await other.getByRole("button", {name: "Help"}).click();
-  await other.getByRole("button", {name: "Take the tour"}).click();
+  await button("Help", other).click();
+  await button("Take the tour", other).click();
   await other.getByText("The tour leads through a relief: open a scan or a sample first.").waitFor();
   await other.close();
   await empty.stop();
 });
 
 test("takes no click before its program has begun, and none is lost", {skip}, async () => {
-  const other = await (await browser.newContext()).newPage(), help = other.getByRole("button", {name: "Help"});
-  let begin;
-  const begun = new Promise((resolve) => (begin = resolve));
-  await other.route("**/api/about", async (route) => {
-    await begun;
-    await route.continue();
-  });
+  const other = await (await browser.newContext()).newPage(), begin = await holdRequests(other, "**/api/about");
   await other.goto(engine.address, {waitUntil: "commit"});
   const box = await eventually(async () => {
     const found = await other.locator("#help").boundingBox();
@@ -100,17 +90,17 @@ test("takes no click before its program has begun, and none is lost", {skip}, as
   const isHit = () => other.evaluate(({x, y, width, height}) =>
     document.querySelector("#help").contains(document.elementFromPoint(x + width / 2, y + height / 2)), box);
   assert.equal(await isHit(), false);
-  const clicked = help.click(); // waits until the button takes clicks
+  const clicked = button("Help", other).click(); // waits until the button takes clicks
   begin();
   await clicked;
-  await other.getByRole("button", {name: "Take the tour"}).waitFor();
+  await button("Take the tour", other).waitFor();
   await other.close();
 });
 
 test("shows nothing of the document on the start page, and changes nothing there by keys", {skip}, async () => {
   const parts = ["title", "undo", "redo", "save", "export", "numbers", "remarks"], shown = () => page.evaluate((ids) =>
     ids.filter((id) => document.getElementById(id).checkVisibility()), parts);
-  const bronze = page.getByRole("radio", {name: "Bronze"});
+  const bronze = radio("Bronze");
   await bronze.click();
   assert.deepEqual(await shown(), parts);
   await button("Relievo, start page").click();
@@ -121,7 +111,7 @@ test("shows nothing of the document on the start page, and changes nothing there
   await button("Back to the relief").click();
   assert.deepEqual(await shown(), parts);
   assert.ok(await bronze.isChecked());
-  await button("Undo").click();
+  await undo();
   assert.ok(!await bronze.isChecked());
 });
 
@@ -129,29 +119,23 @@ test("offers the tour no longer to whoever begins to work", {skip}, async () => 
   const other = await (await browser.newContext()).newPage();
   await other.addInitScript(ignoreTimers, 30000); // after which the offer goes by itself
   await other.goto(engine.address);
-  const offered = other.getByRole("button", {name: "Show me"});
+  const offered = button("Show me", other);
   await offered.waitFor();
   await untilReady(other);
   assert.ok(await offered.isVisible());
-  await other.getByRole("radio", {name: "Bronze"}).click();
+  await radio("Bronze", other).click();
   await offered.waitFor({state: "hidden"});
-  await other.getByRole("button", {name: "Undo"}).click();
+  await undo(1, other);
   await other.close();
 });
 
 // The page is told of the exact relief only when it has asked for its facts.
 test("shows the kinds of work before the exact relief is there", {skip}, async () => {
-  const other = await page.context().newPage();
-  let letGo;
-  const held = new Promise((resolve) => (letGo = resolve));
-  await other.route("**/api/facts", async (route) => {
-    await held;
-    await route.continue();
-  });
+  const other = await page.context().newPage(), letGo = await holdRequests(other, "**/api/facts");
   const large = path.join(folder, "large.ply");
   writeSample("still_life", 150000, large);
   await other.goto(engine.address.replace(/#.*/, ""));
-  await other.waitForFunction(() => document.querySelector("#undo").onclick !== null); // it listens
+  await untilListening(other);
   await other.locator("#file").setInputFiles(large);
   await other.getByText("large.ply", {exact: true}).waitFor();
   assert.equal(await other.locator("#kinds svg:visible, #kinds [data-drawn]").count(), 6, "none is blank");
@@ -188,45 +172,42 @@ test("shows this scan as each kind of work", {skip}, async () => {
 
 test("sets size and material with a kind, and takes all of it back at once", {skip}, async () => {
   await kind("Coin").click();
-  await numbers().getByText(/height 1\.60 mm.*piece 40\.00 × 40\.00/).waitFor();
-  assert.ok(await page.getByRole("radio", {name: "Struck silver"}).isChecked());
+  await untilTold(/height 1\.60 mm.*piece 40\.00 × 40\.00/);
+  assert.ok(await radio("Struck silver").isChecked());
   await kind("Seal").click(); // of the same diameter
-  await numbers().getByText(/height 1\.20 mm/).waitFor();
-  assert.ok(await page.getByRole("radio", {name: "Bronze"}).isChecked());
+  await untilTold(/height 1\.20 mm/);
+  assert.ok(await radio("Bronze").isChecked());
   await kind("Lithophane").click();
-  await numbers().getByText(/height 2\.40 mm/).waitFor();
-  assert.ok(await page.getByRole("slider", {name: "Fine detail"}).isDisabled(), "depths alone make a lithophane");
-  for (let step = 0; step < 3; ++step) await button("Undo").click();
-  await numbers().getByText(/height 5\.00 mm/).waitFor();
+  await untilTold(/height 2\.40 mm/);
+  assert.ok(await slider("Fine detail").isDisabled(), "depths alone make a lithophane");
+  await undo(3);
+  await untilTold(/height 5\.00 mm/);
   assert.ok(await kind("Plaque").isChecked());
-  assert.ok(await page.getByRole("slider", {name: "Fine detail"}).isEnabled());
+  assert.ok(await slider("Fine detail").isEnabled());
 });
 
 test("names a kind by its form, whatever its material", {skip}, async () => {
-  await page.getByRole("radio", {name: "Walnut"}).click();
+  await radio("Walnut").click();
   assert.ok(await kind("Plaque").isChecked());
   await kind("Carving").click();
-  await page.getByRole("radio", {name: "Bronze"}).click();
+  await radio("Bronze").click();
   assert.ok(await kind("Carving").isChecked());
-  for (let step = 0; step < 3; ++step) await button("Undo").click();
+  await undo(3);
 });
 
 test("brings a kind back as it was left", {skip}, async () => {
   await kind("Coin").click();
-  await enter(page.getByLabel("Diameter", {exact: true}), "30");
-  await numbers().getByText(/piece 30\.00 × 30\.00/).waitFor();
+  await enter(option("diameter"), "30");
+  await untilTold(/piece 30\.00 × 30\.00/);
   await kind("Lithophane").click();
-  await numbers().getByText(/height 2\.40 mm/).waitFor();
+  await untilTold(/height 2\.40 mm/);
   await kind("Coin").click();
-  await numbers().getByText(/piece 30\.00 × 30\.00/).waitFor();
-  await page.locator("#outline").selectOption("ellipse"); // which no diameter fits
-  for (const name of ["Seal", "Coin"]) {
-    await kind(name).click();
-    await untilReady(page);
-  }
-  assert.ok(!await page.getByRole("alert").isVisible(), "the piece can be made");
-  assert.equal(await page.locator("#outline").inputValue(), "ellipse");
-  for (let step = 0; step < 7; ++step) await button("Undo").click();
+  await untilTold(/piece 30\.00 × 30\.00/);
+  await option("outline").selectOption("ellipse"); // which no diameter fits
+  for (const name of ["Seal", "Coin"]) await choose(name);
+  assert.ok(!await toast().isVisible(), "the piece can be made");
+  assert.equal(await option("outline").inputValue(), "ellipse");
+  await undo(7);
   assert.ok(await kind("Plaque").isChecked());
 });
 
@@ -248,8 +229,7 @@ const PANELS = {
 };
 
 test("shows first, with each kind, the controls that matter for it", {skip}, async () => {
-  const panel = page.locator("#kind"), outline = page.locator("#outline");
-  const height = page.locator('[data-option="height"]');
+  const panel = page.locator("#kind"), outline = option("outline"), height = option("height");
   const shown = () => panel.locator("[data-option]:visible").evaluateAll((all) =>
     all.map((input) => input.dataset.option));
   for (const [name, options] of Object.entries(PANELS)) {
@@ -274,65 +254,56 @@ test("shows first, with each kind, the controls that matter for it", {skip}, asy
   await untilKind("Coin");
   assert.equal(await page.evaluate(() => document.activeElement.id), "outline");
   assert.deepEqual(await shown(), PANELS.Coin);
-  const undo = button("Undo");
-  while (await undo.isEnabled()) await undo.click();
+  await undoAll();
   await untilReady(page);
   assert.ok(await kind("Plaque").isChecked());
 });
 
 test("offers what can be done about the scan, and cuts it", {skip}, async () => {
-  const points = async () => Number((await numbers().innerText()).match(/^([\d,]+) of/)[1].replaceAll(",", ""));
   const before = await points();
   await page.getByRole("button", {name: /notes? on the scan/}).click();
   await page.getByText(/^Removed noise of [\d.]+ sampling distances\./).waitFor();
   const noise = page.locator("#denoise");
   assert.ok(Number(await noise.inputValue()) > 0);
   await button("Keep the noise").click();
-  await eventually(async () => assert.equal(await noise.inputValue(), "0"));
+  await untilText(noise, "0");
   await untilReady(page);
-  await button("Undo").click();
+  await undo();
   await page.getByText(/^Removed noise of/).waitFor();
-  const bottom = page.getByRole("slider", {name: "Cut away: Bottom"});
+  const bottom = slider("Cut away: Bottom");
   await bottom.fill("40");
   await eventually(async () => assert.ok((await points()) < 0.85 * before, `${await points()} of ${before}`));
   assert.equal(await page.locator("#crop").inputValue(), "0,0.4,1,1");
-  await button("Undo").click();
+  await undo();
   await eventually(async () => assert.equal(await points(), before));
   assert.equal(await bottom.inputValue(), "0");
 });
 
 test("crops the scan by a frame on the picture", {skip}, async () => {
-  const points = async () => Number((await numbers().innerText()).match(/^([\d,]+) of/)[1].replaceAll(",", ""));
   const crop = async () => (await page.locator("#crop").inputValue()).split(",").map(Number);
   const before = await points(), frame = page.locator("#crop-frame .frame"), box = async () => frame.boundingBox();
-  await openPanel("Scan");
+  await openPanels(page);
   await button("Crop on the picture").click();
   await frame.waitFor();
   const whole = await box(), at = (x, y) => [whole.x + x * whole.width, whole.y + (1 - y) * whole.height];
-  const drag = async (from, to, end = () => page.mouse.up()) => {
-    await page.mouse.move(...at(...from));
-    await page.mouse.down();
-    await page.mouse.move(...at(...to), {steps: 4});
-    await end();
-  };
+  const dragIn = (from, to) => drag(at(...from), at(...to));
   const untilCrop = async (...wanted) => eventually(async () => {
     const found = await crop();
     assert.ok(wanted.every((x, i) => Math.abs(x - found[i]) < 0.02), `${found} for ${wanted}`);
     const {x, y, width, height} = await box(), drawn = [...at(wanted[0], wanted[3]), ...at(wanted[2], wanted[1])];
     for (const [i, side] of [x, y, x + width, y + height].entries()) assert.ok(Math.abs(side - drawn[i]) < 8);
   });
-  await drag([0.2, 0.2], [0.7, 0.8]); // draws a frame
+  await dragIn([0.2, 0.2], [0.7, 0.8]); // draws a frame
   await untilCrop(0.2, 0.2, 0.7, 0.8);
-  await drag([0.7, 0.5], [0.9, 0.5]); // takes a side
+  await dragIn([0.7, 0.5], [0.9, 0.5]); // takes a side
   await untilCrop(0.2, 0.2, 0.9, 0.8);
-  await drag([0.2, 0.2], [0.1, 0.3]); // takes a corner
+  await dragIn([0.2, 0.2], [0.1, 0.3]); // takes a corner
   await untilCrop(0.1, 0.3, 0.9, 0.8);
-  await drag([0.5, 0.5], [0.6, 0.4]); // moves the frame
+  await dragIn([0.5, 0.5], [0.6, 0.4]); // moves the frame
   await untilCrop(0.2, 0.2, 1, 0.7);
-  await drag([0.5, 0.5], [0.3, 0.6], async () => {
-    await page.keyboard.press("Escape");
-    await page.mouse.up();
-  });
+  await press(at(0.5, 0.5), at(0.3, 0.6));
+  await page.keyboard.press("Escape");
+  await page.mouse.up();
   await untilCrop(0.2, 0.2, 1, 0.7);
   await page.locator("#stage").focus();
   await page.keyboard.press("ArrowLeft");
@@ -340,12 +311,12 @@ test("crops the scan by a frame on the picture", {skip}, async () => {
   await button("Done").click();
   await page.locator("#crop-frame").waitFor({state: "hidden"});
   await eventually(async () => assert.ok((await points()) < 0.85 * before, `${await points()} of ${before}`));
-  await page.getByRole("radio", {name: "Crop"}).click();
+  await radio("Crop").click();
   await button("Whole scan").click();
   await eventually(async () => assert.equal(await points(), before));
   assert.equal(await page.locator("#crop").inputValue(), "");
   await button("Done").click();
-  for (let step = 0; step < 6; ++step) await button("Undo").click();
+  await undo(6);
   await untilReady(page);
 });
 
@@ -356,79 +327,67 @@ test("colours on the piece what a tool leaves standing", {skip}, async () => {
     for (let i = 0; i < data.length; i += 4) count += data[i] > 150 && data[i + 2] < 0.6 * data[i];
     return count;
   });
-  await openPanel("Making");
   const before = await orange();
   await page.locator("#tool").selectOption("Ball end");
   await enter(page.getByLabel("Tool: Diameter"), "8");
   await page.getByText(/^The tool reaches [\d.]+ % of the front, and leaves up to [\d.]+ mm/).waitFor();
   let marked;
   await eventually(async () => assert.ok((marked = await orange()) > before + 5000, `${marked} after ${before}`));
-  await page.getByRole("radio", {name: "Orbit"}).click(); // which it stays in every view
+  await radio("Orbit").click(); // which it stays in every view
   await page.locator("#stage").focus();
   for (let step = 0; step < 4; ++step) await page.keyboard.press("ArrowRight");
   await untilReady(page);
   assert.ok((await orange()) > marked / 2);
   await page.locator("#finish").selectOption("reachable");
   await page.getByText(/^The tool reaches (9[89]|100)[\d.]* %/).waitFor();
-  for (let step = 0; step < 3; ++step) await button("Undo").click();
+  await undo(3);
   await untilReady(page);
   assert.ok((await orange()) < before + 500);
   await button("Fit").click();
 });
 
 test("moves, scales and turns the figure on its plate by hand", {skip}, async () => {
-  const size = async () => (await numbers().innerText()).match(/piece ([\d.]+ × [\d.]+)/)[1], before = await size();
+  const before = await pieceSize();
   const longer = async () => Number(await text("Longer side in mm")), whole = await longer();
-  await page.getByRole("radio", {name: "Place"}).click();
-  await untilReady(page);
-  const {x, y, width, height} = await page.locator("#stage").boundingBox(), middle = [x + width / 2, y + height / 2];
-  await page.mouse.move(...middle);
+  await choose("Place");
+  const [x, y] = await middleOf(page.locator("#stage")), shift = async () =>
+    (await option("shift").inputValue()).split(",").map(Number);
+  await page.mouse.move(x, y);
   for (let notch = 0; notch < 5; ++notch) await page.mouse.wheel(0, 200);
   await eventually(async () => assert.ok((await longer()) < 0.8 * whole));
-  await page.mouse.down();
-  await page.mouse.move(middle[0] + 30, middle[1] - 20, {steps: 5});
-  await page.mouse.up();
+  await drag([x, y], [x + 30, y - 20]);
   await untilReady(page);
-  const [right, up] = (await page.locator("#shift").inputValue()).split(",").map(Number);
+  const [right, up] = await shift();
   assert.ok(right > 2 && up > 1, `${right},${up}`);
-  assert.equal(await size(), before, "the plate stays as large as it was");
+  assert.deepEqual(await pieceSize(), before, "the plate stays as large as it was");
   assert.equal(await page.locator("#toast").getByText(/expected/).count(), 0);
   const kept = await longer(); // too far for it: it stays on the plate, as large as it is
-  await page.mouse.move(middle[0] + 30, middle[1] - 20);
-  await page.mouse.down();
-  await page.mouse.move(middle[0] + 400, middle[1] - 20, {steps: 20});
-  await page.mouse.up();
+  await drag([x + 30, y - 20], ...[100, 200, 300, 400].map((across) => [x + across, y - 20]));
   await untilReady(page);
   assert.equal(await longer(), kept);
-  const farthest = Number((await page.locator("#shift").inputValue()).split(",")[0]);
-  assert.ok(farthest >= right && farthest + kept / 2 <= parseFloat(before) / 2, `${farthest} on ${before}`);
+  const [farthest] = await shift();
+  assert.ok(farthest >= right && farthest + kept / 2 <= before[0] / 2, `${farthest} on ${before}`);
   await page.keyboard.down("Shift");
-  await page.mouse.move(middle[0] + 120, middle[1]);
-  await page.mouse.down();
-  await page.mouse.move(middle[0] + 110, middle[1] - 60, {steps: 5});
+  await press([x + 120, y], [x + 110, y - 60]);
   await page.locator("#overlay").getByText(/^\d+° to the left$/).waitFor();
   await page.mouse.up();
   await page.keyboard.up("Shift");
   await page.getByText("Turned by hand").waitFor();
   await untilReady(page);
-  const undo = button("Undo");
-  while ((await undo.isEnabled()) && (await longer()) !== whole) await undo.click();
+  await undoAll(page, async () => (await longer()) === whole);
   await untilReady(page);
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await radio("Light").click();
 });
 
 test("puts several files side by side, and turns, scales and removes them", {skip}, async () => {
-  const chooser = page.waitForEvent("filechooser");
-  await button("Open").click();
-  await (await chooser).setFiles(scans);
+  await openFile(scans);
   await page.getByText("urn + ammonite.json", {exact: true}).waitFor();
   await untilReady(page);
   await page.locator("#scene li").nth(1).getByText("ammonite.ply").waitFor();
-  const width = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
-  const [across, up] = await width();
+  const [across, up] = await pieceSize();
   await enter(page.getByLabel("Size (%) of ammonite.ply"), "50");
   await eventually(async () => {
-    const [x, y] = await width();
+    const [x, y] = await pieceSize();
     assert.ok(x / y < 0.95 * across / up, `${x} × ${y} after ${across} × ${up}`);
   });
   assert.equal(await page.getByLabel("Size (%) of ammonite.ply").inputValue(), "50");
@@ -438,8 +397,7 @@ test("puts several files side by side, and turns, scales and removes them", {ski
   await untilReady(page);
   assert.equal(await page.locator("#scene li").count(), 1);
   await engine.stop(); // the scans of a scene stay as long as it does
-  engine = await new EngineProcess(path.join(folder, "state")).ready();
-  await page.goto(engine.address);
+  await page.goto((await startEngine()).address);
   await page.getByText("ammonite.json", {exact: true}).first().waitFor();
   await untilReady(page);
 });
@@ -460,27 +418,24 @@ test("takes what is changed while a scan is still opening", {skip}, async () => 
   await other.locator("#file").setInputFiles(scans[1]);
   await other.getByText("ammonite.ply", {exact: true}).waitFor();
   await eventually(async () => assert.ok(await other.evaluate(() => Boolean(window.letOpen))));
-  assert.ok(await other.getByRole("button", {name: "Choose view"}).isDisabled(), "there is no model yet");
-  await other.locator("#scan").evaluate((panel) => (panel.open = true));
+  assert.ok(await button("Choose view", other).isDisabled(), "there is no model yet");
+  await openPanels(other);
   await enter(other.locator("#crop"), "0,0.4,1,1");
-  await enter(other.getByRole("spinbutton", {name: "Height in mm"}), "2.5");
+  await enter(field("Height in mm", other), "2.5");
   await untilTimersRan(other, 300); // what the page would ask too early, it has asked by then
   await other.evaluate(() => window.letOpen());
   await other.getByText(/of 6,000 points.*height 2\.50/).waitFor();
   await untilReady(other);
   assert.equal(await other.locator("#crop").inputValue(), "0,0.4,1,1");
-  const visible = async () =>
-    Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replace(",", ""));
-  const part = await visible();
+  const part = await points(other);
   await enter(other.locator("#crop"), "");
-  await eventually(async () => assert.ok((await visible()) > 1.2 * part, `${await visible()} after ${part}`));
+  await eventually(async () => assert.ok((await points(other)) > 1.2 * part, `${await points(other)} after ${part}`));
   assert.deepEqual(answers.filter((status) => status >= 400), []);
   await other.close();
 });
 
 test("keeps the view that was asked for last when the one before it arrives later", {skip}, async () => {
-  const other = await page.context().newPage(), points = async () =>
-    Number((await other.locator("#numbers").innerText()).match(/^[\d,]+/)[0].replaceAll(",", ""));
+  const other = await page.context().newPage();
   let asked = 0, letGo;
   const held = new Promise((resolve) => (letGo = resolve));
   await other.route("**/api/view", async (route) => {
@@ -491,22 +446,22 @@ test("keeps the view that was asked for last when the one before it arrives late
   await untilListening(other);
   await other.locator("#file").setInputFiles(scans[1]);
   await untilReady(other);
-  const whole = await points(), crop = other.locator("#crop");
-  await other.locator("#scan").evaluate((panel) => (panel.open = true));
+  const whole = await points(other), crop = other.locator("#crop");
+  await openPanels(other);
   await crop.evaluate(async (field) => {
     for (field.value of ["0,0.4,1,1", "0,0.1,1,1"]) {
       field.dispatchEvent(new Event("change"));
       await new Promise((resolve) => setTimeout(resolve)); // the engine is asked
     }
   });
-  await eventually(async () => assert.ok((await points()) < whole)); // the first has arrived
-  const part = await points();
+  await eventually(async () => assert.ok((await points(other)) < whole)); // the first has arrived
+  const part = await points(other);
   assert.equal(await crop.inputValue(), "0,0.1,1,1");
   assert.ok(await other.locator('[role="application"][aria-busy="true"]').isVisible());
   letGo();
   await untilReady(other);
   assert.equal(await crop.inputValue(), "0,0.1,1,1");
-  assert.ok((await points()) > part);
+  assert.ok((await points(other)) > part);
   await other.close();
 });
 
@@ -554,72 +509,49 @@ function writeBallWithCrumb(file) {
 test("leaves out a small piece, and keeps it or not at the press of a button", {skip}, async () => {
   const file = path.join(folder, "crumb.ply"), crumbs = page.locator("#crumbs");
   const untilWide = (least, most) => eventually(async () => { // the piece, in its heights
-    const wide = (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).reduce((x, y) => x / y);
+    const wide = (await pieceSize()).reduce((x, y) => x / y);
     assert.ok(wide > least && wide < most, `${wide}`);
   });
   writeBallWithCrumb(file);
-  await page.locator("#file").setInputFiles(file);
-  await page.getByText(/of 30,130 points/).waitFor();
-  await untilReady(page);
-  await openPanel("Scan");
-  await page.locator("#notes").getByText(/^Left out 1 small piece/).waitFor();
+  await openScan(file, "30,130");
+  await note(/^Left out 1 small piece/).waitFor();
   await untilWide(0.97, 1.03);
   await offered("Keep them").click();
-  await page.locator("#notes").getByText("Small pieces are kept.").waitFor();
+  await note("Small pieces are kept.").waitFor();
   await untilWide(1.15, 1.25); // from -1 to 1.465 radii, of a margin of a tenth
   assert.ok(await crumbs.isChecked());
   await offered("Leave them out").click();
-  await page.locator("#notes").getByText(/^Left out 1 small piece/).waitFor();
+  await note(/^Left out 1 small piece/).waitFor();
   await untilWide(0.97, 1.03);
   assert.ok(!await crumbs.isChecked());
 });
 
-// Returns the checksum of a part of a PNG.
-function crc32(bytes) {
-  let sum = ~0;
-  for (const byte of bytes) {
-    sum ^= byte;
-    for (let bit = 0; bit < 8; ++bit) sum = (sum >>> 1) ^ (sum & 1 ? 0xedb88320 : 0);
-  }
-  return ~sum >>> 0;
-}
-
-// Writes a picture of 120 x 90 pixels with `bytes` for each, as a PNG of that depth of bits and type of colours.
-function writePng(file, bits, colours, bytes) {
-  const chunk = (name, data) => {
-    const body = Buffer.concat([Buffer.from(name), data]), frame = Buffer.alloc(8);
-    frame.writeUInt32BE(data.length);
-    frame.writeUInt32BE(crc32(body), 4);
-    return Buffer.concat([frame.subarray(0, 4), body, frame.subarray(4)]);
-  };
-  const head = Buffer.alloc(13), [width, height] = [120, 90], rows = [];
-  head.writeUInt32BE(width);
-  head.writeUInt32BE(height, 4);
-  head.set([bits, colours], 8);
-  for (let y = 0; y < height; ++y) {
-    rows.push(0);
-    for (let x = 0; x < width; ++x) rows.push(...bytes(x, y));
-  }
-  writeFileSync(file, Buffer.concat([Buffer.from("\x89PNG\r\n\x1a\n", "latin1"), chunk("IHDR", head),
-    chunk("IDAT", deflateSync(Buffer.from(rows))), chunk("IEND", Buffer.alloc(0))]));
+// Writes a picture of depths, which has 16 bits in grey, as a TIFF.
+function writeDepths(file, width, height, depthAt) {
+  const depths = Uint16Array.from({length: width * height}, (_, i) => depthAt(i % width, Math.floor(i / width)));
+  const FIRST = 8, end = FIRST + depths.byteLength, SHORT = 3;
+  const tags = [[256, width], [257, height], [258, 16], [259, 1], [262, 1], [273, FIRST], [277, 1], [278, height],
+    [279, depths.byteLength]].flatMap(([tag, value]) => [tag, SHORT, 1, 0, value, 0]);
+  const numbers = Uint16Array.from([0x4949, 42, end, 0, ...depths, tags.length / 6, ...tags, 0, 0]);
+  writeFileSync(file, Buffer.from(numbers.buffer));
 }
 
 test("tells what is taken out of a depth image as background, and advises nothing that the page lacks", {skip}, async () => {
-  const depth = path.join(folder, "depth.png"), colours = path.join(folder, "colours.png");
-  writePng(depth, 16, 0, (x, y) => { // a ball before a wall
-    const off = Math.hypot(x - 60, y - 45), value = off < 30 ? 900 - Math.round(3 * Math.sqrt(900 - off * off)) : 4000;
-    return [value >> 8, value & 255];
+  const depth = path.join(folder, "depth.tif"), colours = path.join(folder, "colours.png");
+  writeDepths(depth, 120, 90, (x, y) => { // a ball before a wall
+    const off = Math.hypot(x - 60, y - 45);
+    return off < 30 ? 900 - Math.round(3 * Math.sqrt(900 - off * off)) : 4000;
   });
-  writePng(colours, 8, 2, (x, y) => [x, y, x + y]);
+  run("make", scans[1], "-o", path.join(folder, "relief.stl"), "--preview", colours, "--preview-size", 100);
   await page.locator("#file").setInputFiles(depth);
-  await page.getByText("depth.png", {exact: true}).waitFor();
+  await page.getByText("depth.tif", {exact: true}).waitFor();
   await untilReady(page);
   const found = page.locator("#offers li", {hasText: /background/});
   assert.match(await found.innerText(), /^120 x 90 depths, .*\d+ points of background taken out/);
-  await page.getByRole("button", {name: "Hide what was found"}).click();
+  await button("Hide what was found").click();
   await found.waitFor({state: "hidden"});
   await page.locator("#file").setInputFiles(colours);
-  const said = page.getByRole("alert").getByText(/colours\.png/);
+  const said = toast().getByText(/colours\.png/);
   await said.waitFor();
   assert.match(await said.innerText(), /Save it as a picture in greys/);
   assert.doesNotMatch(await said.innerText(), /option|depth-values/);
@@ -627,18 +559,14 @@ test("tells what is taken out of a depth image as background, and advises nothin
 });
 
 test("finds a table, and leaves it out at the press of a button", {skip}, async () => {
-  const points = async () => Number((await numbers().innerText()).match(/^([\d,]+) of/)[1].replaceAll(",", ""));
   const table = path.join(folder, "table.ply");
   writeBallOnTable(table);
-  await page.locator("#file").setInputFiles(table);
-  await page.getByText(/of 12,000 points/).waitFor();
-  await untilReady(page);
+  await openScan(table, "12,000");
   const before = await points();
-  await openPanel("Scan");
-  const note = await page.locator("#notes li", {hasText: /^Found a table, \d+ % of the visible points\./}).innerText();
-  const share = Number(note.match(/\d+/)[0]) / 100;
+  const finding = await note(/^Found a table, \d+ % of the visible points\./).innerText();
+  const share = Number(finding.match(/\d+/)[0]) / 100;
   await offered("Leave it out").click();
-  await page.locator("#notes").getByText(/^Left out a table/).waitFor();
+  await note(/^Left out a table/).waitFor();
   await eventually(async () => {
     const left = (await points()) / before;
     assert.ok(Math.abs(left - (1 - share)) < 0.06, `${left} left of a table of ${share}`);
@@ -646,9 +574,9 @@ test("finds a table, and leaves it out at the press of a button", {skip}, async 
   await untilReady(page);
   assert.ok(!await page.locator("#plane").isChecked());
   await offered("Keep it").click();
-  await page.locator("#notes").getByText(/^Found a table/).waitFor();
+  await note(/^Found a table/).waitFor();
   await eventually(async () => assert.equal(await points(), before));
-  assert.equal(await page.locator("#notes").getByText(/fills its whole frame/).count(), 0);
+  assert.equal(await note(/fills its whole frame/).count(), 0);
 });
 
 // Writes the points of a waving surface as a glTF file with its buffer beside it, and returns both files.
@@ -670,8 +598,6 @@ function writeGltf() {
 }
 
 test("opens a glTF file together with the buffer that it names", {skip}, async () => {
-  await page.locator("#file").setInputFiles(writeGltf());
+  await openScan(writeGltf(), "3,600");
   await page.getByText("wave.zip", {exact: true}).waitFor();
-  await untilReady(page);
-  assert.match(await numbers().innerText(), /^[\d,]+ of 3,600 points/);
 });

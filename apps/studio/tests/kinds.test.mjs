@@ -1,39 +1,17 @@
 // Kinds of work: their numbers are those of their files, and what each takes along.
 import assert from "node:assert/strict";
-import path from "node:path";
-import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, readStl, removeFolder, savedFiles, showScan, temporaryFolder, untilReady,
-  writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {chooseView, engine, exportFiles, middleOf, numbers, openExport, option, page, press, radio, scan, skip, undo,
+  undoAll, untilText, withPage} from "./page_suite.mjs";
+import {enter, eventually, readStl, untilReady} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-let browser, engine, page;
-
-before(async () => {
-  if (skip) return;
-  writeSample("green_man", 5000, scan);
-  browser = await found.launch();
-  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan}));
-  engine.document = new URL(page.url()).hash.slice(1);
-  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
-  await page.getByRole("button", {name: "Choose view"}).first().click();
-  const dialog = page.getByRole("dialog", {name: "Choose the view"}); // from behind parts lie below the ground
-  await dialog.getByRole("button", {name: "Back", exact: true}).click();
-  await dialog.getByRole("button", {name: "Use this view"}).click();
+withPage("green_man", 5000, async () => {
+  await chooseView("Back"); // from behind parts lie below the ground
   await enter(option("resolution"), "0.3");
   await untilReady(page);
 });
 
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
-
-const option = (name) => page.locator(`[data-option="${name}"]`).first();
-const kind = (name) => page.getByRole("radio", {name, exact: true});
-const undo = () => page.getByRole("button", {name: "Undo", exact: true}).click();
-const numbers = (text) => text.match(/[\d.]+ × [\d.]+ × [\d.]+/)[0].split(" × ");
+const sizeIn = (text) => text.match(/[\d.]+ × [\d.]+ × [\d.]+/)[0].split(" × ");
 
 // Waits until nothing is tried, and the piece is shown as its file will be.
 async function untilTaken() {
@@ -42,7 +20,7 @@ async function untilTaken() {
 }
 
 async function choose(name) {
-  await kind(name).click();
+  await radio(name).click();
   await untilTaken();
 }
 
@@ -52,32 +30,25 @@ async function set(values) {
 }
 
 // Returns the document's options as they are kept.
-const kept = () => eventually(async () => {
-  const {steps, at} = (await engine.json("document", {input: {path: scan}})).kept;
-  return steps[at].options;
-});
+const kept = async () => (await engine.newestStep(scan)).options;
 
 // Exports the piece that is shown. Returns its name, its size and what the dialog says of it.
 async function exported() {
-  await page.keyboard.press("Control+e");
-  const size = page.locator("#export-size"), dialog = page.getByRole("dialog", {name: "Export"});
-  await size.getByText(/triangles$/).waitFor();
-  const told = numbers(await size.innerText());
-  const [{name, bytes}] = await savedFiles(found, page, 1, () => page.locator("#export-go").click());
-  await dialog.waitFor({state: "hidden"});
+  await openExport();
+  const told = sizeIn(await page.locator("#export-size").innerText()), [{name, bytes}] = await exportFiles();
   return {name, told, size: readStl(bytes).size.map((mm) => mm.toFixed(2))};
 }
 
 test("tells the thickness of a coin with parts below the ground, as its file has it", {skip}, async () => {
   await choose("Coin");
   await set({width: "20"});
-  const status = numbers(await page.locator("#numbers").innerText()), {told, size} = await exported();
+  const status = sizeIn(await numbers().innerText()), {told, size} = await exported();
   assert.ok(Number(size[2]) > 3.7, `the rim stands above plate and relief: ${size}`);
   assert.deepEqual([status, told], [size, size]);
-  await page.getByRole("radio", {name: "Measure"}).click();
+  await choose("Measure");
   await page.locator("#overlay").getByText(`${size[2]} mm thick`).waitFor();
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
-  for (let step = 0; step < 2; ++step) await undo();
+  await choose("Light");
+  await undo(2);
 });
 
 test("makes the die of exactly the piece that is shown, and takes it back", {skip}, async () => {
@@ -97,15 +68,15 @@ test("makes the die of exactly the piece that is shown, and takes it back", {ski
   const [relief, hollow] = [await profile("relief"), (await profile("die")).reverse()];
   const inner = relief.flatMap((z, i) => (i > 30 && i < 370 ? [Math.abs(z + hollow[i])] : []));
   assert.ok(inner.filter((gap) => gap < 0.02).length > 0.97 * inner.length, `${Math.max(...inner)}`);
-  assert.ok(await kind("Coin").isChecked() && !(await kind("Seal").isChecked()));
+  assert.ok(await radio("Coin").isChecked() && !(await radio("Seal").isChecked()));
   await undo();
   await page.getByRole("heading", {name: "Coin", exact: true}).waitFor();
   await eventually(async () => assert.deepEqual(await kept(), before));
   await page.getByRole("button", {name: "Make the die of this coin"}).click();
   await page.getByRole("button", {name: "Back to the coin"}).click();
   await eventually(async () => assert.deepEqual(await kept(), before));
-  for (let step = 0; step < 8; ++step) await undo();
-  assert.ok(await kind("Plaque").isChecked());
+  await undo(8);
+  assert.ok(await radio("Plaque").isChecked());
 });
 
 // Returns the options of a document that the engine needs for heights.
@@ -113,18 +84,18 @@ const ask = ({view, up, outline, diameter, width, height, rim, shift, thickness,
   ({view, up, outline, diameter, width, height, rim, shift, thickness, margin, resolution: 0.1});
 
 test("says in its hint what a seal is, and begins one of its own beside the die of a coin", {skip}, async () => {
-  assert.match(await kind("Seal").getAttribute("title"), /^Seal: a hollow of its own .* that piece's panel: 30 mm across/);
+  assert.match(await radio("Seal").getAttribute("title"), /^Seal: a hollow of its own .* that piece's panel: 30 mm across/);
   await choose("Coin");
-  assert.match(await kind("Coin").getAttribute("title"), /40 mm across, 1.6 mm high$/);
+  assert.match(await radio("Coin").getAttribute("title"), /40 mm across, 1.6 mm high$/);
   await set({diameter: "33"});
-  assert.match(await kind("Coin").getAttribute("title"), /33 mm across, 1.6 mm high$/);
+  assert.match(await radio("Coin").getAttribute("title"), /33 mm across, 1.6 mm high$/);
   await page.getByRole("button", {name: "Make the die of this coin"}).click();
   await page.getByRole("heading", {name: "Die of the coin"}).waitFor();
   await choose("Seal");
   await page.getByRole("heading", {name: "Seal", exact: true}).waitFor();
   const {form, rim, draft, diameter} = await kept();
   assert.deepEqual([form, rim, draft, diameter], ["die", 1.2, 15, 33]);
-  for (let step = 0; step < 4; ++step) await undo();
+  await undo(4);
 });
 
 test("uses no tool for a lithophane, and has it again for a coin", {skip}, async () => {
@@ -147,39 +118,37 @@ test("uses no tool for a lithophane, and has it again for a coin", {skip}, async
   await choose("Coin");
   await page.getByText(/^The tool reaches/).waitFor();
   assert.deepEqual([await option("tool").inputValue(), await option("finish").inputValue()], ["ball", "reachable"]);
-  for (let step = 0; step < 5; ++step) await undo();
+  await undo(5);
   await untilReady(page);
 });
 
 test("names the files of each kind", {skip}, async () => {
-  const names = {Plaque: "scan", Coin: "scan-coin", Carving: "scan-carving", Seal: "scan-die", Bent: "scan-bent"};
-  for (const [name, file] of Object.entries(names)) {
-    await kind(name).click();
+  const isNamed = async (file) => {
     await page.keyboard.press("Control+e");
-    await eventually(async () => assert.equal(await page.locator("#export-name").inputValue(), file));
+    await untilText(page.locator("#export-name"), file);
     await page.keyboard.press("Escape");
+  };
+  const names = {Plaque: "scan", Coin: "scan-coin", Carving: "scan-carving", Seal: "scan-die",
+    Lithophane: "scan-lithophane", Bent: "scan-bent"};
+  for (const [name, file] of Object.entries(names)) {
+    await radio(name).click();
+    await isNamed(file);
   }
-  await kind("Coin").click();
+  await radio("Coin").click();
   await option("form").selectOption("Mirror");
-  await page.keyboard.press("Control+e");
-  await eventually(async () => assert.equal(await page.locator("#export-name").inputValue(), "scan-coin-mirror"));
-  await page.keyboard.press("Escape");
-  const button = page.getByRole("button", {name: "Undo", exact: true});
-  while (!(await kind("Plaque").isChecked())) await button.click();
+  await isNamed("scan-coin-mirror");
+  await undoAll(page, () => radio("Plaque").isChecked());
 });
 
 test("says why a figure that fills its plate does not move", {skip}, async () => {
   await set({plate: "90x120"});
   const longer = (Number(await option("width").inputValue()) - 0.02).toFixed(2); // nearly as large as fits
   await set({width: longer});
-  await page.getByRole("radio", {name: "Place", exact: true}).click();
-  await untilReady(page);
-  const {x, y, width, height} = await page.locator("#stage").boundingBox();
-  await page.mouse.move(x + width / 2, y + height / 2);
-  await page.mouse.down();
-  await page.mouse.move(x + 0.7 * width, y + height / 2, {steps: 3});
+  await choose("Place");
+  const [x, y] = await middleOf(page.locator("#stage"));
+  await press([x, y], [1.4 * x, y]);
   await page.getByText(/^The plate has no room for the figure there/).waitFor();
   await page.mouse.up();
-  assert.equal(await option("shift").inputValue(), "");
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await untilText(option("shift"), "");
+  await choose("Light");
 });

@@ -2,42 +2,20 @@
 import assert from "node:assert/strict";
 import {spawnSync} from "node:child_process";
 import {readFileSync, readdirSync, writeFileSync} from "node:fs";
-import net from "node:net";
 import path from "node:path";
-import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {FRAME, OPTIONS, connect, engine, folder, head, scan, state, stillWorks, studioIn,
+  withEngine} from "./engine_suite.mjs";
+import {EngineProcess, sleep} from "./support.mjs";
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), MIB = 2 ** 20;
-let engine;
+const MIB = 2 ** 20;
 
-const OPTIONS = {width: 60, height: 2, view: "front"};
-const FRAME = {options: OPTIONS, width: 200, height: 150};
-
-before(async () => {
-  writeSample("shell", 20000, scan);
-  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
-  await engine.open({path: scan});
-});
-
-after(async () => {
-  await engine.stop();
-  removeFolder(folder);
-});
-
-const about = async (of = engine) => JSON.parse((await of.get("api/about")).body);
-const stillWorks = async () => assert.equal((await engine.post("frame", FRAME)).status, 200);
-const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+withEngine("shell", 20000);
 
 // Returns the most memory that the engine has used so far, in MiB.
 function mostMemory() {
   const [, kib] = readFileSync(`/proc/${engine.child.pid}/status`, "utf8").match(/VmHWM:\s+(\d+)/);
   return kib / 1024;
-}
-
-function connect() {
-  const socket = net.connect(engine.url.port, "127.0.0.1");
-  socket.on("error", () => {});
-  return socket;
 }
 
 // Writes `size` bytes for as long as the other side takes them; returns what it answered.
@@ -78,16 +56,14 @@ test("takes huge, tiny and negative numbers, or says what was expected", async (
 });
 
 test("opens files only, and none that does not fit into memory", async () => {
-  const pipe = path.join(folder, "pipe.ply"), huge = path.join(folder, "huge.ply");
+  const pipe = path.join(folder, "pipe.ply"), huge = path.join(folder, "huge.ply"), gone = path.join(folder, "gone.ply");
   assert.equal(spawnSync("mkfifo", [pipe]).status, 0);
   assert.equal(spawnSync("truncate", ["-s", "2T", huge]).status, 0);
   const wanted = [["/dev/zero", /found a device/], [pipe, /found a pipe/], [folder, /found a folder/],
-    [huge, /at most \d+ MiB/]];
+    [huge, /at most \d+ MiB/], [gone, /gone\.ply/]];
   for (const [file, text] of wanted) {
     const {document} = await engine.json("open", {input: {path: file}});
-    let status;
-    do status = await engine.json("status", {document}); while (status.busy && !(await sleep(20)));
-    assert.match(status.error?.text ?? "nothing", text);
+    assert.match((await engine.until(undefined, document)).error?.text ?? "nothing", text);
   }
   assert.ok(mostMemory() < 1000, `${mostMemory()} MiB`);
   await stillWorks();
@@ -99,31 +75,30 @@ test("says what is there in place of a scan", async () => {
   for (const [file, found] of [["/dev/zero", "a device"], [pipe, "a pipe"], [folder, "a folder"]]) {
     const text = `${file}: expected a file, found ${found}`, input = {path: file, name: "x"};
     assert.equal((await engine.json("document", {input})).error?.text, text);
-    const target = `${engine.url.pathname}api/project?name=p.relievo`;
-    const {body} = await engine.request(target, {method: "POST", body: JSON.stringify({relievo: 1, input, options: {}})});
-    assert.equal(JSON.parse(body).error?.text, text);
+    const project = JSON.stringify({relievo: 1, input, options: {}});
+    assert.equal((await engine.upload("p.relievo", project, "project")).error?.text, text);
   }
   assert.equal((await engine.json("document", {input: {path: gone}})).is_there, false);
 });
 
 test("does not read what it refuses", async () => {
-  const before = mostMemory(), {pathname, host} = engine.url, length = `Content-Length: ${600 * MIB}\r\n\r\n`;
+  const before = mostMemory(), {host} = engine.url, length = `Content-Length: ${600 * MIB}\r\n\r\n`;
   const heads = [[`POST /wrong/api/upload HTTP/1.1\r\nHost: ${host}\r\n${length}`, /403/],
-    [`POST ${pathname}api/frame HTTP/1.1\r\nHost: ${host}\r\n${length}`, /413/], ["GET /", /431/],
-    [`POST ${pathname}api/gone HTTP/1.1\r\nHost: ${host}\r\nExpect: 100-continue\r\n${length}`, /404/]];
+    [`${head("api/frame")}${length}`, /413/], ["GET /", /431/],
+    [`${head("api/gone")}Expect: 100-continue\r\n${length}`, /404/]];
   for (const [head, status] of heads) assert.match(await pour(head, 600 * MIB), status);
   assert.ok(mostMemory() - before < 50, `${mostMemory() - before} MiB for refused bodies`);
   await stillWorks();
 });
 
 test("writes a dropped scan to the disk as it arrives", async () => {
-  const before = mostMemory(), {pathname, host} = engine.url, size = 300 * MIB, state = path.join(folder, "state");
-  const head = `POST ${pathname}api/upload?name=x.ply HTTP/1.1\r\nHost: ${host}\r\nConnection: close\r\n`;
-  const answer = await pour(`${head}Content-Length: ${size}\r\n\r\n`, size);
+  const before = mostMemory(), size = 300 * MIB;
+  const request = `${head("api/upload?name=x.ply")}Connection: close\r\nContent-Length: ${size}\r\n\r\n`;
+  const answer = await pour(request, size);
   assert.match(answer, /^HTTP\/1.1 200/);
   assert.ok(mostMemory() - before < 50, `${mostMemory() - before} MiB for a dropped scan`);
   const cut = connect();
-  cut.write(`${head}Content-Length: ${size}\r\n\r\nply`);
+  cut.write(`${request}ply`);
   await sleep(200);
   cut.destroy();
   for (let i = 0; i < 50 && readdirSync(state).some((name) => name.startsWith("upload")); ++i) await sleep(50);
@@ -131,9 +106,7 @@ test("writes a dropped scan to the disk as it arrives", async () => {
 });
 
 test("answers while hundreds of others send slowly", async () => {
-  const token = engine.url.pathname, {host} = engine.url;
-  const get = (name) => `GET ${token}${name} HTTP/1.1\r\nHost: ${host}\r\n`;
-  const starts = ["", "G", `${get("")}X: `, `${get("icon.svg")}\r\n`];
+  const starts = ["", "G", `${head("", "GET")}X: `, `${head("icon.svg", "GET")}\r\n`];
   const slow = Array.from({length: 600}, (_, i) => {
     const socket = connect();
     socket.write(starts[i % starts.length]);
@@ -151,15 +124,15 @@ test("answers while hundreds of others send slowly", async () => {
 });
 
 test("keeps work and draws while a hundred files arrive slowly", async () => {
-  const {pathname, host} = engine.url, state = {changed: 1}, document = "00000000000000ab";
+  const document = "00000000000000ab";
   const slow = Array.from({length: 100}, (_, i) => {
     const socket = connect();
-    socket.write(`POST ${pathname}api/upload?name=${i}.ply HTTP/1.1\r\nHost: ${host}\r\nContent-Length: ${MIB}\r\n\r\nply`);
+    socket.write(`${head(`api/upload?name=${i}.ply`)}Content-Length: ${MIB}\r\n\r\nply`);
     return socket;
   });
   await sleep(1000);
   for (let i = 0; i < 5; ++i) {
-    const {status, body} = await engine.post("state", {document, state: {changed: ++state.changed}});
+    const {status, body} = await engine.post("state", {document, state: {changed: 2 + i}});
     assert.equal(status, 200, String(body));
     await stillWorks();
   }
@@ -171,14 +144,12 @@ test("keeps work and draws while a hundred files arrive slowly", async () => {
 
 // Each of these keeps a thread of the server for as long as it may: 7 MB are more than a connection holds by itself.
 test("answers while more than a hundred others do not read their answers", {timeout: 120000}, async () => {
-  const {pathname, host} = engine.url, deaf = [];
-  const body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
-  const head = `POST ${pathname}api/frame HTTP/1.1\r\nHost: ${host}\r\nContent-Length: ${body.length}\r\n\r\n`;
+  const deaf = [], body = JSON.stringify({...FRAME, document: engine.document, width: 1600, height: 1200});
   for (let group = 0; group < 12; ++group) {
     const first = Array.from({length: 10}, () => new Promise((resolve) => {
       const socket = connect();
       socket.once("readable", () => resolve(socket.read(1)?.toString())); // and nothing more
-      socket.write(head + body);
+      socket.write(`${head("api/frame")}Content-Length: ${body.length}\r\n\r\n${body}`);
       deaf.push(socket);
     }));
     assert.ok((await Promise.all(first)).every((byte) => byte === "H"));
@@ -189,8 +160,7 @@ test("answers while more than a hundred others do not read their answers", {time
 });
 
 test("keeps many requests on one connection, and two that are sent at once", async () => {
-  const socket = connect(), {pathname, host} = engine.url;
-  const get = `GET ${pathname}icon.svg HTTP/1.1\r\nHost: ${host}\r\n\r\n`;
+  const socket = connect(), get = `${head("icon.svg", "GET")}\r\n`;
   let text = "";
   socket.on("data", (data) => (text += data));
   socket.write(get + get);
@@ -207,20 +177,19 @@ test("shares its port with nobody", async () => {
 });
 
 test("keeps apart what two studios keep, and says so", async () => {
-  const state = path.join(folder, "shared"), first = await new EngineProcess(state).ready();
-  const second = await new EngineProcess(state).ready();
-  assert.equal((await about(first)).notice, "");
-  const {notice} = await about(second);
+  const first = await studioIn("shared"), second = await studioIn("shared");
+  assert.equal((await first.about()).notice, "");
+  const {notice} = await second.about();
   assert.match(notice, /Another studio uses .*shared.* keeps its work in .*shared-2/);
   assert.ok(second.errors.includes(notice), second.errors);
-  const kept = async (of) => (await of.json("document", {input: {sample: "shell"}})).kept.from;
+  const kept = async (of) => (await of.kept({sample: "shell"})).from;
   const {document} = await first.json("document", {input: {sample: "shell"}});
   for (const [of, from] of [[first, "first"], [second, "second"]]) {
     await of.post("state", {document, state: {from}});
     assert.equal(await kept(of), from);
   }
   await first.stop();
-  const third = await new EngineProcess(state).ready();
+  const third = await studioIn("shared");
   assert.equal(await kept(third), "first");
   await Promise.all([second.stop(), third.stop()]);
 });
@@ -229,7 +198,7 @@ test("says when nothing can be kept, and works all the same", async () => {
   const file = path.join(folder, "file");
   writeFileSync(file, "");
   const other = await new EngineProcess(path.join(file, "state"), scan).ready();
-  assert.match((await about(other)).notice, /not kept, as .*file\/state cannot be written to: Not a directory/);
+  assert.match((await other.about()).notice, /not kept, as .*file\/state cannot be written to: Not a directory/);
   assert.match(other.errors, /cannot be written to/);
   await other.open({path: scan});
   assert.equal((await other.post("frame", FRAME)).status, 200);

@@ -1,42 +1,31 @@
 // Every option of the engine's table has a control on the page, and what is set there reaches the engine.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import {readFileSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, areKindsDrawn, enter, eventually, findBrowser, removeFolder, temporaryFolder,
-  untilReady, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {DESK, browser, button, engine, folder, found, page, scan, skip, startEngine, toast, undo, undoAll, untilText,
+  withBrowser} from "./page_suite.mjs";
+import {areKindsDrawn, enter, eventually, openPanels, run, untilReady, writeSample} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
+let options;
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-let browser, engine, page, options;
-
-before(async () => {
-  if (skip) return;
+withBrowser(async () => {
   writeSample("still_life", 5000, scan);
-  browser = await found.launch();
   // What the engine is asked is looked at, not its pictures: they get a quarter of the pixels.
   const fewer = found.name === "chromium" ? {deviceScaleFactor: 0.5} : {}; // Firefox's driver may not know it
-  page = await (await browser.newContext({viewport: {width: 1280, height: 800}, ...fewer})).newPage();
-  await page.addInitScript(() => { // Firefox's driver does not tell what a request sends
+  const first = await (await browser.newContext({viewport: DESK, ...fewer})).newPage();
+  await first.addInitScript(() => { // Firefox's driver does not tell what a request sends
     const {fetch} = window;
     window.fetch = (url, options) => {
       if (url === "api/frame") window.frame = JSON.parse(options.body);
       return fetch(url, options);
     };
   });
-  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
-  options = JSON.parse((await engine.get("api/about")).body).options;
-  await page.goto(engine.address);
-  await page.getByText(/points.*height/).waitFor();
-  await page.locator("details").evaluateAll((all) => all.forEach((part) => (part.open = true)));
-});
-
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
+  ({options} = await (await startEngine(scan)).about());
+  await first.goto(engine.address);
+  await untilReady(first);
+  await openPanels(first);
+  return first;
 });
 
 // A value of each option that is not its default, what must be set before so that its control is shown, and what the
@@ -79,7 +68,7 @@ async function set(name, value) {
   if (name === "view") {
     await it.click();
     await page.locator(`#sides [data-side="${value}"]`).click();
-    return page.getByRole("button", {name: "Use this view"}).click();
+    return button("Use this view").click();
   }
   if (name === "crumbs" || name === "plane") return it.setChecked(value === "keep");
   const kind = await it.evaluate((element) => (element.matches("select") ? "select" : element.type));
@@ -121,11 +110,8 @@ for (const [name, {value, first = {}, kind}] of cases)
     if (name === "alpha") await reaches((frame) => Math.abs(frame.u / value ** -first.saturation - 1) < 1e-9);
     else if (name === "tone") await reaches((frame) => /^0,[\d.]+;/.test(frame.options.tone ?? ""));
     else await reaches((frame) => frame.options[name] === value);
-    await eventually(async () => { // back to the beginning
-      const undo = page.getByRole("button", {name: "Undo"});
-      while (await undo.isEnabled()) await undo.click({timeout: 10000}); // it may be disabled meanwhile
-      await page.locator('[role="application"][aria-busy="false"]').first().waitFor({timeout: 10000});
-    });
+    await undoAll(); // back to the beginning
+    await untilReady(page);
   });
 
 test("has a field for each parameter of each shape that the engine takes", {skip}, async () => {
@@ -150,7 +136,7 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await enter(field("Tool: Tip"), "0.5");
   await reaches(({options}) => options.tool === "v:60:0.5");
   await enter(field("Tool: Angle"), ""); // which a bit cannot do without
-  await eventually(async () => assert.equal(await field("Tool: Angle").inputValue(), "60"));
+  await untilText(field("Tool: Angle"), "60");
   await control("tool").selectOption({label: "Ball end"});
   await enter(field("Tool: Diameter"), "1/8in");
   await reaches(({options}) => options.tool === "ball:3.175");
@@ -159,9 +145,9 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   assert.equal(await field("Tool: Diameter").inputValue(), "3.175");
   await control("tool").selectOption({label: "None"});
   await reaches(({options}) => !("tool" in options));
-  await page.getByRole("button", {name: "Undo"}).click();
+  await undo();
   await page.locator("#unit").selectOption("inch");
-  await eventually(async () => assert.equal(await field("Tool: Diameter").inputValue(), "0.125"));
+  await untilText(field("Tool: Diameter"), "0.125");
   await page.locator("#unit").selectOption("mm");
   await page.locator('[data-kind="shell"]').click();
   assert.equal(await field("Bent around: Around by").inputValue(), "180");
@@ -186,17 +172,19 @@ test("shows the parameters of shapes as they were typed, in the unit of the page
   await reaches(({options}) => options.base === "dome:diameter=300");
   await enter(field("Base: Height"), "4"); // in place of the diameter
   await reaches(({options}) => options.base === "dome:height=4");
-  const undo = page.getByRole("button", {name: "Undo"});
-  while (await undo.isEnabled()) await undo.click();
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await undoAll();
+  await untilReady(page);
 });
+
+// Makes height maps under the names of files.
+const makeMaps = (...files) => files.forEach((file) =>
+  run("make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", file, "--heightmap-size", 64));
 
 const baseImage = () => page.locator("label, div").filter({has: control("base-image")}).last();
 
 test("lays the relief on an image that is chosen or dropped, names it and removes it", {skip}, async () => {
   const files = ["map.png", "map.tif"].map((name) => path.join(folder, name));
-  for (const file of files)
-    spawnSync(PROGRAM, ["make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", file, "--heightmap-size", "64"]);
+  makeMaps(...files);
   assert.equal(await control("base-image").count(), 1);
   await baseImage().locator("input").setInputFiles(files[0]);
   await reaches(({options: {base, "base-image": map}}) => base === "image" && map?.endsWith("/map.png"));
@@ -216,28 +204,25 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
   assert.match((await sent()).options["base-image"], /map\.tif$/);
   await baseImage().getByRole("button", {name: "Remove the base image"}).click();
   await reaches(({options}) => !("base" in options) && !("base-image" in options));
-  await page.getByRole("button", {name: "Undo"}).click();
+  await undo();
   await reaches(({options}) => options["base-image"]?.endsWith("/map.tif"));
   await set("base", "dome:height=5"); // which has no image
   await reaches(({options}) => options.base === "dome:height=5" && !("base-image" in options));
 });
 
-test("opens a project without a height as make makes it", {skip}, async () => {
-  const steps = await page.evaluate(async () => {
+test("opens projects as make makes them, whose height, width or height coefficient they name or not", {skip}, async () => {
+  const stepsOf = (...all) => page.evaluate(async (all) => {
     const {stepOfProject} = await import(new URL("document.js", location));
-    return [{width: 60}, {method: "paper"}, {alpha: 2}, {form: "lithophane"}].map(
-      (options) => stepOfProject({options}));
-  });
+    return all.map((options) => stepOfProject({options}));
+  }, all);
+  const steps = await stepsOf({width: 60}, {method: "paper"}, {alpha: 2}, {form: "lithophane"});
   assert.deepEqual(steps.map(({options: {height, thickness, method, detail}}) => [height, thickness, method, detail]),
     [[3, 3, "layered", 0.04], [5, 3, "paper", 0.02], [5, 3, "paper", 0.02], [2.4, 0.8, "layered", 0.04]]);
   assert.deepEqual(steps.map(({isHeightLocked}) => isHeightLocked), [true, false, false, true]);
   assert.ok(Math.abs(steps[1].u / 4 ** -0.01 - 1) < 1e-12 && Math.abs(steps[2].u / 2 ** -0.01 - 1) < 1e-12);
-});
-
-test("opens a project with the paper's height coefficient", {skip}, async () => {
-  const step = await page.evaluate(async () =>
-    (await import(new URL("document.js", location))).stepOfProject({options: {alpha: 4, saturation: 0.5}}));
-  assert.deepEqual([step.isHeightLocked, step.u, "alpha" in step.options], [false, 0.5, false]);
+  const [paper, plate, both] = await stepsOf({alpha: 4, saturation: 0.5}, {diameter: 40}, {diameter: 40, width: 30});
+  assert.deepEqual([paper.isHeightLocked, paper.u, "alpha" in paper.options], [false, 0.5, false]);
+  assert.deepEqual([plate.options.width, both.options.width], [null, 30]);
 });
 
 test("opens a project whose light is as far as numbers go", {skip}, async () => {
@@ -253,28 +238,20 @@ test("opens a project whose light is as far as numbers go", {skip}, async () => 
   assert.notEqual(far, aside);
   await page.locator("#stage").press("ArrowUp");
   await reaches(({light}) => Math.abs(Math.hypot(...light) - 1) < 1e-3 && light[2] > Math.sin(38 * Math.PI / 180));
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-  assert.ok(!await page.getByRole("alert").getByText(/expected/).isVisible());
-});
-
-test("opens a project without a width as one whose plate rules it", {skip}, async () => {
-  const step = (options) => page.evaluate(async (options) =>
-    (await import(new URL("document.js", location))).stepOfProject({options}).options.width, options);
-  assert.equal(await step({diameter: 40}), null);
-  assert.equal(await step({diameter: 40, width: 30}), 30);
+  await untilReady(page);
+  assert.ok(!await toast().getByText(/expected/).isVisible());
 });
 
 test("shows a relief without its base image when that is gone, says so, and takes another", {skip}, async () => {
   const image = path.join(folder, "image.png");
-  spawnSync(PROGRAM, ["make", scan, "-o", path.join(folder, "r.stl"), "--heightmap", image, "--heightmap-size", "64"]);
+  makeMaps(image);
   await baseImage().locator("input").setInputFiles(image);
   await reaches(({options}) => options["base-image"]?.endsWith("/image.png"));
   rmSync((await sent()).options["base-image"]);
   await page.reload();
   await page.getByText("The base image image.png is gone: the relief is shown without it.").waitFor();
   await reaches(({options}) => !("base" in options) && !("base-image" in options));
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
-  await page.getByText(/points.*height/).waitFor();
+  await untilReady(page);
   await page.getByText("image.png is gone", {exact: true}).waitFor({state: "attached"});
   await page.waitForFunction(areKindsDrawn); // whose requests the page sends, too
   await baseImage().locator("input").setInputFiles(image);

@@ -1,72 +1,40 @@
 // What lies over or beside the piece, on a desk and a phone: lines for people, labels of measures, numbers.
 import assert from "node:assert/strict";
-import path from "node:path";
-import {after, before, test} from "node:test";
-import {enter, eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady,
-  writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {DESK, PHONE, TABLET, browser, button, choose, drag, engine, found, middleOf, option, page, pieceSize,
+  plateLength, press, radio, scan, skip, toast, touchScreen, undo, undoAll, withPage} from "./page_suite.mjs";
+import {enter, eventually, untilReady} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
+const SCREENS = [DESK, TABLET, PHONE];
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-const SCREENS = [{width: 1280, height: 800}, {width: 820, height: 1180}, {width: 390, height: 844}];
-let browser, engine, page;
-
-before(async () => {
-  if (skip) return;
-  writeSample("shell", 8000, scan);
-  browser = await found.launch();
-  ({engine, page} = await showScan(browser,
-    {state: path.join(folder, "state"), scan, screen: SCREENS[0]}));
-});
-
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
+withPage("shell", 8000);
 
 const overlap = (a, b) => a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
-
-test("covers no part of the picture with a line for people", {skip}, async () => {
-  const text = "The engine has stopped. Start relievo studio again: this page keeps your work, and goes on by itself.";
-  for (const screen of SCREENS) {
-    await page.setViewportSize(screen);
-    await page.evaluate(async (text) => (await import(new URL("messages.js", location))).toast(text, true), text);
-    const toast = page.locator("#toast").filter({hasText: text}), box = await toast.boundingBox();
-    for (const kept of ["#stage", ".bar", "#numbers"])
-      assert.ok(!overlap(box, await page.locator(kept).boundingBox()), `${kept} at ${screen.width}`);
-    assert.ok(box.x >= 0 && box.x + box.width <= screen.width && box.y + box.height <= screen.height);
-    await page.getByRole("button", {name: "Dismiss"}).click();
-    await toast.waitFor({state: "hidden"});
-  }
-});
 
 test("closes by the keyboard a line that offers something, and does what it offers", {skip}, async () => {
   const offer = () => page.evaluate(async () => {
     const {offer, toast} = await import(new URL("messages.js", location));
     window.takeBack = offer("A scan is not found.", "Locate it", () => toast("Located."));
   });
-  const toast = page.locator("#toast");
   await offer();
-  await page.getByRole("button", {name: "Locate it"}).focus();
+  await button("Locate it").focus();
   await page.keyboard.press("Tab");
   assert.equal(await page.evaluate(() => document.activeElement.ariaLabel), "Dismiss");
   await page.keyboard.press("Enter");
-  await toast.waitFor({state: "hidden"});
+  await toast().waitFor({state: "hidden"});
   await offer();
-  await page.getByRole("button", {name: "Locate it"}).click();
-  await page.getByRole("alert").getByText("Located.").waitFor();
+  await button("Locate it").click();
+  await toast().getByText("Located.").waitFor();
   await page.evaluate(() => window.takeBack()); // no other line goes with the offer
-  assert.ok(await toast.isVisible());
-  await page.getByRole("button", {name: "Dismiss"}).click();
+  assert.ok(await toast().isVisible());
+  await button("Dismiss").click();
 });
 
 // The line ends so that its label would lie on that of the relief's height, or of its width.
 test("keeps the labels of measures apart", {skip}, async () => {
   for (const screen of SCREENS) {
     await page.setViewportSize(screen);
-    await page.getByRole("radio", {name: "Measure"}).click();
-    await untilReady(page);
+    await choose("Measure");
     const labels = () => page.locator("#overlay rect.ground").evaluateAll((all) =>
       all.map((rect) => rect.getBoundingClientRect().toJSON()));
     await eventually(async () => assert.equal((await labels()).length, 5));
@@ -75,10 +43,7 @@ test("keeps the labels of measures apart", {skip}, async () => {
       for (const label of await labels()) assert.ok(!overlap(label, figure), `${JSON.stringify(label)} on the figure`);
     for (const {x, y, width, height} of (await labels()).slice(0, 2)) {
       const [left, top] = [Math.max(stage.x + 5, x + width / 2 - 20), y + height / 2 + 8];
-      await page.mouse.move(left, top);
-      await page.mouse.down();
-      await page.mouse.move(left + 40, top, {steps: 4});
-      await page.mouse.up();
+      await drag([left, top], [left + 40, top]);
       await page.mouse.move(left + 40, top + 1);
       await eventually(async () => assert.ok((await labels()).length >= 7));
       const all = await labels();
@@ -100,11 +65,8 @@ const scaleBar = () => page.evaluate(() => {
 
 test("tells the scale by a bar of a round length, and by rulers that begin at the piece's corner", {skip}, async () => {
   await page.setViewportSize(SCREENS[0]);
-  await page.getByRole("radio", {name: "Measure"}).click();
-  await untilReady(page);
-  const pixels = await page.locator("#overlay line.dimension").evaluateAll((lines) =>
-    Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
-  const mm = parseFloat((await page.locator("#numbers").innerText()).match(/piece ([\d.]+)/)[1]), scale = pixels / mm;
+  await choose("Measure");
+  const [mm] = await pieceSize(), scale = (await plateLength()) / mm;
   const numbers = await page.locator('#overlay text.scale[text-anchor="middle"]').evaluateAll((all) =>
     all.map((text) => ({at: Number(text.getAttribute("x")), mm: Number(text.textContent)})));
   assert.ok(numbers.length > 4);
@@ -112,7 +74,7 @@ test("tells the scale by a bar of a round length, and by rulers that begin at th
     .evaluateAll((lines) => Math.min(...lines.map((line) => line.getAttribute("x1"))));
   assert.ok(Math.abs(zero - left) < 6, `0 at ${zero}, the piece at ${left}`);
   for (const {at, mm} of numbers) assert.ok(Math.abs(at - zero - mm * scale) < 0.5, `${mm} at ${at}`);
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await radio("Light").click();
   await eventually(async () => assert.equal(await page.locator("#overlay path.scale").count(), 1));
   for (const unit of ["mm", "in"]) {
     await page.getByLabel("Unit of lengths").selectOption(unit);
@@ -128,7 +90,7 @@ test("tells the scale by a bar of a round length, and by rulers that begin at th
     const bar = await scaleBar();
     assert.ok(bar.mm < before.mm && Math.abs(bar.length - bar.mm * scale * 1.2 ** 8) < 5, JSON.stringify(bar));
   });
-  await page.getByRole("button", {name: "Fit"}).click();
+  await button("Fit").click();
   await untilReady(page);
 });
 
@@ -186,14 +148,13 @@ const plateOpacity = () => page.evaluate(() => {
 
 test("lays the model over the relief, wherever that stands on its plate, and mirrored", {skip}, async () => {
   await page.setViewportSize(SCREENS[0]);
-  await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
   await page.evaluate(() => document.querySelector("#stage").addEventListener("picture", ({detail: {about}}) => {
     const {width, height, pixels_per_mm: scale, relief_mm: [[left, bottom], [right, top]]} = about;
     window.piece = about.size_mm.map((mm) => mm * scale);
     window.figure = [[left, -top], [right, -bottom]]
       .map(([x, y]) => [Math.round(width / 2 + x * scale), Math.round(height / 2 + y * scale)]);
   }));
-  await page.getByRole("button", {name: "Compare"}).click();
+  await button("Compare").click();
   const kinds = {relief: {"#plate": "200x150", "#shift": "30,10"}, coin: {"#diameter": "60"}, die: {}};
   for (const [kind, fields] of Object.entries(kinds)) {
     await page.locator(`[data-kind="${kind}"]`).click();
@@ -213,12 +174,8 @@ test("lays the model over the relief, wherever that stands on its plate, and mir
 
 test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}, async (context) => {
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up pens");
-  const touched = await browser.newContext({viewport: SCREENS[1], hasTouch: true});
-  const tablet = await touched.newPage(), cdp = await touched.newCDPSession(tablet);
-  await tablet.goto(engine.address);
-  await untilReady(tablet);
-  const undo = tablet.getByRole("button", {name: "Undo"});
-  while (await undo.isEnabled()) await undo.click();
+  const {touched: tablet, cdp, send: palm, close} = await touchScreen(TABLET);
+  await undoAll(tablet);
   await untilReady(tablet);
   await tablet.evaluate(() => ["pointerdown", "pointermove"].forEach((type) =>
     document.querySelector("#stage").addEventListener(type, (event) => (window.pointer = event.pointerType), true)));
@@ -229,7 +186,6 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}
     ["cx", "cy"].map((name) => Number(circle.getAttribute(name))));
   await pen("mousePressed", ...middle);
   await pen("mouseMoved", middle[0] + 60, middle[1] - 40);
-  const palm = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
   await palm("touchStart", [{x: x + 30, y: y + 30, id: 5}]);
   await palm("touchEnd", []);
   await pen("mouseMoved", middle[0] + 80, middle[1] - 50);
@@ -238,53 +194,41 @@ test("takes a pen as it takes a mouse, whatever else touches the screen", {skip}
   assert.ok(Math.hypot(sunX - width / 2 - 80, sunY - height / 2 + 50) < 2, `${sunX} ${sunY}`);
   await pen("mouseReleased", middle[0] + 80, middle[1] - 50, {buttons: 0});
   assert.equal(await tablet.locator("#overlay .sun").count(), 0);
-  await undo.click();
-  assert.ok(await undo.isDisabled(), "one stroke is one step");
-  await tablet.getByRole("radio", {name: "Crop"}).click();
+  await undo(1, tablet);
+  assert.ok(await button("Undo", tablet).isDisabled(), "one stroke is one step");
+  await radio("Crop", tablet).click();
   const frame = tablet.locator("#crop-frame .frame"), whole = await frame.boundingBox();
   await pen("mousePressed", whole.x + whole.width, whole.y + whole.height / 2);
   await pen("mouseMoved", whole.x + whole.width / 2, whole.y + whole.height / 2);
   await pen("mouseReleased", whole.x + whole.width / 2, whole.y + whole.height / 2, {buttons: 0});
   await eventually(async () => assert.match(await tablet.locator("#crop").inputValue(), /^0,0,0\.(49|5)\d*,1$/));
-  await undo.click();
+  await undo(1, tablet);
   await untilReady(tablet);
-  await touched.close();
+  await close();
 });
 
 test("scales and turns the figure by two fingers in one step, and tells how it is placed", {skip}, async (context) => {
   await page.setViewportSize(SCREENS[0]);
   const mouseHint = page.getByText("Drag the figure to move it, with Shift to turn it; the wheel scales it");
-  await page.getByRole("radio", {name: "Place"}).click();
+  await radio("Place").click();
   await mouseHint.waitFor();
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await radio("Light").click();
   await mouseHint.waitFor({state: "hidden"});
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
-  const touched = await browser.newContext({viewport: SCREENS[2], hasTouch: true, isMobile: true});
-  const phone = await touched.newPage(), cdp = await touched.newCDPSession(phone);
-  await phone.goto(engine.address);
-  await untilReady(phone);
-  const undo = phone.getByRole("button", {name: "Undo"}), longer = phone.locator('[data-option="width"]');
-  while (await undo.isEnabled()) await undo.click();
-  await phone.getByRole("radio", {name: "Place"}).click();
+  const {touched: phone, send, fingers, close} = await touchScreen(PHONE, true), longer = option("width", phone);
+  await undoAll(phone);
+  await radio("Place", phone).click();
   await phone.getByText("One finger moves the figure, two scale and turn it").waitFor();
   assert.ok(!await phone.getByText("Drag the figure").isVisible());
   await untilReady(phone);
-  const plate = () => phone.locator("#overlay line.dimension").evaluateAll((lines) =>
-    Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
-  const step = async () => {
-    const {kept: {steps, at}} = await engine.json("document", {input: {path: scan}});
+  const plate = () => plateLength(phone), step = async () => {
+    const {steps, at} = await engine.kept({path: scan});
     return {at, ...steps[at].options};
   };
   const [whole, wide, before] = [Number(await longer.inputValue()), await plate(), await step()];
-  const {x, y, width, height} = await phone.locator("#stage").boundingBox();
-  const fingers = (apart, degrees) => [1, -1].map((side, id) => {
-    const angle = degrees * Math.PI / 180, [dx, dy] = [apart * Math.cos(angle), -apart * Math.sin(angle)];
-    return {x: x + width / 2 + side * dx, y: y + height / 2 + side * dy, id};
-  });
-  const send = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
   const pinch = async (degrees) => { // from 100 pixels to 60, and to the left
-    await send("touchStart", fingers(100, 0).slice(0, 1));
-    await send("touchStart", fingers(100, 0));
+    await send("touchStart", fingers(100).slice(0, 1));
+    await send("touchStart", fingers(100));
     for (let i = 1; i <= 8; ++i) await send("touchMove", fingers(100 - 5 * i, i * degrees / 8));
   };
   await pinch(4); // as fingers that scale turn a little
@@ -298,7 +242,7 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   const scaled = await step();
   assert.deepEqual([scaled.view, scaled.up, scaled.at], ["front", "", before.at + 1]);
   assert.ok(Math.abs(await plate() - wide) < 2, "the plate and the picture stay as they are");
-  await undo.click();
+  await undo(1, phone);
   await eventually(async () => assert.equal((await step()).at, before.at));
   await untilReady(phone);
   assert.equal(Number(await longer.inputValue()), whole);
@@ -310,25 +254,24 @@ test("scales and turns the figure by two fingers in one step, and tells how it i
   assert.ok(Math.abs(Math.atan2(upX, upY) * 180 / Math.PI - 40) < 0.6, turned.up); // the viewer to the right
   assert.equal(turned.at, before.at + 1);
   await untilScaled();
-  await undo.click();
+  await undo(1, phone);
   await untilReady(phone);
-  await touched.close();
+  await close();
 });
 
 test("tells frames in a second while things move, and not at rest", {skip}, async () => {
   await page.setViewportSize(SCREENS[2]);
   await untilReady(page);
-  const numbers = page.locator("#numbers"), {x, y, width, height} = await page.locator("#stage").boundingBox();
+  const numbers = page.locator("#numbers"), [x, y] = await middleOf(page.locator("#stage"));
   await page.evaluate(() => {
     window.told = [];
     new MutationObserver(() => window.told.push(document.querySelector("#numbers").textContent))
       .observe(document.querySelector("#numbers"), {childList: true});
   });
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
-  await page.mouse.move(x + width / 2, y + height / 2);
-  await page.mouse.down();
+  await radio("Light").click();
+  await press([x, y]);
   await eventually(async () => {
-    for (let i = 0; i < 40; ++i) await page.mouse.move(x + width / 2 + 2 * i, y + height / 3 + i);
+    for (let i = 0; i < 40; ++i) await page.mouse.move(x + 2 * i, y - 50 + i);
     assert.ok(await page.evaluate(() => window.told.some((text) => /\d frames\/s/.test(text))));
   });
   await page.mouse.up();

@@ -1,71 +1,50 @@
 // The studio as its users work in it, in Chromium or Firefox: found by role and label.
 import assert from "node:assert/strict";
-import {spawnSync} from "node:child_process";
 import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {after, before, test} from "node:test";
-import {EngineProcess, PROGRAM, doubleClick, enter, eventually, findBrowser, readStl, removeFolder, savedFiles,
-  temporaryFolder, type, untilListening, untilReady, untilTimersRan, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {DESK, PHONE, TABLET, browser, button, chooseView, drag, engine, exportDialog, exportFiles, exported, field,
+  folder, found, labelled, middleOf, numbers, openExport, openFile, page, pieceSize, plateLength, preset, press, radio,
+  scan, set, skip, slider, startEngine, text, toast, touchScreen, undo, undoAll, untilTold,
+  withBrowser} from "./page_suite.mjs";
+import {doubleClick, enter, eventually, openPanels, readStl, run, savedFiles, type, untilListening, untilReady,
+  untilTimersRan, writeSample} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
-
-const folder = temporaryFolder(), state = path.join(folder, "state"), scan = path.join(folder, "scan.ply");
-let browser, engine, page;
 const complaints = [];
 
-before(async () => {
-  if (skip) return;
+withBrowser(async () => {
   writeSample("still_life", 30000, scan);
-  browser = await found.launch();
-  page = await (await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true})).newPage();
-  page.on("pageerror", (error) => complaints.push(error.message));
-  page.on("console", (message) => message.type() === "error" &&
+  const first = await (await browser.newContext({viewport: DESK, acceptDownloads: true})).newPage();
+  first.on("pageerror", (error) => complaints.push(error.message));
+  first.on("console", (message) => message.type() === "error" &&
     complaints.push(`${message.text()} ${message.location().url}`));
-  await start();
+  await start(first);
+  return first;
 });
-
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
-
-async function start(...args) {
-  engine = await new EngineProcess(state, ...args).ready();
-  await page.goto(engine.address);
-  await openPanels();
-}
 
 // Panels stay open when the page is loaded anew, once its program listens to them.
-async function openPanels() {
-  await untilListening(page);
-  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+async function start(first = page) {
+  await first.goto((await startEngine()).address);
+  await untilListening(first);
+  await openPanels(first);
 }
 
-const button = (name) => page.getByRole("button", {name, exact: true});
-const slider = (name) => page.getByRole("slider", {name, exact: true});
-const kind = (name) => page.getByRole("radiogroup", {name: "What it becomes"}).getByRole("radio", {name});
-const field = (name) => page.getByRole("spinbutton", {name, exact: true});
-const numbers = () => page.getByRole("contentinfo", {name: "Numbers"});
-const value = async (name) => Number(await field(name).inputValue());
+const kind = radio, stage = () => page.getByRole("application", {name: /^Relief/});
+const value = async (name) => Number(await text(name));
 
-async function set(name, number) {
-  await enter(field(name), String(number));
-}
-
-async function press(locator, key, times) {
+async function pressKey(locator, key, times) {
   for (let i = 0; i < times; ++i) await locator.press(key);
 }
 
 // Returns the bytes of the relief's picture, once it stands still.
 async function picture() {
-  const read = () => page.getByRole("application", {name: /^Relief/}).locator("canvas").first().evaluate((canvas) => {
+  const read = () => stage().locator("canvas").first().evaluate((canvas) => {
     const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
     let text = "";
     for (let i = 0; i < data.length; i += 4) text += String.fromCharCode(data[i]);
     return btoa(text);
   });
-  await page.locator('[role="application"][aria-busy="false"]').first().waitFor();
+  await untilReady(page);
   return Buffer.from(await read(), "base64");
 }
 
@@ -86,7 +65,7 @@ const becomesSame = (other) => becomes(other, true), becomesOther = (other) => b
 
 // Returns the height of the newest frame, which need not be the one asked for.
 async function heightShown() {
-  const title = await numbers().getByTitle(/height reached/).getAttribute("title");
+  const title = await numbers().getAttribute("title");
   return Number(title.match(/reached ([\d.]+)/)[1]);
 }
 
@@ -95,25 +74,9 @@ const untilHeight = (wanted, tolerance) => eventually(async () => {
   assert.ok(Math.abs(shown - wanted) <= tolerance, `the height stays at ${shown} instead of ${wanted}`);
 });
 
-async function openFile(file) {
-  // Firefox's driver tells of the first dialog only.
-  if (found.name === "firefox") return page.locator("#file").setInputFiles(file);
-  const chooser = page.waitForEvent("filechooser");
-  await button("Open").click();
-  await (await chooser).setFiles(file);
-}
-
-async function saveAs(trigger, file) {
-  const [{bytes}] = await savedFiles(found, page, 1, trigger);
-  writeFileSync(file, bytes);
-  return bytes;
-}
-
-async function choose(side) {
-  await button("Choose view").click();
-  await page.getByRole("group", {name: "Sides"}).getByRole("button", {name: side, exact: true}).click();
-  await button("Use this view").click();
-  await page.getByText(side, {exact: true}).first().waitFor();
+// Shows the relief of a side.
+async function show(side) {
+  await chooseView(side);
   await untilReady(page);
 }
 
@@ -135,14 +98,14 @@ test("opens a sample and shows its progress, and a coarse relief until the exact
 test("opens a scan of the browser", {skip}, async () => {
   await openFile(scan);
   await page.getByText("scan.ply", {exact: true}).waitFor();
-  await page.getByRole("alert").getByText(/^Your work on .* is kept/).waitFor();
+  await toast().getByText(/^Your work on .* is kept/).waitFor();
   await page.getByText("of 30,000 points").waitFor();
   await untilReady(page);
 });
 
 test("drags the height: number and picture change", {skip}, async () => {
   const start = await value("Height in mm"), first = await picture();
-  await press(slider("Height"), "ArrowRight", 10);
+  await pressKey(slider("Height"), "ArrowRight", 10);
   assert.ok((await value("Height in mm")) > start);
   await untilHeight(await value("Height in mm"), 0.01);
   await becomesOther(first);
@@ -171,24 +134,23 @@ test("moves a slider that has the focus by wheel, and any by double click", {ski
 test("takes numbers as people type them, and refuses others in one line", {skip}, async () => {
   const width = await value("Longer side in mm"), typed = [["1/8in", "3.175"], ["4in", "101.6"], ["2,5", "2.5"],
     ["3+0.5", "3.5"], ["12 mm", "12.0"], ["1cm", "10.0"]];
-  for (const [text, shown] of typed) {
-    await set("Longer side in mm", text);
-    assert.equal(await field("Longer side in mm").inputValue(), shown, text);
+  for (const [entered, shown] of typed) {
+    await set("Longer side in mm", entered);
+    assert.equal(await text("Longer side in mm"), shown, entered);
   }
-  const alert = page.getByRole("alert");
-  for (const text of ["4ft", "1,234", "12mmm", "0", "1e9"]) {
-    await set("Longer side in mm", text);
-    await alert.getByText(`Longer side: expected a number from 0.1 to 100000 mm, such as`).waitFor();
-    assert.ok((await alert.innerText()).endsWith(`found '${text}'.`), text);
-    assert.equal(await field("Longer side in mm").inputValue(), "10.0");
+  for (const entered of ["4ft", "1,234", "12mmm", "0", "1e9"]) {
+    await set("Longer side in mm", entered);
+    await toast().getByText(`Longer side: expected a number from 0.1 to 100000 mm, such as`).waitFor();
+    assert.ok((await toast().innerText()).endsWith(`found '${entered}'.`), entered);
+    assert.equal(await text("Longer side in mm"), "10.0");
   }
   await set("Edge emphasis value", "1mm");
-  await alert.getByText("Edge emphasis: expected a number from 0 to 100, such as").waitFor();
+  await toast().getByText("Edge emphasis: expected a number from 0 to 100, such as").waitFor();
   await field("Longer side in mm").press("ArrowUp");
   assert.ok((await value("Longer side in mm")) > 10);
   await set("Longer side in mm", width);
   await enter(page.getByLabel("Draft angle"), "15 degrees");
-  await alert.getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
+  await toast().getByText("Draft angle: expected a number from 1 to 80 °").waitFor();
   assert.equal(await page.getByLabel("Draft angle").inputValue(), "");
 });
 
@@ -197,7 +159,7 @@ test("keeps a locked height while saturation moves", {skip}, async () => {
   await untilHeight(3, 0.01);
   const first = await picture();
   assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
-  await press(slider("Edge emphasis"), "ArrowRight", 30);
+  await pressKey(slider("Edge emphasis"), "ArrowRight", 30);
   assert.ok((await value("Edge emphasis value")) > 0.1);
   await becomesOther(first);
   await untilHeight(3, 0.01);
@@ -214,14 +176,13 @@ test("lets the height follow when it is not locked", {skip}, async () => {
 test("undoes and redoes, step by step", {skip}, async () => {
   const last = await picture();
   await page.keyboard.press("Escape");
-  await button("Undo").click();
-  await button("Undo").click();
+  await undo(2);
   assert.equal(await button("Lock the height").getAttribute("aria-pressed"), "true");
   await untilHeight(3, 0.01);
   const before = await picture();
   assert.ok(difference(before, last) > 0.2);
   let steps = 0; // more than one if the machine is so slow that the keys were pressed with pauses
-  do await button("Undo").click(); while (++steps < 30 && (await value("Edge emphasis value")) > 0);
+  do await undo(); while (++steps < 30 && (await value("Edge emphasis value")) > 0);
   assert.equal(await value("Edge emphasis value"), 0);
   while (steps-- > 0) await button("Redo").click();
   await becomesSame(before);
@@ -229,12 +190,12 @@ test("undoes and redoes, step by step", {skip}, async () => {
 
 test("shapes the tone curve with presets and keys", {skip}, async () => {
   const first = await picture();
-  await page.getByRole("combobox", {name: "Tone curve preset"}).selectOption("Bold edges first");
+  await preset().selectOption("Bold edges first");
   await becomesOther(first);
   assert.ok(await slider("Edge emphasis").isDisabled());
   const point = page.getByRole("slider", {name: /Curve point 2 of/});
-  await press(point, "ArrowUp", 5);
-  await page.getByRole("combobox", {name: "Tone curve preset"}).waitFor();
+  await pressKey(point, "ArrowUp", 5);
+  await preset().waitFor();
   assert.match(await point.getAttribute("aria-valuetext"), /keeps 40 percent/);
   await point.press("Delete");
   await page.getByRole("slider", {name: "Curve point 3 of 3"}).waitFor();
@@ -277,9 +238,9 @@ test("names what it reads and offers each outline, form and format of the engine
     await route.fulfill({response, json});
   });
   await added.goto(engine.address);
-  await added.getByText(/points.*height/).waitFor();
+  await untilReady(added);
   assert.equal(await added.locator("#readable").textContent(), "point cloud (ADDED)");
-  const {options, formats} = JSON.parse((await engine.get("api/about")).body);
+  const {options, formats} = await engine.about();
   for (const name of ["outline", "form"]) {
     const values = await added.locator(`#${name} option`).evaluateAll((all) => all.map(({value}) => value));
     assert.deepEqual(values, [...options.find((o) => o.name === name).choices, "added"]);
@@ -311,20 +272,11 @@ test("draws the curve that the engine has sampled", {skip}, async () => {
     assert.equal(shown.length, shares.length);
     shown.forEach((y, i) => assert.ok(Math.abs(y - shares[i]) < 5e-4, `${name} ${i}: ${y} for ${shares[i]}`));
   }
-  await button("Undo").click();
+  await undo();
   await untilHeight(3, 0.01);
 });
 
-test("changes the method", {skip}, async () => {
-  const first = await picture();
-  await page.getByRole("combobox", {name: "Method"}).selectOption("All forms alike");
-  await becomesOther(first);
-  await untilHeight(3, 0.01);
-  await button("Undo").click();
-  await becomesSame(first);
-});
-
-test("changes the method's own rim with it, and no other", {skip}, async () => {
+test("changes the method, and its own rim with it, and no other", {skip}, async () => {
   const rim = page.getByRole("slider", {name: "Soft outline"});
   const method = page.getByRole("combobox", {name: "Method"});
   const first = await picture();
@@ -337,31 +289,24 @@ test("changes the method's own rim with it, and no other", {skip}, async () => {
   const touched = await rim.getAttribute("aria-valuetext");
   await method.selectOption("Fine forms first");
   assert.equal(await rim.getAttribute("aria-valuetext"), touched);
-  for (let step = 0; step < 3; ++step) await button("Undo").click();
+  await undo(3);
   await becomesSame(first);
 });
 
 test("turns, lights, cuts and compares", {skip}, async () => {
-  const stage = page.getByRole("application", {name: /^Relief/});
   const change = async (act) => {
     const before = await picture();
     await act();
     await becomesOther(before);
   };
-  await change(() => press(stage, "ArrowLeft", 3));
-  await change(() => page.getByRole("radio", {name: "Struck silver"}).click());
-  await page.getByRole("radio", {name: "Orbit"}).click();
-  await change(() => press(stage, "ArrowLeft", 5));
+  await change(() => pressKey(stage(), "ArrowLeft", 3));
+  await change(() => radio("Struck silver").click());
+  await radio("Orbit").click();
+  await change(() => pressKey(stage(), "ArrowLeft", 5));
   await button("Fit").click();
-  await page.getByRole("radio", {name: "Section"}).click();
+  await radio("Section").click();
   await page.getByText(/Section, 110\.0 mm long, from -?[\d.]+ to [\d.]+ mm/).waitFor();
-  const box = await stage.boundingBox(), middle = [box.x + box.width / 2, box.y + box.height / 2];
-  const overlay = page.locator("#overlay"), drag = async (from, to) => {
-    await page.mouse.move(...from);
-    await page.mouse.down();
-    await page.mouse.move(...to, {steps: 3});
-    await page.mouse.up();
-  };
+  const box = await stage().boundingBox(), middle = await middleOf(stage()), overlay = page.locator("#overlay");
   const ends = async () => overlay.locator("circle.end").evaluateAll((all) =>
     all.map((circle) => ["cx", "cy"].map((name) => Number(circle.getAttribute(name)))));
   const [[x1, y1], [x2, y2]] = await ends();
@@ -377,7 +322,7 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   await page.getByText(/^2\d\.\d+ mm along, height -?[\d.]+ mm$/).waitFor();
   await drag(middle, [box.x + box.width - 4, middle[1]]); // beyond the plate, which has no heights there
   await page.getByText(/Section, 110\.0 mm long/).waitFor();
-  await page.getByRole("radio", {name: "Measure"}).click();
+  await radio("Measure").click();
   await overlay.getByText("110.00 mm", {exact: true}).waitFor();
   await overlay.getByText("100.00 mm", {exact: true}).waitFor();
   await page.mouse.move(...middle);
@@ -386,29 +331,26 @@ test("turns, lights, cuts and compares", {skip}, async () => {
   await eventually(async () => { // again if the picture had the size that it has beside a section
     await drag([middle[0] - 50, y += 20], [middle[0] + 50, y]);
     const told = await overlay.getByText(/^[\d.]+ mm apart, [\d.]+ mm (higher|lower)$/).textContent();
-    const plate = Math.max(...await overlay.locator("line.dimension").evaluateAll((all) =>
-      all.map((line) => line.getAttribute("x2") - line.getAttribute("x1")))); // pixels of 110 mm
+    const plate = await plateLength(); // pixels of 110 mm
     assert.ok(Math.abs(Number(told.match(/^[\d.]+/)[0]) - 110 * 100 / plate) < 0.6, told);
     const line = await overlay.locator("line.cut").boundingBox();
     const label = await overlay.getByText(told, {exact: true}).boundingBox();
     assert.ok(label.y + label.height < line.y, JSON.stringify([label, line]));
   });
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await radio("Light").click();
   await button("Compare").click();
-  await page.getByRole("slider", {name: "Divider between model and relief"}).press("ArrowRight");
+  await slider("Divider between model and relief").press("ArrowRight");
   await button("Compare").click();
   await button("Light table").click();
-  await change(() => page.getByRole("button", {name: "Light from: Raking, above"}).click());
+  await change(() => button("Light from: Raking, above").click());
 });
 
 test("turns the model by hand, shows its relief meanwhile, and undoes the view", {skip}, async () => {
-  const first = await picture(), stage = page.getByRole("application", {name: /^Relief/});
+  const first = await picture();
   const viewIs = (name) => page.locator("#view-name").getByText(name, {exact: true}).waitFor();
-  await page.getByRole("radio", {name: "Turn", exact: true}).click();
-  const box = await stage.boundingBox(), middle = [box.x + box.width / 2, box.y + box.height / 2];
-  await page.mouse.move(...middle);
-  await page.mouse.down();
-  await page.mouse.move(middle[0] + 80, middle[1] + 30, {steps: 8});
+  await radio("Turn").click();
+  const middle = await middleOf(stage()), turned = [middle[0] + 80, middle[1] + 30];
+  await press(middle, turned);
   await becomesOther(first);
   await viewIs("Front"); // until the view rests
   await page.keyboard.press("Escape");
@@ -416,9 +358,7 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   await page.mouse.up();
   await becomesSame(first);
   await viewIs("Front");
-  await page.mouse.move(...middle);
-  await page.mouse.down();
-  await page.mouse.move(middle[0] + 80, middle[1] + 30, {steps: 8});
+  await press(middle, turned);
   await becomesOther(first);
   const coarse = await picture();
   await page.mouse.up();
@@ -426,25 +366,25 @@ test("turns the model by hand, shows its relief meanwhile, and undoes the view",
   await untilReady(page);
   await becomesOther(coarse);
   const exact = await picture();
-  await button("Undo").click();
+  await undo();
   await viewIs("Front");
   await becomesSame(first);
   await button("Redo").click();
   await viewIs("Turned by hand");
   await becomesSame(exact);
-  await button("Undo").click();
+  await undo();
   await viewIs("Front");
-  await stage.press("ArrowRight");
+  await stage().press("ArrowRight");
   await viewIs("Turned by hand");
-  await stage.press("ArrowLeft"); // snaps to the side that it left
+  await stage().press("ArrowLeft"); // snaps to the side that it left
   await viewIs("Front");
   await becomesSame(first);
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await radio("Light").click();
 });
 
 test("chooses another view in the background", {skip}, async () => {
   const first = await picture();
-  await choose("Left");
+  await show("Left");
   await becomesOther(first);
   await button("Choose view").click();
   await button("Suggest a view").click();
@@ -458,14 +398,15 @@ test("chooses another view in the background", {skip}, async () => {
 test("saves a project, opens it again, and makes the same bytes of it", {skip}, async () => {
   await set("Height in mm", 2.5);
   await untilHeight(2.5, 0.01);
-  const shown = await picture(), file = path.join(folder, "work.relievo");
+  const shown = await picture(), file = path.join(folder, "work.relievo"), made = path.join(folder, "make.stl");
   await button("Save project").click();
   await page.getByRole("radio", {name: /^Settings alone/}).check();
-  const saved = JSON.parse(await saveAs(() => button("Save").click(), file));
+  const [{bytes}] = await savedFiles(found, page, 1, () => button("Save").click()), saved = JSON.parse(bytes);
+  writeFileSync(file, bytes);
   assert.equal(saved.options.height, 2.5);
-  await page.getByRole("alert").getByText("Saved: scan.relievo.").waitFor();
+  await toast().getByText("Saved: scan.relievo.").waitFor();
   await set("Height in mm", 5);
-  await choose("Front");
+  await show("Front");
   await openFile(file);
   await page.getByText("Turned by hand").waitFor();
   await untilReady(page);
@@ -473,14 +414,9 @@ test("saves a project, opens it again, and makes the same bytes of it", {skip}, 
   await untilHeight(2.5, 0.01);
   await becomesSame(shown);
 
-  await button("Export").click();
-  const dialog = page.getByRole("dialog", {name: "Export"});
-  await dialog.getByRole("checkbox", {name: /^STL/}).check();
-  const stl = await saveAs(() => dialog.getByRole("button", {name: "Export"}).click(), path.join(folder, "studio.stl"));
-  const made = spawnSync(PROGRAM, ["make", file, "-o", path.join(folder, "make.stl")]);
-  assert.equal(made.status, 0, String(made.stderr));
-  assert.ok(stl.equals(readFileSync(path.join(folder, "make.stl"))));
-  const {isClosed, size, count} = readStl(stl);
+  const {bytes: stl, isClosed, size, count} = await exported();
+  run("make", file, "-o", made);
+  assert.ok(stl.equals(readFileSync(made)));
   assert.ok(isClosed);
   assert.ok(Math.abs(size[2] - (2.5 + saved.options.thickness)) < 0.01, `${size}`);
   assert.ok(count > 10000);
@@ -497,22 +433,20 @@ function hasSizeTold(told, {length}) {
 test("exports several files at once, named for their form", {skip}, async () => {
   await page.locator("#form").selectOption("mirror");
   await untilReady(page);
-  await button("Export").click();
-  const dialog = page.getByRole("dialog", {name: "Export"});
-  await dialog.getByText(/triangles/).waitFor();
+  await openExport();
+  const dialog = exportDialog();
   await dialog.getByRole("checkbox", {name: /^3MF/}).check();
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
   await type(dialog.getByLabel("Longer side of height maps, in pixels"), "300");
   const told = await Promise.all(["heightmap", "3mf", "stl"].map((name) => page.locator(`#size-${name}`).innerText()));
-  const files = await savedFiles(found, page, 3, () => dialog.getByRole("button", {name: "Export"}).click());
+  const files = await exportFiles(3);
   assert.deepEqual(files.map(({name}) => name), ["scan-mirror-heights.png", "scan-mirror.3mf", "scan-mirror.stl"]);
   files.forEach(({bytes}, i) => hasSizeTold(told[i], bytes));
   const saved = /^Saved: scan-mirror.stl, .* mm, relief .* high, [\d,]+ triangles\.$/;
-  await page.getByRole("alert").getByText(saved).waitFor();
-  await dialog.waitFor({state: "hidden"});
+  await toast().getByText(saved).waitFor();
   for (const name of ["3mf", "heightmap"])
     await page.locator(`#formats [value="${name}"]`).evaluate((box) => (box.checked = false));
-  await button("Undo").click();
+  await undo();
   await untilReady(page);
 });
 
@@ -537,6 +471,9 @@ test("can be used by the keyboard alone", {skip}, async () => {
   await button("Undo").focus();
   await page.keyboard.press("Enter");
   await eventually(async () => assert.equal(await material(), before));
+  await page.keyboard.press("?");
+  await page.getByRole("dialog", {name: "Help"}).waitFor();
+  await page.keyboard.press("Escape");
 });
 
 test("moves nothing by itself where motion is to be reduced", {skip}, async (context) => {
@@ -551,41 +488,35 @@ test("moves nothing by itself where motion is to be reduced", {skip}, async (con
 });
 
 test("cuts a round plate", {skip}, async () => {
-  await page.getByRole("combobox", {name: "Outline"}).selectOption("Circle");
-  await picture();
-  await button("Export").click();
-  const dialog = page.getByRole("dialog", {name: "Export"});
-  const stl = await saveAs(() => dialog.getByRole("button", {name: "Export"}).click(), path.join(folder, "round.stl"));
-  const {isClosed, size} = readStl(stl), before = readStl(readFileSync(path.join(folder, "studio.stl")));
+  await labelled("Outline").selectOption("Circle");
+  const {isClosed, size} = await exported(), before = readStl(readFileSync(path.join(folder, "make.stl")));
   assert.ok(isClosed);
   assert.ok(Math.abs(size[0] - size[1]) < 0.01, `${size}`);
   assert.ok(size[0] > Math.max(...before.size.slice(0, 2)), `${size}, the rectangle ${before.size}`);
-  await button("Undo").click();
-  assert.equal(await page.getByRole("combobox", {name: "Outline"}).inputValue(), "rectangle");
+  await undo();
+  assert.equal(await labelled("Outline").inputValue(), "rectangle");
 });
 
 test("fits the relief into a plate of the size that is asked for", {skip}, async () => {
-  const size = async () => (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
-  const labelled = (label) => page.getByLabel(label, {exact: true});
   const width = await value("Longer side in mm");
   await enter(labelled("Plate size"), "20cm x 150");
-  await page.getByText(/piece 200\.00 × 150\.00/).waitFor();
+  await untilTold(/piece 200\.00 × 150\.00/);
   assert.notEqual(await value("Longer side in mm"), width);
   await kind("Coin").click();
   await enter(labelled("Diameter"), "80");
-  await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
+  await untilTold(/piece 80\.00 × 80\.00/);
   const most = await value("Longer side in mm");
   await set("Longer side in mm", 30);
-  await page.getByText(/piece 80\.00 × 80\.00/).waitFor();
+  await untilTold(/piece 80\.00 × 80\.00/);
   assert.equal(await value("Longer side in mm"), 30);
   await set("Longer side in mm", 500); // the plate leaves less
   await eventually(async () => assert.equal(await value("Longer side in mm"), most)); // as its frame tells
   await kind("Seal").click();
-  assert.equal(await page.getByLabel("Diameter", {exact: true}).inputValue(), "80");
+  assert.equal(await labelled("Diameter").inputValue(), "80");
   await picture();
-  assert.ok((await size())[0] > 80, "the die is larger than its coin");
-  while (!await kind("Plaque").isChecked()) await button("Undo").click();
-  await button("Undo").click();
+  assert.ok((await pieceSize())[0] > 80, "the die is larger than its coin");
+  await undoAll(page, () => kind("Plaque").isChecked());
+  await undo();
   await eventually(async () => assert.equal(await value("Longer side in mm"), width));
 });
 
@@ -599,13 +530,13 @@ test("goes on after a reload and after a new start of the engine", {skip}, async
   await untilTimersRan(page, 1000); // it has nothing more to keep
   complaints.length = 0;
   await engine.stop();
-  await page.getByRole("alert").getByText(/engine has stopped/).waitFor();
+  await toast().getByText(/engine has stopped/).waitFor();
   await start();
   complaints.length = 0;  // of the time without an engine
   await untilReady(page);
   assert.equal(await value("Margin in mm"), 7);
   await becomesSame(shown);
-  await button("Undo").click();
+  await undo();
   assert.equal(await value("Margin in mm"), 5);
 });
 
@@ -613,13 +544,13 @@ test("says in plain words what is wrong with a file", {skip}, async () => {
   const wrong = path.join(folder, "wrong.ply");
   writeFileSync(wrong, "ply\nformat ascii 1.0\nelement vertex 3\n");
   await openFile(wrong);
-  await page.getByRole("alert").getByText(/^wrong\.ply.*expected/).waitFor();
+  await toast().getByText(/^wrong\.ply.*expected/).waitFor();
   const kept = (await engine.json("recent")).recent.map(({input}) => input.name);
   assert.ok(kept.includes("scan.ply") && !kept.includes("wrong.ply"), `${kept}`);
   const project = path.join(folder, "wrong.relievo");
   writeFileSync(project, "{}");
   await openFile(project);
-  await page.getByRole("alert").getByText(/expected a project/).waitFor();
+  await toast().getByText(/expected a project/).waitFor();
   complaints.length = 0;
 });
 
@@ -632,21 +563,8 @@ test("cancels", {skip}, async () => {
   assert.equal(await value("Height in mm"), 2.5);
 });
 
-test("helps at the press of a key, and names all it has", {skip}, async () => {
-  await page.keyboard.press("?");
-  await page.getByRole("dialog", {name: "Help"}).waitFor();
-  await page.keyboard.press("Escape");
-  const nameless = await page.evaluate(() => {
-    const all = document.querySelectorAll("button, input, select, [role=slider], [role=application], dialog");
-    const hasName = (e) =>
-      e.ariaLabel || e.getAttribute("aria-labelledby") || e.textContent.trim() || e.closest("label");
-    return [...all].filter((e) => !hasName(e)).map((e) => e.outerHTML.slice(0, 80));
-  });
-  assert.deepEqual(nameless, []);
-});
-
 test("shows whole names, the top of the help and the whole first picture on a phone", {skip}, async () => {
-  await page.setViewportSize({width: 390, height: 844});
+  await page.setViewportSize(PHONE);
   await untilReady(page);
   await button("Relievo, start page").click();
   // In one step: a locator would find the names first, and the page may replace its cards before they are looked at.
@@ -666,24 +584,15 @@ test("shows whole names, the top of the help and the whole first picture on a ph
     return top < stage.bottom || right > innerWidth || bottom > innerHeight;
   });
   assert.ok(!covered, "the progress covers the picture");
-  await page.setViewportSize({width: 1280, height: 800});
+  await page.setViewportSize(DESK);
 });
 
 test("takes two fingers for a closer look, which move nothing else", {skip}, async (context) => {
   if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
-  const touched = await browser.newContext({viewport: {width: 820, height: 1180}, hasTouch: true});
-  const tablet = await touched.newPage(), cdp = await touched.newCDPSession(tablet);
-  await tablet.goto(engine.address);
-  await tablet.locator('[role="application"][aria-busy="false"]').first().waitFor();
-  await tablet.getByText(/points.*height/).waitFor();
-  const {x, y, width, height} = await tablet.locator("#stage").boundingBox();
-  const fingers = (apart) => [-1, 1].map((side, id) => ({x: x + width / 2 + side * apart, y: y + height / 2, id}));
-  const send = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
-  await tablet.getByRole("radio", {name: "Measure"}).click();
-  const plate = () => tablet.locator("#overlay line.dimension").evaluateAll((lines) =>
-    Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
+  const {touched: tablet, send, fingers, close} = await touchScreen(TABLET), plate = () => plateLength(tablet);
+  await radio("Measure", tablet).click();
   await eventually(async () => assert.ok((await plate()) > 100));
-  const before = await plate(), light = await tablet.locator("#undo").isEnabled();
+  const before = await plate(), canUndo = await button("Undo", tablet).isEnabled();
   await send("touchStart", fingers(50).slice(0, 1));
   await send("touchStart", fingers(50));
   for (let apart = 60; apart <= 100; apart += 10) await send("touchMove", fingers(apart));
@@ -692,8 +601,8 @@ test("takes two fingers for a closer look, which move nothing else", {skip}, asy
     const now = await plate();
     assert.ok(Math.abs(now / before - 2) < 0.05, `${now} of ${before}`);
   });
-  assert.equal(await tablet.locator("#undo").isEnabled(), light);
-  await touched.close();
+  assert.equal(await button("Undo", tablet).isEnabled(), canUndo);
+  await close();
 });
 
 test("complains about nothing", {skip}, () => assert.deepEqual(complaints, []));

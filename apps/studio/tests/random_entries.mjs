@@ -4,8 +4,8 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {fileURLToPath} from "node:url";
-import {areKindsDrawn, enter, eventually, findBrowser, readStl, removeFolder, savedFiles, showScan, temporaryFolder,
-  untilReady, writeSample} from "./support.mjs";
+import {areKindsDrawn, enter, eventually, findBrowser, openPanels, readStl, removeFolder, savedFiles, showScan,
+  temporaryFolder, untilReady, writeSample} from "./support.mjs";
 
 // Returns a function that returns numbers from 0 to 1, the same ones for the same seed.
 export function randomNumbers(seed) {
@@ -205,18 +205,17 @@ export async function showSmallScan(found) {
   const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
   writeSample("green_man", 2000, scan);
   const browser = await found.launch(), screen = {width: 900, height: 600}; // so that pictures are drawn quickly, too
-  const {engine, page} = await showScan(browser, {state, scan, screen, timeout: 120000});
-  await page.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  const {engine, page} = await showScan(browser, {state, scan, screen});
+  await openPanels(page);
   await page.waitForFunction(areKindsDrawn);
   await enter(page.locator("#resolution"), "1");
   for (const [name, text] of [["height", "1.5"], ["width", "30"]]) await enter(page.locator(`[data-option="${name}"]`), text);
   await untilReady(page);
   // What comes before is no part of a sequence: the page goes on with it when it is opened anew.
-  const kept = async () => (await engine.json("document", {input: {path: scan}})).kept;
   const begun = await eventually(async () => {
-    const {steps, at} = await kept();
-    assert.equal(steps[at].options.width, 30);
-    return steps[at];
+    const step = await engine.newestStep(scan);
+    assert.equal(step.options.width, 30);
+    return step;
   });
   engine.document = new URL(page.url()).hash.slice(1);
   await engine.post("state", {state: {version: 1, changed: Date.now() + 1, at: 0, steps: [begun]}, tab: "test"});

@@ -1,34 +1,17 @@
 // The page for whoever has a low screen, large type, forced colours or a finger: what is on it can be seen and reached,
 // and moves by nothing else than what is meant to move it.
 import assert from "node:assert/strict";
-import path from "node:path";
-import {after, before, test} from "node:test";
-import {eventually, findBrowser, removeFolder, showScan, temporaryFolder, untilReady, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {DESK, PHONE, TABLET, button, drag, field, found, page, preset, radio, skip, slider, touchScreen, undo, undoAll,
+  withPage} from "./page_suite.mjs";
+import {eventually, openPanels, untilReady} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
+const ZOOMED = {width: 640, height: 400};
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-const DESK = {width: 1280, height: 800}, PHONE = {width: 390, height: 844}, ZOOMED = {width: 640, height: 400};
-let browser, engine, page;
-
-before(async () => {
-  if (skip) return;
-  writeSample("shell", 6000, scan);
-  browser = await found.launch();
-  ({engine, page} = await showScan(browser, {state: path.join(folder, "state"), scan, screen: DESK, timeout: 60000}));
-  await page.getByRole("button", {name: "Dismiss"}).click(); // the offer of the tour
-});
-
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
-});
-
-const height = (it = page) => it.getByRole("spinbutton", {name: "Height in mm"}).inputValue();
+withPage("shell", 6000, () => button("Dismiss").click()); // the offer of the tour
 
 test("moves the divider of the comparison by its line, and nothing else", {skip}, async () => {
-  const compare = page.getByRole("button", {name: "Compare"}), undo = page.getByRole("button", {name: "Undo"});
+  const compare = button("Compare");
   await compare.click();
   const {x, y, width, height: high} = await page.locator("#stage").boundingBox();
   const line = () => page.evaluate(() => document.querySelector("#overlay .divide").getAttribute("x1") /
@@ -36,19 +19,15 @@ test("moves the divider of the comparison by its line, and nothing else", {skip}
   for (const [from, at, to] of [[0.5, 0.15, 0.7], [0.7, 0.5, 0.2], [0.2, 0.85, 0.5]]) {
     await page.mouse.move(x + from * width, y + at * high);
     assert.equal(await page.locator("#stage").evaluate((stage) => getComputedStyle(stage).cursor), "ew-resize");
-    await page.mouse.down();
-    await page.mouse.move(x + to * width, y + 0.4 * high, {steps: 5});
-    await page.mouse.up();
+    await drag([x + from * width, y + at * high], [x + to * width, y + 0.4 * high]);
     assert.ok(Math.abs(await line() - to) < 0.01, `${await line()} where ${to} was dragged to`);
     assert.ok(Math.abs(await page.locator("#split").inputValue() / 1000 - to) < 0.01);
   }
-  assert.ok(await undo.isDisabled(), "the light stays where it is");
-  await page.mouse.move(x + 0.8 * width, y + 0.5 * high); // beside the line a drag moves the light
-  await page.mouse.down();
-  await page.mouse.up();
-  assert.ok(await undo.isEnabled());
+  assert.ok(await button("Undo").isDisabled(), "the light stays where it is");
+  await drag([x + 0.8 * width, y + 0.5 * high]); // beside the line a drag moves the light
+  assert.ok(await button("Undo").isEnabled());
   assert.ok(Math.abs(await line() - 0.5) < 0.01);
-  await undo.click();
+  await undo();
   await compare.click();
 });
 
@@ -70,21 +49,19 @@ test("tells in forced colours what is pressed, which material is which, and wher
   try {
     for (const colorScheme of ["light", "dark"]) {
       await page.emulateMedia({forcedColors: "active", colorScheme});
-      const pressed = page.getByRole("radio", {name: "Light", exact: true}), other = page.getByRole("radio", {name: "Orbit"});
-      assert.ok(apart(await colour(pressed, 0.04, 0.5), await colour(other, 0.04, 0.5)) > 100, "tools");
-      const kinds = ["Plaque", "Coin"].map((name) => page.getByRole("radio", {name}));
-      assert.ok(apart(await colour(kinds[0], 0.05, 0.9), await colour(kinds[1], 0.05, 0.9)) > 100, "kinds");
-      const lock = page.getByRole("button", {name: "Lock the height"}), on = await colour(lock, 0.5, 0.1);
+      for (const [pressed, other, ...place] of [["Light", "Orbit", 0.04, 0.5], ["Plaque", "Coin", 0.05, 0.9]])
+        assert.ok(apart(await colour(radio(pressed), ...place), await colour(radio(other), ...place)) > 100, pressed);
+      const lock = button("Lock the height"), on = await colour(lock, 0.5, 0.1);
       await lock.click();
       assert.ok(apart(on, await colour(lock, 0.5, 0.1)) > 100, "the lock");
-      await page.getByRole("button", {name: "Undo"}).click();
+      await undo();
       const materials = await page.locator("#materials button").all(), seen = [];
       for (const material of materials) seen.push(await colour(material, 0.5, 0.5));
       for (const [i, a] of seen.entries())
         for (const b of seen.slice(0, i)) assert.ok(apart(a, b) > 25, `materials ${JSON.stringify(seen)}`);
-      const slider = page.getByRole("slider", {name: "Margin"}), ground = await colour(slider, 0.9, 0.1);
-      for (const at of [0.05, 0.95]) assert.ok(apart(await colour(slider, at, 0.5), ground) > 100, "slider");
-      const go = page.getByRole("button", {name: "Export"}), plain = await colour(go, 0.5, 0.12);
+      const margin = slider("Margin"), ground = await colour(margin, 0.9, 0.1);
+      for (const at of [0.05, 0.95]) assert.ok(apart(await colour(margin, at, 0.5), ground) > 100, "slider");
+      const go = button("Export"), plain = await colour(go, 0.5, 0.12);
       const line = await Promise.all([0.3, 0.35, 0.4, 0.45, 0.5, 0.55, 0.6, 0.65].map((right) => colour(go, right, 0.5)));
       assert.ok(line.some((it) => apart(it, plain) > 100), "letters of Export");
     }
@@ -93,19 +70,22 @@ test("tells in forced colours what is pressed, which material is which, and wher
   }
 });
 
-test("leaves the picture room at a zoom of 200 %", {skip}, async () => {
+test("leaves the picture room on a phone, and at a zoom of 200 %", {skip}, async () => {
+  await page.setViewportSize(PHONE);
+  const wide = await page.locator("#stage").boundingBox();
+  assert.ok(wide.width === PHONE.width && wide.height > 330, `${wide.width} x ${wide.height}`);
   await page.setViewportSize(ZOOMED);
   const {width, height} = await page.locator("#stage").boundingBox();
   assert.ok(width >= 300 && height >= 300, `${width} x ${height}`);
   for (const [tool, part] of [["Section", "#section"], ["Place", "#place-hint"], ["Measure", "#stage"]]) {
-    await page.getByRole("radio", {name: tool}).click();
+    await radio(tool).click();
     const stage = await page.locator("#stage").boundingBox();
     assert.ok(stage.width >= 300 && stage.height >= 180, `${tool}: ${stage.width} x ${stage.height}`);
     assert.ok(await page.locator(part).isVisible());
   }
   await page.getByRole("button", {name: /notes? on the scan/}).click(); // which has what a higher screen offers, too
   await page.locator("#notes").getByRole("button", {name: "Keep them"}).waitFor();
-  await page.getByRole("radio", {name: "Light", exact: true}).click();
+  await radio("Light").click();
   await page.setViewportSize(DESK);
   await untilReady(page);
 });
@@ -113,15 +93,10 @@ test("leaves the picture room at a zoom of 200 %", {skip}, async () => {
 test("scrolls the panel by a swipe that begins on a slider, which only a sideways drag or a tap moves", {skip},
   async (context) => {
     if (found.name !== "chromium") return context.skip("only Chromium takes made-up touches");
-    const touched = await browser.newContext({viewport: PHONE, hasTouch: true, isMobile: true});
-    const phone = await touched.newPage(), cdp = await touched.newCDPSession(phone);
-    phone.setDefaultTimeout(60000);
-    await phone.goto(engine.address);
-    await untilReady(phone);
-    await phone.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
-    const undo = phone.getByRole("button", {name: "Undo"}), inspector = phone.locator(".inspector");
-    while (await undo.isEnabled()) await undo.click();
-    const send = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
+    const {touched: phone, send, close} = await touchScreen(PHONE, true), inspector = phone.locator(".inspector");
+    const undone = button("Undo", phone), height = () => field("Height in mm", phone).inputValue();
+    await openPanels(phone);
+    await undoAll(phone);
     const swipe = async (range, across, down) => {
       const {x, y, width, height} = await range.boundingBox(), from = {x: x + 0.4 * width, y: y + height / 2};
       await send("touchStart", [from]);
@@ -140,40 +115,39 @@ test("scrolls the panel by a swipe that begins on a slider, which only a sideway
         await swipe(range, across, down);
         await eventually(async () => assert.ok(Math.abs(await inspector.evaluate((it) => it.scrollTop) - top) > 20, label));
         assert.equal(await range.inputValue(), before, label);
-        assert.ok(await undo.isDisabled(), label);
+        assert.ok(await undone.isDisabled(), label);
       }
     }
-    const range = phone.getByRole("slider", {name: "Height", exact: true}), before = await height(phone);
+    const range = slider("Height", phone), before = await height();
     await middle(range);
     const to = await swipe(range, 6, 0);
     await eventually(async () => assert.ok(Math.abs(await range.inputValue() / 1000 - to) < 0.06, `${to}`));
-    assert.notEqual(await height(phone), before);
-    await undo.click();
-    assert.equal(await height(phone), before);
-    await eventually(async () => assert.ok(await undo.isDisabled()));
+    assert.notEqual(await height(), before);
+    await undone.click();
+    assert.equal(await height(), before);
+    await eventually(async () => assert.ok(await undone.isDisabled()));
     const {x, y, width, height: high} = await range.boundingBox();
     await phone.touchscreen.tap(x + 0.8 * width, y + high / 2);
     await eventually(async () => assert.ok(Math.abs(await range.inputValue() / 1000 - 0.8) < 0.06));
-    await undo.click();
-    assert.equal(await height(phone), before);
-    await touched.close();
+    await undone.click();
+    assert.equal(await height(), before);
+    await close();
   });
 
 test("puts names, numbers and sliders in one order, curves within their box, and no dot before the first number", {skip},
   async () => {
-    await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
-    const [name, value, slider] = await Promise.all([page.getByText("Denoise", {exact: true}),
+    const [name, value, range] = await Promise.all([page.getByText("Denoise", {exact: true}),
       page.locator("#denoise-value"), page.locator("#denoise")].map((it) => it.boundingBox()));
-    assert.ok(name.x + name.width < value.x && slider.y >= name.y + name.height - 3 && slider.width > 200);
-    await page.getByLabel("Tone curve preset").selectOption("Even"); // along the upper end
+    assert.ok(name.x + name.width < value.x && range.y >= name.y + name.height - 3 && range.width > 200);
+    await preset().selectOption("Even"); // along the upper end
     const box = await page.locator("#curve svg").boundingBox();
     for (const part of ["path.drawn", "circle"])
       for (const it of await page.locator(`#curve ${part}`).all()) {
         const {x, y, width, height} = await it.boundingBox();
         assert.ok(x > box.x && y > box.y && x + width < box.x + box.width && y + height < box.y + box.height, part);
       }
-    await page.getByRole("button", {name: "Undo"}).click();
-    for (const screen of [DESK, {width: 820, height: 1180}, PHONE]) {
+    await undo();
+    for (const screen of [DESK, TABLET, PHONE]) {
       await page.setViewportSize(screen);
       await untilReady(page);
       const before = await page.locator("#numbers span").evaluateAll((all) =>
@@ -183,7 +157,7 @@ test("puts names, numbers and sliders in one order, curves within their box, and
     await page.setViewportSize(DESK);
   });
 
-// Runs in the page: the controls that a line for people lies on.
+// Runs in the page: the controls and other parts that a line for people lies on.
 function covered() {
   const toast = document.querySelector("#toast").getBoundingClientRect();
   const visible = (it) => { // the part of it that no scrolled part cuts away
@@ -197,7 +171,7 @@ function covered() {
     }
     return {left, top, right, bottom};
   };
-  return [...document.querySelectorAll("button, input, select, summary, [role=slider]")]
+  return [...document.querySelectorAll("button, input, select, summary, [role=slider], #stage, .bar, #numbers")]
     .filter((it) => it.checkVisibility() && !it.closest("#toast")).filter((it) => {
       const {left, top, right, bottom} = visible(it);
       return left < right && top < bottom && left < toast.right && right > toast.left && top < toast.bottom &&
@@ -205,27 +179,27 @@ function covered() {
     }).map((it) => it.outerHTML.slice(0, 80));
 }
 
-test("lays a line for people on no control, wherever one has worked", {skip}, async () => {
-  await page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+test("lays a line for people on no control and not on the picture, wherever one has worked", {skip}, async () => {
   const say = () => page.evaluate(async () => (await import(new URL("messages.js", location)))
     .toast("A scan of a long name.ply is not found at /home/somebody/models/a scan of a long name.ply.", true));
-  const dismiss = page.getByRole("button", {name: "Dismiss"});
-  for (const screen of [DESK, PHONE, ZOOMED, {width: 820, height: 1180}]) {
+  const dismiss = button("Dismiss");
+  for (const screen of [DESK, PHONE, ZOOMED, TABLET]) {
     await page.setViewportSize(screen);
     for (const name of ["Height in mm", "Steepest wall in degrees", "Margin in mm"]) {
-      const field = page.getByRole("spinbutton", {name});
-      await field.evaluate((it) => (it.scrollIntoView({block: "end"}), it.focus()));
+      const it = field(name);
+      await it.evaluate((input) => (input.scrollIntoView({block: "end"}), input.focus()));
       await say();
       await eventually(async () => assert.deepEqual(await page.evaluate(covered), [], `${name} at ${screen.width}`));
-      const box = await field.boundingBox(), {y} = await page.locator("#toast").boundingBox();
+      const box = await it.boundingBox(), {x, y, width, height} = await page.locator("#toast").boundingBox();
       assert.ok(box.y + box.height <= y, `${name} stays in sight at ${screen.width}`);
+      assert.ok(x >= 0 && x + width <= screen.width && y + height <= screen.height, `${screen.width}`);
       await dismiss.click();
     }
-    await page.getByRole("button", {name: "Relievo, start page"}).click();
+    await button("Relievo, start page").click();
     await say();
     await eventually(async () => assert.deepEqual(await page.evaluate(covered), [], `start page at ${screen.width}`));
     await dismiss.click();
-    await page.getByRole("button", {name: "Back to the relief"}).click();
+    await button("Back to the relief").click();
   }
   await page.setViewportSize(DESK);
 });

@@ -1,32 +1,18 @@
 // Sends the server requests: those of its page, and those that do not come from it, are broken, or are too many.
 import assert from "node:assert/strict";
-import {spawn, spawnSync} from "node:child_process";
+import {spawn} from "node:child_process";
 import {existsSync, readFileSync, readdirSync, writeFileSync} from "node:fs";
 import net from "node:net";
 import path from "node:path";
-import {after, before, test} from "node:test";
+import {test} from "node:test";
 import {fileURLToPath} from "node:url";
-import {EngineProcess, PROGRAM, readStl, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
+import {FRAME, OPTIONS, connect, engine, folder, head, scan, stillWorks, studioIn,
+  withEngine} from "./engine_suite.mjs";
+import {PROGRAM, readStl, removeFolder, run, sleep, temporaryFolder, writeSample} from "./support.mjs";
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
-let engine;
-
-const OPTIONS = {width: 60, height: 2, view: "front"};
-const FRAME = {options: OPTIONS, width: 200, height: 150};
-
-before(async () => {
-  writeSample("shell", 20000, scan);
-  engine = await new EngineProcess(path.join(folder, "state"), scan).ready();
-  await engine.open({path: scan});
-});
-
-after(async () => {
-  await engine.stop();
-  removeFolder(folder);
-});
+withEngine("shell", 20000);
 
 const status = async (answer) => (await answer).status;
-const about = async () => JSON.parse((await engine.get("api/about")).body);
 const facts = () => engine.json("facts");
 
 // Returns what is sent along with a picture's pixels; `part` replaces parts of the usual request.
@@ -40,7 +26,6 @@ async function shape() {
   const {size} = await facts();
   return size[1] / size[0];
 }
-const stillWorks = async () => assert.equal(await status(engine.post("frame", FRAME)), 200);
 
 test("serves the page and nothing else", async () => {
   const page = await engine.get("");
@@ -157,7 +142,8 @@ test("says what it expected in each field", async () => {
     ["state", {state: 3}, "expected a state"],
     ["state", {document: "x", state: {}}, "document: expected the name of a document"],
     ["picture", {picture: "x"}, "expected a small picture"], ["frame", "[]", "body: expected an object in JSON"],
-    ["frame", {document: "0".repeat(16)}, "expected a document that is open"],
+    ...["", "0".repeat(16), "../../etc/passwd"].map((document) => ["frame", {document}, "expected a document that is open"]),
+    ["frame", {document: 3}, "expected fields of their types"],
     ["open", {input: {path: scan}, tab: 3}, "expected fields of their types"],
     ["save", {project: {input: {sample: "shell"}, options: {}}}, "expected a scan of one file"]];
   for (const [action, part, text] of wrong) {
@@ -185,13 +171,13 @@ function stagesInSources() {
 }
 
 test("names every stage for people", async () => {
-  const {stages} = await about(), found = stagesInSources();
+  const {stages} = await engine.about(), found = stagesInSources();
   assert.ok(found.length >= 25, `${found}`);
   for (const stage of found) assert.match(stages[stage] ?? "", /^[A-Z].{5,}/, stage);
 });
 
 test("takes everything that the page offers to choose", async () => {
-  const page = (await engine.get("index.html")).body.toString(), {options, materials} = await about();
+  const page = (await engine.get("index.html")).body.toString(), {options, materials} = await engine.about();
   const [, methods] = page.match(/<select id="method"[^>]*>(.*?)<\/select>/s);
   const offered = {method: [...methods.matchAll(/value="([^"]+)"/g)].map(([, value]) => value)};
   for (const {name, choices} of options) if (["outline", "form"].includes(name)) offered[name] = choices;
@@ -203,15 +189,13 @@ test("takes everything that the page offers to choose", async () => {
 });
 
 test("sends the views as it turns the model", async () => {
-  for (const {name, towards, up} of (await about()).views) {
-    await engine.post("view", {view: name});
-    await engine.untilIdle();
+  for (const {name, towards, up} of (await engine.about()).views) {
+    await engine.prepare({view: name});
     const {rotation} = await facts();
     const rows = [...rotation.slice(6), ...rotation.slice(3, 6)];
     assert.ok([...towards, ...up].every((x, i) => x === rows[i]), `${name}: ${towards} ${up} ${rows}`);
   }
-  await engine.post("view", {view: "front"});
-  await engine.untilIdle();
+  await engine.prepare({view: "front"});
 });
 
 test("samples the tone curve and the paper's formula", async () => {
@@ -267,7 +251,7 @@ test("gives up a fine picture when another is asked for", async () => {
   const large = {...FRAME, width: 1600, height: 1500, fine: true};
   assert.equal((await engine.post("frame", large)).status, 200);
   const fine = engine.post("frame", {...large, light: [1, 0, 1]});
-  await new Promise((resolve) => setTimeout(resolve, 50)); // its drawing takes several times as long
+  await sleep(50); // its drawing takes several times as long
   assert.equal((await engine.post("frame", FRAME)).status, 200);
   const {status, body} = await fine; // a status of success: browsers write those of failure to their console
   assert.deepEqual([status, JSON.parse(body).error.kind], [202, "cancelled"]);
@@ -287,24 +271,20 @@ test("takes a view that is chosen while the scan is read", async () => {
 
 test("crops a scan as seen", async () => {
   const crop = "0,0,0.5,1", before = await facts();
-  await engine.post("view", {view: "front", crop});
-  const {shown} = await engine.untilIdle(), {size} = await facts();
+  const {shown} = await engine.prepare({view: "front", crop}), {size} = await facts();
   assert.equal(shown.crop, crop);
   assert.ok(Math.abs(size[0] / before.size[0] - 0.5) < 0.1, `${size} of ${before.size}`);
   const wrong = await engine.post("view", {view: "front", crop: "0,0,1"});
   assert.equal(wrong.status, 422);
-  await engine.post("view", {view: "front"});
-  await engine.untilIdle();
+  await engine.prepare({view: "front"});
 });
 
 test("removes as much noise as is measured or asked for", async () => {
   const measured = (await facts()).noise;
-  await engine.post("view", {view: "front", denoise: "0.6"});
-  assert.equal((await engine.untilIdle()).shown.denoise, "0.6");
+  assert.equal((await engine.prepare({view: "front", denoise: "0.6"})).shown.denoise, "0.6");
   assert.equal((await facts()).noise, 0.6);
   assert.equal((await engine.post("view", {view: "front", denoise: "much"})).status, 422);
-  await engine.post("view", {view: "front"});
-  await engine.untilIdle();
+  await engine.prepare({view: "front"});
   assert.equal((await facts()).noise, measured);
 });
 
@@ -312,17 +292,14 @@ test("keeps a document as it is while the opening of another is cancelled", asyn
   const before = await engine.json("status");
   const {document} = await engine.json("open", {input: {sample: "green_man", name: "green_man"}});
   await engine.post("cancel", {document});
-  let now;
-  do now = await engine.json("status", {document}); while (now.busy);
+  const now = await engine.until(undefined, document);
   assert.equal(now.error.kind, "cancelled");
   assert.equal(now.model, 0);
   assert.deepEqual(await engine.json("status"), before);
   await stillWorks();
-  await engine.post("view", {view: "left"});
-  await engine.untilIdle();
+  await engine.prepare({view: "left"});
   assert.equal((await facts()).input_points, 20000);
-  await engine.post("view", {view: "front"});
-  await engine.untilIdle();
+  await engine.prepare({view: "front"});
 });
 
 // Copies a generated scan with all vectors turned about x, from y upright to z upright, as many scanners have it.
@@ -360,10 +337,9 @@ test("stops at the stage at which it is cancelled", async () => {
   const stages = ["waiting", "read", "view", "spacing", "normals", "visible points", "curvature", "triangulation"];
   for (const stage of ["spacing", "normals", "curvature"]) {
     const {document} = await engine.json("open", {input: {path: large}, view: "left"}), at = stages.indexOf(stage);
-    let now;
-    do now = await engine.json("status", {document}); while (now.busy && stages.indexOf(now.stage) < at);
+    await engine.until(({busy, stage}) => !busy || stages.indexOf(stage) >= at, document, 0);
     await engine.post("cancel", {document});
-    do now = await engine.json("status", {document}); while (now.busy);
+    const now = await engine.until(undefined, document);
     assert.deepEqual([now.error?.kind, now.model], ["cancelled", 0]);
     assert.ok([stage, stages[at + 1]].includes(now.stage), `${now.stage} after ${stage}`);
   }
@@ -378,20 +354,17 @@ test("opens scenes, and exports what make makes of them", async () => {
   await stillWorks();
   const exported = await engine.post("export", {options: OPTIONS, format: "stl"});
   assert.equal(exported.status, 200, String(exported.body));
-  const made = spawnSync(PROGRAM, ["make", scene, "-o", out, "--width", "60", "--height", "2", "--quiet"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  run("make", scene, "-o", out, "--width", 60, "--height", 2, "--quiet");
   assert.ok(readFileSync(out).equals(exported.body));
   await engine.open({path: scan});
 });
 
 test("keeps dropped files inside its folder", async () => {
   const bytes = readFileSync(scan);
-  const target = `${engine.url.pathname}api/upload?name=`;
-  const upload = (name) => engine.request(target + encodeURIComponent(name), {method: "POST", body: bytes});
   for (const name of ["../../../escape.ply", "/tmp/escape.ply", "..", "a\\..\\b.ply", "x\u0000y.ply", ""]) {
-    const answer = await upload(name);
-    assert.equal(answer.status, 200, name);
-    assert.ok(JSON.parse(answer.body).input.path.startsWith(path.join(folder, "state", "scans")), name);
+    const {status, input} = await engine.upload(name, bytes);
+    assert.equal(status, 200, name);
+    assert.ok(input.path.startsWith(path.join(folder, "state", "scans")), name);
   }
   assert.ok(!existsSync(path.join(folder, "escape.ply")) && !existsSync("/tmp/escape.ply"));
 });
@@ -418,8 +391,8 @@ test("exports the very bytes that make writes", async () => {
   const project = path.join(folder, "p.relievo");
   writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "scan.ply"}, options}));
   for (const format of ["stl", "3mf", "ply", "obj"]) {
-    const file = path.join(folder, `out.${format}`), made = spawnSync(PROGRAM, ["make", project, "-o", file]);
-    assert.equal(made.status, 0, String(made.stderr));
+    const file = path.join(folder, `out.${format}`);
+    run("make", project, "-o", file);
     const exported = (await engine.post("export", {options, format})).body;
     assert.ok(exported.equals(readFileSync(file)), format);
     if (format === "stl") assert.ok(readStl(exported).isClosed);
@@ -429,8 +402,8 @@ test("exports the very bytes that make writes", async () => {
 test("exports a picture in the material that is shown", async () => {
   const export_ = (part) => engine.post("export", {options: OPTIONS, format: "preview", ...part});
   const made = path.join(folder, "made.png"), {width, height} = OPTIONS;
-  spawnSync(PROGRAM, ["make", scan, "-o", path.join(folder, "made.stl"), "--preview", made, "--width", width,
-    "--height", height, "--view", "front"]);
+  run("make", scan, "-o", path.join(folder, "made.stl"), "--preview", made, "--width", width, "--height", height,
+    "--view", "front");
   const plaster = (await export_({})).body, bronze = (await export_({material: "bronze"})).body;
   assert.ok(plaster.equals(readFileSync(made)));
   assert.ok(!bronze.equals(plaster));
@@ -441,14 +414,13 @@ test("exports a picture in the material that is shown", async () => {
 
 test("opens a mesh and looks at it from where the view is", async () => {
   const [mesh, project, out] = ["mesh.stl", "mesh.relievo", "again.stl"].map((name) => path.join(folder, name));
-  assert.equal(spawnSync(PROGRAM, ["make", scan, "-o", mesh, "--height", "6"]).status, 0);
-  const other = await new EngineProcess(path.join(folder, "mesh")).ready();
+  run("make", scan, "-o", mesh, "--height", 6);
+  const other = await studioIn("mesh");
   await other.open({path: mesh});
   const options = {...OPTIONS, view: "1,0.5,2", height: 1, width: 20, mode: "auto"};
-  await other.post("view", {view: options.view});
-  await other.untilIdle();
+  await other.prepare({view: options.view});
   writeFileSync(project, JSON.stringify({relievo: 1, input: {path: "mesh.stl"}, options}));
-  assert.equal(spawnSync(PROGRAM, ["make", project, "-o", out]).status, 0);
+  run("make", project, "-o", out);
   const exported = await other.post("export", {options, format: "stl"});
   assert.equal(exported.status, 200, String(exported.body));
   assert.ok(exported.body.equals(readFileSync(out)));
@@ -460,7 +432,7 @@ test("shows a mesh of few corners without holes while a view is chosen", async (
   const faces = ["1 3 4 2", "5 6 8 7", "1 2 6 5", "3 7 8 4", "1 5 7 3", "2 4 8 6"];
   const corners = Array.from({length: 8}, (_, i) => `v ${i & 1} ${i >> 1 & 1} ${i >> 2}`);
   writeFileSync(cube, [...corners, ...faces.map((face) => `f ${face}`)].join("\n"));
-  const other = await new EngineProcess(path.join(folder, "cube")).ready();
+  const other = await studioIn("cube");
   await other.open({path: cube});
   const size = 120, {status, body} = await other.post("scan",
     {width: size, height: size, towards: [1, 1, 1], up: [0, 1, 0], options: OPTIONS});
@@ -471,34 +443,19 @@ test("shows a mesh of few corners without holes while a view is chosen", async (
   await other.stop();
 });
 
-test("tells why a scan cannot be opened, and keeps the others", async () => {
-  const {document} = await engine.json("open", {input: {path: path.join(folder, "gone.ply")}});
-  let now;
-  do now = await engine.json("status", {document}); while (now.busy);
-  assert.match(now.error.text, /gone\.ply/);
-  await stillWorks();
-});
-
-test("says that a document is not open", async () => {
-  for (const document of ["", "0123456789abcdef", "../../etc/passwd", 3]) {
-    const answer = await engine.post("frame", {...FRAME, document});
-    assert.ok([400, 409].includes(answer.status), `${document} ${answer.status}`);
-  }
-});
-
 test("ends when the last page has gone, and not before", async () => {
-  const short = await new EngineProcess(path.join(folder, "short"), "--linger", "1").ready();
+  const short = await studioIn("short", "--linger", "1");
   const page = net.connect(short.url.port, "127.0.0.1");
-  page.write(`GET ${short.url.pathname}api/events HTTP/1.1\r\nHost: ${short.url.host}\r\n\r\n`);
+  page.write(`${head("api/events", "GET", short.url)}\r\n`);
   await new Promise((resolve) => page.once("data", resolve));
-  await new Promise((resolve) => setTimeout(resolve, 1500));
+  await sleep(1500);
   assert.equal(short.child.exitCode, null);
   page.destroy();
   assert.deepEqual(await short.ended, {code: 0, signal: null});
 });
 
 test("ends with Ctrl-C", async () => {
-  const other = await new EngineProcess(path.join(folder, "other")).ready();
+  const other = await studioIn("other");
   assert.deepEqual(await other.stop("SIGINT"), {code: null, signal: "SIGINT"});
 });
 
@@ -507,15 +464,12 @@ function chunks(size) {
   return `${part.length.toString(16)}\r\n${part}\r\n`.repeat(size / part.length + 1) + "0\r\n\r\n";
 }
 
-// The first two lines of a request.
-const head = (action) => `POST ${engine.url.pathname}api/${action} HTTP/1.1\r\nHost: ${engine.url.host}\r\n`;
-
 // Returns the status of a request whose headers Node would not send.
 function rawStatus(action, headers, body) {
   return new Promise((resolve, reject) => {
-    const socket = net.connect(engine.url.port, "127.0.0.1");
+    const socket = connect();
     const lines = Object.entries(headers).map(([name, value]) => `${name}: ${value}\r\n`).join("");
-    socket.write(`${head(action)}${lines}\r\n${body}`);
+    socket.write(`${head(`api/${action}`)}${lines}\r\n${body}`);
     let text = "";
     socket.on("data", (data) => {
       text += data;
@@ -535,9 +489,8 @@ function rawStatus(action, headers, body) {
 // Sends a request and closes the connection `ms` later.
 function cut(action, body, ms, promised = body.length) {
   return new Promise((resolve) => {
-    const socket = net.connect(engine.url.port, "127.0.0.1");
-    socket.on("error", resolve);
-    socket.write(`${head(action)}Content-Length: ${promised}\r\n\r\n${body}`);
+    const socket = connect();
+    socket.write(`${head(`api/${action}`)}Content-Length: ${promised}\r\n\r\n${body}`);
     setTimeout(() => {
       socket.destroy();
       resolve();
@@ -548,13 +501,9 @@ function cut(action, body, ms, promised = body.length) {
 // The first turn of a mesh in another view measures points of all its sides, which takes longer than a picture of what is shown.
 test("draws while the model is turned, and gives up a turn when another comes", async () => {
   const mesh = path.join(folder, "mesh.ply");
-  const made = spawnSync(PROGRAM, ["make", scan, "-o", mesh, "--height", "4", "--width", "60", "--quiet"]);
-  assert.equal(made.status, 0, String(made.stderr));
+  run("make", scan, "-o", mesh, "--height", 4, "--width", 60, "--quiet");
   const input = {path: mesh}, {document} = await engine.json("open", {input, tab: "turning", points: 20000});
-  const untilIdle = async () => {
-    for (let status; !(status?.model > 0 && !status.busy); await new Promise((resolve) => setTimeout(resolve, 50)))
-      status = await engine.json("status", {document});
-  };
+  const untilIdle = () => engine.until(({model, busy}) => model > 0 && !busy, document);
   await untilIdle();
   await engine.post("view", {document, view: "left", points: 20000}); // whose points have not been measured from all sides
   await untilIdle();
@@ -567,7 +516,7 @@ test("draws while the model is turned, and gives up a turn when another comes", 
   assert.equal(await ask("shown", {}), 200); // the next one is quick
   order.length = 0;
   const first = ask("first turn", turned(0.3));
-  await new Promise((resolve) => setTimeout(resolve, 150)); // so that it has begun
+  await sleep(150); // so that it has begun
   const shown = ask("shown", {}), second = ask("second turn", turned(0.4));
   assert.deepEqual([await first, await shown, await second], [202, 200, 200]);
   assert.ok(order.indexOf("shown") < order.indexOf("second turn"), `${order}`);

@@ -1,10 +1,9 @@
 // The sizes that pictures, the finished piece and its file tell, which are those of one piece.
 import assert from "node:assert/strict";
-import path from "node:path";
-import {after, before, test} from "node:test";
-import {EngineProcess, readStl, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {engine, scan, withEngine} from "./engine_suite.mjs";
+import {readStl} from "./support.mjs";
 
-const folder = temporaryFolder(), scan = path.join(folder, "scan.ply");
 const FRAME = {width: 200, height: 150, light: [-1, 1, 1], material: "plaster", camera: {}};
 const VIEW = {view: "front", height: 2, width: 40, margin: 2, thickness: 2, mode: "auto", method: "layered",
   resolution: 0.5};
@@ -28,19 +27,10 @@ const PIECES = {
   "milled by a ball": {...VIEW, tool: "ball:2", finish: "reachable"},
   "no plate": {...VIEW, outline: "none"},
 };
-let engine;
 
-before(async () => {
-  writeSample("still_life", 6000, scan);
-  engine = await new EngineProcess(path.join(folder, "state")).ready();
+withEngine("still_life", 6000, async () => {
   await engine.open({path: scan});
-  await engine.post("view", {view: "front"});
-  await engine.untilIdle();
-});
-
-after(async () => {
-  await engine?.stop();
-  removeFolder(folder);
+  await engine.prepare({view: "front"});
 });
 
 async function frame(request) {

@@ -65,9 +65,6 @@ export const STATES = {
   "the start page": {enter: press("Relievo, start page"), leave: press("Back to the relief")},
 };
 
-export const openPanels = (page) => page.locator(".inspector details").evaluateAll((all) =>
-  all.forEach((panel) => (panel.open = true)));
-
 // Opens several scans as a scene, which is its own document.
 export async function showScene(page, scans) {
   await page.locator("#file").setInputFiles(scans);

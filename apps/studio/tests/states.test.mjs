@@ -1,35 +1,24 @@
 // Each state of the page fits each screen, has all its controls within reach, and no findings of axe.
 import assert from "node:assert/strict";
-import path from "node:path";
-import {after, before, test} from "node:test";
-import {STATES, openPanels, showScene} from "./states.mjs";
-import {EngineProcess, findBrowser, removeFolder, temporaryFolder, untilReady, writeSample} from "./support.mjs";
-
-const found = await findBrowser(), {skip} = found;
+import {test} from "node:test";
+import {DESK, PHONE, TABLET, browser, button, folder, found, page, skip, startEngine,
+  withBrowser} from "./page_suite.mjs";
+import {STATES, showScene} from "./states.mjs";
+import {openPanels, untilReady, writeScans} from "./support.mjs";
 
 const axe = await import("axe-core").then(({default: {source}}) => source, () => null);
 const missing = axe ? false : "axe-core is not installed (npm ci --prefix apps/studio/tests)";
 
-const folder = temporaryFolder(), scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
-const DESK = {width: 1280, height: 800}, PHONE = {width: 390, height: 844};
 const LOW = {width: 640, height: 400}; // a desk at a zoom of 200 %
-const SCREENS = [DESK, PHONE, LOW, {width: 820, height: 1180}, {width: 3840, height: 2160}];
-let browser, engine, page;
+const SCREENS = [DESK, PHONE, LOW, TABLET, {width: 3840, height: 2160}];
+let scans;
 
-before(async () => {
-  if (skip) return;
-  for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], 6000, scan);
-  browser = await found.launch();
-  page = await (await browser.newContext({viewport: DESK})).newPage();
-  engine = await new EngineProcess(path.join(folder, "state")).ready();
-  await page.goto(engine.address);
-  await page.locator("#samples button").first().waitFor();
-});
-
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
+withBrowser(async () => {
+  scans = writeScans(folder, 6000);
+  const first = await (await browser.newContext({viewport: DESK})).newPage();
+  await first.goto((await startEngine()).address);
+  await first.locator("#samples button").first().waitFor();
+  return first;
 });
 
 // Runs in the page: the parts that scroll though they must not, which is upwards those around the picture and on a desk
@@ -147,14 +136,7 @@ test("fits every screen before the first scan", {skip}, async (state) => {
   await untilReady(page);
   await openPanels(page);
   await page.locator("#toast").waitFor(); // the offer of the tour
-  await page.getByRole("button", {name: "Dismiss"}).click();
-});
-
-test("leaves the picture room on a phone", {skip}, async () => {
-  await page.setViewportSize(PHONE);
-  const {width, height} = await page.locator("#stage").boundingBox();
-  assert.ok(width === PHONE.width && height > 330, `${width} x ${height}`);
-  await page.setViewportSize(DESK);
+  await button("Dismiss").click();
 });
 
 for (const [name, {enter, leave, part}] of Object.entries(STATES))

@@ -19,6 +19,8 @@ export function temporaryFolder() {
   return mkdtempSync(path.join(tmpdir(), "relievo-studio-"));
 }
 
+export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
 export const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true});
 
 // `relievo studio` with its own state folder.
@@ -82,14 +84,50 @@ export class EngineProcess {
     return this.untilIdle();
   }
 
-  async untilIdle() {
-    for (const end = Date.now() + PATIENCE_MS; Date.now() < end;) {
-      const status = await this.json("status");
-      if (status.model > 0 && !status.busy) return status;
-      if (status.error && !status.busy) throw new Error(JSON.stringify(status.error));
-      await new Promise((resolve) => setTimeout(resolve, 50));
+  // Prepares another view, {view, crop, ...}.
+  async prepare(view) {
+    const {status, body} = await this.post("view", view);
+    assert.equal(status, 200, String(body));
+    return this.untilIdle();
+  }
+
+  untilIdle() {
+    return this.until(({busy, model, error}) => {
+      if (!busy && !model && error) throw new Error(JSON.stringify(error));
+      return !busy && model > 0;
+    });
+  }
+
+  // Waits until the status of a document is as `isMeant` says, which is asked again after each pause. By itself it waits
+  // until nothing is prepared.
+  async until(isMeant = ({busy}) => !busy, document = this.document, pauseMs = 20) {
+    for (const end = Date.now() + PATIENCE_MS; Date.now() < end; await sleep(pauseMs)) {
+      const status = await this.json("status", {document});
+      if (isMeant(status)) return status;
     }
-    throw new Error("the scan was not ready in time");
+    throw new Error(`the status did not come in time: ${isMeant}`);
+  }
+
+  async about() {
+    return JSON.parse((await this.get("api/about")).body);
+  }
+
+  // Sends a file as the page does. Returns the answer with its status.
+  async upload(name, body, action = "upload") {
+    const target = `${this.url.pathname}api/${action}?name=${encodeURIComponent(name)}`;
+    const answer = await this.request(target, {method: "POST", body});
+    return {status: answer.status, ...JSON.parse(answer.body)};
+  }
+
+  // Returns the document of an input as it is kept.
+  async kept(input) {
+    return (await this.json("document", {input})).kept;
+  }
+
+  // Returns what was changed last of a scan that is kept.
+  async newestStep(scan) {
+    const {steps, at} = await this.kept({path: scan});
+    return steps[at];
   }
 
   async stop(signal = "SIGINT") {
@@ -98,11 +136,24 @@ export class EngineProcess {
   }
 }
 
-// Writes a sample of so many points into a file.
-export function writeSample(sample, points, file) {
-  const made = spawnSync(PROGRAM, ["sample", sample, "-o", file, "--points", String(points)]);
+// Runs the program, which must succeed.
+export function run(...args) {
+  const made = spawnSync(PROGRAM, args.map(String));
   assert.equal(made.status, 0, String(made.stderr));
 }
+
+// Writes a sample of so many points into a file.
+export const writeSample = (sample, points, file) => run("sample", sample, "-o", file, "--points", points);
+
+// Writes two scans into a folder under names that are not those of samples. Returns their places.
+export function writeScans(folder, points) {
+  const scans = ["urn", "ammonite"].map((name) => path.join(folder, `${name}.ply`));
+  for (const [i, scan] of scans.entries()) writeSample(["still_life", "shell"][i], points, scan);
+  return scans;
+}
+
+export const openPanels = (page) => page.locator("details").evaluateAll((all) =>
+  all.forEach((panel) => (panel.open = true)));
 
 // Waits until the relief is shown as it will be exported.
 export async function untilReady(page) {
@@ -112,6 +163,17 @@ export async function untilReady(page) {
 
 // Waits until the page's program has begun: before, the page takes no clicks, but a script could change its fields.
 export const untilListening = (page) => page.locator("body:not([inert])").waitFor();
+
+// Holds the requests of a page to an address back. Returns a function that lets them go, and all that follow.
+export async function holdRequests(page, address) {
+  let letGo;
+  const held = new Promise((resolve) => (letGo = resolve));
+  await page.route(address, async (route) => {
+    await held;
+    await route.continue();
+  });
+  return letGo;
+}
 
 // Waits by the clock of the page itself, so that all that it has put off for less than that has happened, however busy
 // the machine is.
@@ -173,7 +235,7 @@ export async function eventually(check) {
     } catch (error) {
       if (Date.now() > end) throw error;
     }
-    await new Promise((resolve) => setTimeout(resolve, 50));
+    await sleep(50);
   }
 }
 

@@ -2,21 +2,18 @@
 import assert from "node:assert/strict";
 import {readFileSync, renameSync, rmSync, writeFileSync} from "node:fs";
 import path from "node:path";
-import {after, before, test} from "node:test";
-import {EngineProcess, enter, eventually, findBrowser, readStl, removeFolder, savedFiles, temporaryFolder,
-  untilListening, untilReady, writeSample} from "./support.mjs";
+import {test} from "node:test";
+import {browser, button, chooseView, engine, exported, field, folder, found, middleOf, openFile, preset, scan, skip,
+  slider, startEngine, state, toast, undo, untilText, withBrowser} from "./page_suite.mjs";
+import {EngineProcess, enter, eventually, openPanels, savedFiles, untilListening, untilReady,
+  writeSample} from "./support.mjs";
 
-const found = await findBrowser(), {skip} = found;
-
-const folder = temporaryFolder(), state = path.join(folder, "state"), scan = path.join(folder, "scan.ply");
 const fileOf = (sample) => (sample === "still_life" ? scan : path.join(folder, `${sample}.ply`));
-let browser, context, engine;
+let context;
 
-before(async () => {
-  if (skip) return;
+withBrowser(async () => {
   for (const [sample, points] of [["still_life", 20000], ["shell", 6000], ["green_man", 5000]])
     writeSample(sample, points, fileOf(sample));
-  browser = await found.launch();
   context = await browser.newContext({viewport: {width: 1000, height: 700}, acceptDownloads: true});
   await context.addInitScript(() => { // a tab that is deaf hears nothing of what the engine tells by itself
     Object.assign(window, {told: [], missed: []});
@@ -27,13 +24,7 @@ before(async () => {
       }
     };
   });
-  engine = await new EngineProcess(state, scan).ready();
-});
-
-after(async () => {
-  await browser?.close();
-  await engine?.stop();
-  removeFolder(folder);
+  await startEngine(scan);
 });
 
 async function newTab() {
@@ -49,8 +40,7 @@ test("works in nine tabs at once, whichever has the stream of events", {skip}, a
   for (const closed of [0, 4]) await tabs[closed].close(); // the first has the stream
   const left = tabs.filter((tab) => !tab.isClosed());
   ({document: engine.document} = await engine.json("document", {input: {path: scan}}));
-  await engine.post("view", {view: "left"});
-  await engine.untilIdle();
+  await engine.prepare({view: "left"});
   const {visible_points: points} = await engine.json("facts");
   for (const tab of left) {
     await tab.getByText(`${points.toLocaleString("en-US")} of 20,000 points`).waitFor();
@@ -60,34 +50,28 @@ test("works in nine tabs at once, whichever has the stream of events", {skip}, a
 });
 
 const title = (of) => of.locator("#title");
-const height = (of) => of.getByRole("spinbutton", {name: "Height in mm"});
+const height = (of) => field("Height in mm", of);
 const setHeight = (of, text) => enter(height(of), text);
-const untilSaid = (of, text) => of.getByRole("alert").getByText(text, {exact: true}).waitFor();
-const untilHeight = (of, text) => eventually(async () => assert.equal(await height(of).inputValue(), text));
-const openScan = async (of, sample) => {
-  const chooser = of.waitForEvent("filechooser");
-  await of.getByRole("button", {name: "Open", exact: true}).click();
-  await (await chooser).setFiles(fileOf(sample));
-  await of.getByText(/of [56],000 points/).waitFor();
+const untilSaid = (of, text) => toast(of).getByText(text, {exact: true}).waitFor();
+const untilHeight = (of, text) => untilText(height(of), text);
+const untilPoints = async (of, count) => {
+  await of.getByText(`of ${count} points`).waitFor();
   await untilReady(of);
+};
+const openScan = async (of, sample) => {
+  await openFile(fileOf(sample), of);
+  await untilPoints(of, {shell: "6,000", green_man: "5,000"}[sample]);
 };
 
 // Waits until the height that a tab shows is kept, and all tabs know.
 const untilTold = (of, tabs) => eventually(async () => {
   const document = new URL(of.url()).hash.slice(1), {recent} = await engine.json("recent");
-  const {kept} = await engine.json("document", {input: recent.find((entry) => entry.document === document).input});
+  const kept = await engine.kept(recent.find((entry) => entry.document === document).input);
   assert.equal(kept.steps[kept.at].options.height.toFixed(2), await height(of).inputValue());
   for (const tab of tabs)
     assert.ok(await tab.evaluate(([document, changed]) => window.told.some((status) =>
       status?.document === document && status.kept.changed === changed), [document, kept.changed]));
 });
-
-async function exported(tab) {
-  await tab.getByRole("button", {name: "Export", exact: true}).click();
-  const [{name, bytes}] = await savedFiles(found, tab, 1, () =>
-    tab.getByRole("dialog", {name: "Export"}).getByRole("button", {name: "Export"}).click());
-  return {name, height: readStl(bytes).size[2]};
-}
 
 test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
   const [tab, other] = [await newTab(), await newTab()];
@@ -101,7 +85,7 @@ test("shows two scans in two tabs, and mixes up nothing", {skip}, async () => {
   for (const [of, name, mm] of [[tab, /^scan/, 3.25], [other, /^shell/, 1.5]]) {
     const file = await exported(of);
     assert.match(file.name, name);
-    assert.ok(Math.abs(file.height - 3 - mm) < 0.01, `${file.height}`);
+    assert.ok(Math.abs(file.size[2] - 3 - mm) < 0.01, `${file.size}`);
   }
   for (const each of [tab, other]) await each.reload().then(() => untilReady(each)); // each stays with its document
   assert.deepEqual([await title(tab).innerText(), await title(other).innerText()], ["scan.ply", "shell.ply"]);
@@ -113,24 +97,22 @@ test("comes back to each scan as it was left, with curve, view and steps, and sh
   await tab.goto(`${engine.address}#${document}`);
   await tab.reload();
   await untilReady(tab);
-  await tab.locator(".inspector details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
-  const preset = tab.getByRole("combobox", {name: "Tone curve preset"}), view = tab.locator("#view-name");
+  await openPanels(tab);
+  const tone = preset(tab), view = tab.locator("#view-name");
   const curve = () => tab.locator("#curve .drawn").getAttribute("d");
-  await preset.selectOption("Bold edges first");
-  await tab.getByRole("button", {name: "Choose view"}).click();
-  await tab.getByRole("group", {name: "Sides"}).getByRole("button", {name: "Left", exact: true}).click();
-  await tab.getByRole("button", {name: "Use this view"}).click();
+  await tone.selectOption("Bold edges first");
+  await chooseView("Left", tab);
   await setHeight(tab, "2.75");
   await untilReady(tab);
   const [shaped, told] = [await curve(), await tab.locator("#numbers").innerText()];
   await openScan(tab, "green_man");
-  assert.equal(await preset.inputValue(), "");
+  assert.equal(await tone.inputValue(), "");
   assert.notEqual(await view.innerText(), "Left");
   assert.notEqual(await curve(), shaped);
   await setHeight(tab, "6");
   await untilReady(tab);
-  await tab.getByRole("button", {name: "Start page"}).click();
-  const recent = tab.getByRole("list", {name: "Go on with"});
+  await startPage(tab);
+  const recent = shelf(tab);
   await recent.getByRole("button", {name: "green_man.ply"}).waitFor();
   const picture = recent.getByRole("button", {name: "green_man.ply"}).locator("img");
   await eventually(async () => assert.match(await picture.getAttribute("src"), /^data:image\/jpeg/));
@@ -139,11 +121,11 @@ test("comes back to each scan as it was left, with curve, view and steps, and sh
   assert.equal(await title(tab).innerText(), "scan.ply");
   assert.equal(await height(tab).inputValue(), "2.75");
   assert.equal(await view.innerText(), "Left");
-  assert.equal(await preset.locator("option:checked").innerText(), "Bold edges first");
+  assert.equal(await tone.locator("option:checked").innerText(), "Bold edges first");
   assert.deepEqual([await curve(), await tab.locator("#numbers").innerText()], [shaped, told]);
-  await tab.getByRole("button", {name: "Undo"}).click();
+  await undo(1, tab);
   assert.equal(await height(tab).inputValue(), "3.25");
-  for (let step = 0; step < 2; ++step) await tab.getByRole("button", {name: "Undo"}).click();
+  await undo(2, tab);
   assert.notEqual(await view.innerText(), "Left");
   await untilReady(tab);
   await tab.close();
@@ -153,9 +135,9 @@ test("is one document in two tabs", {skip}, async () => {
   const [tab, other] = [await newTab(), await newTab()], before = await height(tab).inputValue();
   await setHeight(tab, "4.5");
   await untilHeight(other, "4.50");
-  await other.getByRole("button", {name: "Undo"}).click();
+  await undo(1, other);
   await untilHeight(tab, before);
-  await tab.getByRole("button", {name: "Redo"}).click();
+  await button("Redo", tab).click();
   await untilHeight(other, "4.50");
   const crop = (of) => of.locator("#crop"), crops = async () => [await crop(tab).inputValue(),
     await crop(other).inputValue()];
@@ -172,26 +154,23 @@ test("is one document in two tabs", {skip}, async () => {
 });
 
 test("loses nothing when the engine is killed in a drag, and finds the next one by itself", {skip}, async () => {
-  const tab = await newTab(), slider = tab.getByRole("slider", {name: "Height", exact: true});
-  const box = await slider.boundingBox(), y = box.y + box.height / 2;
-  await tab.mouse.move(box.x + box.width / 2, y);
+  const tab = await newTab(), [x, y] = await middleOf(slider("Height", tab));
+  await tab.mouse.move(x, y);
   await tab.mouse.down();
   for (let i = 0; i < 20; ++i) {
-    await tab.mouse.move(box.x + box.width / 2 - 2 * i, y);
+    await tab.mouse.move(x - 2 * i, y);
     if (i === 12) await engine.stop("SIGKILL");
   }
   await tab.mouse.up();
-  await tab.getByRole("alert").getByText(/engine has stopped/).waitFor();
-  const dragged = await height(tab).inputValue();
-  await enter(tab.getByRole("spinbutton", {name: "Longer side in mm"}), "80");
-  const address = engine.address;
-  engine = await new EngineProcess(state).ready();
-  assert.equal(engine.address, address);
+  await toast(tab).getByText(/engine has stopped/).waitFor();
+  const dragged = await height(tab).inputValue(), {address} = engine;
+  await enter(field("Longer side in mm", tab), "80");
+  assert.equal((await startEngine()).address, address);
   await untilSaid(tab, "The engine is back, and goes on with what this page shows.");
   await untilReady(tab);
   assert.equal(await height(tab).inputValue(), dragged);
   await eventually(async () => {
-    const {kept} = await engine.json("document", {input: {path: scan}}), {options} = kept.steps[kept.at];
+    const {options} = await engine.newestStep(scan);
     assert.deepEqual([options.height.toFixed(2), options.width], [dragged, 80]);
   });
   await tab.close();
@@ -206,7 +185,7 @@ test("shows what another page kept later, and says so where a change of its own 
   };
   await keep(5.5, 1000);
   await untilHeight(tab, "5.50");
-  assert.ok(!await tab.getByRole("alert").isVisible());
+  assert.ok(!await toast(tab).isVisible());
   await tab.evaluate(() => (window.isDeaf = true));
   await keep(4.75, 600000); // later than what this page changes now, however busy the machine is
   await tab.waitForFunction((changed) => window.missed.some((status) => status.kept?.changed === changed),
@@ -221,12 +200,12 @@ test("shows what another page kept later, and says so where a change of its own 
 test("shows the newer work that it finds with the next engine, and says so", {skip}, async () => {
   const tab = await newTab(), {document, kept} = await engine.json("document", {input: {path: scan}});
   await engine.stop("SIGKILL");
-  await tab.getByRole("alert").getByText(/engine has stopped/).waitFor();
+  await toast(tab).getByText(/engine has stopped/).waitFor();
   const file = path.join(state, "documents", `${document}.json`), newer = JSON.parse(readFileSync(file));
   assert.equal(newer.changed, kept.changed);
   newer.steps[newer.at].options.height = 6.5;
   writeFileSync(file, JSON.stringify({...newer, changed: Date.now() + 1200000})); // as another page has it kept
-  engine = await new EngineProcess(state).ready();
+  await startEngine();
   await untilSaid(tab, "The engine is back. It had newer work on this scan, which is shown here.");
   await untilHeight(tab, "6.50");
   await tab.close();
@@ -234,20 +213,19 @@ test("shows the newer work that it finds with the next engine, and says so", {sk
 
 test("opens a project saved with its scan in another studio, where the scan is not", {skip}, async () => {
   const tab = await newTab(), moved = path.join(folder, "moved.ply"), project = path.join(folder, "work.relievo");
-  await tab.getByRole("button", {name: "Save project"}).click();
+  await button("Save project", tab).click();
   await tab.getByRole("radio", {name: /^With the scan/}).check();
-  const [{bytes}] = await savedFiles(found, tab, 1, () => tab.getByRole("button", {name: "Save", exact: true}).click());
+  const [{bytes}] = await savedFiles(found, tab, 1, () => button("Save", tab).click());
   writeFileSync(project, bytes);
   renameSync(scan, moved);
   const elsewhere = await new EngineProcess(path.join(folder, "elsewhere")).ready();
   await tab.goto(elsewhere.address);
   await untilListening(tab);
   await tab.locator("#samples button").first().waitFor();
-  await tab.locator("#file").setInputFiles(project);
-  await tab.getByText("of 20,000 points").waitFor();
-  await untilReady(tab);
+  await choose(tab, project);
+  await untilPoints(tab, "20,000");
   assert.deepEqual([await title(tab).innerText(), await height(tab).inputValue()], ["scan.ply", "6.50"]);
-  assert.ok(Math.abs((await exported(tab)).height - 9.5) < 0.01);
+  assert.ok(Math.abs((await exported(tab)).size[2] - 9.5) < 0.01);
   await tab.close();
   await elsewhere.stop();
   renameSync(moved, scan);
@@ -255,75 +233,67 @@ test("opens a project saved with its scan in another studio, where the scan is n
 
 test("asks for a scan that has moved, takes no other for it unasked, and goes on with it", {skip}, async () => {
   await engine.stop(); // it may have ended by itself, as no page was there for a while
-  engine = await new EngineProcess(state, scan).ready();
+  await startEngine(scan);
   const tab = await newTab(), moved = path.join(folder, "elsewhere.ply");
   await openScan(tab, "shell");
   renameSync(scan, moved);
-  const locate = async (file) => {
-    await tab.getByRole("button", {name: "Start page"}).click();
-    await tab.getByRole("list", {name: "Go on with"}).getByRole("button", {name: /^scan\.ply/}).click();
-    if (found.name === "firefox") return tab.locator("#locate").setInputFiles(file); // see openFile() of page.test.mjs
+  const answerWith = async (offered, file) => { // see openFile()
+    await button(offered, toast(tab)).waitFor();
+    if (found.name === "firefox") return tab.locator("#locate").setInputFiles(file);
     const chooser = tab.waitForEvent("filechooser");
-    await tab.getByRole("alert").getByRole("button", {name: "Locate it"}).click();
+    await button(offered, toast(tab)).click();
     await (await chooser).setFiles(file);
   };
-  const broken = path.join(folder, "broken.ply"), kept = async () =>
-    (await engine.json("document", {input: {path: scan}})).kept;
+  const locate = async (file) => {
+    await startPage(tab);
+    await shelf(tab).getByRole("button", {name: /^scan\.ply/}).click();
+    await answerWith("Locate it", file);
+  };
+  const broken = path.join(folder, "broken.ply"), kept = () => engine.kept({path: scan});
   writeFileSync(broken, "ply\nformat ascii 1.0\nelement vertex 3\n");
   const before = await kept();
   for (const file of [fileOf("green_man"), broken]) {
     await locate(file);
     const name = path.basename(file);
-    await tab.getByRole("alert").getByText(`${name} is not scan.ply as it was when this work was kept.`).waitFor();
+    await toast(tab).getByText(`${name} is not scan.ply as it was when this work was kept.`).waitFor();
     assert.equal(await title(tab).innerText(), "shell.ply");
   }
-  await tab.getByRole("button", {name: "Use it all the same"}).click();
-  await tab.getByRole("alert").getByText(/^broken\.ply.*expected/).waitFor();
+  await button("Use it all the same", tab).click();
+  await toast(tab).getByText(/^broken\.ply.*expected/).waitFor();
   await eventually(async () => assert.equal(await title(tab).innerText(), "shell.ply"));
   await untilReady(tab);
   assert.deepEqual(await kept(), before);
   await locate(fileOf("green_man")); // by mistake
-  const another = tab.getByRole("alert").getByRole("button", {name: "Locate another file"});
-  await another.waitFor();
-  if (found.name === "firefox") await tab.locator("#locate").setInputFiles(moved);
-  else {
-    const chooser = tab.waitForEvent("filechooser");
-    await another.click();
-    await (await chooser).setFiles(moved);
-  }
-  await tab.getByText("of 20,000 points").waitFor();
-  await untilReady(tab);
+  await answerWith("Locate another file", moved);
+  await untilPoints(tab, "20,000");
   assert.equal(await height(tab).inputValue(), "6.50");
   await tab.close();
 });
 
 const choose = (tab, file) => tab.locator("#file").setInputFiles(file);
-const startPage = (tab) => tab.getByRole("button", {name: "Start page"}).click();
+const startPage = (tab) => button("Relievo, start page", tab).click();
 const shelf = (tab) => tab.getByRole("list", {name: "Go on with"});
 
 test("goes on opening a scan after a reload, and with one that cannot be kept", {skip}, async () => {
   const place = path.join(folder, "reloads"), large = path.join(folder, "large.ply");
   writeSample("green_man", 150000, large);
   const other = await new EngineProcess(place).ready(), tab = await context.newPage();
-  tab.setDefaultTimeout(120000);
   await tab.goto(other.address);
   await untilListening(tab);
   await choose(tab, fileOf("shell"));
-  await tab.getByText("of 6,000 points").waitFor();
-  await untilReady(tab);
+  await untilPoints(tab, "6,000");
   await choose(tab, large);
   await tab.locator("#title").getByText("large.ply").waitFor();
   await tab.reload();
   await tab.locator("#title").getByText("large.ply").waitFor();
   await startPage(tab);
   await shelf(tab).getByRole("button", {name: "large.ply"}).waitFor();
-  await tab.getByRole("button", {name: "Back to the relief"}).click();
-  await tab.getByText("of 150,000 points").waitFor();
-  await untilReady(tab);
+  await button("Back to the relief", tab).click();
+  await untilPoints(tab, "150,000");
   rmSync(path.join(place, "documents"), {recursive: true});
   writeFileSync(path.join(place, "documents"), ""); // so that nothing can be kept there
   await choose(tab, fileOf("green_man"));
-  const said = tab.getByRole("alert").getByText(/^Your work is not kept/);
+  const said = toast(tab).getByText(/^Your work is not kept/);
   await said.waitFor();
   assert.ok(!(await said.innerText()).includes(place), await said.innerText());
   await tab.getByText("of 5,000 points").waitFor();
@@ -340,14 +310,13 @@ test("removes what is kept, also what it shows", {skip}, async () => {
   await untilListening(tab);
   for (const [sample, points] of [["shell", "6,000"], ["green_man", "5,000"]]) {
     await choose(tab, fileOf(sample));
-    await tab.getByText(`of ${points} points`).waitFor();
-    await untilReady(tab);
+    await untilPoints(tab, points);
   }
   await startPage(tab);
   await tab.getByText(/^The work on 2 scans is kept on this machine until you remove it, .* [\d.]+ kB\.$/).waitFor();
   const remove = async (name) => {
     await shelf(tab).getByRole("listitem").filter({hasText: name}).getByRole("button", {name: "Remove"}).click();
-    await tab.getByRole("alert").getByRole("button", {name: "Remove"}).click();
+    await button("Remove", toast(tab)).click();
   };
   await remove("shell.ply");
   await tab.getByText(/^The work on 1 scan is kept/).waitFor();

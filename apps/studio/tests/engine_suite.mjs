@@ -1,0 +1,41 @@
+// The engine of a suite, and the requests and files that suites share.
+import assert from "node:assert/strict";
+import net from "node:net";
+import path from "node:path";
+import {after, before} from "node:test";
+import {EngineProcess, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
+
+export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
+export let engine;
+
+export const OPTIONS = {width: 60, height: 2, view: "front"};
+export const FRAME = {options: OPTIONS, width: 200, height: 150};
+
+// Gives the suite an engine and a scan, of so many points of a sample. `begin` does what else comes before the tests: if
+// it is not given, the scan is opened.
+export function withEngine(sample, points, begin = () => engine.open({path: scan})) {
+  before(async () => {
+    writeSample(sample, points, scan);
+    engine = await new EngineProcess(state).ready();
+    await begin();
+  });
+  after(async () => {
+    await engine?.stop();
+    removeFolder(folder);
+  });
+}
+
+// Starts another studio, in a folder of that name.
+export const studioIn = (name, ...args) => new EngineProcess(path.join(folder, name), ...args).ready();
+
+export function connect() {
+  const socket = net.connect(engine.url.port, "127.0.0.1");
+  socket.on("error", () => {});
+  return socket;
+}
+
+// Returns the first lines of a request.
+export const head = (place, method = "POST", {pathname, host} = engine.url) =>
+  `${method} ${pathname}${place} HTTP/1.1\r\nHost: ${host}\r\n`;
+
+export const stillWorks = async () => assert.equal((await engine.post("frame", FRAME)).status, 200);

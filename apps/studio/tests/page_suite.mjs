@@ -1,0 +1,162 @@
+// The page of a suite in a browser, and what a hand does there, found by role and label.
+import assert from "node:assert/strict";
+import path from "node:path";
+import {after, before} from "node:test";
+import {EngineProcess, enter, eventually, findBrowser, openPanels, readStl, removeFolder, savedFiles, showScan,
+  temporaryFolder, untilReady, writeSample} from "./support.mjs";
+
+export const found = await findBrowser(), {skip} = found;
+export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
+export const DESK = {width: 1280, height: 800}, TABLET = {width: 820, height: 1180}, PHONE = {width: 390, height: 844};
+export let browser, engine, page;
+
+// Gives the suite a browser. `begin` does what else comes before the tests, and may return the page that they share.
+export function withBrowser(begin) {
+  before(async () => {
+    if (skip) return;
+    browser = await found.launch();
+    page = await begin();
+  });
+  after(async () => {
+    await browser?.close();
+    await engine?.stop();
+    removeFolder(folder);
+  });
+}
+
+// Gives the suite a page that shows a scan, of so many points of a sample, with all panels open.
+export function withPage(sample, points, begin = () => {}) {
+  withBrowser(async () => {
+    writeSample(sample, points, scan);
+    ({engine, page} = await showScan(browser, {state, scan}));
+    engine.document = new URL(page.url()).hash.slice(1);
+    await openPanels(page);
+    await begin();
+    return page;
+  });
+}
+
+// Starts another engine in place of the one that was stopped.
+export async function startEngine(...args) {
+  engine = await new EngineProcess(state, ...args).ready();
+  return engine;
+}
+
+// ---------------------------------------------------------------------------------------------------- controls
+
+export const button = (name, of = page) => of.getByRole("button", {name, exact: true});
+export const radio = (name, of = page) => of.getByRole("radio", {name, exact: true});
+export const slider = (name, of = page) => of.getByRole("slider", {name, exact: true});
+export const field = (name, of = page) => of.getByRole("spinbutton", {name, exact: true});
+export const labelled = (label, of = page) => of.getByLabel(label, {exact: true});
+export const option = (name, of = page) => of.locator(`[data-option="${name}"]`).first();
+export const preset = (of = page) => of.getByRole("combobox", {name: "Tone curve preset"});
+export const toast = (of = page) => of.getByRole("alert");
+
+export const text = (name) => field(name).inputValue();
+export const set = (name, number) => enter(field(name), String(number));
+export const untilText = (locator, wanted) => eventually(async () =>
+  assert.equal(await locator.inputValue(), wanted));
+
+export async function undo(times = 1, of = page) {
+  for (let i = 0; i < times; ++i) await button("Undo", of).click();
+}
+
+// Undoes until nothing is left, or `isEnough` says so. The button may be disabled meanwhile.
+export async function undoAll(of = page, isEnough = () => false) {
+  const once = button("Undo", of);
+  while ((await once.isEnabled()) && !(await isEnough())) await once.click({timeout: 10000}).catch(() => {});
+}
+
+export async function choose(name, of = page) {
+  await radio(name, of).click();
+  await untilReady(of);
+}
+
+export async function chooseView(side, of = page) {
+  await button("Choose view", of).click();
+  await button(side, of.getByRole("group", {name: "Sides"})).click();
+  await button("Use this view", of).click();
+  await of.locator("#view-name").getByText(side, {exact: true}).waitFor();
+}
+
+// Opens another scan or a project by the dialog of the browser. Firefox's driver tells of the first such dialog only.
+export async function openFile(file, of = page) {
+  if (found.name === "firefox") return of.locator("#file").setInputFiles(file);
+  const chooser = of.waitForEvent("filechooser");
+  await button("Open", of).click();
+  await (await chooser).setFiles(file);
+}
+
+// -------------------------------------------------------------------------------------------------- the pointer
+
+export async function middleOf(locator) {
+  const {x, y, width, height} = await locator.boundingBox();
+  return [x + width / 2, y + height / 2];
+}
+
+// Drags from a place through others, without letting go.
+export async function press(from, ...through) {
+  await page.mouse.move(...from);
+  await page.mouse.down();
+  for (const place of through) await page.mouse.move(...place, {steps: 4});
+}
+
+export async function drag(from, ...through) {
+  await press(from, ...through);
+  await page.mouse.up();
+}
+
+// Shows the relief on a screen that is touched. Returns its page, send(type, points), fingers(apart, degrees) with the
+// places of two fingers about the middle of the picture, and close().
+export async function touchScreen(viewport, isMobile = false) {
+  const context = await browser.newContext({viewport, hasTouch: true, isMobile}), touched = await context.newPage();
+  const cdp = await context.newCDPSession(touched);
+  await touched.goto(engine.address);
+  await untilReady(touched);
+  const send = (type, touchPoints) => cdp.send("Input.dispatchTouchEvent", {type, touchPoints});
+  const [x, y] = await middleOf(touched.locator("#stage")), fingers = (apart, degrees = 0) => [1, -1].map((side, id) => {
+    const angle = degrees * Math.PI / 180, [dx, dy] = [apart * Math.cos(angle), -apart * Math.sin(angle)];
+    return {x: x + side * dx, y: y + side * dy, id};
+  });
+  return {touched, cdp, send, fingers, close: () => context.close()};
+}
+
+// --------------------------------------------------------------------------------------------------- what is told
+
+export const numbers = (of = page) => of.locator("#numbers");
+export const untilTold = (pattern, of = page) => of.locator("footer").getByText(pattern).waitFor();
+
+// Returns how many points of the scan are seen.
+export const visiblePoints = async (of = page) =>
+  Number((await numbers(of).innerText()).match(/^[\d,]+/)[0].replaceAll(",", ""));
+
+// Returns the sides of the piece.
+export const pieceSize = async () =>
+  (await numbers().innerText()).match(/piece ([\d.]+) × ([\d.]+)/).slice(1).map(Number);
+
+// Returns how many pixels the dimension of the plate is long.
+export const plateLength = (of = page) => of.locator("#overlay line.dimension").evaluateAll((lines) =>
+  Math.max(...lines.map((line) => line.getAttribute("x2") - line.getAttribute("x1"))));
+
+export const exportDialog = (of = page) => of.getByRole("dialog", {name: "Export"});
+
+export async function openExport(of = page) {
+  await of.keyboard.press("Control+e");
+  await of.locator("#export-size").getByText(/triangles$/).waitFor();
+}
+
+// Exports by a dialog that is open. Returns {name, bytes} of each file.
+export async function exportFiles(count = 1, of = page) {
+  await of.locator("#export-size").getByText(/triangles$/).waitFor();
+  const saved = await savedFiles(found, of, count, () => of.locator("#export-go").click());
+  await exportDialog(of).waitFor({state: "hidden"});
+  return saved;
+}
+
+// Exports the piece that is shown. Returns its file's name and bytes, its size, and whether it is closed.
+export async function exported(of = page) {
+  await openExport(of);
+  const [file] = await exportFiles(1, of);
+  return {...file, ...readStl(file.bytes)};
+}
