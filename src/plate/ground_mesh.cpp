@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "plate/front/silhouette.h"
 #include "relievo/geometry/triangulation.h"
@@ -132,28 +133,18 @@ struct Cover {
   std::size_t relief = 0;  // the number of the relief's triangles
 };
 
-// An edge from a lower to a higher index, and the opposite corner of one of its triangles.
-struct Facing {
-  Index a, b, corner;
-  auto operator<=>(const Facing&) const = default;
-};
-
 // Returns true if the triangles are a Delaunay triangulation, up to the choice that points on one circle
 // leave.
 bool is_delaunay(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
-  std::vector<Facing> edges;
-  for (const Triangle& t : triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      edges.push_back({std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]), t[(i + 2) % 3]});
-  std::ranges::sort(edges);
   const auto at = [&](Index i) { return Vec2(points[i].head<2>()); };
-  for (std::size_t i = 1; i < edges.size(); ++i) {
-    const Facing &e = edges[i - 1], &f = edges[i];
-    if (e.a != f.a || e.b != f.b) continue;
-    const Circle circle = circle_around(at(e.a), at(e.b), at(e.corner));
-    if ((at(f.corner) - circle.centre).norm() < (1 - 1e-6) * circle.radius) return false;
-  }
-  return true;
+  bool is_delaunay = true;
+  each_edge(triangles, [&](std::span<const TriangleSide> sides) {
+    if (sides.size() < 2) return;
+    const auto [least, most] = std::ranges::minmax(sides, {}, &TriangleSide::apex);
+    const Circle circle = circle_around(at(least.low()), at(least.high()), at(least.apex));
+    is_delaunay &= !((at(most.apex) - circle.centre).norm() < (1 - 1e-6) * circle.radius);
+  });
+  return is_delaunay;
 }
 
 Cover joined(std::vector<Triangle> relief, const std::vector<Triangle>& ground) {

@@ -1,11 +1,11 @@
 #include "quality/surface_measures.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/angle.h"
 #include "core/quantile.h"
+#include "geometry/edges.h"
 #include "geometry/plane.h"
 
 namespace relievo {
@@ -93,21 +93,15 @@ void SurfaceMeasures::find_outlines() {
 
 void SurfaceMeasures::find_pairs() {
   const double least_cosine = std::cos(to_radians(smooth_turn_deg));
-  std::vector<std::array<Index, 3>> sides;  // lower point, higher point, triangle
-  for (Index t = 0; t < surface_.triangulation.triangles.size(); ++t) {
-    if (!surface_.boundary.is_inside[t]) continue;
-    const Triangle& corners = surface_.triangulation.triangles[t];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [a, b] = std::minmax(corners[k], corners[(k + 1) % 3]);
-      const bool is_turning =
-          static_cast<double>(surface_.normals[a].dot(surface_.normals[b])) < least_cosine;
-      if (!is_turning && !surface_.boundary.is_across_wall(a, b)) sides.push_back({a, b, t});
-    }
-  }
-  std::ranges::sort(sides);
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i)
-    if (sides[i][0] == sides[i + 1][0] && sides[i][1] == sides[i + 1][1])
-      smooth_pairs_.push_back({sides[i][2], sides[i + 1][2]});
+  const auto is_smooth = [&](const TriangleSide& side) {
+    const Index a = side.low(), b = side.high();
+    const bool is_turning = static_cast<double>(surface_.normals[a].dot(surface_.normals[b])) < least_cosine;
+    return surface_.boundary.is_inside[side.triangle] && !is_turning &&
+           !surface_.boundary.is_across_wall(a, b);
+  };
+  each_edge(surface_.triangulation.triangles, is_smooth, [&](std::span<const TriangleSide> sides) {
+    if (sides.size() == 2) smooth_pairs_.push_back({sides[0].triangle, sides[1].triangle});
+  });
 }
 
 SurfaceMeasures::Fray SurfaceMeasures::fray(std::span<const double> heights) const {

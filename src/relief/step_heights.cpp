@@ -1,10 +1,9 @@
 #include "relief/step_heights.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <tuple>
 
+#include "geometry/edges.h"
 #include "relief/edge_weight.h"
 #include "relievo/relief/heights.h"
 #include "relievo/scan/surface.h"
@@ -25,26 +24,17 @@ struct JumpEdge {
 std::vector<JumpEdge> jump_edges(const Surface& surface, std::span<const float> weights) {
   const std::vector<std::uint8_t> jumps = jump_triangles(surface);
   const auto plane = [&](Index i) { return Vec2(surface.points[i].head<2>()); };
-  std::vector<JumpEdge> halves;
-  for (std::size_t t = 0; t < jumps.size(); ++t) {
-    if (!jumps[t]) continue;
-    const Triangle& corners = surface.triangulation.triangles[t];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Index apex = corners[i], a = corners[(i + 1) % 3], b = corners[(i + 2) % 3];
-      if (!is_jump(surface, a, b)) continue;
-      const auto half = static_cast<float>(half_edge_weight(plane(apex), plane(a), plane(b)));
-      halves.push_back({std::min(a, b), std::max(a, b), half});
-    }
-  }
-  std::ranges::sort(halves, {}, [](const JumpEdge& e) { return std::tuple(e.a, e.b, e.weight); });
+  const auto is_wanted = [&](const TriangleSide& side) {
+    return jumps[side.triangle] && is_jump(surface, side.from, side.to);
+  };
   std::vector<JumpEdge> edges;
-  for (const JumpEdge& half : halves)
-    if (!edges.empty() && edges.back().a == half.a && edges.back().b == half.b)
-      edges.back().weight += half.weight;
-    else
-      edges.push_back(half);
-  for (JumpEdge& e : edges)
-    e.weight = edge_weight(e.weight) * jump_share(surface.boundary, weights, e.a, e.b);
+  each_edge(surface.triangulation.triangles, is_wanted, [&](std::span<const TriangleSide> sides) {
+    const Index a = sides[0].low(), b = sides[0].high();
+    float sum = 0;
+    for (const TriangleSide& s : sides)
+      sum += static_cast<float>(half_edge_weight(plane(s.apex), plane(s.from), plane(s.to)));
+    edges.push_back({a, b, edge_weight(sum) * jump_share(surface.boundary, weights, a, b)});
+  });
   return edges;
 }
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "geometry/edges.h"
 #include "geometry/point_set.h"
 #include "geometry/segment_grid.h"
 #include "geometry/smooth_surface.h"
@@ -126,23 +127,11 @@ class Sampler {
     const double side = *median;
     divisions_ = std::clamp(static_cast<int>(std::lround(side / options_.resolution_mm)), 1, most_divisions);
     if (divisions_ == 1) return;
-    std::vector<std::array<Index, 3>> sides;  // lower point, higher point, triangle
-    for (Index t = 0; t < is_band_.size(); ++t) {
-      const Triangle& c = front_.triangles[t];
-      if (!is_band_[t]) continue;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Index a = c[i], b = c[(i + 1) % 3];
-        sides.push_back({std::min(a, b), std::max(a, b), t});
-      }
-      if (is_smooth_[t]) divide_inside(t);
-    }
-    std::ranges::sort(sides);
-    for (std::size_t s = 0; s < sides.size();) {
-      std::size_t end = s + 1;
-      while (end < sides.size() && sides[end][0] == sides[s][0] && sides[end][1] == sides[s][1]) ++end;
-      divide_side(std::span(sides).subspan(s, end - s));
-      s = end;
-    }
+    for (Index t = 0; t < is_band_.size(); ++t)
+      if (is_band_[t] && is_smooth_[t]) divide_inside(t);
+    each_edge(
+        front_.triangles, [&](const TriangleSide& side) { return is_band_[side.triangle] != 0; },
+        [&](std::span<const TriangleSide> sides) { divide_edge(sides); });
   }
 
   void divide_inside(Index t) {
@@ -155,17 +144,17 @@ class Sampler {
       }
   }
 
-  // Divides a side that the given triangles of the band have, unless it lies between plane triangles.
-  void divide_side(std::span<const std::array<Index, 3>> same) {
-    const auto is_smooth = [&](const auto& side) { return is_smooth_[side[2]] != 0; };
-    if (std::ranges::none_of(same, is_smooth)) return;
-    const bool is_on_hull = same.size() == 1;
-    const bool is_crease = is_on_hull || !std::ranges::all_of(same, is_smooth);
-    const Vec3 &a = front_.points[same[0][0]], &b = front_.points[same[0][1]];
+  // Divides an edge of the given triangles of the band, unless it lies between plane triangles.
+  void divide_edge(std::span<const TriangleSide> sides) {
+    const auto is_smooth = [&](const TriangleSide& side) { return is_smooth_[side.triangle] != 0; };
+    if (std::ranges::none_of(sides, is_smooth)) return;
+    const bool is_on_hull = sides.size() == 1;
+    const bool is_crease = is_on_hull || !std::ranges::all_of(sides, is_smooth);
+    const Vec3 &a = front_.points[sides[0].low()], &b = front_.points[sides[0].high()];
     for (int k = 1; k < divisions_; ++k) {
       const double share = static_cast<double>(k) / divisions_;
       const Vec3 plane = a + share * (b - a);
-      const Index t = same[0][2];
+      const Index t = sides[0].triangle;
       SmoothSurface::Sample sample = surface_.at(t, plane.head<2>());
       if (is_crease) sample.height = plane.z();
       add(t, plane.head<2>(), sample, is_crease);

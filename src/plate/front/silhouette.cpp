@@ -4,6 +4,7 @@
 
 #include "core/disjoint_sets.h"
 #include "geometry/compact.h"
+#include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
@@ -128,15 +129,13 @@ bool is_within(const HeightFieldMesh& front, std::span<const BoundaryEdge> bound
 }  // namespace
 
 std::vector<BoundaryEdge> boundary_edges(std::span<const Triangle> triangles) {
-  std::vector<BoundaryEdge> edges, boundary;
-  edges.reserve(3 * triangles.size());
-  for (const auto& [a, b, c] : triangles)
-    for (const BoundaryEdge edge : {BoundaryEdge{a, b}, BoundaryEdge{b, c}, BoundaryEdge{c, a}})
-      edges.push_back(edge);
-  std::ranges::sort(edges);
-  std::ranges::copy_if(edges, std::back_inserter(boundary), [&](const BoundaryEdge& edge) {
-    return !std::ranges::binary_search(edges, BoundaryEdge{edge[1], edge[0]});
+  std::vector<BoundaryEdge> boundary;
+  each_edge(triangles, [&](std::span<const TriangleSide> sides) {
+    for (const TriangleSide& side : sides)
+      if (std::ranges::count(sides, side.to, &TriangleSide::from) == 0)
+        boundary.push_back({side.from, side.to});
   });
+  std::ranges::sort(boundary);
   return boundary;
 }
 

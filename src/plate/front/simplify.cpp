@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 #include <utility>
 
+#include "geometry/edges.h"
 #include "geometry/predicates.h"
 #include "plate/front/silhouette.h"
 #include "relievo/core/parallel.h"
@@ -42,21 +42,11 @@ struct Edge {
 };
 
 std::vector<Edge> edges_of(const HeightFieldMesh& front) {
-  std::vector<Edge> halves;
-  halves.reserve(3 * front.triangles.size());
-  for (const Triangle& t : front.triangles)
-    for (std::size_t i = 0; i < 3; ++i)
-      halves.push_back(
-          {std::min(t[i], t[(i + 1) % 3]), std::max(t[i], t[(i + 1) % 3]), {t[(i + 2) % 3], no_index}});
-  std::ranges::sort(halves, {}, [](const Edge& e) { return std::tuple(e.a, e.b, e.facing[0]); });
   std::vector<Edge> edges;
-  for (const Edge& half : halves) {
-    const bool is_second = !edges.empty() && edges.back().a == half.a && edges.back().b == half.b;
-    if (is_second)
-      edges.back().facing[1] = half.facing[0];
-    else
-      edges.push_back(half);
-  }
+  each_edge(front.triangles, [&](std::span<const TriangleSide> sides) {
+    const auto [least, most] = std::ranges::minmax(sides, {}, &TriangleSide::apex);
+    edges.push_back({least.low(), least.high(), {least.apex, sides.size() > 1 ? most.apex : no_index}});
+  });
   return edges;
 }
 

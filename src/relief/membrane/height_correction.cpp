@@ -1,12 +1,12 @@
 #include "relief/membrane/height_correction.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "core/memory.h"
+#include "geometry/edges.h"
 #include "geometry/extent.h"
 #include "geometry/plane.h"
 #include "relief/membrane/soft_clip.h"
@@ -88,33 +88,26 @@ std::vector<float> tension_of(std::span<const float> weights, const Lattice& lat
   return tension;
 }
 
-using Edge = std::array<Index, 2>;
-
 // Returns the edges that only one triangle inside has.
-std::vector<Edge> silhouette_edges(const Surface& surface) {
-  const Boundary& boundary = surface.boundary;
-  std::vector<Edge> edges, single;
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
-    for (std::size_t i = 0; i < 3 && boundary.is_inside[t]; ++i) {
-      const Triangle& corners = surface.triangulation.triangles[t];
-      const auto [a, b] = std::minmax(corners[i], corners[(i + 1) % 3]);
-      if (boundary.is_boundary[a] && boundary.is_boundary[b]) edges.push_back({a, b});
-    }
-  std::ranges::sort(edges);
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const bool is_double = i + 1 < edges.size() && edges[i] == edges[i + 1];
-    if (!is_double) single.push_back(edges[i]);
-    i += is_double;
-  }
-  return single;
+std::vector<TriangleSide> silhouette_edges(const Surface& surface) {
+  const auto is_inside = [&](const TriangleSide& side) {
+    const Boundary& boundary = surface.boundary;
+    return boundary.is_inside[side.triangle] && boundary.is_boundary[side.from] &&
+           boundary.is_boundary[side.to];
+  };
+  std::vector<TriangleSide> edges;
+  each_edge(surface.triangulation.triangles, is_inside, [&](std::span<const TriangleSide> sides) {
+    if (sides.size() == 1) edges.push_back(sides[0]);
+  });
+  return edges;
 }
 
 // Returns a tie for each cell that the silhouette crosses, in its middle there, as stiff as it is long in cells.
 std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& lattice) {
   std::vector<solver::Tie> ties;
   std::vector<Index> tie_of(lattice.nodes(), no_index);
-  for (const auto& [a, b] : silhouette_edges(surface)) {
-    const Vec2 from = lattice.place(a), to = lattice.place(b), middle = (from + to) / 2;
+  for (const TriangleSide& edge : silhouette_edges(surface)) {
+    const Vec2 from = lattice.place(edge.low()), to = lattice.place(edge.high()), middle = (from + to) / 2;
     const Vec2 corner = middle.array().floor();
     const auto length = static_cast<float>((to - from).norm());
     if (!(length > 0)) continue;

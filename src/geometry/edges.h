@@ -1,0 +1,53 @@
+// The edges of triangles, each with the sides of triangles that lie on it. Tested by tests/geometry/edges_test.cpp.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "relievo/core/types.h"
+
+namespace relievo {
+
+// One side of a triangle, by the triangle's corners in their order.
+struct TriangleSide {
+  Index from, to, apex;
+  Index triangle;  // its number
+
+  Index low() const { return std::min(from, to); }
+  Index high() const { return std::max(from, to); }
+  bool is_on_edge_of(const TriangleSide& other) const {
+    return low() == other.low() && high() == other.high();
+  }
+};
+
+// Calls f(sides) for each edge, in the order of its lower and then its higher end. `sides` are those on the edge for
+// which is_wanted(side) holds, in the order of their triangles; an edge without any is passed over.
+template <typename IsWanted, typename F>
+void each_edge(std::span<const Triangle> triangles, IsWanted&& is_wanted, F&& f) {
+  std::vector<TriangleSide> sides;
+  for (Index t = 0; t < triangles.size(); ++t)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triangle& corners = triangles[t];
+      const TriangleSide side{corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3], t};
+      if (is_wanted(side)) sides.push_back(side);
+    }
+  std::ranges::sort(sides, {},
+                    [](const TriangleSide& s) { return std::tuple(s.low(), s.high(), s.triangle); });
+  for (auto begin = sides.begin(); begin != sides.end();) {
+    const auto end = std::find_if_not(begin, sides.end(),
+                                      [&](const TriangleSide& side) { return side.is_on_edge_of(*begin); });
+    f(std::span<const TriangleSide>(begin, end));
+    begin = end;
+  }
+}
+
+// The same for all sides.
+template <typename F>
+void each_edge(std::span<const Triangle> triangles, F&& f) {
+  each_edge(
+      triangles, [](const TriangleSide&) { return true; }, f);
+}
+
+}  // namespace relievo
