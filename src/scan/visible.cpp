@@ -5,6 +5,7 @@
 
 #include "core/disjoint_sets.h"
 #include "geometry/neighbours.h"
+#include "geometry/point_set.h"
 #include "relievo/core/parallel.h"
 #include "scan/depth_buffer.h"
 #include "scan/scan_limits.h"
@@ -135,17 +136,11 @@ class Visibility {
 // Returns a subset of points of which no two are nearer to each other than `distance` in the view plane.
 std::vector<Index> with_least_distance(const Cloud& cloud, std::vector<Index> points, double distance) {
   const auto at = [&](Index i) -> Vec2 { return cloud.points[i].head<2>(); };
-  std::sort(points.begin(), points.end(),
-            [&](Index a, Index b) { return std::pair(at(a).x(), a) < std::pair(at(b).x(), b); });
-  std::vector<Index> kept;
-  for (const Index i : points) {
-    bool is_alone = true;
-    for (auto k = kept.rbegin(); is_alone && k != kept.rend() && at(i).x() - at(*k).x() < distance; ++k)
-      is_alone = (at(i) - at(*k)).norm() >= distance;
-    if (is_alone) kept.push_back(i);
-  }
-  std::sort(kept.begin(), kept.end());
-  return kept;
+  std::ranges::sort(points, {}, [&](Index i) { return std::pair(at(i).x(), i); });
+  PointSet kept(distance);
+  std::erase_if(points, [&](Index i) { return !kept.add(at(i), distance); });
+  std::ranges::sort(points);
+  return points;
 }
 
 }  // namespace
