@@ -137,18 +137,17 @@ TEST_F(Corpus, TiffOfOneChannelHasItsPixels) {
   for (const fs::path& path : files("image-rs+image-tiff/tests/images/seq", ".tiff")) {
     const std::string name = path.filename().string();
     if (!name.starts_with("seq-1c-") || name.contains("palette")) continue;
-    const auto image = depths_at(path);
-    ASSERT_TRUE(image) << image.error().message();
+    const auto image = value_of(depths_at(path));
     const bool is_signed = name[7] == 'i';
     const int bits = std::atoi(name.c_str() + (is_signed ? 8 : 7));
     const bool is_fraction = name.starts_with(cat("seq-1c-", bits, "f"));
-    for (std::size_t i = 0; i < image->values.size(); ++i) {
+    for (std::size_t i = 0; i < image.values.size(); ++i) {
       const auto number = static_cast<double>(i % 256);
       const double expected = is_fraction  ? number / 255
                               : is_signed  ? number - 128
                               : bits == 24 ? number * 65536
                                            : std::fmod(number, std::exp2(bits));
-      ASSERT_NEAR(image->values[i], expected, is_fraction ? 1e-6 : 0) << name << i;
+      ASSERT_NEAR(image.values[i], expected, is_fraction ? 1e-6 : 0) << name << i;
     }
     ++judged;
   }

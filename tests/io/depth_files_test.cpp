@@ -12,6 +12,8 @@
 #include "relievo/picture/height_map.h"
 #include "relievo/scan/depth_image.h"
 #include "support/format_samples.h"
+#include "support/read_text.h"
+#include "support/results.h"
 
 // The largest allocation of the test program and the libraries in it, which call this function in place of the system's.
 // Sanitizers have one of their own.
@@ -29,17 +31,8 @@ extern "C" void* malloc(std::size_t bytes) {
 namespace relievo {
 namespace {
 
-std::span<const std::byte> as_bytes(const std::string& text) {
-  return std::as_bytes(std::span(text));
-}
-
-std::string as_string(const std::vector<std::byte>& bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 std::string message_of(const std::string& bytes) {
-  const auto image = read_depth_image(as_bytes(bytes), "d");
-  return image ? "no error" : image.error().message();
+  return relievo::message_of(read_depth_image(bytes_of(bytes), "d"));
 }
 
 Image16 grey16() {
@@ -66,18 +59,16 @@ std::string small_tiff() {
 }
 
 TEST(ReadDepthImage, ReadsPngOfAnyDepth) {
-  const auto sixteen = read_depth_image(write_png(grey16()), "d");
-  ASSERT_TRUE(sixteen) << sixteen.error().message();
-  EXPECT_EQ(sixteen->format, "PNG, 16 bits");
-  EXPECT_EQ(sixteen->step, 1);
-  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(sixteen->values[i], 3001.F * static_cast<float>(i));
+  const auto sixteen = value_of(read_depth_image(write_png(grey16()), "d"));
+  EXPECT_EQ(sixteen.format, "PNG, 16 bits");
+  EXPECT_EQ(sixteen.step, 1);
+  for (std::size_t i = 0; i < 20; ++i) EXPECT_EQ(sixteen.values[i], 3001.F * static_cast<float>(i));
   const Image8 grey{4, 4, 1, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 255}};
-  const auto eight = read_depth_image(write_png(grey), "d");
-  ASSERT_TRUE(eight);
-  EXPECT_EQ(eight->values[15], 255);
+  const auto eight = value_of(read_depth_image(write_png(grey), "d"));
+  EXPECT_EQ(eight.values[15], 255);
   Image8 colour{4, 4, 3, {}};
   for (const auto v : grey.pixels) colour.pixels.insert(colour.pixels.end(), 3, v);
-  EXPECT_EQ(read_depth_image(write_png(colour), "d")->values.pixels, eight->values.pixels);
+  EXPECT_EQ(read_depth_image(write_png(colour), "d")->values.pixels, eight.values.pixels);
   colour.pixels[4] = 200;
   EXPECT_EQ(
       message_of(as_string(write_png(colour))),
@@ -91,19 +82,17 @@ TEST(ReadDepthImage, TakesOneChannelOfAPngOrItsLuminance) {
   const auto bytes = write_png(colour);
   for (int c = 1; c <= 3; ++c)
     EXPECT_EQ(read_depth_image(bytes, "d", {false, c})->values[7], 5 * (3 * 7 + c - 1)) << c;
-  const auto bright = read_depth_image(bytes, "d", {true});
-  ASSERT_TRUE(bright) << bright.error().message();
+  const auto bright = value_of(read_depth_image(bytes, "d", {true}));
   for (std::size_t i = 0; i < 16; ++i)
-    EXPECT_NEAR(bright->values[i], 15. * static_cast<double>(i) + 5 * (.7152 + 2 * .0722), 1e-4);
+    EXPECT_NEAR(bright.values[i], 15. * static_cast<double>(i) + 5 * (.7152 + 2 * .0722), 1e-4);
   const auto missing = read_depth_image(bytes, "d", {false, 4});
   EXPECT_EQ(missing.error().message(), "d: expected a channel from 1 to 3, found 4");
 }
 
 TEST(ReadDepthImage, ReadsTiffOfIntegersAndFloats) {
-  const auto whole = read_depth_image(as_bytes(small_tiff()), "d");
-  ASSERT_TRUE(whole) << whole.error().message();
-  EXPECT_EQ(whole->format, "TIFF, 16 bits");
-  EXPECT_EQ(whole->values[19], 3001.F * 19);
+  const auto whole = value_of(read_depth_image(bytes_of(small_tiff()), "d"));
+  EXPECT_EQ(whole.format, "TIFF, 16 bits");
+  EXPECT_EQ(whole.values[19], 3001.F * 19);
   HeightsMm heights{{5, 4, 1, {}}, .1};
   for (int i = 0; i < 20; ++i) heights.image.pixels.push_back(.25F * static_cast<float>(i));
   EXPECT_EQ(read_depth_image(write_tiff(heights), "d")->values.pixels, heights.image.pixels);
@@ -197,7 +186,7 @@ TEST(ReadDepthImage, AnyDamageGivesAnAnswer) {
     for (std::size_t size = 0; size < file.size(); ++size) (void)message_of(file.substr(0, size));
     for (std::size_t at = 0; at < file.size(); ++at)
       for (const auto byte : std::array<std::uint8_t, 3>{0x00, 0x7F, 0xFF}) {
-        const auto image = read_depth_image(as_bytes(patched(file, at, byte)), "d");
+        const auto image = read_depth_image(bytes_of(patched(file, at, byte)), "d");
         if (image) {
           EXPECT_EQ(image->values.size(), image->values.index(0, image->values.height));
         }
@@ -208,7 +197,7 @@ TEST(ReadDepthImage, AnyDamageGivesAnAnswer) {
     const int edits = *rc::gen::inRange(1, 5);
     for (int i = 0; i < edits; ++i)
       text[*rc::gen::inRange<std::size_t>(0, text.size())] = *rc::gen::arbitrary<char>();
-    const auto image = read_depth_image(as_bytes(text), "d");
+    const auto image = read_depth_image(bytes_of(text), "d");
     RC_ASSERT(image.has_value() || image.error().kind == ErrorKind::input);
   }));
 }

@@ -27,12 +27,11 @@ TEST(E57, ChecksumsAreThoseOfCastagnoli) {
 }
 
 TEST(E57, PointsColoursAndInvalidOnesAreRead) {
-  const auto file = read(e57_sample(), "a");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->format, "E57, 1 scan");
-  EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{1, 2, 3}, {7, 8, 9}}));
-  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{255, 0, 9}, {7, 2, 7}}));
-  EXPECT_EQ(file->dropped_points, 1U);
+  const auto file = file_of(e57_sample(), "a");
+  EXPECT_EQ(file.format, "E57, 1 scan");
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}, {7, 8, 9}}));
+  EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 9}, {7, 2, 7}}));
+  EXPECT_EQ(file.dropped_points, 1U);
 }
 
 // Packets of seven bytes cut numbers of all widths anywhere.
@@ -63,9 +62,7 @@ TEST(E57, ScaledIntegersAndSinglesAreRead) {
       "cartesianY", R"(type="Float" precision="single")", 32, {std::bit_cast<std::uint32_t>(1.25F)}};
   // All numbers are equal, so none is stored.
   scan.columns[2] = {"cartesianZ", R"(type="Integer" minimum="6" maximum="6")", 0, {0}};
-  const auto file = read(e57({scan}), "a");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->cloud.points[0], Vec3(103.5, 1.25, 6));
+  EXPECT_EQ(file_of(e57({scan}), "a").cloud.points[0], Vec3(103.5, 1.25, 6));
 }
 
 TEST(E57, SphericalCoordinatesAreTurnedIntoCartesianOnes) {
@@ -73,10 +70,9 @@ TEST(E57, SphericalCoordinatesAreTurnedIntoCartesianOnes) {
   const E57TestScan scan{{e57_doubles("sphericalRange", {2, 3, 5}),
                           e57_doubles("sphericalAzimuth", {0, quarter, 1}),
                           e57_doubles("sphericalElevation", {0, 0, quarter})}};
-  const auto file = read(e57({scan}), "a");
-  ASSERT_TRUE(file) << file.error().message();
+  const auto file = file_of(e57({scan}), "a");
   const std::vector<Vec3> expected = {{2, 0, 0}, {0, 3, 0}, {0, 0, 5}};
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((file->cloud.points[i] - expected[i]).norm(), 1e-15);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_LT((file.cloud.points[i] - expected[i]).norm(), 1e-15);
 }
 
 // A quarter turn about z, as a quaternion whose length is 2.
@@ -88,46 +84,38 @@ TEST(E57, ScansAreMovedByTheirPoses) {
   for (E57TestScan* scan : {&moved, &still})
     for (const char* name : {"nor:normalX", "nor:normalY", "nor:normalZ"})
       scan->columns.push_back(e57_doubles(name, {name[10] == 'X' ? 1. : 0.}));
-  const auto file = read(e57({moved, still}), "a");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->format, "E57, 2 scans");
-  EXPECT_LT((file->cloud.points[0] - Vec3(8, 21, 33)).norm(), 1e-14);
-  EXPECT_EQ(file->cloud.points[1], Vec3(4, 5, 6));
-  EXPECT_LT((file->cloud.normals[0] - Vec3f(0, 1, 0)).norm(), 1e-6F);
-  EXPECT_EQ(file->cloud.normals[1], Vec3f(1, 0, 0));
+  const auto file = file_of(e57({moved, still}), "a");
+  EXPECT_EQ(file.format, "E57, 2 scans");
+  EXPECT_LT((file.cloud.points[0] - Vec3(8, 21, 33)).norm(), 1e-14);
+  EXPECT_EQ(file.cloud.points[1], Vec3(4, 5, 6));
+  EXPECT_LT((file.cloud.normals[0] - Vec3f(0, 1, 0)).norm(), 1e-6F);
+  EXPECT_EQ(file.cloud.normals[1], Vec3f(1, 0, 0));
 }
 
 // The pose gives only w and x of its quaternion, which is a quarter turn about x. It gives no translation.
 TEST(E57, MissingPartsOfAPoseAreZero) {
-  const auto file =
-      read(e57({scan_of({1}, {2}, {3}, "<pose><rotation><w>2</w><x>2</x></rotation></pose>")}), "a");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_LT((file->cloud.points[0] - Vec3(1, -3, 2)).norm(), 1e-14);
+  const auto file = value_of(
+      read(e57({scan_of({1}, {2}, {3}, "<pose><rotation><w>2</w><x>2</x></rotation></pose>")}), "a"));
+  EXPECT_LT((file.cloud.points[0] - Vec3(1, -3, 2)).norm(), 1e-14);
 }
 
-TEST(E57, ColoursOfFractionsAreScaledByTheirLimits) {
-  E57TestScan scan = scan_of({0, 1}, {0, 1}, {0, 1},
-                             "<colorLimits><colorRedMinimum>100</colorRedMinimum>"
-                             "<colorRedMaximum>300</colorRedMaximum></colorLimits>");
-  for (const char* name : {"colorRed", "colorGreen", "colorBlue"})
-    scan.columns.push_back(e57_doubles(name, {name[5] == 'R' ? 150. : .2, name[5] == 'R' ? 300. : .8}));
-  const auto file = read(e57({scan}), "a");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{64, 51, 51}, {255, 204, 204}}));
-}
-
+// Limits are stated for red alone; a colour without limits goes from the least to the most of its numbers, or from 0 to 1.
 TEST(E57, ColoursAreScaledByTheirLimits) {
-  E57TestScan scan = scan_of({0, 1}, {0, 1}, {0, 1},
-                             "<colorLimits><colorRedMinimum>100</colorRedMinimum>"
-                             "<colorRedMaximum>300</colorRedMaximum></colorLimits>");
-  scan.columns.push_back(e57_integers("colorRed", 0, 1023, {100, 150}));
-  scan.columns.push_back(e57_integers("colorGreen", 0, 65535, {65535, 257}));
-  scan.columns.push_back(e57_doubles("colorBlue", {0.5, 2}));
-  const auto file = read(e57({scan}), "a");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{0, 255, 128}, {64, 1, 255}}));
+  E57TestScan whole = scan_of({0, 1}, {0, 1}, {0, 1},
+                              "<colorLimits><colorRedMinimum>100</colorRedMinimum>"
+                              "<colorRedMaximum>300</colorRedMaximum></colorLimits>");
+  E57TestScan fractions = whole;
+  whole.columns.push_back(e57_integers("colorRed", 0, 1023, {100, 150}));
+  whole.columns.push_back(e57_integers("colorGreen", 0, 65535, {65535, 257}));
+  whole.columns.push_back(e57_doubles("colorBlue", {0.5, 2}));
+  fractions.columns.push_back(e57_doubles("colorRed", {150, 300}));
+  for (const char* name : {"colorGreen", "colorBlue"})
+    fractions.columns.push_back(e57_doubles(name, {.2, .8}));
+  EXPECT_EQ(file_of(e57({whole}), "a").cloud.colours, (std::vector<Colour>{{0, 255, 128}, {64, 1, 255}}));
+  EXPECT_EQ(file_of(e57({fractions}), "a").cloud.colours,
+            (std::vector<Colour>{{64, 51, 51}, {255, 204, 204}}));
   // A scan without colours takes them from all.
-  EXPECT_FALSE(read(e57({scan, scan_of({1}, {2}, {3})}), "a")->cloud.has_colours());
+  EXPECT_FALSE(file_of(e57({whole, scan_of({1}, {2}, {3})}), "a").cloud.has_colours());
 }
 
 TEST(E57, DamagedPagesAreNamed) {
@@ -159,11 +147,13 @@ TEST(E57, BrokenDescriptionsAreNamed) {
   EXPECT_EQ(message_with("recordCount=\"1\"", "recordCount=\"0\""), "a.e57: expected points, found none");
 }
 
+// Returns a message from "expected" on.
+std::string after_place(const std::string& message) {
+  return message.substr(message.find("expected"));
+}
+
 TEST(E57, BrokenXmlIsNamed) {
-  const auto found = [](const char* what, const char* by) {
-    const std::string message = message_with(what, by);
-    return message.substr(message.find("expected"));
-  };
+  const auto found = [](const char* what, const char* by) { return after_place(message_with(what, by)); };
   EXPECT_EQ(found("<data3D", "<!ELEMENT><data3D"), "expected an element, found a document type");
   EXPECT_EQ(found("<name><![CDATA[<a>]]></name>", "</e57Root><e57Root>"),
             "expected one root element, found '<e57Root>' after it");
@@ -182,8 +172,7 @@ TEST(E57, BrokenPrototypesAreNamed) {
     E57Column y = column, z = column;
     y.name = "cartesianY";
     z.name = "cartesianZ";
-    const std::string message = message_of(e57({{{column, y, z}}}), "a.e57");
-    return message.substr(message.find("expected"));
+    return after_place(message_of(e57({{{column, y, z}}}), "a.e57"));
   };
   EXPECT_EQ(found(integers, R"(type="Integer" minimum="low" maximum="9")"),
             "expected an integer as minimum, found 'low'");
@@ -195,8 +184,7 @@ TEST(E57, BrokenPrototypesAreNamed) {
 TEST(E57, BrokenSectionsAreNamed) {
   const std::string good = e57_contents({scan_of({1}, {2}, {3})});
   const auto found = [](const std::string& contents) {
-    const std::string message = message_of(e57_pages(contents), "a.e57");
-    return message.substr(message.find("expected"));
+    return after_place(message_of(e57_pages(contents), "a.e57"));
   };
   const std::size_t section = 48, data_packet = 100;
   EXPECT_EQ(found(patched(good, section, '\2')),

@@ -10,6 +10,7 @@
 
 #include "relievo/scan/depth_image.h"
 #include "support/plate_fronts.h"
+#include "support/results.h"
 
 namespace relievo {
 namespace {
@@ -69,15 +70,6 @@ TEST(Write3mf, AndTheOthersTellInches) {
   }
 }
 
-TEST(WriteObj, NumbersCornersFromOne) {
-  const Solid solid = pyramid();
-  std::string faces;
-  for (const auto& [a, b, c] : solid.triangles)
-    faces += "f " + std::to_string(a + 1) + " " + std::to_string(b + 1) + " " + std::to_string(c + 1) + "\n";
-  const auto file = write_obj(solid);
-  EXPECT_TRUE(std::string(reinterpret_cast<const char*>(file.data()), file.size()).ends_with("\n" + faces));
-}
-
 TEST(Write3mf, HoldsTheSolidInMillimetres) {
   const Solid solid = pyramid();
   const std::pair<std::string, std::string> metadata[] = {{"Title", "A <relief> & \"more\""}};
@@ -97,10 +89,6 @@ TEST(Write3mf, HoldsTheSolidInMillimetres) {
             std::string::npos);
 }
 
-TEST(Write3mf, IsTheSameEveryTime) {
-  EXPECT_EQ(write_3mf(pyramid()), write_3mf(pyramid()));
-}
-
 TEST(Write3mf, MetadataCannotBreakTheXml) {
   const std::pair<std::string, std::string> metadata[] = {{"Title", std::string("a\0b\x01", 4)}};
   const std::string model = unzip(write_3mf(pyramid(), metadata)).at("3D/3dmodel.model");
@@ -110,13 +98,12 @@ TEST(Write3mf, MetadataCannotBreakTheXml) {
 TEST(WriteTiff, KeepsEveryHeight) {
   const HeightsMm heights = make_heights_mm(pyramid(), 200);
   const auto bytes = write_tiff(heights);
-  const auto image = read_depth_image(bytes, "h.tif");
-  ASSERT_TRUE(image) << image.error().message();
-  EXPECT_EQ(image->format, "TIFF, 32 bits");
-  EXPECT_EQ(image->values.width, 200);
-  EXPECT_EQ(image->values.height, 200);
-  EXPECT_EQ(image->values.pixels, heights.image.pixels);
-  EXPECT_NEAR(std::ranges::max(image->values.pixels), 2.5, .05);
+  const auto image = value_of(read_depth_image(bytes, "h.tif"));
+  EXPECT_EQ(image.format, "TIFF, 32 bits");
+  EXPECT_EQ(image.values.width, 200);
+  EXPECT_EQ(image.values.height, 200);
+  EXPECT_EQ(image.values.pixels, heights.image.pixels);
+  EXPECT_NEAR(std::ranges::max(image.values.pixels), 2.5, .05);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   EXPECT_NE(text.find("heights in mm, mm_per_pixel=0.1,"), std::string::npos);
 }

@@ -35,31 +35,29 @@ std::string_view format_of(std::string_view bytes, std::string_view name) {
   return "none";
 }
 
-TEST(Formats, AreRecognisedByTheirContent) {
-  EXPECT_EQ(format_of("ply\n", "a"), "PLY");
-  EXPECT_EQ(format_of("plywood 1 2\n", "a"), "XYZ, PTS");
-  EXPECT_EQ(format_of(ascii_pcd(), "a"), "PCD");
-  EXPECT_EQ(format_of(las(2), "a"), "LAS");
-  EXPECT_EQ(format_of(patched(las(2), 104, std::uint8_t{130}), "a"), "LAZ");
-  EXPECT_EQ(format_of("ASTM-E57", "a"), "E57");
-  EXPECT_EQ(format_of(glb(), "a"), "glTF");
-  EXPECT_EQ(format_of("COFF\n", "a"), "OFF");
-  EXPECT_EQ(format_of("solid a\n", "a"), "STL");
-  EXPECT_EQ(format_of("# made by hand\n\nvn 0 0 1\n", "a"), "OBJ");
-  EXPECT_EQ(format_of("1 2 3\n", "a"), "XYZ, PTS");
+TEST(Formats, AreRecognisedByTheirContentOrElseByTheirName) {
+  const std::vector<std::array<std::string, 3>> all = {{"ply\n", "a", "PLY"},
+                                                       {"plywood 1 2\n", "a", "XYZ, PTS"},
+                                                       {ascii_pcd(), "a", "PCD"},
+                                                       {las(2), "a", "LAS"},
+                                                       {patched(las(2), 104, std::uint8_t{130}), "a", "LAZ"},
+                                                       {"ASTM-E57", "a", "E57"},
+                                                       {glb(), "a", "glTF"},
+                                                       {"COFF\n", "a", "OFF"},
+                                                       {"solid a\n", "a", "STL"},
+                                                       {"# made by hand\n\nvn 0 0 1\n", "a", "OBJ"},
+                                                       {"1 2 3\n", "a", "XYZ, PTS"},
+                                                       {"1 2 3\n", "a.PCD", "PCD"},
+                                                       {"{}", "a.gltf", "glTF"},
+                                                       {"1 2 3\n", "a.obj", "OBJ"},
+                                                       {"1 2 3\n", "a.csv", "XYZ, PTS"},
+                                                       {"PK\x03\x04", "a.obj", "none"},
+                                                       {"newmtl red\n", "a.mtl", "none"},
+                                                       {"1 2 3\n", "a.ply", "none"}};
+  for (const auto& [bytes, name, format] : all) EXPECT_EQ(format_of(bytes, name), format) << bytes << name;
 }
 
-TEST(Formats, AreRecognisedByTheNameWhereTheContentHasNoMark) {
-  EXPECT_EQ(format_of("1 2 3\n", "a.PCD"), "PCD");
-  EXPECT_EQ(format_of("{}", "a.gltf"), "glTF");
-  EXPECT_EQ(format_of("1 2 3\n", "a.obj"), "OBJ");
-  EXPECT_EQ(format_of("1 2 3\n", "a.csv"), "XYZ, PTS");
-}
-
-TEST(Formats, LeaveForeignFilesToNobody) {
-  EXPECT_EQ(format_of("PK\x03\x04", "a.obj"), "none");
-  EXPECT_EQ(format_of("newmtl red\n", "a.mtl"), "none");
-  EXPECT_EQ(format_of("1 2 3\n", "a.ply"), "none");
+TEST(Formats, NameForeignFiles) {
   EXPECT_EQ(io::foreign_format({"Kaydara FBX", "a"}), "an FBX file");
   EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.PTX"}), "a PTX file");
   EXPECT_EQ(io::foreign_format({"1 2 3\n", "a.xyz"}), "");

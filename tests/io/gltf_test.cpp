@@ -12,11 +12,6 @@
 namespace relievo {
 namespace {
 
-std::vector<std::byte> bytes_of(const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
 // Reads the file beside which there are the given files; `asked` gets the names that were asked for.
 Result<CloudFile> read_beside(const std::string& text, const std::map<std::string, std::string>& files,
                               std::vector<std::string>* asked = nullptr) {
@@ -25,6 +20,18 @@ Result<CloudFile> read_beside(const std::string& text, const std::map<std::strin
     if (const auto found = files.find(name); found != files.end()) return bytes_of(found->second);
     return std::unexpected(Error{ErrorKind::input, name, {}, "expected a file"});
   });
+}
+
+// Returns the sample's file after a change of its JSON.
+CloudFile changed(std::string_view what, std::string_view by) {
+  return file_of(glb_of(replaced(gltf_json(), what, by)), "a.glb");
+}
+
+// Returns the sample's JSON with those nodes, or none, and without scenes.
+std::string with_nodes(std::string_view nodes) {
+  std::string json = gltf_json();
+  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
+  return json.replace(begin, end - begin, nodes);
 }
 
 std::string with_uri(const std::string& uri) {
@@ -96,28 +103,16 @@ TEST(GltfBeside, AsksForNoFileOutsideTheFolder) {
 TEST(GltfBeside, BuffersThatNoMeshUsesMayBeMissing) {
   const std::string more =
       replaced(gltf_json(), R"("buffers":[)", R"("buffers":[{"uri":"no.bin","byteLength":9},)");
-  const auto file = read(glb_of(replaced(more, R"("buffer":0)", R"("buffer":1)")), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+  const auto file = file_of(glb_of(replaced(more, R"("buffer":0)", R"("buffer":1)")), "a.glb");
+  EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
 }
 
 TEST(Gltf, ReadsMeshesWithoutNodes) {
-  std::string json = gltf_json();
-  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
-  json.erase(begin, end - begin);
-  const auto file = read(glb_of(json), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.points, tetrahedron_points);
-}
-
-TEST(Gltf, ReadsAllMeshesWithoutNodes) {
-  std::string json = gltf_json();
-  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
-  json.erase(begin, end - begin);
-  const std::string mesh = R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]})";
-  const auto file = read(glb_of(replaced(json, mesh, mesh + "," + mesh)), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles.size(), 8U);
+  const std::string json = with_nodes(""),
+                    mesh = R"({"primitives":[{"attributes":{"POSITION":0},"indices":1}]})";
+  EXPECT_EQ(file_of(glb_of(json), "a.glb").mesh.points, tetrahedron_points);
+  const std::string two = replaced(json, mesh, mesh + "," + mesh);
+  EXPECT_EQ(file_of(glb_of(two), "a.glb").mesh.triangles.size(), 8U);
 }
 
 // Chunks of unknown kinds, and a second one of the binary kind, say nothing.
@@ -129,28 +124,23 @@ TEST(Gltf, TakesTheFirstBinaryChunk) {
   const std::string zeros = size(72) + std::string("BIN\0", 4) + std::string(72, '\0');
   const std::string unknown = size(4) + "ABCD" + "1234";
   const std::string all = chunks.substr(0, text_end) + unknown + chunks.substr(text_end) + zeros + unknown;
-  const auto file = read("glTF" + size(2) + size(12 + all.size()) + all, "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.points, read(glb(), "a.glb")->mesh.points);
+  const auto file = file_of("glTF" + size(2) + size(12 + all.size()) + all, "a.glb");
+  EXPECT_EQ(file.mesh.points, read(glb(), "a.glb")->mesh.points);
 }
 
 TEST(Gltf, ReadsPointsAsACloud) {
-  const auto file = read(glb_of(replaced(gltf_json(), R"("indices":1)", R"("mode":0)")), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_TRUE(file->mesh.empty());
-  EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{10, 0, 0}, {12, 0, 0}, {10, 2, 0}, {10, 0, 2}}));
+  const auto file = changed(R"("indices":1)", R"("mode":0)");
+  EXPECT_TRUE(file.mesh.empty());
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{10, 0, 0}, {12, 0, 0}, {10, 2, 0}, {10, 0, 2}}));
 }
 
 TEST(Gltf, SkipsPrimitivesWithoutPositions) {
   const std::string two = replaced(gltf_json(), R"("primitives":[)", R"("primitives":[{"attributes":{}},)");
-  const auto file = read(glb_of(two), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+  EXPECT_EQ(file_of(glb_of(two), "a.glb").mesh.triangles, tetrahedron_triangles);
 }
 
 TEST(Gltf, TakesWholeNumbersWrittenAsFractions) {
-  const auto file = read(glb_of(replaced(gltf_json(), R"("nodes":[0])", R"("nodes":[0.0])")), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
+  const auto file = changed(R"("nodes":[0])", R"("nodes":[0.0])");
 }
 
 // The tetrahedron's second and fourth corner replaced by two others.
@@ -171,12 +161,10 @@ std::string sparse_glb(const std::string& base) {
 }
 
 TEST(Gltf, ReplacesTheVectorsOfSparseAccessors) {
-  const auto file = read(sparse_glb(R"("bufferView":0,)"), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.points, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 1, 0}, {8, 9, 10}}));
-  const auto zeros = read(sparse_glb(""), "a.glb");
-  ASSERT_TRUE(zeros) << zeros.error().message();
-  EXPECT_EQ(zeros->mesh.points, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 0, 0}, {8, 9, 10}}));
+  const auto file = file_of(sparse_glb(R"("bufferView":0,)"), "a.glb");
+  EXPECT_EQ(file.mesh.points, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 1, 0}, {8, 9, 10}}));
+  const auto zeros = file_of(sparse_glb(""), "a.glb");
+  EXPECT_EQ(zeros.mesh.points, (std::vector<Vec3>{{0, 0, 0}, {5, 6, 7}, {0, 0, 0}, {8, 9, 10}}));
   EXPECT_EQ(
       message_of(replaced(sparse_glb(""), R"("count":4,"type":"VEC3")", R"("count":2,"type":"VEC3")"), "a"),
       "a, mesh 0, accessor 0: expected sparse indices below 2, found 3");
@@ -223,14 +211,13 @@ TEST(Gltf, ReadsQuantisedMeshes) {
                                     (kind.is_normalised ? R"(,"normalized":true)" : ""));
     json = replaced(json, R"({"buffer":0,"byteLength":48})",
                     R"({"buffer":0,"byteLength":48,"byteStride":)" + std::to_string(stride) + "}");
-    const auto file = read(glb_of(json, buffer), "a.glb"), plain = read(glb(), "a.glb");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+    const auto file = file_of(glb_of(json, buffer), "a.glb"), plain = file_of(glb(), "a.glb");
+    EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
     const Vec3 middle(10, 0, 0);  // of the node, which doubles sizes
     for (std::size_t i = 0; i < 4; ++i) {
       const Vec3 expected =
-          (plain->mesh.points[i] - middle) * (kind.is_normalised ? 1 : kind.largest) + middle;
-      EXPECT_LE((file->mesh.points[i] - expected).norm(), 1e-9) << kind.code;
+          (plain.mesh.points[i] - middle) * (kind.is_normalised ? 1 : kind.largest) + middle;
+      EXPECT_LE((file.mesh.points[i] - expected).norm(), 1e-9) << kind.code;
     }
   }
 }
@@ -257,18 +244,16 @@ TEST(Gltf, PutsCopiesOfAMeshWhereInstancingSaysSo) {
     return replaced(replaced(text, R"("byteLength":72)", R"("byteLength":152)"), R"("scene":0)",
                     R"("scene":0,"extensionsRequired":["EXT_mesh_gpu_instancing"])");
   };
-  const auto file = read(glb_of(json(R"("TRANSLATION":2,"ROTATION":3,"SCALE":4)"), buffer), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
+  const auto file = file_of(glb_of(json(R"("TRANSLATION":2,"ROTATION":3,"SCALE":4)"), buffer), "a.glb");
   const std::vector<Vec3> expected = {{10, 0, 0},   {12, 0, 0},   {10, 2, 0},   {10, 0, 2},
                                       {20, 12, 14}, {20, 18, 14}, {14, 12, 14}, {20, 12, 20}};
-  ASSERT_EQ(file->mesh.points.size(), expected.size());
+  ASSERT_EQ(file.mesh.points.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i)
-    EXPECT_LE((file->mesh.points[i] - expected[i]).norm(), 1e-5) << i;
-  EXPECT_EQ(file->mesh.triangles.size(), 8U);
-  EXPECT_EQ(file->mesh.triangles[4], (Triangle{4, 6, 5}));
-  const auto numbered = read(glb_of(json(R"("_ID":2)"), buffer), "a.glb");
-  ASSERT_TRUE(numbered) << numbered.error().message();
-  EXPECT_EQ(numbered->mesh.points.size(), 4U) << "copies without a place are one";
+    EXPECT_LE((file.mesh.points[i] - expected[i]).norm(), 1e-5) << i;
+  EXPECT_EQ(file.mesh.triangles.size(), 8U);
+  EXPECT_EQ(file.mesh.triangles[4], (Triangle{4, 6, 5}));
+  const auto numbered = file_of(glb_of(json(R"("_ID":2)"), buffer), "a.glb");
+  EXPECT_EQ(numbered.mesh.points.size(), 4U) << "copies without a place are one";
   EXPECT_EQ(message_of(glb_of(json(R"("ROTATION":2)"), buffer), "a.glb"),
             "a.glb, node 1: expected vectors of 4 numbers as ROTATION, found vectors of 3");
   EXPECT_EQ(message_of(glb_of(json(R"("TRANSLATION":2,"SCALE":0)"), buffer), "a.glb"),
@@ -319,21 +304,19 @@ double volume_of(const Mesh& mesh) {
 // A node that mirrors its mesh would turn it inside out; the format says that it does not.
 TEST(Gltf, KeepsTheOutsideOfMirroredMeshesOutside) {
   for (const char* scale : {"[2,2,2]", "[-2,2,2]", "[-2,-2,-2]"}) {
-    const auto file = read(glb_of(replaced(gltf_json(), "[2,2,2]", scale)), "a.glb");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_NEAR(volume_of(file->mesh), 8 / 6., 1e-9) << scale;
+    const auto file = changed("[2,2,2]", scale);
+    EXPECT_NEAR(volume_of(file.mesh), 8 / 6., 1e-9) << scale;
   }
 }
 
 TEST(Gltf, KeepsNormalsOfMirroredMeshesOutside) {
   const std::string json = replaced(gltf_json(), R"("POSITION":0)", R"("POSITION":0,"NORMAL":0)");
-  const auto file = read(glb_of(replaced(json, "[2,2,2]", "[-2,2,2]")), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  ASSERT_FALSE(file->mesh.triangles.empty());
-  for (std::size_t t = 0; t < file->mesh.triangles.size(); ++t)
+  const auto file = file_of(glb_of(replaced(json, "[2,2,2]", "[-2,2,2]")), "a.glb");
+  ASSERT_FALSE(file.mesh.triangles.empty());
+  for (std::size_t t = 0; t < file.mesh.triangles.size(); ++t)
     for (std::size_t c = 0; c < 3; ++c) {
-      const Vec3 place = file->mesh.points[file->mesh.triangles[t][c]] - Vec3(10, 0, 0);
-      const double outwards = place.dot(file->mesh.corner_normals[t][c].cast<double>());
+      const Vec3 place = file.mesh.points[file.mesh.triangles[t][c]] - Vec3(10, 0, 0);
+      const double outwards = place.dot(file.mesh.corner_normals[t][c].cast<double>());
       EXPECT_TRUE(place.isZero() || outwards > 0) << t;
     }
 }
@@ -344,12 +327,7 @@ TEST(Gltf, ReadsALongChainOfNodesWithoutAScene) {
   const int length = 400000;
   for (int i = 0; i < length; ++i) nodes += R"({"children":[)" + std::to_string(i + 1) + "]},";
   nodes += R"({"mesh":0}],)";
-  std::string json = gltf_json();
-  const std::size_t begin = json.find(R"("scene":0)"), end = json.find(R"("meshes")");
-  json.replace(begin, end - begin, nodes);
-  const auto file = read(glb_of(json), "a.glb");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.points, tetrahedron_points);
+  EXPECT_EQ(file_of(glb_of(with_nodes(nodes)), "a.glb").mesh.points, tetrahedron_points);
 }
 
 }  // namespace

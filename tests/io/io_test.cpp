@@ -48,9 +48,7 @@ TEST(ReadCloud, ContentGoesBeforeTheName) {
 
 // The cloud as it comes back from a file. Written by write_ply(), which does not judge what it writes.
 CloudFile through_ply(const Cloud& cloud) {
-  const auto file = read(as_string(write_ply(cloud)), "scan.ply");
-  EXPECT_TRUE(file) << file.error().message();
-  return file.value_or(CloudFile{});
+  return file_of(as_string(write_ply(cloud)), "scan.ply");
 }
 
 TEST(ReadCloud, DropsAndCountsPointsThatAreNotFinite) {
@@ -163,12 +161,11 @@ class SharedScan : public testing::TestWithParam<Scan> {};
 TEST_P(SharedScan, HasTheKnownCounts) {
   const std::string path = GetParam().file, name = path.substr(path.find('/') + 1);
   if (!test::has_shared(path)) GTEST_SKIP() << test::missing_scan(path);
-  const auto file = read(as_string(test::shared_bytes(path)), name);
-  ASSERT_TRUE(file) << file.error().message();
+  const auto file = file_of(as_string(test::shared_bytes(path)), name);
   EXPECT_EQ(check_answer(file, name), "");
-  EXPECT_EQ(file->cloud.size(), GetParam().points);
-  EXPECT_EQ(file->cloud.has_normals(), GetParam().has_normals);
-  EXPECT_EQ(file->dropped_points + file->dropped_normals, 0U);
+  EXPECT_EQ(file.cloud.size(), GetParam().points);
+  EXPECT_EQ(file.cloud.has_normals(), GetParam().has_normals);
+  EXPECT_EQ(file.dropped_points + file.dropped_normals, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(

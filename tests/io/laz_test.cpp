@@ -61,13 +61,12 @@ TEST(Laz, ChunksOfDifferentSizesAreRead) {
   for (const bool is_layered : {false, true}) {
     const std::vector<std::vector<LazTestPoint>> chunks = {any_points(3, 1), any_points(700, 2),
                                                            any_points(40, 3)};
-    const auto file = read(laz(chunks, is_layered), "a");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->format, "LAZ 1.4");
-    ASSERT_EQ(file->cloud.size(), 743U);
+    const auto file = file_of(laz(chunks, is_layered), "a");
+    EXPECT_EQ(file.format, "LAZ 1.4");
+    ASSERT_EQ(file.cloud.size(), 743U);
     std::size_t at = 0;
     for (const auto& chunk : chunks)
-      for (const LazTestPoint& p : chunk) ASSERT_EQ(file->cloud.points[at++], Vec3(p[0], p[1], p[2])) << at;
+      for (const LazTestPoint& p : chunk) ASSERT_EQ(file.cloud.points[at++], Vec3(p[0], p[1], p[2])) << at;
   }
 }
 

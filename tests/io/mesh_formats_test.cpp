@@ -26,19 +26,10 @@ std::vector<std::array<std::array<double, 3>, 3>> corners_of(const Mesh& mesh) {
 const Mesh tetrahedron = {tetrahedron_points, tetrahedron_triangles};
 
 void expect_tetrahedron(const std::string& text, const std::string& name, const std::string& format) {
-  const auto file = read(text, name);
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->format, format);
-  EXPECT_EQ(corners_of(file->mesh), corners_of(tetrahedron)) << format;
-  EXPECT_EQ(file->cloud.size(), 4U) << format;
-}
-
-struct Broken {
-  std::string text, message;
-};
-
-void expect_messages(const std::string& name, const std::vector<Broken>& all) {
-  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, name), name + message);
+  const auto file = file_of(text, name);
+  EXPECT_EQ(file.format, format);
+  EXPECT_EQ(corners_of(file.mesh), corners_of(tetrahedron)) << format;
+  EXPECT_EQ(file.cloud.size(), 4U) << format;
 }
 
 TEST(MeshFormats, AllReadTheSameTetrahedron) {
@@ -47,8 +38,7 @@ TEST(MeshFormats, AllReadTheSameTetrahedron) {
   expect_tetrahedron(off(), "scan", "OFF");
   expect_tetrahedron("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1/1 2/2 4/3\nf -4 -1 -2\nf 2 3 4\n",
                      "a.obj", "OBJ");
-  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
-  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const PlyTable vertices = ply_vertices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   const PlyTable faces{"face",
                        {{"uchar", "flag"}, {"int", "vertex_indices", "uchar"}},
                        {{1, 3, 0, 2, 1}, {1, 3, 0, 1, 3}, {1, 3, 0, 3, 2}, {1, 3, 1, 2, 3}}};
@@ -58,43 +48,37 @@ TEST(MeshFormats, AllReadTheSameTetrahedron) {
 }
 
 TEST(MeshFormats, StripsOfPlyTurnEverySecondTriangle) {
-  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
-  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}};
+  const PlyTable vertices = ply_vertices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
   const PlyTable strips{"tristrips", {{"int", "vertex_indices", "int"}}, {{8, 0, 1, 2, 3, -1, 2, 1, 0}}};
   for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little_endian}) {
-    const auto file = read(encode_ply({vertices, strips}, encoding), "a.ply");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 1, 0}}));
+    const auto file = file_of(encode_ply({vertices, strips}, encoding), "a.ply");
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 1, 0}}));
   }
 }
 
 // The arrow has an area of 2; fanned out from its second corner, it has more.
 TEST(MeshFormats, ConcavePolygonsAreCoveredInEveryFormat) {
-  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
-  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}}};
-  const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}}, {{4, 1, 2, 3, 0}}};
+  const PlyTable vertices = ply_vertices({{0, 0, 0}, {2, 2, 0}, {0, 1, 0}, {-2, 2, 0}});
+  const PlyTable faces = ply_faces({{4, 1, 2, 3, 0}});
   for (const std::string& text : {encode_ply({vertices, faces}, PlyEncoding::ascii),
                                   encode_ply({vertices, faces}, PlyEncoding::little_endian),
                                   std::string("OFF\n4 1 0\n0 0 0\n2 2 0\n0 1 0\n-2 2 0\n4 1 2 3 0\n")}) {
-    const auto file = read(text, "a");
-    ASSERT_TRUE(file) << file.error().message();
+    const auto file = file_of(text, "a");
     double area = 0;
-    for (const auto& [a, b, c] : file->mesh.triangles) {
-      const auto& p = file->mesh.points;
+    for (const auto& [a, b, c] : file.mesh.triangles) {
+      const auto& p = file.mesh.points;
       area += (p[b] - p[a]).cross(p[c] - p[a]).z() / 2;
-      EXPECT_GT((p[b] - p[a]).cross(p[c] - p[a]).z(), 0) << file->format;
+      EXPECT_GT((p[b] - p[a]).cross(p[c] - p[a]).z(), 0) << file.format;
     }
-    EXPECT_DOUBLE_EQ(area, 2) << file->format;
+    EXPECT_DOUBLE_EQ(area, 2) << file.format;
   }
 }
 
 TEST(MeshFormats, FacesOfPlyMayComeBeforeTheVertices) {
-  const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
-  const PlyTable vertices{"vertex", xyz, {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const PlyTable vertices = ply_vertices({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
   const PlyTable other{"other", {{"uchar", "n"}}, {{1}, {2}}};
-  PlyTable faces{
-      "face", {{"int", "vertex_indices", "uchar"}}, {{3, 0, 2, 1}, {3, 0, 1, 3}, {3, 0, 3, 2}, {3, 1, 2, 3}}};
-  for (const auto encoding : {PlyEncoding::ascii, PlyEncoding::little_endian, PlyEncoding::big_endian})
+  PlyTable faces = ply_faces({{3, 0, 2, 1}, {3, 0, 1, 3}, {3, 0, 3, 2}, {3, 1, 2, 3}});
+  for (const PlyEncoding encoding : ply_encodings)
     EXPECT_EQ(read(encode_ply({faces, other, vertices}, encoding), "a.ply")->mesh.triangles,
               tetrahedron_triangles);
   faces.rows[2][3] = 4;
@@ -103,24 +87,14 @@ TEST(MeshFormats, FacesOfPlyMayComeBeforeTheVertices) {
 }
 
 TEST(MeshFormats, PolygonsBecomeFans) {
-  const auto file = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 1 2\n", "a.obj");
-  ASSERT_TRUE(file);
-  EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
-}
-
-TEST(MeshFormats, CornersKeepTheirOwnNormals) {
-  const auto file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 2\nvn 1 0 0\nf 1//1 2//2 3//1\n", "a.obj");
-  ASSERT_TRUE(file);
-  ASSERT_EQ(file->mesh.corner_normals.size(), 1U);
-  EXPECT_EQ(file->mesh.corner_normals[0],
-            (std::array<Vec3f, 3>{Vec3f::UnitZ(), Vec3f::UnitX(), Vec3f::UnitZ()}));
+  const auto file = file_of("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 1 2\n", "a.obj");
+  EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
 }
 
 TEST(MeshFormats, TrianglesWithACornerThatIsNotFiniteAreLeftOut) {
-  const auto file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 2 3 4\n", "a.obj");
-  ASSERT_TRUE(file);
-  EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
-  EXPECT_EQ(file->cloud.size(), 3U);
+  const auto file = file_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\nf 2 3 4\n", "a.obj");
+  EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+  EXPECT_EQ(file.cloud.size(), 3U);
 }
 
 TEST(Stl, BinaryMayBeginWithSolid) {
@@ -147,9 +121,7 @@ TEST(Stl, TextMayStandInOneLine) {
       "solid a facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet "
       "endsolid a solid b facet normal 0 0 1 outer loop vertex 0 0 2 vertex 1 0 0 vertex 0 1 0 "
       "endloop endfacet endsolid b";
-  const auto file = read(two, "a.stl");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles.size(), 2U);
+  EXPECT_EQ(file_of(two, "a.stl").mesh.triangles.size(), 2U);
   EXPECT_EQ(message_of(replaced(two, "0 1 0", "0 1 x"), "a.stl"),
             "a.stl, line 1: expected 3 numbers after vertex, found 'x'");
   EXPECT_EQ(message_of(replaced(two, "vertex 1 0 0 ", ""), "a.stl"),
@@ -181,14 +153,13 @@ TEST(Stl, BrokenFieldsAreNamed) {
 }
 
 TEST(Off, ReadsColoursAndNormals) {
-  const auto file = read(
-      "CNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0 255 0 255\n"
-      "0 1 0 0 0 1 0.0 0.0 1.0 1.0\n3 0 1 2\n",
-      "scan");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->cloud.normals, std::vector<Vec3f>(3, Vec3f::UnitZ()));
-  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
-  EXPECT_EQ(file->mesh.colours, file->cloud.colours);
+  const auto file =
+      value_of(read("CNOFF 3 1 0\n0 0 0 0 0 1 255 0 0 255\n1 0 0 0 0 1 0 255 0 255\n"
+                    "0 1 0 0 0 1 0.0 0.0 1.0 1.0\n3 0 1 2\n",
+                    "scan"));
+  EXPECT_EQ(file.cloud.normals, std::vector<Vec3f>(3, Vec3f::UnitZ()));
+  EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 0}, {0, 255, 0}, {0, 0, 255}}));
+  EXPECT_EQ(file.mesh.colours, file.cloud.colours);
 }
 
 TEST(Off, TheKeywordMayBeMissing) {
@@ -240,10 +211,9 @@ TEST(Off, BrokenFieldsAreNamed) {
 
 TEST(Gltf, NodesPlaceTheirMeshes) {
   for (const std::string& text : {glb(), embedded_gltf()}) {
-    const auto file = read(text, "a.gltf");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->mesh.points, (std::vector<Vec3>{{10, 0, 0}, {12, 0, 0}, {10, 2, 0}, {10, 0, 2}}));
-    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
+    const auto file = file_of(text, "a.gltf");
+    EXPECT_EQ(file.mesh.points, (std::vector<Vec3>{{10, 0, 0}, {12, 0, 0}, {10, 2, 0}, {10, 0, 2}}));
+    EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
   }
 }
 
@@ -251,9 +221,8 @@ TEST(Gltf, QuaternionsAndMatricesTurn) {
   const std::string quarter = R"("rotation":[0,0,0.7071067811865476,0.7071067811865476])";
   const std::string matrix = R"("matrix":[0,1,0,0,-1,0,0,0,0,0,1,0,0,0,0,1])";
   for (const std::string& turn : {quarter, matrix}) {
-    const auto file = read(glb_of(replaced(gltf_json(), R"("translation":[10,0,0])", turn)), "scan");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_LT((file->mesh.points[1] - Vec3(0, 2, 0)).norm(), 1e-12);
+    const auto file = file_of(glb_of(replaced(gltf_json(), R"("translation":[10,0,0])", turn)), "scan");
+    EXPECT_LT((file.mesh.points[1] - Vec3(0, 2, 0)).norm(), 1e-12);
   }
 }
 

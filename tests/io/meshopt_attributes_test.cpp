@@ -78,16 +78,21 @@ TEST(MeshoptAttributes, DecodesTheExampleOfTheSpecification) {
   EXPECT_EQ(text_of(decode_meshopt(stream, {.count = 16, .stride = 4})), expected);
 }
 
+// Returns random elements of which each byte differs from that before by less than `range`.
+std::string random_elements(std::mt19937& random, std::size_t bytes, std::size_t stride, unsigned range) {
+  std::string elements;
+  for (std::size_t i = 0; i < bytes; ++i)
+    elements +=
+        static_cast<char>((i < stride ? 0 : elements[i - stride]) + static_cast<int>(random() % range));
+  return elements;
+}
+
 TEST(MeshoptAttributes, DecodesAttributesOfAllSizes) {
   std::mt19937 random(1);
   for (const std::size_t stride : {4U, 8U, 12U, 16U, 64U, 256U})
     for (const std::size_t count : {1U, 15U, 16U, 17U, 64U, 200U, 255U, 256U, 257U, 1000U})
-      for (const int range : {1, 2, 5, 256}) {  // of differences
-        std::string elements;
-        for (std::size_t i = 0; i < count * stride; ++i) {
-          const int before = i < stride ? 0 : elements[i - stride];
-          elements += static_cast<char>(before + static_cast<int>(random() % static_cast<unsigned>(range)));
-        }
+      for (const unsigned range : {1, 2, 5, 256}) {  // of differences
+        const std::string elements = random_elements(random, count * stride, stride, range);
         const std::string stream = compressed_attributes(elements, stride);
         const MeshoptLayout layout{.count = count, .stride = stride};
         ASSERT_EQ(text_of(decode_meshopt(stream, layout)), elements)
@@ -101,12 +106,9 @@ TEST(MeshoptAttributes, DecodesVersion1InAllItsWays) {
   std::mt19937 random(3);
   for (const std::size_t stride : {4U, 12U, 16U, 256U})
     for (const std::size_t count : {1U, 16U, 17U, 255U, 257U, 1000U})
-      for (const int range : {1, 3, 256}) {
-        std::string elements, modes;
-        for (std::size_t i = 0; i < count * stride; ++i) {
-          const int before = i < stride ? 0 : elements[i - stride];
-          elements += static_cast<char>(before + static_cast<int>(random() % static_cast<unsigned>(range)));
-        }
+      for (const unsigned range : {1, 3, 256}) {
+        const std::string elements = random_elements(random, count * stride, stride, range);
+        std::string modes;
         for (std::size_t i = 0; i < stride / 4; ++i)
           modes += std::array{'\x00', '\x01', '\x02', '\x52', '\xF2'}[random() % 5];
         const std::string stream = compressed_attributes_1(elements, stride, modes);

@@ -163,58 +163,43 @@ TEST(Meshopt, DecodesIndicesAgainstTwoBaselines) {
   EXPECT_FALSE(decode_meshopt(stream, {MeshoptMode::indices, MeshoptFilter::none, 5, 4}));
 }
 
+// Compresses elements, decodes them and applies the filter.
+std::optional<std::vector<std::byte>> filtered(MeshoptFilter filter, const std::string& elements,
+                                               std::size_t stride) {
+  return decode_meshopt(compressed_attributes(elements, stride),
+                        {MeshoptMode::attributes, filter, elements.size() / stride, stride});
+}
+
 TEST(Meshopt, UnfoldsTheOctahedron) {
   // +x, -y, the middle of a side above, and -z, which lies at the corners; 127 and, of fewer bits, 15 stand for 1.
   const std::string folded = bytes_of({127, 0, 127, 7, 0, -15, 15, 8, 64, 63, 127, 9, 15, 15, 15, 1});
-  const auto unfolded = decode_meshopt(compressed_attributes(folded, 4),
-                                       {MeshoptMode::attributes, MeshoptFilter::octahedral, 4, 4});
-  EXPECT_EQ(text_of(unfolded), bytes_of({127, 0, 0, 7, 0, -127, 0, 8, 91, 89, 0, 9, 0, 0, -127, 1}));
-  std::int16_t words[4] = {0, 0, 511, 5};
-  std::string wide(sizeof words, '\0');
-  std::memcpy(wide.data(), words, sizeof words);
-  const auto up = decode_meshopt(compressed_attributes(wide, 8),
-                                 {MeshoptMode::attributes, MeshoptFilter::octahedral, 1, 8});
-  EXPECT_EQ(text_of(up), bytes_of({0, 0, 0, 0, 0xFF, 0x7F, 5, 0}));
-  EXPECT_FALSE(decode_meshopt(compressed_attributes(std::string(4, '\0'), 4),
-                              {MeshoptMode::attributes, MeshoptFilter::octahedral, 1, 4}));
+  EXPECT_EQ(text_of(filtered(MeshoptFilter::octahedral, folded, 4)),
+            bytes_of({127, 0, 0, 7, 0, -127, 0, 8, 91, 89, 0, 9, 0, 0, -127, 1}));
+  const std::string wide = raw(std::array<std::int16_t, 4>{0, 0, 511, 5});
+  EXPECT_EQ(text_of(filtered(MeshoptFilter::octahedral, wide, 8)), bytes_of({0, 0, 0, 0, 0xFF, 0x7F, 5, 0}));
+  EXPECT_FALSE(filtered(MeshoptFilter::octahedral, std::string(4, '\0'), 4));
 }
 
 TEST(Meshopt, ExpandsExponents) {
-  std::string packed;
-  const std::vector<std::pair<int, int>> parts = {{0, 5},    {-3, 13},         {2, -7},
-                                                  {-100, 1}, {-1, -(1 << 23)}, {10, 0}};
-  std::vector<float> expected;
-  for (const auto& [exponent, mantissa] : parts) {
+  std::string packed, expected;
+  for (const auto& [exponent, mantissa] :
+       {std::pair{0, 5}, {-3, 13}, {2, -7}, {-100, 1}, {-1, -(1 << 23)}, {10, 0}}) {
     packed += bytes_of({mantissa, mantissa >> 8, mantissa >> 16, exponent});
-    expected.push_back(static_cast<float>(std::ldexp(mantissa, exponent)));
+    expected += raw(static_cast<float>(std::ldexp(mantissa, exponent)));
   }
-  const auto expanded =
-      decode_meshopt(compressed_attributes(packed, 4),
-                     {MeshoptMode::attributes, MeshoptFilter::exponential, parts.size(), 4});
-  ASSERT_TRUE(expanded);
-  std::vector<float> values(parts.size());
-  std::memcpy(values.data(), expanded->data(), expanded->size());
-  EXPECT_EQ(values, expected);
+  EXPECT_EQ(text_of(filtered(MeshoptFilter::exponential, packed, 4)), expected);
 }
 
 TEST(Meshopt, MixesColours) {
-  // White, red and a grey of 8 bits, half of it opaque; then green of 16 bits.
+  // White, red and a grey of 8 bits, half of it opaque; then white of 4 bits, and blue of 16.
   const std::string stored = bytes_of({255, 0, 0, 255, 64, 127, -64, 255, 128, 0, 0, 128 | 64});
-  const MeshoptLayout layout{MeshoptMode::attributes, MeshoptFilter::colour, 3, 4};
-  EXPECT_EQ(text_of(decode_meshopt(compressed_attributes(stored, 4), layout)),
+  EXPECT_EQ(text_of(filtered(MeshoptFilter::colour, stored, 4)),
             bytes_of({255, 255, 255, 255, 255, 0, 1, 255, 128, 128, 128, 128}));
-  const std::string few = bytes_of({15, 0, 0, 8 | 7});  // four bits
-  EXPECT_EQ(text_of(decode_meshopt(compressed_attributes(few, 4),
-                                   {MeshoptMode::attributes, MeshoptFilter::colour, 1, 4})),
+  EXPECT_EQ(text_of(filtered(MeshoptFilter::colour, bytes_of({15, 0, 0, 8 | 7}), 4)),
             bytes_of({255, 255, 255, 255}));
-  std::uint16_t words[4] = {16384, 0, 16384, 65535};
-  std::string wide(sizeof words, '\0');
-  std::memcpy(wide.data(), words, sizeof words);
-  EXPECT_EQ(text_of(decode_meshopt(compressed_attributes(wide, 8),
-                                   {MeshoptMode::attributes, MeshoptFilter::colour, 1, 8})),
-            bytes_of({0, 0, 0, 128, 0, 0, 255, 255}));
-  EXPECT_FALSE(decode_meshopt(compressed_attributes(std::string(4, '\0'), 4),
-                              {MeshoptMode::attributes, MeshoptFilter::colour, 1, 4}));
+  const std::string wide = raw(std::array<std::uint16_t, 4>{16384, 0, 16384, 65535});
+  EXPECT_EQ(text_of(filtered(MeshoptFilter::colour, wide, 8)), bytes_of({0, 0, 0, 128, 0, 0, 255, 255}));
+  EXPECT_FALSE(filtered(MeshoptFilter::colour, std::string(4, '\0'), 4));
 }
 
 // Whatever the bytes are, as many come out as the layout says, or none.
@@ -297,12 +282,11 @@ std::string compressed_glb(const std::string& mode, const std::string& extension
 
 TEST(Meshopt, IsReadWithoutTheBufferThatItStandsFor) {
   for (const std::string extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-    const auto file = read(compressed_glb("TRIANGLES", extension), "a.glb");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->mesh.triangles, tetrahedron_triangles);
-    ASSERT_EQ(file->mesh.points.size(), tetrahedron_points.size());
+    const auto file = file_of(compressed_glb("TRIANGLES", extension), "a.glb");
+    EXPECT_EQ(file.mesh.triangles, tetrahedron_triangles);
+    ASSERT_EQ(file.mesh.points.size(), tetrahedron_points.size());
     for (std::size_t i = 0; i < tetrahedron_points.size(); ++i)
-      EXPECT_LE((file->mesh.points[i] - tetrahedron_points[i]).norm(), 1e-12);
+      EXPECT_LE((file.mesh.points[i] - tetrahedron_points[i]).norm(), 1e-12);
   }
   for (const char* const mode : {"INDICES", "ATTRIBUTES", "OTHERS"}) {
     const std::string message = message_of(compressed_glb(mode, "KHR_meshopt_compression"), "a.glb");

@@ -7,8 +7,7 @@
 namespace relievo {
 namespace {
 
-const std::vector<PlyColumn> xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
-const std::vector<std::vector<double>> three_rows = {{1, 2, 3}, {4, 5, 6}, {-7.5, 8.25, 1e6}};
+const PlyTable three_vertices = ply_vertices({{1, 2, 3}, {4, 5, 6}, {-7.5, 8.25, 1e6}});
 const std::vector<Vec3> three_points = {{1, 2, 3}, {4, 5, 6}, {-7.5, 8.25, 1e6}};
 
 // ascii, three vertices; the tests bend it
@@ -22,19 +21,13 @@ std::string change(std::string_view what, std::string_view by) {
 }
 
 std::vector<Vec3> points_of(std::string_view text) {
-  const auto file = read(text, "scan.ply");
-  EXPECT_TRUE(file) << file.error().message();
-  return file ? file->cloud.points : std::vector<Vec3>();
+  return file_of(text, "scan.ply").cloud.points;
 }
 
 class Ply : public testing::TestWithParam<PlyEncoding> {
  protected:
   std::string encode(const std::vector<PlyTable>& tables) const { return encode_ply(tables, GetParam()); }
 };
-
-TEST_P(Ply, ReadsPoints) {
-  EXPECT_EQ(points_of(encode({{"vertex", xyz, three_rows}})), three_points);
-}
 
 TEST_P(Ply, ReadsEveryType) {
   for (const auto* type : {"char", "int8", "uchar", "uint8", "short", "int16", "ushort", "uint16", "int",
@@ -53,66 +46,19 @@ TEST_P(Ply, ReadsExtremesOfTheIntegerTypes) {
   EXPECT_EQ(points_of(encode({highest})), (std::vector<Vec3>{{255, 65535, 4294967295.0}}));
 }
 
-TEST_P(Ply, TakesPropertiesInAnyOrderAmongOthers) {
-  const PlyTable table{"vertex",
-                       {{"uchar", "red"},
-                        {"double", "z"},
-                        {"float", "nz"},
-                        {"short", "x"},
-                        {"int", "label"},
-                        {"float", "ny"},
-                        {"float", "nx"},
-                        {"float", "y"}},
-                       {{255, 3, 0, 1, 77, 0, 2, 2.5}, {0, 6, -0.5, 4, 78, 0, 0, 5.5}}};
-  const auto file = read(encode({table}), "scan.ply");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{1, 2.5, 3}, {4, 5.5, 6}}));
-  EXPECT_EQ(file->cloud.normals, (std::vector<Vec3f>{{1, 0, 0}, {0, 0, -1}}));
-}
-
 TEST_P(Ply, NamesMayBeInUpperCase) {
-  const PlyTable table{"vertex",
-                       {{"float", "X"},
-                        {"float", "Y"},
-                        {"float", "Z"},
-                        {"float", "NX"},
-                        {"float", "NY"},
-                        {"float", "NZ"},
-                        {"uchar", "Red"},
-                        {"uchar", "Green"},
-                        {"uchar", "Blue"},
-                        {"float", "x"}},
-                       {{9, 2.5, 3, 2, 0, 0, 1, 2, 3, 1}, {9, 5.5, 6, 0, 0, -1, 4, 5, 6, 4}}};
-  const auto file = read(encode({table}), "scan.ply");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->cloud.points, (std::vector<Vec3>{{1, 2.5, 3}, {4, 5.5, 6}})) << "x comes before X";
-  EXPECT_EQ(file->cloud.normals, (std::vector<Vec3f>{{1, 0, 0}, {0, 0, -1}}));
-  EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{1, 2, 3}, {4, 5, 6}}));
-}
-
-TEST_P(Ply, SkipsElementsAroundTheVertices) {
-  const PlyTable camera{"camera", {{"float", "view_px"}, {"double", "y"}}, {{1, 2}, {3, 4}}};
-  const PlyTable strips{"tristrips", {{"int", "vertex_indices", "int"}}, {{4, 0, 1, -1, 2}, {0}}};
-  const PlyTable nothing{"nothing", {}, {{}, {}}};
-  const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}, {"uchar", "flag"}}, {{3, 0, 1, 2, 9}}};
-  const PlyTable vertices{"vertex", xyz, three_rows};
-  EXPECT_EQ(points_of(encode({camera, strips, nothing, faces, vertices, faces, strips})), three_points);
-}
-
-TEST_P(Ply, SkipsListsInTheVertices) {
-  const PlyTable table{"vertex",
-                       {{"float", "x"},
-                        {"short", "neighbours", "uchar"},
-                        {"float", "y"},
-                        {"float", "z"},
-                        {"double", "l", "uint"}},
-                       {{1, 2, 10, 11, 2, 3, 0}, {4, 0, 5, 6, 1, 99}}};
-  EXPECT_EQ(points_of(encode({table})), (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
+  PlyTable table{"vertex", {}, {{9, 2, 3, 2, 0, 0, 1, 2, 3, 1}, {9, 5, 6, 0, 0, 1, 4, 5, 6, 4}}};
+  for (const char* name : {"X", "Y", "Z", "NX", "NY", "NZ", "Red", "Green", "Blue", "x"})
+    table.columns.push_back({"uchar", name});
+  const CloudFile file = file_of(encode({table}), "scan.ply");
+  EXPECT_EQ(file.cloud.points, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}})) << "x comes before X";
+  EXPECT_EQ(file.cloud.normals, (std::vector<Vec3f>{{1, 0, 0}, {0, 0, 1}}));
+  EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{1, 2, 3}, {4, 5, 6}}));
 }
 
 TEST_P(Ply, AcceptsAnEmptyFaceElement) {
-  const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}}, {}};
-  EXPECT_EQ(points_of(encode({faces, {"vertex", xyz, three_rows}, faces})), three_points);
+  const PlyTable faces = ply_faces({});
+  EXPECT_EQ(points_of(encode({faces, three_vertices, faces})), three_points);
 }
 
 TEST_P(Ply, KeepsGeoReferencedCoordinates) {
@@ -126,14 +72,13 @@ TEST_P(Ply, WithOnlyTwoComponentsOfTheNormalsHasNone) {
   const PlyTable table{"vertex",
                        {{"float", "x"}, {"float", "y"}, {"float", "z"}, {"float", "nx"}, {"float", "nz"}},
                        {{1, 2, 3, 0, 1}}};
-  const auto file = read(encode({table}), "scan.ply");
-  ASSERT_TRUE(file);
-  EXPECT_FALSE(file->cloud.has_normals());
-  EXPECT_EQ(file->dropped_normals, 0U);
+  const auto file = file_of(encode({table}), "scan.ply");
+  EXPECT_FALSE(file.cloud.has_normals());
+  EXPECT_EQ(file.dropped_normals, 0U);
 }
 
 TEST_P(Ply, HeaderMayHaveCommentsAndCrlf) {
-  const PlyTable table{"vertex", xyz, three_rows};
+  const PlyTable table = three_vertices;
   const std::string header = encode_ply_header({table}, GetParam());
   const std::string body = encode({table}).substr(header.size());
   const std::string talkative =
@@ -145,8 +90,8 @@ TEST_P(Ply, HeaderMayHaveCommentsAndCrlf) {
 }
 
 TEST_P(Ply, TruncatedVerticesAreAnError) {
-  const std::string whole = encode({{"vertex", xyz, three_rows}});
-  const std::size_t header = encode_ply_header({{"vertex", xyz, three_rows}}, GetParam()).size();
+  const std::string whole = encode({three_vertices});
+  const std::size_t header = encode_ply_header({three_vertices}, GetParam()).size();
   // The last number of an ascii file may lose digits and the end of its line unnoticed.
   const std::size_t least =
       GetParam() == PlyEncoding::ascii ? whole.rfind(' ', whole.size() - 3) + 1 : whole.size();
@@ -155,17 +100,12 @@ TEST_P(Ply, TruncatedVerticesAreAnError) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Encodings, Ply,
-                         testing::Values(PlyEncoding::ascii, PlyEncoding::little_endian,
-                                         PlyEncoding::big_endian),
-                         testing::PrintToStringParamName());
-
-TEST(PlyFormat, IsNamed) {
-  const PlyTable table{"vertex", xyz, three_rows};
-  EXPECT_EQ(read(encode_ply({table}, PlyEncoding::ascii), "")->format, "PLY ascii");
-  EXPECT_EQ(read(encode_ply({table}, PlyEncoding::little_endian), "")->format, "PLY binary little endian");
-  EXPECT_EQ(read(encode_ply({table}, PlyEncoding::big_endian), "")->format, "PLY binary big endian");
+TEST_P(Ply, FormatIsNamed) {
+  const std::array names = {"PLY ascii", "PLY binary little endian", "PLY binary big endian"};
+  EXPECT_EQ(file_of(encode({three_vertices}), "").format, names[static_cast<std::size_t>(GetParam())]);
 }
+
+INSTANTIATE_TEST_SUITE_P(Encodings, Ply, testing::ValuesIn(ply_encodings), testing::PrintToStringParamName());
 
 TEST(PlyBinary, AfterAHeaderWithCrMayBeginWithLf) {
   const PlyTable table{"vertex", {{"uchar", "x"}, {"uchar", "y"}, {"uchar", "z"}}, {{10, 13, 10}}};
@@ -183,9 +123,9 @@ TEST(PlyAscii, RowsMayBeWrappedIndentedAndSpacedOut) {
 
 TEST(PlyAscii, OnlyRowsOfVerticesMustHaveTheRightLength) {
   const std::string faces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
-  const auto file = read(change("end_header\n", faces) + "3 0 1 2 255 0 0 255 9 9\n3 2 1 0 7\n", "scan.ply");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
+  const auto file =
+      file_of(change("end_header\n", faces) + "3 0 1 2 255 0 0 255 9 9\n3 2 1 0 7\n", "scan.ply");
+  EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 0}}));
 }
 
 TEST(PlyAscii, NumbersMayHaveExponentsOfFortran) {
@@ -199,13 +139,8 @@ TEST(PlyAscii, PropertiesThatAreNotReadMayBeTexts) {
 }
 
 TEST(PlyHeader, CommentsMayStandBetweenProperties) {
-  const auto file = read(
-      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\ncomment one\nobj_info two\n\nproperty "
-      "float y\n"
-      "property float z\nend_header\n1 2 3\n",
-      "a");
-  ASSERT_TRUE(file) << file.error().message();
-  EXPECT_EQ(file->cloud.points, std::vector<Vec3>{Vec3(1, 2, 3)});
+  EXPECT_EQ(points_of(change("property float y", "comment one\nobj_info two\n\nproperty float y")),
+            three_points);
 }
 
 TEST(PlyAscii, ColoursOfFractionsReachToOne) {
@@ -213,9 +148,8 @@ TEST(PlyAscii, ColoursOfFractionsReachToOne) {
     std::string header = "ply\nformat ascii 1.0\nelement vertex 1\n";
     for (const char* name : {"x", "y", "z"}) header += cat("property float ", name, "\n");
     for (const char* name : {"red", "green", "blue"}) header += cat("property ", type, " ", name, "\n");
-    const auto file = read(header + "end_header\n1 2 3 0 0.2 1\n", "a");
-    ASSERT_TRUE(file) << file.error().message();
-    EXPECT_EQ(file->cloud.colours, (std::vector<Colour>{{0, 51, 255}})) << type;
+    const auto file = file_of(header + "end_header\n1 2 3 0 0.2 1\n", "a");
+    EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{0, 51, 255}})) << type;
   }
 }
 
@@ -263,27 +197,17 @@ TEST(PlyHeader, EachCorruptedFieldIsNamed) {
        "line 6: expected format, element, property, comment, obj_info or end_header, found 'porperty'"},
       {"end_header", "end_of_header",
        "line 7: expected format, element, property, comment, obj_info or end_header, found 'end_of_header'"},
+      {small_ply, "ply", "line 2: expected end_header, found the end of the file"},
+      {small_ply, "ply\nformat ascii 1.0\n", "line 3: expected end_header, found the end of the file"},
+      {"vertex 3", "vertex 1152921504606846976",
+       "line 3: expected fewer than 4294967295 vertices, found 1152921504606846976"},
+      {"vertex 3", "vertex 18446744073709551617",
+       "line 3: expected the number of elements, found '18446744073709551617'"},
+      {"vertex 3", "vertex 4000000000",
+       "line 10: expected 4000000000 rows of element vertex, found the end of the file after 3"},
   };
-  for (const auto& [what, by, message] : all) {
+  for (const auto& [what, by, message] : all)
     EXPECT_EQ(message_of(change(what, by), "scan.ply"), "scan.ply, " + message);
-  }
-}
-
-TEST(PlyHeader, ThatEndsEarlyIsNamed) {
-  EXPECT_EQ(message_of("ply", "scan.ply"),
-            "scan.ply, line 2: expected end_header, found the end of the file");
-  EXPECT_EQ(message_of("ply\nformat ascii 1.0\n", "scan.ply"),
-            "scan.ply, line 3: expected end_header, found the end of the file");
-}
-
-TEST(PlyHeader, PromisesOfHugeCountsAreErrors) {
-  EXPECT_EQ(message_of(change("vertex 3", "vertex 1152921504606846976"), "scan.ply"),
-            "scan.ply, line 3: expected fewer than 4294967295 vertices, found 1152921504606846976");
-  EXPECT_EQ(message_of(change("vertex 3", "vertex 18446744073709551617"), "scan.ply"),
-            "scan.ply, line 3: expected the number of elements, found '18446744073709551617'");
-  EXPECT_EQ(
-      message_of(change("vertex 3", "vertex 4000000000"), "scan.ply"),
-      "scan.ply, line 10: expected 4000000000 rows of element vertex, found the end of the file after 3");
 }
 
 TEST(PlyHeader, PromisesOfHugeSkippedElementsAreErrors) {
@@ -307,9 +231,8 @@ TEST(PlyAscii, BadBodyIsNamed) {
       {"4 5 6\n-7.5 8.25 1e6\n", "",
        "line 8: expected 3 rows of element vertex, found the end of the file after 1"},
   };
-  for (const auto& [what, by, message] : all) {
+  for (const auto& [what, by, message] : all)
     EXPECT_EQ(message_of(change(what, by), "scan.ply"), "scan.ply, " + message);
-  }
 }
 
 TEST(PlyAscii, BadListLengthIsNamed) {
@@ -324,7 +247,7 @@ TEST(PlyAscii, BadListLengthIsNamed) {
 }
 
 TEST(PlyBinary, TruncationIsNamed) {
-  const std::string whole = encode_ply({{"vertex", xyz, three_rows}}, PlyEncoding::little_endian);
+  const std::string whole = encode_ply({three_vertices}, PlyEncoding::little_endian);
   const std::size_t header = whole.size() - 36;
   EXPECT_EQ(message_of(whole.substr(0, header + 30), "scan.ply"),
             "scan.ply, byte " + std::to_string(header) +
@@ -333,7 +256,7 @@ TEST(PlyBinary, TruncationIsNamed) {
 
 TEST(PlyBinary, BadListLengthIsNamed) {
   const PlyTable lists{"first", {{"int", "l", "int"}}, {{1, 5}}};
-  const std::string whole = encode_ply({lists, {"vertex", xyz, three_rows}}, PlyEncoding::big_endian);
+  const std::string whole = encode_ply({lists, three_vertices}, PlyEncoding::big_endian);
   const std::size_t at = whole.size() - 36 - 8;
   const auto with_length = [&](std::string_view bytes) { return std::string(whole).replace(at, 4, bytes); };
   const std::string place =
@@ -354,8 +277,8 @@ TEST(PlyBinary, ListInTheLastVertexThatEndsEarlyIsNamed) {
 }
 
 TEST(PlyBinary, CutOffFacesAreAnError) {
-  const PlyTable faces{"face", {{"int", "vertex_indices", "uchar"}}, {{3, 0, 1, 2}}};
-  const std::string whole = encode_ply({{"vertex", xyz, three_rows}, faces}, PlyEncoding::little_endian);
+  const PlyTable faces = ply_faces({{3, 0, 1, 2}});
+  const std::string whole = encode_ply({three_vertices, faces}, PlyEncoding::little_endian);
   EXPECT_EQ(message_of(whole.substr(0, whole.size() - 5), "scan.ply"),
             "scan.ply, byte " + std::to_string(whole.size() - 13) +
                 ": expected the length of the list vertex_indices, found 3, and there is room for 1");

@@ -93,18 +93,15 @@ TEST(WritePng, KeepsAllSixteenBits) {
   }
 }
 
-TEST(WritePng, StoresTextAndThePixelsSize) {
+TEST(WritePng, StoresTextAndThePixelsSizeIfAsked) {
   const std::vector<std::pair<std::string, std::string>> text{{"Software", "relievo"},
                                                               {"mm per grey", "0.000123"}};
-  const Decoded decoded = decode(write_png(pattern<std::uint16_t>(5, 4, 1), text, 0.25));
-  EXPECT_EQ(decoded.text, (std::map<std::string, std::string>(text.begin(), text.end())));
-  EXPECT_EQ(decoded.pixels_per_metre, 4000U);
-}
-
-TEST(WritePng, StoresNeitherUnasked) {
-  const Decoded decoded = decode(write_png(pattern<std::uint16_t>(5, 4, 1)));
-  EXPECT_TRUE(decoded.text.empty());
-  EXPECT_EQ(decoded.pixels_per_metre, 0U);
+  const Image16 image = pattern<std::uint16_t>(5, 4, 1);
+  const Decoded asked = decode(write_png(image, text, 0.25)), unasked = decode(write_png(image));
+  EXPECT_EQ(asked.text, (std::map<std::string, std::string>(text.begin(), text.end())));
+  EXPECT_EQ(asked.pixels_per_metre, 4000U);
+  EXPECT_TRUE(unasked.text.empty());
+  EXPECT_EQ(unasked.pixels_per_metre, 0U);
 }
 
 TEST(WritePng, GivesNoBytesForWhatIsNoPicture) {

@@ -11,6 +11,7 @@
 #include "relievo/make_relief.h"
 #include "support/format_samples.h"
 #include "support/read_text.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -35,18 +36,11 @@ class MemorySource : public ByteSource {
   std::vector<std::byte> bytes_;
 };
 
-std::vector<std::byte> bytes_of(const std::string& text) {
-  const auto bytes = std::as_bytes(std::span(text));
-  return {bytes.begin(), bytes.end()};
-}
-
 const View front = *parse_view("front");
 
 StreamedCloud streamed(std::vector<std::byte> bytes, const View& view = front, double points = 5000) {
   MemorySource source(std::move(bytes));
-  auto cloud = stream_front(source, "a.ply", view, points);
-  EXPECT_TRUE(cloud) << cloud.error().message();
-  return std::move(*cloud);
+  return value_of(stream_front(source, "a.ply", view, points));
 }
 
 // A sphere around another, both with noise: the inner one must never show.
@@ -55,9 +49,7 @@ Cloud shells(std::size_t n) {
   test::Random random(5);
   for (Vec3& p : cloud.points) p *= 1 + .002 * random.gaussian();
   const Cloud inner = test::sphere(n / 2, .8, 6);
-  cloud.points.insert(cloud.points.end(), inner.points.begin(), inner.points.end());
-  cloud.normals.insert(cloud.normals.end(), inner.normals.begin(), inner.normals.end());
-  return cloud;
+  return test::joined(cloud, inner);
 }
 
 TEST(StreamFront, KeepsTheVisibleSideAtTheResolutionAskedFor) {
@@ -65,15 +57,17 @@ TEST(StreamFront, KeepsTheVisibleSideAtTheResolutionAskedFor) {
   EXPECT_EQ(it.input_points, 450000U);
   EXPECT_EQ(it.format, "PLY binary little endian");
   EXPECT_NEAR(static_cast<double>(it.cloud.size()), 5000, 600);
-  double error = 0;
+  double error = 0, sum_sq = 0, n = 0;
   for (std::size_t i = 0; i < it.cloud.size(); ++i) {
     const Vec3& p = it.cloud.points[i];
     EXPECT_GT(p.z(), -.01);
     if (p.z() < .3) continue;
     EXPECT_NEAR(p.norm(), 1, .01);
     error = std::max(error, (it.cloud.normals[i].cast<double>() - p.normalized()).norm());
+    if (p.z() > .6) sum_sq += (p.norm() - 1) * (p.norm() - 1), ++n;
   }
   EXPECT_LT(error, .03);
+  EXPECT_LT(std::sqrt(sum_sq / n), .001);  // of .002 in the scan: means take noise away
 }
 
 TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
@@ -84,18 +78,6 @@ TEST(StreamFront, CountsTheFacesThatItLeavesOut) {
   for (int face = 0; face < 2; ++face)
     text += '\3' + raw(std::int32_t{0}) + raw(std::int32_t{1}) + raw(std::int32_t{2});
   EXPECT_EQ(streamed(bytes_of(text)).ignored_faces, 2U);
-}
-
-TEST(StreamFront, MeansTakeNoiseAway) {
-  const StreamedCloud it = streamed(write_ply(shells(300000)));
-  double sum_sq = 0;
-  std::size_t n = 0;
-  for (const Vec3& p : it.cloud.points) {
-    if (p.z() < .6) continue;
-    sum_sq += (p.norm() - 1) * (p.norm() - 1);
-    ++n;
-  }
-  EXPECT_LT(std::sqrt(sum_sq / static_cast<double>(n)), .001);  // of .002 in the scan
 }
 
 // Sums of colours in single precision came out as 256, which a byte holds as 0.
@@ -151,20 +133,22 @@ TEST(StreamFront, LeavesOutStraysAndPointsThatAreNotFinite) {
 
 TEST(StreamFront, IsTheSameForAnyNumberOfThreads) {
   const auto bytes = write_ply(shells(50000));
-  set_thread_count(1);
-  const Cloud one = streamed(bytes).cloud;
-  set_thread_count(3);
-  const Cloud three = streamed(bytes).cloud;
-  set_thread_count(0);
-  EXPECT_EQ(one.points, three.points);
-  EXPECT_EQ(one.normals, three.normals);
+  test::expect_same_for_any_threads([&] {
+    const Cloud cloud = streamed(bytes).cloud;
+    return std::pair(cloud.points, cloud.normals);
+  });
 }
 
-TEST(StreamFront, ReadsInPiecesOfEightMegabytes) {
+TEST(StreamFront, ReadsInPiecesOfEightMegabytesAndTellsItsProgressWithoutGoingBack) {
   MemorySource source(write_ply(shells(600000)));
-  ASSERT_TRUE(stream_front(source, "a.ply", front, 5000));
+  std::vector<double> fractions;
+  Progress progress([&](std::string_view, double fraction) { fractions.push_back(fraction); });
+  ASSERT_TRUE(stream_front(source, "a.ply", front, 5000, &progress));
   EXPECT_LE(source.largest_, std::size_t{8} << 20);
   EXPECT_GT(source.reads_, 9U);
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GT(fractions.size(), 9U);
+  EXPECT_LE(fractions.back(), .6);
 }
 
 TEST(StreamFront, CanBeCancelledBetweenAnyTwoPieces) {
@@ -174,21 +158,9 @@ TEST(StreamFront, CanBeCancelledBetweenAnyTwoPieces) {
   for (std::size_t at = whole.reads_ - 4; at < whole.reads_; ++at) {
     MemorySource source(bytes);
     source.cancel_at_read_ = at;
-    const auto cloud = stream_front(source, "a.ply", front, 5000, &source.progress_);
-    ASSERT_FALSE(cloud) << at;
-    EXPECT_EQ(cloud.error().kind, ErrorKind::cancelled);
+    expect_error(stream_front(source, "a.ply", front, 5000, &source.progress_), ErrorKind::cancelled);
     EXPECT_EQ(source.reads_, at);
   }
-}
-
-TEST(StreamFront, TellsItsProgressWithoutGoingBack) {
-  MemorySource source(write_ply(shells(600000)));
-  std::vector<double> fractions;
-  Progress progress([&](std::string_view, double fraction) { fractions.push_back(fraction); });
-  ASSERT_TRUE(stream_front(source, "a.ply", front, 5000, &progress));
-  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
-  EXPECT_GT(fractions.size(), 9U);
-  EXPECT_LE(fractions.back(), .6);
 }
 
 TEST(StreamFront, ReadsLas) {
@@ -235,11 +207,9 @@ TEST(StreamFront, BrokenFilesAreNamed) {
   std::vector<std::byte> bytes = write_ply(shells(1000));
   bytes.pop_back();
   MemorySource cut(bytes);
-  const auto cloud = stream_front(cut, "a.ply", front, 5000);
-  ASSERT_FALSE(cloud);
-  EXPECT_TRUE(cloud.error().message().starts_with("a.ply, byte ")) << cloud.error().message();
-  EXPECT_NE(cloud.error().message().find("expected 1500 points of 24 bytes, found 35999 bytes"),
-            std::string::npos);
+  const std::string message = message_of(stream_front(cut, "a.ply", front, 5000));
+  EXPECT_TRUE(message.starts_with("a.ply, byte ")) << message;
+  EXPECT_TRUE(message.contains("expected 1500 points of 24 bytes, found 35999 bytes")) << message;
   MemorySource text(bytes_of("1 2 3\n"));
   EXPECT_EQ(stream_front(text, "a.xyz", front, 5000).error().message(),
             "a.xyz: expected a binary PLY, PCD or LAS file, to be read piece by piece");
@@ -264,12 +234,8 @@ std::string slope_las(double scale) {
 TEST(StreamFront, RefusesExtentsThatAreTooSmallOrTooLarge) {
   for (const double scale : {1e306, 1e200, 1e20, 1e-20, 1e-200, 5e-324}) {
     MemorySource source(bytes_of(slope_las(scale)));
-    const auto cloud = stream_front(source, "a.las", front, 1000);
-    ASSERT_FALSE(cloud) << scale;
-    EXPECT_NE(
-        cloud.error().message().find("expected points that cover an area in the view, found an extent of "),
-        std::string::npos)
-        << cloud.error().message();
+    expect_error(stream_front(source, "a.las", front, 1000),
+                 "expected points that cover an area in the view, found an extent of ");
   }
   for (const double scale : {1e16, 1e-16})
     EXPECT_EQ(streamed(bytes_of(slope_las(scale)), front, 1000).cloud.size(), 400U) << scale;

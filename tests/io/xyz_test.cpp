@@ -9,9 +9,7 @@ namespace {
 const std::vector<Vec3> two_points = {{1, 2.5, -3}, {4, 5, 6e3}};
 
 CloudFile file_of(std::string_view text) {
-  const auto file = read(text, "scan.xyz");
-  EXPECT_TRUE(file) << file.error().message();
-  return file.value_or(CloudFile{});
+  return relievo::file_of(text, "scan.xyz");
 }
 
 std::vector<Vec3> points_of(std::string_view text) {
@@ -19,6 +17,17 @@ std::vector<Vec3> points_of(std::string_view text) {
 }
 
 const std::vector<Vec3f> xz = {Vec3f::UnitX(), Vec3f::UnitZ()};
+
+// Expects the two points from each of the texts, with those normals and colours.
+void expect_two_points(const std::vector<std::string>& texts, const std::vector<Vec3f>& normals,
+                       const std::vector<Colour>& colours = {}) {
+  for (const std::string& text : texts) {
+    const CloudFile file = file_of(text);
+    EXPECT_EQ(file.cloud.points, two_points) << text;
+    EXPECT_EQ(file.cloud.normals, normals) << text;
+    EXPECT_EQ(file.cloud.colours, colours) << text;
+  }
+}
 
 TEST(Xyz, ReadsEverySeparator) {
   for (const auto* text :
@@ -58,10 +67,11 @@ TEST(Xyz, FourthColumnIsIgnored) {
   EXPECT_EQ(points_of("1 2.5 -3 0.7\n4 5 6e3 ground\n"), two_points);
 }
 
-TEST(Xyz, SixColumnsAreNormalsIfTheyAreUnitVectors) {
-  const CloudFile file = file_of("1 2.5 -3 1 0 0\n4 5 6e3 0 0 1\n");
-  EXPECT_EQ(file.cloud.points, two_points);
-  EXPECT_EQ(file.cloud.normals, xz);
+TEST(Xyz, SixColumnsAreNormalsIfTheyAreUnitVectorsAndColoursOtherwise) {
+  expect_two_points({"1 2.5 -3 1 0 0\n4 5 6e3 0 0 1\n"}, xz);
+  expect_two_points({"1 2.5 -3 255 0 10\n4 5 6e3 0 51 1\n", "1;2,5;-3;255;0;10\n4;5;6e3;0;51;1\n",
+                     "1 2.5 -3 1.0 0 0.0392\n4 5 6e3 0 0.2 0.00392\n"},
+                    {}, {{255, 0, 10}, {0, 51, 1}});
 }
 
 TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
@@ -69,17 +79,6 @@ TEST(Xyz, RoundedNormalsAreRecognisedAndNormalised) {
   ASSERT_TRUE(file.cloud.has_normals());
   EXPECT_TRUE(file.cloud.normals[0].isApprox(Vec3f(1, 1, 1).normalized()));
   EXPECT_NEAR(file.cloud.normals[1].norm(), 1, 1e-7);
-}
-
-TEST(Xyz, SixColumnsAreColoursOtherwise) {
-  const std::vector<Colour> expected = {{255, 0, 10}, {0, 51, 1}};
-  for (const char* const text : {"1 2.5 -3 255 0 10\n4 5 6e3 0 51 1\n", "1;2,5;-3;255;0;10\n4;5;6e3;0;51;1\n",
-                                 "1 2.5 -3 1.0 0 0.0392\n4 5 6e3 0 0.2 0.00392\n"}) {
-    const CloudFile file = file_of(text);
-    EXPECT_FALSE(file.cloud.has_normals()) << text;
-    EXPECT_EQ(file.cloud.points, two_points) << text;
-    EXPECT_EQ(file.cloud.colours, expected) << text;
-  }
 }
 
 // A point's colour follows from its place, so that a wrong row, column or scale shows.
@@ -106,17 +105,13 @@ TEST(Xyz, ColoursOfARampAreThoseOfItsPlaces) {
       << "as CloudCompare writes them";
 }
 
-TEST(Xyz, ColoursAreFoundAmongOtherColumns) {
-  const std::vector<Colour> expected = {{255, 0, 10}, {0, 9, 1}};
-  for (const char* const text :
-       {"1 2.5 -3 255 0 10 1 0 0\n4 5 6e3 0 9 1 0 0 1\n", "1 2.5 -3 1 0 0 255 0 10\n4 5 6e3 0 0 1 0 9 1\n",
-        "2\n1 2.5 -3 77 255 0 10 1 0 0\n4 5 6e3 78 0 9 1 0 0 1\n",
-        "nx ny nz B G R x y z\n1 0 0 10 0 255 1 2.5 -3\n0 0 1 1 9 0 4 5 6e3\n"}) {
-    const CloudFile file = file_of(text);
-    EXPECT_EQ(file.cloud.points, two_points) << text;
-    EXPECT_EQ(file.cloud.normals, xz) << text;
-    EXPECT_EQ(file.cloud.colours, expected) << text;
-  }
+TEST(Xyz, NormalsAndColoursAreFoundAmongOtherColumns) {
+  expect_two_points(
+      {"1 2.5 -3 255 0 10 1 0 0\n4 5 6e3 0 9 1 0 0 1\n", "1 2.5 -3 1 0 0 255 0 10\n4 5 6e3 0 0 1 0 9 1\n",
+       "2\n1 2.5 -3 77 255 0 10 1 0 0\n4 5 6e3 78 0 9 1 0 0 1\n",
+       "nx ny nz B G R x y z\n1 0 0 10 0 255 1 2.5 -3\n0 0 1 1 9 0 4 5 6e3\n"},
+      xz, {{255, 0, 10}, {0, 9, 1}});
+  expect_two_points({"1 2.5 -3 77 1 0 0\n4 5 6e3 78 0 0 1\n", "1 2.5 -3 1 0 0 77\n4 5 6e3 0 0 1 77\n"}, xz);
 }
 
 TEST(Xyz, ColumnsOfOtherNumbersAreNoColours) {
@@ -127,9 +122,8 @@ TEST(Xyz, ColumnsOfOtherNumbersAreNoColours) {
 }
 
 TEST(Xyz, APointWithoutColourIsBlack) {
-  const CloudFile file = file_of("x,y,z,r,g,b\n1,2.5,-3,none,none,none\n4,5,6e3,0,200,1\n");
-  EXPECT_EQ(file.cloud.points, two_points);
-  EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{0, 0, 0}, {0, 200, 1}}));
+  expect_two_points({"x,y,z,r,g,b\n1,2.5,-3,none,none,none\n4,5,6e3,0,200,1\n"}, {},
+                    {{0, 0, 0}, {0, 200, 1}});
 }
 
 TEST(Xyz, AFewRowsWithoutUnitNormalDoNotHideTheOthers) {
@@ -141,47 +135,22 @@ TEST(Xyz, AFewRowsWithoutUnitNormalDoNotHideTheOthers) {
 }
 
 TEST(Xyz, SevenColumnsOfPtsAreIntensityAndColour) {
-  for (const char* const text :
-       {"2\n1 2.5 -3 -1023 255 0 10\n4 5 6e3 7 0 0 1\n", "2\n1 2.5 -3 102 255 0 10\n4 5 6e3 7 0 0 1\n"}) {
-    const CloudFile file = file_of(text);
-    EXPECT_EQ(file.cloud.points, two_points) << text;
-    EXPECT_FALSE(file.cloud.has_normals()) << text;
-    EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 10}, {0, 0, 1}})) << text;
-  }
-}
-
-TEST(Xyz, NormalsAreFoundBeforeAndAfterOtherColumns) {
-  for (const auto* text :
-       {"1 2.5 -3 255 0 10 1 0 0\n4 5 6e3 0 9 1 0 0 1\n", "1 2.5 -3 1 0 0 255 0 10\n4 5 6e3 0 0 1 0 9 9\n",
-        "1 2.5 -3 77 1 0 0\n4 5 6e3 78 0 0 1\n", "1 2.5 -3 1 0 0 77\n4 5 6e3 0 0 1 77\n"}) {
-    const CloudFile file = file_of(text);
-    EXPECT_EQ(file.cloud.points, two_points);
-    EXPECT_EQ(file.cloud.normals, xz) << text;
-  }
+  expect_two_points(
+      {"2\n1 2.5 -3 -1023 255 0 10\n4 5 6e3 7 0 0 1\n", "2\n1 2.5 -3 102 255 0 10\n4 5 6e3 7 0 0 1\n"}, {},
+      {{255, 0, 10}, {0, 0, 1}});
 }
 
 TEST(Xyz, NamesOfColumnsDecide) {
-  for (const auto* text :
-       {"nx,ny,nz,label,Z,Y,X\n1,0,0,a,-3,2.5,1\n0,0,1,b,6e3,5,4\n",
-        "\"NX\"; \"NY\"; \"NZ\"; \"label\"; \"z\"; \"y\"; \"x\"\n1;0;0;a;-3;2.5;1\n0;0;1;b;6e3;5;4\n",
-        "//Nx Ny Nz Label Z Y X\n2\n1 0 0 9 -3 2.5 1\n0 0 1 9 6e3 5 4\n"}) {
-    const CloudFile file = file_of(text);
-    EXPECT_EQ(file.cloud.points, two_points) << text;
-    EXPECT_EQ(file.cloud.normals, xz) << text;
-  }
-}
-
-TEST(Xyz, NamesWithoutNormalsMeanNoNormals) {
-  EXPECT_FALSE(file_of("x y z a b c\n1 2.5 -3 1 0 0\n4 5 6e3 0 0 1\n").cloud.has_normals());
+  expect_two_points(
+      {"nx,ny,nz,label,Z,Y,X\n1,0,0,a,-3,2.5,1\n0,0,1,b,6e3,5,4\n",
+       "\"NX\"; \"NY\"; \"NZ\"; \"label\"; \"z\"; \"y\"; \"x\"\n1;0;0;a;-3;2.5;1\n0;0;1;b;6e3;5;4\n",
+       "//Nx Ny Nz Label Z Y X\n2\n1 0 0 9 -3 2.5 1\n0 0 1 9 6e3 5 4\n"},
+      xz);
+  expect_two_points({"x y z a b c\n1 2.5 -3 1 0 0\n4 5 6e3 0 0 1\n"}, {});
 }
 
 TEST(Xyz, CommentThatDoesNotFitTheColumnsNamesNothing) {
   EXPECT_EQ(points_of("# z y x of the scan\n1 2.5 -3\n4 5 6e3\n"), two_points);
-}
-
-TEST(Xyz, KeepsGeoReferencedCoordinates) {
-  EXPECT_EQ(points_of("3456789.123456789 5678901.987654321 1234.000000001\n"),
-            (std::vector<Vec3>{{3456789.123456789, 5678901.987654321, 1234.000000001}}));
 }
 
 TEST(Xyz, NotFiniteCoordinatesAreDroppedAndCounted) {
@@ -202,9 +171,7 @@ TEST(Xyz, DecimalCommasAreNeverMisread) {
 
 TEST(Xyz, SemicolonsMaySeparateNumbersWithDecimalCommas) {
   EXPECT_EQ(points_of("1,0;2,5;-3\n4;5;6,0e3\n"), two_points);
-  const CloudFile file = file_of("x;y;z;nx;ny;nz\n1,0;2,5;-3,0;1,0;0;0\n4;5;6e3;0;0;1,0\n");
-  EXPECT_EQ(file.cloud.points, two_points);
-  EXPECT_EQ(file.cloud.normals, xz);
+  expect_two_points({"x;y;z;nx;ny;nz\n1,0;2,5;-3,0;1,0;0;0\n4;5;6e3;0;0;1,0\n"}, xz);
   EXPECT_EQ(message_of("1.5;2,5;3\n", "scan.xyz"),
             "scan.xyz, line 1: expected a number in column 2, found '2,5'");
 }
@@ -233,10 +200,7 @@ TEST(Xyz, TheFirstColumnMayBeANameWithoutAHeader) {
         "a;1,0;2,5;-3;wall\nb;4;5;6,0e3;door\n", "a\t1,0\t2,5\t-3\nb\t4\t5\t6,0e3\n",
         "first one,1,2.5,-3\nb,4,5,6e3\n", "2\nP1 1 2.5 -3\nP2 4 5 6e3\n"})
     EXPECT_EQ(points_of(text), two_points) << text;
-  const CloudFile file = file_of("P1 1 2.5 -3 1 0 0 255 0 10\nP2 4 5 6e3 0 0 1 0 9 1\n");
-  EXPECT_EQ(file.cloud.points, two_points);
-  EXPECT_EQ(file.cloud.normals, xz);
-  EXPECT_EQ(file.cloud.colours, (std::vector<Colour>{{255, 0, 10}, {0, 9, 1}}));
+  expect_two_points({"P1 1 2.5 -3 1 0 0 255 0 10\nP2 4 5 6e3 0 0 1 0 9 1\n"}, xz, {{255, 0, 10}, {0, 9, 1}});
   EXPECT_EQ(message_of("none,2,3,255\n4,5,6,255\n", "scan.xyz"),
             "scan.xyz, line 1: expected a number in column 1, found 'none'")
       << "a missing coordinate is no name";
@@ -311,11 +275,8 @@ TEST(Xyz, NamesOfColumnsMayHaveUnits) {
   for (const char* const text : {"\"X (m)\";\"Y (m)\";\"Z (m)\";\"R\"\n4376914,25;1;2;0,5\n3;4;5;1,0\n",
                                  "X[m] Y[m] Z[m]\n4376914.25 1 2\n3 4 5\n",
                                  "Intensity (dB), x (mm), y (mm), z (mm)\n7, 4376914.25, 1, 2\n7, 3, 4, 5\n",
-                                 "x [m], y [m], z [m\n4376914.25,1,2\n3,4,5\n"}) {
-    const auto file = read(text, "a.csv");
-    ASSERT_TRUE(file) << text << file.error().message();
-    EXPECT_EQ(file->cloud.points, expected) << text;
-  }
+                                 "x [m], y [m], z [m\n4376914.25,1,2\n3,4,5\n"})
+    EXPECT_EQ(points_of(text), expected) << text;
 }
 
 }  // namespace

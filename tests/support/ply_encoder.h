@@ -26,7 +26,20 @@ struct PlyTable {
   std::vector<std::vector<double>> rows;
 };
 
+inline const std::vector<PlyColumn> ply_xyz = {{"float", "x"}, {"float", "y"}, {"float", "z"}};
+
+inline PlyTable ply_vertices(const std::vector<std::vector<double>>& rows) {
+  return {"vertex", ply_xyz, rows};
+}
+// Each row is the number of corners, then the corners.
+inline PlyTable ply_faces(const std::vector<std::vector<double>>& rows) {
+  return {"face", {{"int", "vertex_indices", "uchar"}}, rows};
+}
+
 enum class PlyEncoding { ascii, little_endian, big_endian };
+
+inline constexpr std::array ply_encodings = {PlyEncoding::ascii, PlyEncoding::little_endian,
+                                             PlyEncoding::big_endian};
 
 // Names the encoding in the names and messages of parameterised tests.
 inline void PrintTo(PlyEncoding encoding, std::ostream* out) {

@@ -10,6 +10,7 @@
 
 #include "relievo/io/read.h"
 #include "relievo/scan/scan_file.h"
+#include "support/results.h"
 
 namespace relievo {
 
@@ -20,9 +21,26 @@ inline Result<CloudFile> read(std::string_view text, std::string_view name) {
   return read_cloud(bytes, name);
 }
 
+inline CloudFile file_of(std::string_view text, std::string_view name) {
+  return value_of(read(text, name));
+}
+
 inline std::string message_of(std::string_view text, std::string_view name) {
-  const auto file = read(text, name);
-  return file ? "no error" : file.error().message();
+  return message_of(read(text, name));
+}
+
+struct BrokenText {
+  std::string text, message;
+};
+
+// Expects that the texts are refused, each with its message after the name.
+inline void expect_messages(const std::string& name, const std::vector<BrokenText>& all) {
+  for (const auto& [text, message] : all) EXPECT_EQ(message_of(text, name), name + message);
+}
+
+inline std::vector<std::byte> bytes_of(std::string_view text) {
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
 }
 
 inline std::string as_string(const std::vector<std::byte>& bytes) {
