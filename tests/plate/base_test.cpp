@@ -7,6 +7,8 @@
 #include <numbers>
 #include <string>
 
+#include "support/results.h"
+
 namespace relievo {
 namespace {
 
@@ -28,12 +30,9 @@ std::shared_ptr<const Image<float>> hilly_image() {
 }
 
 Base over(std::string_view text, std::shared_ptr<const Image<float>> image = nullptr) {
-  auto options = parse_base(text);
-  EXPECT_TRUE(options) << (options ? "" : options.error().message());
-  options->image = std::move(image);
-  const auto base = Base::over(*options, plate);
-  EXPECT_TRUE(base) << (base ? "" : base.error().message());
-  return base.value_or(Base());
+  auto options = value_of(parse_base(text));
+  options.image = std::move(image);
+  return value_of(Base::over(options, plate));
 }
 
 std::string complaint(std::string_view text) {

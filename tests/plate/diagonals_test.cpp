@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "support/triangles.h"
+
 namespace relievo {
 namespace {
 
@@ -49,13 +51,8 @@ TEST(Diagonals, FollowARidge) {
     Roof roof(direction);
     turn_diagonals(roof.points, roof.slopes, roof.mesh);
     EXPECT_LT(roof.error(direction), 1e-9);
-    double area = 0;
-    for (const auto& [a, b, c] : roof.mesh.triangles) {
-      const Vec2 u = roof.points[b] - roof.points[a], v = roof.points[c] - roof.points[a];
-      EXPECT_GT(u.x() * v.y() - u.y() * v.x(), 0);
-      area += (u.x() * v.y() - u.y() * v.x()) / 2;
-    }
-    EXPECT_NEAR(area, 1.1 * 1.1, 1e-12);
+    test::expect_counter_clockwise(roof.points, roof.mesh.triangles);
+    EXPECT_NEAR(test::area_of(roof.points, roof.mesh.triangles), 1.1 * 1.1, 1e-12);
   }
 }
 

@@ -11,13 +11,7 @@
 namespace relievo {
 namespace {
 
-using test::grid_front;
-
-Solid plate_of(const HeightFieldMesh& front) {
-  PlateOptions options;
-  options.margin_mm = 5;
-  return make_plate(front, options).value();
-}
+using test::grid_front, test::plate_of;
 
 // Returns the height of the front above its lowest point at a place, by trying all triangles; 0 where there is none.
 double height_at(const Solid& solid, const Box& box, const Vec2& place) {
@@ -59,7 +53,7 @@ TEST(HeightField, IsTheTrianglesHeightUnderEachCentre) {
       options.outline = outline;
       if (outline != Outline::none) options.rim = {2, bevel == .1 ? -1. : 1., bevel};
       SCOPED_TRACE(bevel);
-      expect_heights_of(make_plate(grid_front({20, 20, 20, 20}, waves), options).value());
+      expect_heights_of(plate_of(grid_front({20, 20, 20, 20}, waves), options));
     }
 }
 
@@ -71,7 +65,7 @@ TEST(HeightField, IsTheTrianglesHeightOnBases) {
     for (const double tolerance : {0., .05}) {
       options.simplify_mm = tolerance;
       SCOPED_TRACE(base);
-      expect_heights_of(make_plate(grid_front({20, 20, 20, 20}, waves), options).value());
+      expect_heights_of(plate_of(grid_front({20, 20, 20, 20}, waves), options));
     }
   }
 }
@@ -82,7 +76,7 @@ TEST(HeightField, TellsOnWhichSideOfAWallAPixelIs) {
   HeightFieldMesh front = grid_front({20, 20, 20, 20}, wall);
   for (Vec3& p : front.points)
     if (p.x() == 9) p.x() = 10 - 1e-5;
-  expect_heights_of(plate_of(front));
+  expect_heights_of(plate_of(front, {5}));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "relievo/relief/relief.h"
 #include "support/plate_fronts.h"
 #include "support/shapes.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
@@ -212,20 +213,15 @@ std::size_t pieces(const Solid& solid) {
 }
 
 double flat_area(const Solid& solid) {
-  double twice = 0;
-  for (const Triangle& t : std::span(solid.triangles).first(solid.front_triangles))
-    twice += cross((solid.points[t[1]] - solid.points[t[0]]).head<2>(),
-                   (solid.points[t[2]] - solid.points[t[0]]).head<2>());
-  return twice / 2;
+  return test::area_of(solid.points, std::span(solid.triangles).first(solid.front_triangles));
 }
 
 TEST(MakePlate, WithoutGroundHolesStayHolesAndPiecesBecomeBodies) {
   const auto solid =
-      make_plate(patches({"##...", "##...", ".....", "..###", "..#.#"}), {5, 2, Outline::none});
-  ASSERT_TRUE(solid);
-  EXPECT_EQ(check_solid(*solid), "");
-  EXPECT_EQ(pieces(*solid), 2U);
-  EXPECT_NEAR(flat_area(*solid), 9 * 100, 1e-9);
+      test::plate_of(patches({"##...", "##...", ".....", "..###", "..#.#"}), {5, 2, Outline::none});
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_EQ(pieces(solid), 2U);
+  EXPECT_NEAR(flat_area(solid), 9 * 100, 1e-9);
   const auto ring = make_plate(patches({"....", ".###", ".#.#", ".###"}), {5, 2, Outline::none});
   EXPECT_EQ(check_solid(*ring), "");
   EXPECT_EQ(pieces(*ring), 1U);
@@ -235,17 +231,15 @@ TEST(MakePlate, WithoutGroundHolesStayHolesAndPiecesBecomeBodies) {
 TEST(MakePlate, WithoutGroundNothingHangsOnByACorner) {
   // Two blocks touch in one point. The diagonals of the cells run through it, so two triangles of each meet
   // there: those of one block go.
-  const auto solid = make_plate(patches({"##..", "##..", "..##", "..##"}), {5, 2, Outline::none});
-  ASSERT_TRUE(solid);
-  EXPECT_EQ(check_solid(*solid), "");
-  EXPECT_EQ(pieces(*solid), 2U);
-  EXPECT_NEAR(flat_area(*solid), 8 * 100 - 100, 1e-9);
+  const auto solid = test::plate_of(patches({"##..", "##..", "..##", "..##"}), {5, 2, Outline::none});
+  EXPECT_EQ(check_solid(solid), "");
+  EXPECT_EQ(pieces(solid), 2U);
+  EXPECT_NEAR(flat_area(solid), 8 * 100 - 100, 1e-9);
 }
 
 TEST(MakePlate, WithoutGroundAndReliefThereIsNothing) {
-  const auto solid = make_plate(patches({"..", ".."}), {5, 2, Outline::none});
-  ASSERT_FALSE(solid);
-  EXPECT_EQ(solid.error().message(), "front: expected triangles of the relief, found ground only");
+  EXPECT_EQ(message_of(make_plate(patches({"..", ".."}), {5, 2, Outline::none})),
+            "front: expected triangles of the relief, found ground only");
 }
 
 TEST(MakePlate, RefusesACornerWithoutARadius) {
@@ -254,8 +248,7 @@ TEST(MakePlate, RefusesACornerWithoutARadius) {
   EXPECT_TRUE(make_plate(front, {5, 3, Outline::circle, 0}));
 }
 
-// ----------------------------------------------------------------------------------------- the whole
-// pipeline
+// ------------------------------------------------------------------------------------ the whole pipeline
 
 // A torus, which has a hole, and a ball beside it.
 Cloud two_pieces() {
@@ -292,15 +285,15 @@ TEST(Outlines, AreWatertightInEveryFormAndSimplified) {
           EXPECT_LE(*made->report.simplification_error_mm, .05) << name;
         else
           EXPECT_EQ(pieces(made->solid), outline == Outline::none ? 2U : 1U) << name << form_name;
+        EXPECT_EQ(made->report.simplification_error_mm.has_value(), is_simpler) << name;
       }
 }
 
 TEST(Outlines, SimplifyingKeepsTheSilhouette) {
-  const auto full = make_relief(model(), options_for(Outline::none, Form::relief, false));
-  const auto simpler = make_relief(model(), options_for(Outline::none, Form::relief, true));
-  ASSERT_TRUE(full && simpler);
-  EXPECT_LT(simpler->solid.triangles.size(), full->solid.triangles.size() * 3 / 4);
-  EXPECT_NEAR(flat_area(simpler->solid), flat_area(full->solid), 1e-6);
+  const auto full = value_of(make_relief(model(), options_for(Outline::none, Form::relief, false)));
+  const auto simpler = value_of(make_relief(model(), options_for(Outline::none, Form::relief, true)));
+  EXPECT_LT(simpler.solid.triangles.size(), full.solid.triangles.size() * 3 / 4);
+  EXPECT_NEAR(flat_area(simpler.solid), flat_area(full.solid), 1e-6);
 }
 
 // Half cells at the rim: their diagonals need not be Delaunay's choice, for the corners lie on a circle.
@@ -312,15 +305,13 @@ TEST(Outlines, SimplifyingAGridKeepsItsSilhouetteToAFewCells) {
     const Vec3 middle = (front.points[t[0]] + front.points[t[1]] + front.points[t[2]]) / 3;
     front.is_relief.push_back((middle.head<2>() - Vec2(12, 12)).norm() < 9);
   }
-  const auto simpler = simplify(front, .05);
-  ASSERT_TRUE(simpler) << simpler.error().message();
-  const auto full = make_plate(front, {5, 2, Outline::none});
-  const auto body = make_plate(simpler->front, {5, 2, Outline::none});
-  ASSERT_TRUE(full && body);
-  EXPECT_EQ(check_solid(*body), "");
-  EXPECT_EQ(pieces(*body), 1U);
-  EXPECT_LT(body->triangles.size(), full->triangles.size());
-  EXPECT_NEAR(flat_area(*body), flat_area(*full), 12);  // of 254
+  const auto simpler = value_of(simplify(front, .05));
+  const Solid full = test::plate_of(front, {5, 2, Outline::none}),
+              body = test::plate_of(simpler.front, {5, 2, Outline::none});
+  EXPECT_EQ(check_solid(body), "");
+  EXPECT_EQ(pieces(body), 1U);
+  EXPECT_LT(body.triangles.size(), full.triangles.size());
+  EXPECT_NEAR(flat_area(body), flat_area(full), 12);  // of 254
 }
 
 // The transform of the report puts each point of the outline on a corner of the solid, however it is cut out.

@@ -11,6 +11,7 @@
 #include "relievo/plate/solid.h"
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
+#include "support/shapes.h"
 
 namespace relievo {
 namespace {
@@ -33,17 +34,13 @@ HeightFieldMesh hill() {
 
 // The same with points in no order, whose triangles are Delaunay's; the hill ends in flat ground, too.
 HeightFieldMesh scattered_hill() {
-  std::vector<Vec2> places;
-  std::uint64_t random = 7;
-  const auto next = [&random] {
-    random = random * 6364136223846793005U + 1442695040888963407U;
-    return static_cast<double>(random >> 11) / 9007199254740992.0;
-  };
-  for (int i = 0; i < 1500; ++i) places.emplace_back(30 * next(), 20 * next());
-  const Triangulation mesh = delaunay(places);
-  HeightFieldMesh front{{}, mesh.triangles, mesh.hull};
-  for (const Vec2& p : places) front.points.emplace_back(p.x(), p.y(), bump(p.x(), p.y()));
-  return front;
+  test::Random random(7);
+  std::vector<Vec3> points;
+  for (int i = 0; i < 1500; ++i) {
+    const double x = random.uniform(0, 30), y = random.uniform(0, 20);
+    points.emplace_back(x, y, bump(x, y));
+  }
+  return test::front_over(points);
 }
 
 PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectangle, double rim = 0) {
@@ -53,12 +50,6 @@ PlateOptions plate_on(std::string_view shape, Outline outline = Outline::rectang
     grid[i] = std::sin(.2F * static_cast<float>(i % 40)) + std::cos(.15F * static_cast<float>(i / 40));
   options.base.image = std::make_shared<const Image<float>>(grid);
   return options;
-}
-
-Solid plate(const HeightFieldMesh& front, const PlateOptions& options) {
-  const Result<Solid> solid = make_plate(front, options);
-  EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
-  return solid.value_or(Solid{});
 }
 
 // Calls f(place) for seven places of each of the front's triangles.
@@ -104,8 +95,7 @@ class Heights {
   std::vector<std::vector<Index>> cells_;
 };
 
-// ------------------------------------------------------------------------------------------------------
-// shape
+// ------------------------------------------------------------------------------------------------------ shape
 
 // The relief minus its base is the relief on the plane, everywhere: on hill, ground and rim.
 TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
@@ -115,7 +105,7 @@ TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
         const PlateOptions options = plate_on(shape, outline, 1);
         PlateOptions planar = options;
         planar.base = {};
-        const Solid solid = plate(front, options), flat = plate(front, planar);
+        const Solid solid = test::plate_of(front, options), flat = test::plate_of(front, planar);
         const Base base = *plate_base(front, options);
         const Heights heights(flat);
         const double lift = solid.ground_mm - flat.ground_mm;
@@ -136,7 +126,7 @@ TEST(PlateBase, ReliefMinusBaseIsThePlanarRelief) {
 
 TEST(PlateBase, KeepsTheLeastThicknessOnAFlatBack) {
   for (const char* shape : shapes) {
-    const Solid solid = plate(hill(), plate_on(shape, Outline::circle));
+    const Solid solid = test::plate_of(hill(), plate_on(shape, Outline::circle));
     double lowest = 1e9;
     each_place(solid, [&](const Vec3& p) { lowest = std::min(lowest, p.z()); });
     EXPECT_EQ(lowest, 1.5) << shape;
@@ -151,7 +141,7 @@ TEST(PlateBase, KeepsTheLeastThicknessOnAFlatBack) {
 TEST(PlateBase, AFoldHasItsRidgeInTheMesh) {
   const HeightFieldMesh front = hill();
   const PlateOptions options = plate_on("fold:angle=30");
-  const Solid solid = plate(front, options);
+  const Solid solid = test::plate_of(front, options);
   // No triangle has corners on both sides.
   const double middle = 17;
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
@@ -167,7 +157,7 @@ TEST(PlateBase, AFoldHasItsRidgeInTheMesh) {
 TEST(PlateBase, ASteepDomeOverEmptyGroundIsRoundEverywhere) {
   const HeightFieldMesh front = test::flat_front({4, 4, 1, 1});
   const PlateOptions options{20, 2, Outline::circle, 5, {}, *parse_base("dome:height=12")};
-  const Solid solid = plate(front, options);
+  const Solid solid = test::plate_of(front, options);
   ASSERT_EQ(check_solid(solid), "");
   const Base base = *plate_base(front, options);
   each_place(solid, [&](const Vec3& p) {
@@ -178,8 +168,7 @@ TEST(PlateBase, ASteepDomeOverEmptyGroundIsRoundEverywhere) {
   EXPECT_NEAR(volume_mm3(solid), pi * radius * radius * 2 + cap, .01 * pi * radius * radius);
 }
 
-// --------------------------------------------------------------------------------------------------
-// watertight
+// ------------------------------------------------------------------------------------------------- watertight
 
 TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
   const HeightFieldMesh front = hill(), scattered = scattered_hill();
@@ -188,16 +177,15 @@ TEST(PlateBase, IsWatertightForEveryOutlineBaseAndRim) {
       for (const double rim : {0., 1.5}) {
         if (outline == Outline::none && rim > 0) continue;
         const std::string name = std::string(outline_name) + " " + shape;
-        EXPECT_EQ(check_solid(plate(front, plate_on(shape, outline, rim))), "") << name;
+        EXPECT_EQ(check_solid(test::plate_of(front, plate_on(shape, outline, rim))), "") << name;
         if (outline == Outline::none) continue;
-        const Solid solid = plate(scattered, plate_on(shape, outline, rim));
+        const Solid solid = test::plate_of(scattered, plate_on(shape, outline, rim));
         EXPECT_EQ(check_solid(solid), "") << name;
         EXPECT_EQ(test::complaint_of_admesh(solid), "") << name;
       }
 }
 
-// ------------------------------------------------------------------------------------------------- fewer
-// triangles
+// ------------------------------------------------------------------------------------------ fewer triangles
 
 TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
   const HeightFieldMesh front = scattered_hill();
@@ -206,52 +194,30 @@ TEST(PlateBase, SimplerPlatesKeepTheirToleranceAndTellTheirError) {
     for (const double rim : {0., 1.5}) {
       PlateOptions options = plate_on(shape, Outline::circle, rim);
       options.tolerance_mm = .004;
-      const Solid full = plate(front, options);
+      const Solid full = test::plate_of(front, options);
       options.simplify_mm = .03;
-      const Solid solid = plate(front, options);
+      const Solid solid = test::plate_of(front, options);
       EXPECT_EQ(check_solid(solid), "") << shape;
       EXPECT_LT(solid.front_triangles, full.front_triangles / 2) << shape;
       EXPECT_LE(solid.error_mm, .034) << shape;
       // Both ways: where either bends.
       double worst = 0;
-      const Heights of_full(full), of_solid(solid);
-      each_place(solid, [&](const Vec3& p) {
-        const double off = std::abs(p.z() - of_full.at(p.head<2>()) + full.ground_mm - solid.ground_mm);
-        if (!std::isnan(off)) worst = std::max(worst, off);
-      });
-      each_place(full, [&](const Vec3& p) {
-        const double off = std::abs(p.z() - of_solid.at(p.head<2>()) - full.ground_mm + solid.ground_mm);
-        if (!std::isnan(off)) worst = std::max(worst, off);
-      });
+      for (const auto& [one, other] : {std::pair(&solid, &full), std::pair(&full, &solid)}) {
+        const Heights heights(*other);
+        each_place(*one, [&](const Vec3& p) {
+          const double off = p.z() - one->ground_mm - heights.at(p.head<2>()) + other->ground_mm;
+          if (!std::isnan(off)) worst = std::max(worst, std::abs(off));
+        });
+      }
       EXPECT_LE(worst, solid.error_mm + 1e-4) << shape;
       EXPECT_GE(worst, solid.error_mm / 2) << shape;
     }
   }
 }
 
-// -------------------------------------------------------------------------------------------------- the
-// report's
-
-TEST(PlateBase, TheGroundIsWhereItIsToldToBe) {
-  for (const char* shape : shapes) {
-    const HeightFieldMesh front = scattered_hill();
-    const PlateOptions options = plate_on(shape, Outline::hexagon, 1);
-    const Solid solid = plate(front, options);
-    const Base base = *plate_base(front, options);
-    for (const Index i : front.hull) {
-      const Vec3 p = front.points[i];
-      EXPECT_NEAR(Heights(solid).at((p + solid.shift).head<2>()),
-                  solid.ground_mm + p.z() + base.height(p.head<2>()), .011);
-      break;
-    }
-  }
-}
-
 TEST(PlateBase, RefusesABaseThatThePlateIsTooLargeFor) {
-  const Result<Solid> solid = make_plate(hill(), plate_on("cylinder:diameter=30"));
-  ASSERT_FALSE(solid);
-  EXPECT_EQ(solid.error().kind, ErrorKind::option);
-  EXPECT_TRUE(solid.error().message().starts_with("base: expected a diameter of at least "));
+  expect_error(make_plate(hill(), plate_on("cylinder:diameter=30")), ErrorKind::option,
+               "base: expected a diameter of at least ");
 }
 
 }  // namespace

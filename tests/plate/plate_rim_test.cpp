@@ -9,20 +9,10 @@
 namespace relievo {
 namespace {
 
-using test::depth_in;
+using test::depth_in, test::plate_of;
 
 HeightFieldMesh hill() {
   return test::pyramid_front(test::ellipse(31, 20, 12, .3), 3);
-}
-
-Solid plate(const HeightFieldMesh& front, const PlateOptions& options) {
-  const Result<Solid> solid = make_plate(front, options);
-  EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
-  return solid.value_or(Solid{});
-}
-
-Box box_of(const Solid& solid) {
-  return Box::of(solid.points);
 }
 
 // Corners of the plate's bottom in order: its outline.
@@ -34,9 +24,9 @@ std::vector<Vec2> outline_of(const Solid& solid) {
 }
 
 TEST(Rim, OfARectangleHasItsClosedFormVolume) {
-  const Solid solid = plate(test::flat_front({60, 40, 6, 4}), {5, 3, Outline::rectangle, 5, {4, 2, 1}});
+  const Solid solid = plate_of(test::flat_front({60, 40, 6, 4}), {5, 3, Outline::rectangle, 5, {4, 2, 1}});
   EXPECT_EQ(check_solid(solid), "");
-  EXPECT_LT((box_of(solid).max - Vec3(78, 58, 5)).norm(), 1e-12);
+  EXPECT_LT((Box::of(solid.points).max - Vec3(78, 58, 5)).norm(), 1e-12);
   // The hollow within the rim is a frustum: 70 x 50 below, 72 x 52 above; Simpson's rule is exact.
   const double hollow = 2.0 / 6 * (70. * 50 + 4 * 71. * 51 + 72. * 52);
   EXPECT_NEAR(volume_mm3(solid), 78. * 58 * 5 - hollow, 1e-8);
@@ -44,7 +34,7 @@ TEST(Rim, OfARectangleHasItsClosedFormVolume) {
 
 TEST(Rim, OfACircleHasItsClosedFormVolume) {
   const HeightFieldMesh coin = test::fan_front(test::ellipse(720, 10, 10));
-  const Solid solid = plate(coin, {1, 2, Outline::circle, 5, {2, 1, .5}});
+  const Solid solid = plate_of(coin, {1, 2, Outline::circle, 5, {2, 1, .5}});
   EXPECT_EQ(check_solid(solid), "");
   const double pi = std::numbers::pi, outer = 13, top = 11.5, foot = 11;
   const double hollow = pi / 3 * (top * top + top * foot + foot * foot);
@@ -55,7 +45,7 @@ TEST(Rim, IsWatertightAndAsHighAsItsDistanceFromTheOutlineAsks) {
   for (const auto& [name, outline] : outline_choices)
     for (const RimOptions& rim : {RimOptions{3, 1, .5}, {3, 4, 3}, {.5, .2, .1}, {6, 1, 1}}) {
       if (outline == Outline::none) continue;
-      const Solid solid = plate(hill(), {1, 2, outline, 5, rim});
+      const Solid solid = plate_of(hill(), {1, 2, outline, 5, rim});
       ASSERT_EQ(check_solid(solid), "") << name;
       const std::vector<Vec2> edge = outline_of(solid);
       for (std::size_t i = hill().points.size(); i < solid.points.size(); ++i) {
@@ -76,12 +66,12 @@ TEST(Rim, InADieIsTheGrooveThatItFits) {
   for (const auto& [name, outline] : outline_choices) {
     if (outline == Outline::none) continue;
     const RimOptions rim{2, .8, .3};
-    const Solid coin = plate(hill(), {1, 2, outline, 5, rim});
+    const Solid coin = plate_of(hill(), {1, 2, outline, 5, rim});
     HeightFieldMesh hollow = hill();
     for (Vec3& p : hollow.points) p.z() = -p.z();
-    const Solid die = plate(hollow, {1, 2, outline, 5, {2, -.8, .3}});
+    const Solid die = plate_of(hollow, {1, 2, outline, 5, {2, -.8, .3}});
     ASSERT_EQ(check_solid(die), "") << name;
-    EXPECT_EQ(box_of(die).max.z(), 5);
+    EXPECT_EQ(Box::of(die.points).max.z(), 5);
     // Places in the coin's plane, the first point of the front the same.
     const Vec3 shift = die.points[0] - coin.points[0];
     const std::vector<Vec2> inside = outline_of(coin), outside = outline_of(die);
@@ -100,10 +90,7 @@ TEST(Rim, InADieIsTheGrooveThatItFits) {
 }
 
 TEST(Rim, RefusesWhatCannotBe) {
-  const auto complaint = [](const PlateOptions& options) {
-    const Result<Solid> solid = make_plate(hill(), options);
-    return solid ? "" : solid.error().message();
-  };
+  const auto complaint = [](const PlateOptions& options) { return message_of(make_plate(hill(), options)); };
   EXPECT_EQ(complaint({1, 2, Outline::none, 5, {2, 1, .5}}),
             "rim: expected an outline to lie along, found none");
   EXPECT_TRUE(complaint({1, 2, Outline::circle, 5, {-2, 1, .5}}).starts_with("rim:"));

@@ -35,8 +35,8 @@ double highest(const Solid& solid) {
 TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
   for (const PlateOptions& options :
        {PlateOptions{5, 3}, PlateOptions{5, 3, Outline::circle, 5, RimOptions{3, 2, 1}}}) {
-    const Solid before = make_plate(block(), options).value(),
-                after = make_plate(block(), with_tool(options)).value();
+    const Solid before = test::plate_of(block(), options),
+                after = test::plate_of(block(), with_tool(options));
     EXPECT_EQ(check_solid(after), "");
     EXPECT_EQ(test::self_intersections(after), "");
     EXPECT_EQ(highest(after), highest(before));
@@ -54,7 +54,7 @@ TEST(ReachableSurface, IsReachedByItsToolAndNowhereLower) {
 
 // The ball of radius 1 touches a wall of slope 12 and the ground: between the two places the surface has its shape.
 TEST(ReachableSurface, HasTheToolsShapeAtTheFootOfAWall) {
-  const Solid solid = make_plate(block(), with_tool()).value();
+  const Solid solid = test::plate_of(block(), with_tool());
   const Vec2 foot(5 + 30, 5 + 10);
   const double from_foot = std::tan(std::atan(12) / 2);
   int found = 0;
@@ -68,7 +68,7 @@ TEST(ReachableSurface, HasTheToolsShapeAtTheFootOfAWall) {
 }
 
 TEST(ReachableSurface, KeepsLevelGroundLevel) {
-  const Solid solid = make_plate(block(), with_tool()).value();
+  const Solid solid = test::plate_of(block(), with_tool());
   for (const Vec3& p : solid.points)
     if (p.x() < 13 && p.x() > 0) {
       EXPECT_TRUE(p.z() == 3 || p.z() == 0) << p.transpose();
@@ -77,17 +77,16 @@ TEST(ReachableSurface, KeepsLevelGroundLevel) {
 
 TEST(ReachableSurface, OfWhatIsReachedIsTheSame) {
   const HeightFieldMesh front = test::flat_front({20, 10, 4, 2});
-  const Solid solid = make_plate(front, with_tool()).value();
+  const Solid solid = test::plate_of(front, with_tool());
   EXPECT_EQ(measure_reach(solid, ball).largest_residual_mm, 0);
-  EXPECT_NEAR(volume_mm3(solid), volume_mm3(make_plate(front, {}).value()), 1e-9);
+  EXPECT_NEAR(volume_mm3(solid), volume_mm3(test::plate_of(front, {})), 1e-9);
 }
 
 TEST(ReachableSurface, WithoutGroundIsLifted) {
   HeightFieldMesh front = block();
   front.is_relief.assign(front.triangles.size(), 1);
   const PlateOptions options{5, 3, Outline::none};
-  const Solid before = make_plate(front, options).value(),
-              after = make_plate(front, with_tool(options)).value();
+  const Solid before = test::plate_of(front, options), after = test::plate_of(front, with_tool(options));
   EXPECT_EQ(check_solid(after), "");
   ASSERT_EQ(after.points.size(), before.points.size());
   for (std::size_t i = 0; i < before.points.size(); ++i) ASSERT_GE(after.points[i].z(), before.points[i].z());

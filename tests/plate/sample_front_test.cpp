@@ -7,6 +7,8 @@
 
 #include "relievo/geometry/triangulation.h"
 #include "support/planar_points.h"
+#include "support/plate_fronts.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
@@ -23,48 +25,33 @@ HeightFieldMesh front_of(F height, std::size_t n = 4000) {
   std::vector<Vec2> plane = random_points(n, 21);
   for (Vec2& p : plane) p *= side;
   for (int corner = 0; corner < 4; ++corner) plane.emplace_back(side * (corner % 2), side * (corner / 2));
-  HeightFieldMesh front;
-  for (const Vec2& p : plane) front.points.emplace_back(p.x(), p.y(), height(p));
-  Triangulation mesh = delaunay(plane);
-  front.triangles = std::move(mesh.triangles);
-  front.hull = std::move(mesh.hull);
-  return front;
+  std::vector<Vec3> points;
+  for (const Vec2& p : plane) points.emplace_back(p.x(), p.y(), height(p));
+  return test::front_over(points);
+}
+
+bool is_far_from_hull(const Vec3& p) {
+  return (p.head<2>() - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .4 * side;
 }
 
 std::vector<std::uint8_t> all_of(const HeightFieldMesh& front, std::uint8_t flag) {
   return std::vector<std::uint8_t>(front.triangles.size(), flag);
 }
 
-double area(const HeightFieldMesh& front) {
-  double sum = 0;
-  for (const auto& [a, b, c] : front.triangles) {
-    const Vec3 u = front.points[b] - front.points[a], v = front.points[c] - front.points[a];
-    const double twice = u.x() * v.y() - u.y() * v.x();
-    EXPECT_GT(twice, 0);
-    sum += twice / 2;
-  }
-  return sum;
-}
-
+// With a tolerance of .004 there are four samples in a square.
 TEST(SampleFront, LiesOnASurfaceOfSecondDegree) {
-  const HeightFieldMesh front = front_of(dome);
-  const HeightFieldMesh sampled = sample_front(front, all_of(front, 1), {.2}).value();
-  EXPECT_NEAR(area(sampled), side * side, 1e-6);
-  for (const Vec3& p : sampled.points)
-    if ((p.head<2>() - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .4 * side) {
-      EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
-    }
-}
-
-TEST(SampleFront, LiesOnItWithFourSamplesInASquareToo) {
   const HeightFieldMesh front = front_of(dome);
   const HeightFieldMesh single = sample_front(front, all_of(front, 1), {.2, .01}).value();
   const HeightFieldMesh fine = sample_front(front, all_of(front, 1), {.2, .004}).value();
   EXPECT_GT(fine.points.size(), 2 * single.points.size());
-  for (const Vec3& p : fine.points)
-    if ((p.head<2>() - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .4 * side) {
-      EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
-    }
+  for (const HeightFieldMesh& sampled : {single, fine}) {
+    test::expect_counter_clockwise(sampled.points, sampled.triangles);
+    EXPECT_NEAR(test::area_of(sampled.points, sampled.triangles), side * side, 1e-6);
+    for (const Vec3& p : sampled.points)
+      if (is_far_from_hull(p)) {
+        EXPECT_NEAR(p.z(), dome(p.head<2>()), 2e-3);
+      }
+  }
 }
 
 TEST(SampleFront, IsFinerWhereAskedAndCoarserWherePlane) {
@@ -99,7 +86,7 @@ TEST(SampleFront, HasNoThinTriangleAwayFromTheHull) {
     bool is_far = true;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 p = sampled.points[t[i]].head<2>();
-      is_far &= (p - Vec2(side / 2, side / 2)).cwiseAbs().maxCoeff() < .4 * side;
+      is_far &= is_far_from_hull(sampled.points[t[i]]);
       const Vec2 u = sampled.points[t[(i + 1) % 3]].head<2>() - p,
                  v = sampled.points[t[(i + 2) % 3]].head<2>() - p;
       least = std::min(least, std::acos(u.normalized().dot(v.normalized())));
@@ -135,8 +122,7 @@ TEST(SampleFront, TellsReliefFromGround) {
 
 TEST(SampleFront, EndsWhenCancelled) {
   const HeightFieldMesh front = front_of(dome, 500);
-  Progress progress;
-  progress.cancel();
+  Cancelled progress;
   EXPECT_EQ(sample_front(front, all_of(front, 1), {.2}, &progress).error().kind, ErrorKind::cancelled);
 }
 

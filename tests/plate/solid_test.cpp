@@ -13,18 +13,12 @@
 
 #include "support/admesh.h"
 #include "support/plate_fronts.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
 
-using test::ellipse, test::fan_front, test::flat_front, test::grid_front, test::polygon_area,
-    test::pyramid_front;
-
-Solid plate(const HeightFieldMesh& front, const PlateOptions& options = {}) {
-  Result<Solid> solid = make_plate(front, options);
-  EXPECT_TRUE(solid.has_value()) << (solid ? "" : solid.error().message());
-  return solid.value_or(Solid{});
-}
+using test::ellipse, test::fan_front, test::flat_front, test::grid_front, test::plate_of, test::pyramid_front;
 
 Box used_box(const Solid& solid) {
   Box box;
@@ -33,27 +27,22 @@ Box used_box(const Solid& solid) {
   return box;
 }
 
-double area_from_above(const Solid& solid, std::size_t begin, std::size_t end) {
-  double twice = 0;
-  for (std::size_t t = begin; t < end; ++t) {
-    const auto& [a, b, c] = solid.triangles[t];
-    const Vec3 p = solid.points[b] - solid.points[a], q = solid.points[c] - solid.points[a];
-    const double one = p.x() * q.y() - p.y() * q.x();
-    EXPECT_GT(one, 0) << "triangle " << t;
-    twice += one;
-  }
-  return twice / 2;
+// Returns the area of the front, whose triangles all have to face upwards.
+double area_from_above(const Solid& solid) {
+  const std::span front = std::span(solid.triangles).first(solid.front_triangles);
+  test::expect_counter_clockwise(solid.points, front);
+  return test::area_of(solid.points, front);
 }
 
 Solid bumpy_plate() {
   const auto bump = [](double x, double y) { return std::sin(x / 5) * std::cos(y / 7) + 1.5; };
-  return plate(grid_front({60, 40, 30, 20}, bump), {4, 2});
+  return plate_of(grid_front({60, 40, 30, 20}, bump), {4, 2});
 }
 
 // ---------------------------------------------------------------------------------------------- make_plate
 
 TEST(MakePlate, FlatFrontGivesABox) {
-  const Solid solid = plate(flat_front({60, 40, 6, 4}), {5, 3});
+  const Solid solid = plate_of(flat_front({60, 40, 6, 4}), {5, 3});
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_NEAR(volume_mm3(solid), 70.0 * 50 * 3, 1e-8);
   EXPECT_EQ(used_box(solid).min, Vec3::Zero());
@@ -62,7 +51,7 @@ TEST(MakePlate, FlatFrontGivesABox) {
 
 TEST(MakePlate, HasTheCountsItsConstructionImplies) {
   const HeightFieldMesh front = flat_front({60, 40, 6, 4});
-  const Solid solid = plate(front);
+  const Solid solid = plate_of(front);
   const std::size_t hull = 20, corners = 4;
   ASSERT_EQ(front.hull.size(), hull);
   EXPECT_EQ(solid.points.size(), front.points.size() + 2 * corners);
@@ -72,28 +61,10 @@ TEST(MakePlate, HasTheCountsItsConstructionImplies) {
 
 TEST(MakePlate, KeepsTheFrontFirstAndMovesItOnly) {
   HeightFieldMesh front = pyramid_front({{-3, 7}, {9, 7}, {9, 20}}, 4);
-  const Solid solid = plate(front, {5, 3});
+  const Solid solid = plate_of(front, {5, 3});
   for (std::size_t t = 0; t < front.triangles.size(); ++t) EXPECT_EQ(solid.triangles[t], front.triangles[t]);
   for (std::size_t i = 0; i < front.points.size(); ++i)
     EXPECT_LT((solid.points[i] - front.points[i] - Vec3(8, -2, 3)).norm(), 1e-12);
-}
-
-TEST(MakePlate, PyramidHasItsClosedFormVolume) {
-  const std::vector<Vec2> polygon = ellipse(7, 20, 12);
-  const Solid solid = plate(pyramid_front(polygon, 6), {2, 1.5});
-  const Vec3 size = used_box(solid).max;
-  EXPECT_EQ(check_solid(solid), "");
-  EXPECT_NEAR(volume_mm3(solid), size.x() * size.y() * 1.5 + polygon_area(polygon) * 6 / 3, 1e-8);
-}
-
-TEST(MakePlate, ParaboloidCapHasItsVolumeUpToTheGridsError) {
-  const double radius = 20, height = 5;
-  const auto cap = [&](double x, double y) {
-    return height * std::max(0.0, 1 - ((x - 25) * (x - 25) + (y - 25) * (y - 25)) / (radius * radius));
-  };
-  const Solid solid = plate(grid_front({50, 50, 500, 500}, cap), {5, 3});
-  EXPECT_EQ(check_solid(solid), "");
-  EXPECT_NEAR(volume_mm3(solid), 60.0 * 60 * 3 + std::numbers::pi * radius * radius * height / 2, 0.3);
 }
 
 TEST(MakePlate, GroovesBelowTheGroundKeepTheThickness) {
@@ -102,7 +73,7 @@ TEST(MakePlate, GroovesBelowTheGroundKeepTheThickness) {
   for (Vec3& p : front.points) p.z() += 17.3;
   front.ground_mm = 17.3;
   const auto [low, high] = std::ranges::minmax(front.points, {}, [](const Vec3& p) { return p.z(); });
-  const Solid solid = plate(front, {5, 0.7});
+  const Solid solid = plate_of(front, {5, 0.7});
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(used_box(solid).max.z(), (high.z() - low.z()) + 0.7);
   double lowest = 1e9;
@@ -126,24 +97,24 @@ TEST(MakePlate, RingOfAnyConvexFrontCoversTheRectangleOnce) {
       const double angle = tenths * std::numbers::pi / 1800;
       polygon.emplace_back(30 * std::cos(angle), 20 * std::sin(angle));
     }
-    const Solid solid = plate(fan_front(polygon), {*rc::gen::element(0.01, 1.0, 50.0), 2});
+    const Solid solid = plate_of(fan_front(polygon), {*rc::gen::element(0.01, 1.0, 50.0), 2});
     RC_ASSERT(check_solid(solid) == "");
     const Vec3 size = used_box(solid).max;
     // Positive areas that sum to the rectangle's: no overlap, no gap.
-    const double area = area_from_above(solid, 0, solid.front_triangles);
+    const double area = area_from_above(solid);
     RC_ASSERT(std::abs(area - size.x() * size.y()) < 1e-9 * area);
   }));
 }
 
 TEST(MakePlate, EdgesAlongTheRectangleGiveNoTriangleWithoutArea) {
-  const Solid solid = plate(flat_front({60, 40, 60, 40}), {0.001, 1});
-  EXPECT_NEAR(area_from_above(solid, 0, solid.front_triangles), 60.002 * 40.002, 1e-8);
+  const Solid solid = plate_of(flat_front({60, 40, 60, 40}), {0.001, 1});
+  EXPECT_NEAR(area_from_above(solid), 60.002 * 40.002, 1e-8);
 }
 
 TEST(MakePlate, PointsThatTheFrontDoesNotUseCountForNothing) {
   HeightFieldMesh front = flat_front({10, 10, 2, 2});
   front.points.emplace_back(500, -500, -40);
-  const Solid solid = plate(front, {5, 3});
+  const Solid solid = plate_of(front, {5, 3});
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_EQ(used_box(solid).max, Vec3(20, 20, 3));
 }
@@ -154,7 +125,7 @@ TEST(MakePlate, SeparatesPointsThatSinglePrecisionWouldMerge) {
   front.points.emplace_back(50, 50, 2);
   front.points.emplace_back(50 + 1e-9, 50, 2);
   front.triangles = {{0, 1, 4}, {1, 5, 4}, {1, 2, 5}, {2, 4, 5}, {2, 3, 4}, {3, 0, 4}};
-  const Solid solid = plate(front);
+  const Solid solid = plate_of(front);
   EXPECT_EQ(check_solid(solid), "");
   EXPECT_NEAR(solid.points[5].z(), solid.points[4].z(), 1e-6);
   EXPECT_EQ(used_box(solid).max.z(), 5);
@@ -344,11 +315,11 @@ TEST(WriteStl, AdmeshFindsNothingToRepair) {
   const HeightFieldMesh pyramid = pyramid_front(ellipse(101, 30, 20, 0.3), 3);
   EXPECT_EQ(test::complaint_of_admesh(bumpy_plate()), "");
   for (const auto& [name, outline] : outline_choices)
-    EXPECT_EQ(test::complaint_of_admesh(plate(pyramid, {1, 1, outline})), "") << name;
+    EXPECT_EQ(test::complaint_of_admesh(plate_of(pyramid, {1, 1, outline})), "") << name;
 }
 
 TEST(InUnit, ScalesAndSeparates) {
-  const Solid mm = make_plate(test::pyramid_front({{0, 0}, {60, 0}, {60, 40}, {0, 40}}, 7), {}).value();
+  const Solid mm = plate_of(pyramid_front({{0, 0}, {60, 0}, {60, 40}, {0, 40}}, 7));
   const Solid inches = in_unit(mm, LengthUnit::inch);
   EXPECT_EQ(inches.unit, LengthUnit::inch);
   EXPECT_EQ(inches.triangles, mm.triangles);
@@ -362,12 +333,12 @@ TEST(InUnit, KeepsPointsApart) {
   int merged = 0;
   for (int i = 0; i < 20; ++i) {
     const double width = 43 + .01 * i;
-    HeightFieldMesh front = test::pyramid_front({{0, 0}, {width, 0}, {width, 40}, {0, 40}}, 7);
+    HeightFieldMesh front = pyramid_front({{0, 0}, {width, 0}, {width, 40}, {0, 40}}, 7);
     front.points.push_back({width / 2 + 2e-6, 20, 7});
     front.triangles[1] = {1, 2, 5};
     front.triangles.push_back({1, 5, 4});
     front.triangles.push_back({2, 4, 5});
-    const Solid mm = make_plate(front, {10, 3}).value();
+    const Solid mm = plate_of(front, {10, 3});
     Solid scaled = mm;
     for (Vec3& p : scaled.points) p /= 25.4;
     merged += check_solid(scaled) != "";

@@ -66,30 +66,19 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
-// The silhouette's points are almost on one line, and are so again in another unit.
-TEST(ThinTriangles, LeaveNoReliefWithoutGroundThatCutsItself) {
-  const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
-  for (const double angle : {0., .1, .3, .7}) {
-    PlateOptions options;
-    options.outline = Outline::none;
-    const auto solid = make_plate(test::turned_grid_front(40, angle, bumps), options);
-    ASSERT_TRUE(solid) << solid.error().message();
-    EXPECT_EQ(check_solid(*solid), "");
-    EXPECT_EQ(test::self_intersections(*solid), "") << angle;
-    EXPECT_EQ(test::self_intersections(in_unit(*solid, LengthUnit::inch)), "") << angle;
-  }
-}
-
-// The plate's ring begins at the hull's points, which are almost on one line.
+// The silhouette's points, and those of the hull, where the plate's ring begins, are almost on one line, and are so again
+// in another unit.
 TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {
   const auto bumps = [](double x, double y) { return std::sin(3 * x) + std::cos(2 * y); };
-  for (const double angle : {0., .1, .3, .7}) {
-    const auto solid = make_plate(test::turned_grid_front(40, angle, bumps), {});
-    ASSERT_TRUE(solid) << solid.error().message();
-    EXPECT_EQ(check_solid(*solid), "");
-    EXPECT_EQ(test::self_intersections(*solid), "") << angle;
-    EXPECT_EQ(test::self_intersections(in_unit(*solid, LengthUnit::inch)), "") << angle;
-  }
+  for (const Outline outline : {Outline::none, Outline::rectangle})
+    for (const double angle : {0., .1, .3, .7}) {
+      PlateOptions options;
+      options.outline = outline;
+      const Solid solid = test::plate_of(test::turned_grid_front(40, angle, bumps), options);
+      EXPECT_EQ(check_solid(solid), "");
+      EXPECT_EQ(test::self_intersections(solid), "") << angle;
+      EXPECT_EQ(test::self_intersections(in_unit(solid, LengthUnit::inch)), "") << angle;
+    }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/simd.h"
 #include "relievo/core/parallel.h"
 #include "support/plate_fronts.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -78,9 +79,7 @@ TEST(Tool, IsParsed) {
     EXPECT_EQ(text_of(*parse_tool(text)), text);
   for (const char* text : {"", "ball", "ball:", "ball:x", "ball:1ft", "ball:-1", "ball:0", "ball:1:2", "v:0",
                            "v:171", "v:60:", "v:60:-1", "cone:3", "ball:nan", "flat:1e9"}) {
-    const auto tool = parse_tool(text);
-    ASSERT_FALSE(tool) << text;
-    EXPECT_EQ(tool.error().input, "tool");
+    expect_error(parse_tool(text), "tool: expected ");
   }
 }
 
@@ -170,18 +169,15 @@ TEST(CloseByTool, IsAClosing) {
 
 TEST(CloseByTool, IsTheSameForAnyNumberOfThreadsAndInstructions) {
   const Image<float> z = picture(333, 77, [](int x, int y) { return std::sin(.3 * x) * std::cos(.2 * y); });
-  const Image<float> all = close_by_tool(z, .1, ball);
-  set_thread_count(1);
-  allow_avx2(false);
-  EXPECT_EQ(close_by_tool(z, .1, ball).pixels, all.pixels);
-  allow_avx2(true);
-  set_thread_count(0);
+  const auto close = [&] { return close_by_tool(z, .1, ball).pixels; };
+  test::expect_same_for_any_threads(close);
+  test::expect_same_without_avx2(close);
 }
 
 Solid plate_with_step(double height) {
   HeightFieldMesh front =
       test::grid_front({40, 20, 80, 40}, [&](double x, double) { return x > 10 && x < 30 ? height : 0.; });
-  return make_plate(front, {}).value();
+  return test::plate_of(front);
 }
 
 // The walls rise 3 mm over half a millimetre, all around 20 x 20 mm of a plate of 50 x 30.
@@ -205,7 +201,7 @@ TEST(MeasureReach, OfAFlatPlateIsAll) {
 
 TEST(MeasureReach, BesideAPlateThereIsNoObstacle) {
   HeightFieldMesh front = test::flat_front({20, 10, 4, 2});
-  const Solid round = make_plate(front, {5, 3, Outline::circle}).value();
+  const Solid round = test::plate_of(front, {5, 3, Outline::circle});
   const ToolReach reach = measure_reach(round, ball);
   EXPECT_EQ(reach.reached_share, 1);
   EXPECT_TRUE(std::isnan(reach.residual_mm.pixels[0]));

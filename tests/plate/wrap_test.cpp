@@ -19,11 +19,7 @@ constexpr double pi = std::numbers::pi;
 const std::vector<Vec2> plate_outline = {{0, 0}, {60, 0}, {60, 40}, {0, 40}};
 
 Wrap around(std::string_view text) {
-  const auto options = parse_wrap(text);
-  EXPECT_TRUE(options) << (options ? "" : options.error().message());
-  const auto wrap = Wrap::around(*options, plate_outline);
-  EXPECT_TRUE(wrap) << (wrap ? "" : wrap.error().message());
-  return wrap.value_or(Wrap());
+  return value_of(Wrap::around(value_of(parse_wrap(text)), plate_outline));
 }
 
 std::string complaint(std::string_view text) {
@@ -52,15 +48,11 @@ PlateOptions plate_around(std::string_view body) {
 }
 
 Solid flat_plate(const PlateOptions& options) {
-  const auto plate = make_plate(hill(), options);
-  EXPECT_TRUE(plate) << (plate ? "" : plate.error().message());
-  return plate.value_or(Solid{});
+  return test::plate_of(hill(), options);
 }
 
 Solid wrapped(const PlateOptions& options) {
-  const auto body = wrap_plate(flat_plate(options), options);
-  EXPECT_TRUE(body) << (body ? "" : body.error().message());
-  return body.value_or(Solid{});
+  return value_of(wrap_plate(flat_plate(options), options));
 }
 
 // ---------------------------------------------------------------------------------------------------- places
@@ -171,7 +163,7 @@ TEST(WrapPlate, AFullTurnIsARing) {
        {"cylinder:turn=360", "cylinder:turn=360,direction=0", "cylinder:turn=360,direction=180",
         "cylinder:turn=360,direction=270", "cone:turn=360,angle=5"}) {
     const PlateOptions options = plate_around(body);
-    const Solid plate = flat_plate(options), ring = wrapped(options);
+    const Solid ring = wrapped(options);
     EXPECT_EQ(check_solid(ring), "") << body;
     EXPECT_EQ(test::complaint_of_admesh(ring), "") << body;
     // A ring has the topology of a torus: points - edges + triangles = 0.
@@ -194,9 +186,7 @@ TEST(WrapPlate, AFullTurnWithoutARoundEdgeIsRefused) {
 TEST(WrapPlate, RefusesAShellThatReachesTheAxis) {
   PlateOptions options = plate_around("cylinder:diameter=20");
   options.thickness_mm = 10;
-  const auto body = wrap_plate(flat_plate(options), options);
-  ASSERT_FALSE(body);
-  EXPECT_TRUE(body.error().message().contains("as 10 mm reach towards the axis")) << body.error().message();
+  expect_error(wrap_plate(flat_plate(options), options), "as 10 mm reach towards the axis");
   EXPECT_FALSE(wrap_plate(flat_plate({}), {}));
 }
 

@@ -10,6 +10,7 @@
 
 #include "relievo/geometry/triangulation.h"
 #include "relievo/plate/solid.h"
+#include "support/results.h"
 
 namespace relievo::test {
 
@@ -75,6 +76,19 @@ inline HeightFieldMesh pyramid_front(const std::vector<Vec2>& polygon, double he
   return front;
 }
 
+// Returns the Delaunay triangulation of points in the plane, with their heights.
+inline HeightFieldMesh front_over(const std::vector<Vec3>& points) {
+  std::vector<Vec2> plane;
+  for (const Vec3& p : points) plane.push_back(p.head<2>());
+  Triangulation mesh = delaunay(plane);
+  return {points, std::move(mesh.triangles), std::move(mesh.hull)};
+}
+
+// Returns a plate of the front; the test ends where there is none.
+inline Solid plate_of(const HeightFieldMesh& front, const PlateOptions& options = {}) {
+  return value_of(make_plate(front, options));
+}
+
 // Returns the polygon of an ellipse with `n` corners. Rounding leaves all of them convex for the sizes that tests use.
 inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double turn = 0) {
   std::vector<Vec2> polygon;
@@ -89,20 +103,14 @@ inline std::vector<Vec2> ellipse(int n, double radius_x, double radius_y, double
 // an angle, so that rounding leaves its sides almost straight: the case of a mesh that is sampled on a grid.
 inline HeightFieldMesh turned_grid_front(int cells, double angle,
                                          const std::function<double(double, double)>& z) {
-  HeightFieldMesh front;
-  std::vector<Vec2> plane;
-  for (int j = 0; j <= cells; ++j) {
+  std::vector<Vec3> points;
+  for (int j = 0; j <= cells; ++j)
     for (int i = 0; i <= cells; ++i) {
       const Vec2 p = Eigen::Rotation2Dd(angle) * Vec2(.1 * i, .1 * j);
       const bool is_rim = i == 0 || j == 0 || i == cells || j == cells;
-      front.points.emplace_back(p.x(), p.y(), is_rim ? 0 : z(.1 * i, .1 * j));
-      plane.push_back(p);
+      points.emplace_back(p.x(), p.y(), is_rim ? 0 : z(.1 * i, .1 * j));
     }
-  }
-  Triangulation mesh = delaunay(plane);
-  front.triangles = std::move(mesh.triangles);
-  front.hull = std::move(mesh.hull);
-  return front;
+  return front_over(points);
 }
 
 inline double polygon_area(const std::vector<Vec2>& polygon) {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "relievo/core/error.h"
+#include "relievo/core/progress.h"
 #include "relievo/core/text.h"
 
 namespace relievo {
@@ -32,6 +33,11 @@ template <typename T>
 std::string message_of(const Result<T>& result) {
   return result ? "no error" : result.error().message();
 }
+
+// A progress that has been cancelled before anything begins.
+struct Cancelled : Progress {
+  Cancelled() { cancel(); }
+};
 
 // Expects an error whose message contains `part`, of any kind or of the given one.
 template <typename T>

@@ -5,6 +5,7 @@
 
 #include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
+#include "support/results.h"
 
 namespace relievo::test {
 
@@ -35,15 +36,12 @@ inline Cloud moved(Cloud cloud, const Vec3& by) {
 }
 
 inline std::vector<PlacedModel> placed(const Scene& scene, const View& view = front) {
-  const auto places = place_models(scene, view);
-  EXPECT_TRUE(places) << places.error().message();
+  const auto places = value_of(place_models(scene, view));
   return places.value_or(std::vector<PlacedModel>(scene.models.size()));
 }
 
 inline ViewSample seen(const Scene& scene, double points = 30000, const View& view = front) {
-  auto result = sample_for_view(scene, view, points);
-  EXPECT_TRUE(result) << result.error().message();
-  return result.value_or(ViewSample{std::make_shared<const Cloud>(), 0, {}});
+  return value_of(sample_for_view(scene, view, points));
 }
 
 }  // namespace relievo::test
