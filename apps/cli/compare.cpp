@@ -181,12 +181,10 @@ Result<void> compare(const CompareArguments& arguments) {
   RELIEVO_TRY(const std::vector<Method> chosen, parse_methods(arguments.methods));
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
-  Result<Comparison> comparison = compare_all(arguments, chosen, progress);
+  Result<Comparison> comparison =
+      naming(joined(arguments.scene.paths), compare_all(arguments, chosen, progress));
   progress.finish();
-  if (!comparison) {
-    if (comparison.error().input.empty()) comparison.error().input = joined(arguments.scene.paths);
-    return std::unexpected(comparison.error());
-  }
+  if (!comparison) return std::unexpected(comparison.error());
   if (!arguments.output.empty()) {
     const OutputFile file{arguments.output, bytes_of(comparison_page(*comparison))};
     RELIEVO_CHECK(write_files({&file, 1}));

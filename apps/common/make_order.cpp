@@ -11,7 +11,9 @@
 
 namespace relievo::app {
 
-Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Project>& project) {
+Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
+  std::optional<Project> project;
+  if (stored) project = stored->project;
   OptionTexts texts = order.texts;
   const auto is_given = [&](std::string_view name) { return order.given.contains(std::string(name)); };
   if (project) texts = with_given(project->options, order.texts, is_given);
@@ -25,37 +27,71 @@ Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Pro
   return options;
 }
 
-Result<LoadedOrder> load_order(const MakeOrder& order, const std::optional<StoredProject>& stored,
-                               const std::function<Result<SceneInput>(const ReliefOptions&)>& read,
-                               Progress& progress) {
-  std::optional<Project> project;
-  if (stored) project = stored->project;
+std::vector<std::string> CheckedOrder::paths() const {
+  std::vector<std::string> all = inputs;
+  all.insert(all.end(), {base_image_path, scan_path});
+  return all;
+}
+
+Result<CheckedOrder> check_order(MakeOrder order) {
+  const bool are_files = !order.read;
+  RELIEVO_TRY(auto project,
+              find_project(are_files ? order.inputs : std::vector<std::string>(), order.scan_path));
   RELIEVO_TRY(ReliefOptions options, options_of(order, project));
-  if (!stored) {
-    RELIEVO_TRY(SceneInput input, read(options));
-    options.view = chosen_view(input.scene, options.view);
-    return LoadedOrder{std::move(input), std::move(options)};
+  if (are_files) order.name = joined(order.inputs);
+  return CheckedOrder{std::move(order), std::move(project), std::move(options)};
+}
+
+Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
+  LoadedOrder loaded{std::move(order), {}, {}};
+  if (loaded.project) {
+    RELIEVO_CHECK(progress.stage("read", 0));
+    RELIEVO_TRY(Scene scene, load_project_scan(*loaded.project, [&] { return progress.is_cancelled(); }));
+    loaded.input = with_remarks(std::move(scene));
+  } else {
+    const PointsWanted wanted{loaded.options.view, loaded.options.points.value_or(PointsWanted{}.points)};
+    if (!loaded.read && loaded.inputs.empty()) return option_error("inputs", "expected at least one file");
+    RELIEVO_TRY(loaded.input, loaded.read ? loaded.read(loaded.in, wanted, &progress)
+                                          : read_scene(loaded.inputs, loaded.in, wanted, &progress));
   }
-  RELIEVO_CHECK(progress.stage("read", 0));
-  RELIEVO_TRY(Scene scene, load_project_scan(*stored, [&] { return progress.is_cancelled(); }));
-  options.view = chosen_view(scene, options.view);
-  return LoadedOrder{with_remarks(std::move(scene)), std::move(options), std::move(project)};
+  if (!loaded.options.view.is_best) return loaded;
+  loaded.side = best_side(loaded.input.scene);
+  loaded.options.view = on_side(loaded.options.view, *loaded.side);
+  return loaded;
 }
 
-InputFacts facts_of(const MakeOrder& order, std::vector<std::string> paths, const LoadedOrder& loaded) {
-  InputFacts facts{std::move(paths), loaded.input.remarks,
-                   models_report(loaded.input.scene, loaded.options.view)};
-  facts.paths.insert(facts.paths.end(), {order.base_image_path, order.scan_path});
-  return facts;
+InputFacts facts_of(const LoadedOrder& loaded) {
+  return {loaded.name, loaded.paths(), loaded.input.remarks,
+          models_report(loaded.input.scene, loaded.options.view)};
 }
 
-FinishedRelief finished(MadeRelief made, const InputFacts& facts, const ReliefOptions& options,
-                        Progress& progress) {
+void FinishedRelief::end(Progress& progress) {
   progress.finish();
-  FinishedRelief relief{std::move(made), {}, facts.remarks, facts.paths, options.draft_deg};
-  for (std::string& line : remarks_on(relief.made.report)) relief.remarks.push_back(std::move(line));
-  relief.report = make_report({relief.made, facts.models, LengthUnit::mm, progress.times()});
-  return relief;
+  times = progress.times();
+}
+
+std::vector<std::string> FinishedRelief::remarks() const {
+  std::vector<std::string> lines = inputs.remarks;
+  for (std::string& line : remarks_on(made.report)) lines.push_back(std::move(line));
+  return lines;
+}
+
+nlohmann::json FinishedRelief::report(LengthUnit unit) const {
+  return make_report({made, inputs.models, unit, times});
+}
+
+Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress) {
+  RELIEVO_TRY(MadeRelief made,
+              naming(loaded.name, make_relief(loaded.input.scene, loaded.options, &progress)));
+  return FinishedRelief{std::move(made), facts_of(loaded), loaded.options.draft_deg};
+}
+
+Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress) {
+  RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
+  RELIEVO_TRY(const LoadedOrder loaded, load(std::move(known), progress));
+  RELIEVO_TRY(FinishedRelief relief, make(loaded, progress));
+  relief.end(progress);
+  return std::make_shared<FinishedRelief>(std::move(relief));
 }
 
 Result<PreviewOptions> preview_options(int longer_side_px, std::string_view material) {

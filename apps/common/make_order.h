@@ -1,4 +1,4 @@
-// Orders for reliefs as Python and WebAssembly give them, and the reliefs that come of them.
+// Orders for reliefs as the command line, Python and WebAssembly give them, and the reliefs that come of them.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,8 @@
 
 #include "common/project_file.h"
 #include "common/read_inputs.h"
+#include "relievo/core/length.h"
+#include "relievo/core/progress.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/preview.h"
 
@@ -22,47 +24,70 @@ struct MakeOrder {
   OptionTexts texts;
   std::set<std::string> given;  // names of the options that are not left to their defaults
   InputArguments in;
+  std::vector<std::string> inputs = {};  // paths
   std::string base_image_path = {};
   std::string scan_path = {};  // of a project
   std::shared_ptr<const Image<float>> base_image = nullptr;
+  // Reads the inputs where not all of them are files; `name` is then that of all inputs.
+  std::function<Result<SceneInput>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
+  std::string name = {};
 };
 
 // Returns the options as values, those of a project included. Errors: those of parse_options() and take_base_image().
-Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<Project>& project);
+Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& project);
 
-// The scene of an order, what was said about its files, and the options to make it by.
-struct LoadedOrder {
-  SceneInput input;
+// An order with its options as values, and with its project if the input is one.
+struct CheckedOrder : MakeOrder {
+  std::optional<StoredProject> project;
   ReliefOptions options;
-  std::optional<Project> project = {};
+
+  // Returns the paths of all files that are read, which must not be overwritten.
+  std::vector<std::string> paths() const;
 };
 
-// Returns the scene of an order: that of its project or, without one, what `read` returns. Errors: those of options_of(),
-// load_project_scan() and `read`.
-Result<LoadedOrder> load_order(const MakeOrder& order, const std::optional<StoredProject>& stored,
-                               const std::function<Result<SceneInput>(const ReliefOptions&)>& read,
-                               Progress& progress);
+// Errors: those of find_project() and options_of().
+Result<CheckedOrder> check_order(MakeOrder order);
+
+// An order whose inputs were read, and whose view is chosen.
+struct LoadedOrder : CheckedOrder {
+  SceneInput input;
+  std::optional<ViewGuess> side;  // that was chosen, if the order left the choice
+};
+
+// Errors: kind option if there is no input; those of load_project_scan(), read_scene() and `read`.
+Result<LoadedOrder> load(CheckedOrder order, Progress& progress);
 
 // Holds what a relief's report tells of its inputs, without the scans themselves.
 struct InputFacts {
+  std::string name;
   std::vector<std::string> paths, remarks;  // paths: of files that must not be overwritten
   nlohmann::json models;
 };
 
-// Returns the facts of an order whose files have these paths.
-InputFacts facts_of(const MakeOrder& order, std::vector<std::string> paths, const LoadedOrder& loaded);
+InputFacts facts_of(const LoadedOrder& loaded);
 
 // A relief that was made, and all that its files and its report need.
 struct FinishedRelief {
   MadeRelief made;
-  nlohmann::json report;
-  std::vector<std::string> remarks, inputs;  // inputs: paths that must not be overwritten
+  InputFacts inputs;
   std::optional<double> draft_deg;
+  std::vector<StageTime> times = {};  // none before end()
+
+  // Ends the progress, and keeps the times of its stages.
+  void end(Progress& progress);
+
+  // Returns the remarks on the inputs and on the relief.
+  std::vector<std::string> remarks() const;
+
+  // Returns the report on a file in that unit.
+  nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 
-// Puts it together.
-FinishedRelief finished(MadeRelief made, const InputFacts& facts, const ReliefOptions& options,
-                        Progress& progress);
+// Makes the relief; end() is left to the caller. Errors: those of make_relief(), naming the inputs.
+Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress);
+
+// Does all of the above. Errors: those of all.
+Result<std::shared_ptr<FinishedRelief>> make(MakeOrder order, Progress& progress);
 
 // Returns how to draw a relief. Errors: kind option for a size not in [1, 5461] and for unknown materials.
 Result<PreviewOptions> preview_options(int longer_side_px, std::string_view material);

@@ -38,10 +38,9 @@ Result<RenderOptions> render_options(const PictureOrder& order, double mm_per_un
 
 }  // namespace
 
-PreparedModel::PreparedModel(const LoadedOrder& loaded, std::string name, InputFacts facts,
-                             std::vector<SampleNote> notes, std::shared_ptr<const ReliefModel> model)
-    : name_(std::move(name)),
-      facts_(std::move(facts)),
+PreparedModel::PreparedModel(const LoadedOrder& loaded, std::vector<SampleNote> notes,
+                             std::shared_ptr<const ReliefModel> model)
+    : facts_(facts_of(loaded)),
       project_(loaded.project),
       notes_(std::move(notes)),
       model_(std::move(model)),
@@ -49,25 +48,27 @@ PreparedModel::PreparedModel(const LoadedOrder& loaded, std::string name, InputF
       frames_(*model_),
       renderer_(model_) {}
 
-Result<std::shared_ptr<PreparedModel>> PreparedModel::prepare(const LoadedOrder& loaded, std::string name,
-                                                              InputFacts facts, Progress& progress) {
+Result<std::shared_ptr<PreparedModel>> PreparedModel::prepare(MakeOrder order, Progress& progress) {
+  RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
+  RELIEVO_TRY(const LoadedOrder loaded, load(std::move(known), progress));
   const ReliefOptions& options = loaded.options;
-  RELIEVO_TRY(ViewSample sample,
-              sample_for_view(loaded.input.scene, options.view, options.points, &progress));
-  RELIEVO_TRY(ReliefModel model, relievo::prepare(*sample.cloud, options.view, options.mode, &progress));
+  RELIEVO_TRY(ViewSample sample, naming(loaded.name, sample_for_view(loaded.input.scene, options.view,
+                                                                     options.points, &progress)));
+  RELIEVO_TRY(ReliefModel model,
+              naming(loaded.name, relievo::prepare(*sample.cloud, options.view, options.mode, &progress)));
   progress.finish();
-  auto shared = std::make_shared<const ReliefModel>(std::move(model));
-  return std::shared_ptr<PreparedModel>(new PreparedModel(loaded, std::move(name), std::move(facts),
-                                                          std::move(sample.notes), std::move(shared)));
+  return std::shared_ptr<PreparedModel>(new PreparedModel(
+      loaded, std::move(sample.notes), std::make_shared<const ReliefModel>(std::move(model))));
 }
 
-Result<FinishedRelief> PreparedModel::make(const MakeOrder& order, Progress& progress) const {
+Result<std::shared_ptr<FinishedRelief>> PreparedModel::make(const MakeOrder& order,
+                                                            Progress& progress) const {
   RELIEVO_TRY(const ReliefOptions options, options_of(order, project_));
-  Result<MadeRelief> made = make_relief(*model_, options, &progress);
-  if (!made && made.error().input.empty()) made.error().input = name_;
-  if (!made) return std::unexpected(made.error());
-  made->report.sample = notes_;
-  return finished(*std::move(made), facts_, options, progress);
+  RELIEVO_TRY(MadeRelief made, naming(facts_.name, make_relief(*model_, options, &progress)));
+  made.report.sample = notes_;
+  auto relief = std::make_shared<FinishedRelief>(std::move(made), facts_, options.draft_deg);
+  relief->end(progress);
+  return relief;
 }
 
 Result<std::shared_ptr<FrameInMm>> PreparedModel::frame(const MakeOrder& order) {

@@ -30,14 +30,14 @@ struct PictureOrder {
 // Every method may be called from any thread.
 class PreparedModel {
  public:
-  // Prepares the model of an order; `name` is that of its inputs. Errors: those of sample_for_view() and prepare().
-  static Result<std::shared_ptr<PreparedModel>> prepare(const LoadedOrder& loaded, std::string name,
-                                                        InputFacts facts, Progress& progress);
+  // Reads the inputs of an order and prepares their model. Errors: those of check_order(), load(), sample_for_view() and
+  // prepare(), naming the inputs.
+  static Result<std::shared_ptr<PreparedModel>> prepare(MakeOrder order, Progress& progress);
 
   const ReliefModel& model() const { return *model_; }
 
   // Errors: those of options_of() and make_relief().
-  Result<FinishedRelief> make(const MakeOrder& order, Progress& progress) const;
+  Result<std::shared_ptr<FinishedRelief>> make(const MakeOrder& order, Progress& progress) const;
 
   // Errors: those of options_of(); kind option for a method that has no frames.
   Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
@@ -46,12 +46,11 @@ class PreparedModel {
   Result<Picture> picture(const FrameInMm& shown, const PictureOrder& order);
 
  private:
-  PreparedModel(const LoadedOrder& loaded, std::string name, InputFacts facts, std::vector<SampleNote> notes,
+  PreparedModel(const LoadedOrder& loaded, std::vector<SampleNote> notes,
                 std::shared_ptr<const ReliefModel> model);
 
-  std::string name_;
   InputFacts facts_;
-  std::optional<Project> project_;
+  std::optional<StoredProject> project_;
   std::vector<SampleNote> notes_;
   std::shared_ptr<const ReliefModel> model_;
   double longer_side_;  // of the surface

@@ -190,12 +190,10 @@ Result<LoadedFile> take_depths(const DepthImage& image, const std::string& name,
   DepthOptions options = arguments.depth;
   options.points = points;
   RELIEVO_TRY(options.camera, read_camera(arguments.camera));
-  auto made = depth_cloud(image, options, progress);
-  if (!made && made.error().input.empty()) made.error().input = name;
-  if (!made) return std::unexpected(made.error());
+  RELIEVO_TRY(DepthCloud made, naming(name, depth_cloud(image, options, progress)));
   LoadedFile input;
-  input.remarks.push_back(cat(name, ": ", remark_on(image, *made)));
-  input.file.cloud = std::move(made->cloud);
+  input.remarks.push_back(cat(name, ": ", remark_on(image, made)));
+  input.file.cloud = std::move(made.cloud);
   input.file.format = image.format;
   return input;
 }

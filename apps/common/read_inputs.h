@@ -73,4 +73,11 @@ Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& p
 // The paths, in one line.
 std::string joined(const std::vector<std::string>& paths);
 
+// Returns the result; an error that names no input gets this name.
+template <typename T>
+Result<T> naming(const std::string& name, Result<T> result) {
+  if (!result && result.error().input.empty()) result.error().input = name;
+  return result;
+}
+
 }  // namespace relievo::app

@@ -2,6 +2,7 @@
 
 #include "common/export_file.h"
 #include "common/files.h"
+#include "common/make_report.h"
 #include "relievo/io/write.h"
 #include "relievo/picture/preview.h"
 #include "relievo/picture/reach_picture.h"
@@ -53,6 +54,10 @@ Result<std::vector<OutputFile>> relief_files(const ReliefFiles& to, const MadeRe
   if (!to.tool_picture.empty())
     files.push_back({to.tool_picture, write_png(render_reach(*made.report.reach, 1600))});
   return files;
+}
+
+OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief) {
+  return {files.report, bytes_of(report_text(relief.report(files.unit)))};
 }
 
 }  // namespace relievo::app

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/make_order.h"
 #include "common/output_files.h"
 #include "relievo/core/length.h"
 #include "relievo/make_relief.h"
@@ -28,5 +29,8 @@ Result<void> check_outputs(const ReliefFiles& files, std::vector<std::string> in
 // enforce_draft_in_float().
 Result<std::vector<OutputFile>> relief_files(const ReliefFiles& files, const MadeRelief& made,
                                              std::optional<double> draft_deg);
+
+// Returns the file of the report.
+OutputFile report_file(const ReliefFiles& files, const FinishedRelief& relief);
 
 }  // namespace relievo::app

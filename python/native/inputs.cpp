@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
 
 #include "common/files.h"
 #include "common/output_files.h"
@@ -13,6 +18,23 @@
 
 namespace relievo::python {
 namespace {
+
+// The content of a file, called `name`; Python's object, which does not change, keeps the bytes.
+struct FileBytes {
+  py::bytes object;
+  std::string name;
+  std::span<const std::byte> bytes;
+};
+
+// A model from arrays: of points and triangles, or of depths.
+struct ArrayModel {
+  std::string name;
+  std::shared_ptr<const CloudFile> file;  // null for depths
+  std::shared_ptr<const DepthImage> depths;
+};
+
+// One model, or a scene or a project by its path.
+using Source = std::variant<std::string, FileBytes, ArrayModel>;
 
 // Returns the model of points, with normals, colours and triangles where these are not None.
 ArrayModel array_model(const py::array& points, const std::optional<py::array>& normals,
@@ -103,8 +125,7 @@ void write_cloud(const ArrayModel& model, const py::str& to, const std::string& 
   value_or_raise(app::write_files({&file, 1}));
 }
 
-}  // namespace
-
+// Returns the sources of a list of texts, (bytes, name) tuples and models that array_model() and depth_model() made.
 std::vector<Source> sources_of(const py::list& list) {
   std::vector<Source> sources;
   for (const py::handle item : list) {
@@ -121,36 +142,28 @@ std::vector<Source> sources_of(const py::list& list) {
   return sources;
 }
 
-std::string names_of(const std::vector<Source>& sources) {
+}  // namespace
+
+void take_sources(const py::list& list, app::MakeOrder& order) {
+  // Shared, as copies would count Python's references from a thread that may not.
+  const auto sources = std::make_shared<const std::vector<Source>>(sources_of(list));
   std::vector<std::string> names;
-  for (const Source& source : sources) names.push_back(std::visit(NameOf(), source));
-  return app::joined(names);
-}
-
-std::vector<std::string> paths_of(const std::vector<Source>& sources) {
-  std::vector<std::string> paths;
-  for (const Source& source : sources)
-    if (const auto* const path = std::get_if<std::string>(&source)) paths.push_back(*path);
-  return paths;
-}
-
-Result<std::optional<app::StoredProject>> find_project(const std::vector<Source>& sources,
-                                                       const std::string& located) {
-  const std::vector<std::string> paths = paths_of(sources);
-  return app::find_project(paths.size() == sources.size() ? paths : std::vector<std::string>{}, located);
-}
-
-Result<app::SceneInput> read_sources(const std::vector<Source>& sources, const app::InputArguments& arguments,
-                                     const app::PointsWanted& wanted, Progress* progress) {
-  const std::vector<std::string> paths = paths_of(sources);
-  if (paths.size() == sources.size()) return app::read_scene(paths, arguments, wanted, progress);
-  app::SceneInput all;
-  for (const Source& source : sources) {
-    RELIEVO_TRY(app::SceneInput one,
-                std::visit(SourceReader{arguments, wanted, progress, sources.size() == 1}, source));
-    append(all, std::move(one));
+  for (const Source& source : *sources) {
+    names.push_back(std::visit(NameOf(), source));
+    if (std::holds_alternative<std::string>(source)) order.inputs.push_back(names.back());
   }
-  return all;
+  if (order.inputs.size() == sources->size()) return;
+  order.name = app::joined(names);
+  order.read = [sources](const app::InputArguments& arguments, const app::PointsWanted& wanted,
+                         Progress* progress) -> Result<app::SceneInput> {
+    app::SceneInput all;
+    for (const Source& source : *sources) {
+      RELIEVO_TRY(app::SceneInput one,
+                  std::visit(SourceReader{arguments, wanted, progress, sources->size() == 1}, source));
+      append(all, std::move(one));
+    }
+    return all;
+  };
 }
 
 void add_inputs(py::module_& module) {

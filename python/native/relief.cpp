@@ -10,6 +10,7 @@
 #include "native/arrays.h"
 #include "native/call.h"
 #include "native/errors.h"
+#include "native/inputs.h"
 #include "native/options.h"
 #include "relievo/core/text.h"
 #include "relievo/io/write.h"
@@ -28,15 +29,8 @@ py::bytes bytes_of(std::string_view text) {
 }
 
 SharedRelief make(const py::list& sources, const py::dict& keywords, const py::object& callback) {
-  const PythonOrder order = order_of(sources, keywords);
-  return watched_value(callback, [&](Progress& progress) -> Result<SharedRelief> {
-    RELIEVO_TRY(const app::LoadedOrder loaded, load(order, progress));
-    Result<MadeRelief> made = make_relief(loaded.input.scene, loaded.options, &progress);
-    if (!made && made.error().input.empty()) made.error().input = names_of(order.sources);
-    if (!made) return std::unexpected(made.error());
-    return std::make_shared<app::FinishedRelief>(app::finished(
-        *std::move(made), app::facts_of(order, paths_of(order.sources), loaded), loaded.options, progress));
-  });
+  const app::MakeOrder order = order_of(sources, keywords);
+  return watched_value(callback, [&](Progress& progress) { return app::make(order, progress); });
 }
 
 // Raises an error unless a picture may have so many pixels on its longer side.
@@ -68,11 +62,9 @@ app::ReliefFiles files_of(const py::dict& paths, const std::string& units, Pictu
 
 void save(const SharedRelief& relief, const app::ReliefFiles& files) {
   value_or_raise(unlocked([&]() -> Result<void> {
-    RELIEVO_CHECK(app::check_outputs(files, relief->inputs, relief->made.report.reach.has_value()));
+    RELIEVO_CHECK(app::check_outputs(files, relief->inputs.paths, relief->made.report.reach.has_value()));
     RELIEVO_TRY(std::vector<app::OutputFile> made, app::relief_files(files, relief->made, relief->draft_deg));
-    nlohmann::json report = relief->report;
-    report["units"] = name_of(files.unit);
-    if (!files.report.empty()) made.push_back({files.report, app::bytes_of(app::report_text(report))});
+    if (!files.report.empty()) made.push_back(app::report_file(files, *relief));
     return app::write_files(made);
   }));
 }
@@ -153,8 +145,9 @@ std::string scan_path_of(const py::dict& keywords) {
 
 }  // namespace
 
-PythonOrder order_of(const py::list& sources, const py::dict& keywords) {
-  PythonOrder order{{texts_of(keywords), {}, input_arguments(keywords), {}}, sources_of(sources)};
+app::MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
+  app::MakeOrder order{texts_of(keywords), {}, input_arguments(keywords)};
+  take_sources(sources, order);
   order.scan_path = scan_path_of(keywords);
   for (const ReliefField& field : option_fields()) {
     const std::string keyword = keyword_of(field.name);
@@ -168,15 +161,6 @@ PythonOrder order_of(const py::list& sources, const py::dict& keywords) {
     order.base_image =
         std::make_shared<const Image<float>>(depth_image_of({"base_image", image.cast<py::array>()}).values);
   return order;
-}
-
-Result<app::LoadedOrder> load(const PythonOrder& order, Progress& progress) {
-  RELIEVO_TRY(const std::optional<app::StoredProject> stored, find_project(order.sources, order.scan_path));
-  const auto read = [&](const ReliefOptions& options) {
-    return read_sources(order.sources, order.in,
-                        {options.view, options.points.value_or(app::PointsWanted{}.points)}, &progress);
-  };
-  return app::load_order(order, stored, read, progress);
 }
 
 void add_relief(py::module_& module) {
@@ -193,8 +177,8 @@ void add_relief(py::module_& module) {
       .def("vertices", &vertices)
       .def("faces", &faces)
       .def("colours", &colours)
-      .def("report", [](const SharedRelief& relief) { return from_json(relief->report); })
-      .def("remarks", [](const SharedRelief& relief) { return from_json(relief->remarks); });
+      .def("report", [](const SharedRelief& relief) { return from_json(relief->report()); })
+      .def("remarks", [](const SharedRelief& relief) { return from_json(relief->remarks()); });
   module.def("make", &make);
   module.def("png", &png);
 }

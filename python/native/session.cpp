@@ -15,27 +15,17 @@ using SharedModel = std::shared_ptr<PreparedModel>;
 using SharedFrame = std::shared_ptr<FrameInMm>;
 
 SharedModel open(const py::list& sources, const py::dict& keywords, const py::object& callback) {
-  const PythonOrder order = order_of(sources, keywords);
-  return watched_value(callback, [&](Progress& progress) -> Result<SharedModel> {
-    RELIEVO_TRY(const app::LoadedOrder loaded, load(order, progress));
-    const std::string name = names_of(order.sources);
-    Result<SharedModel> model =
-        PreparedModel::prepare(loaded, name, app::facts_of(order, paths_of(order.sources), loaded), progress);
-    if (!model && model.error().input.empty()) model.error().input = name;
-    return model;
-  });
+  const app::MakeOrder order = order_of(sources, keywords);
+  return watched_value(callback, [&](Progress& progress) { return PreparedModel::prepare(order, progress); });
 }
 
 SharedRelief make(const SharedModel& prepared, const py::dict& keywords, const py::object& callback) {
-  const PythonOrder order = order_of(py::list(), keywords);
-  return watched_value(callback, [&](Progress& progress) -> Result<SharedRelief> {
-    RELIEVO_TRY(app::FinishedRelief relief, prepared->make(order, progress));
-    return std::make_shared<app::FinishedRelief>(std::move(relief));
-  });
+  const app::MakeOrder order = order_of(py::list(), keywords);
+  return watched_value(callback, [&](Progress& progress) { return prepared->make(order, progress); });
 }
 
 SharedFrame frame(const SharedModel& prepared, const py::dict& keywords) {
-  const PythonOrder order = order_of(py::list(), keywords);
+  const app::MakeOrder order = order_of(py::list(), keywords);
   return value_or_raise(unlocked([&] { return prepared->frame(order); }));
 }
 

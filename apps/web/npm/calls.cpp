@@ -7,7 +7,6 @@
 
 #include "common/export_file.h"
 #include "common/files.h"
-#include "common/make_report.h"
 #include "common/option_list.h"
 #include "common/prepared_model.h"
 #include "common/relief_files.h"
@@ -72,13 +71,9 @@ std::vector<std::byte> bytes_of_all(const std::vector<T>& values) {
   return {bytes.begin(), bytes.end()};
 }
 
-Json relief_json(std::shared_ptr<FinishedRelief> relief) {
-  const Json report = relief->report, remarks = relief->remarks;
-  return {{"relief", keep(std::move(relief))}, {"report", report}, {"remarks", remarks}};
-}
-
-std::string name_of(const FileOrder& order) {
-  return joined(order.inputs);
+CallAnswer answer_of(std::shared_ptr<FinishedRelief> relief) {
+  const Json report = relief->report(), remarks = relief->remarks();
+  return CallAnswer{{{"relief", keep(std::move(relief))}, {"report", report}, {"remarks", remarks}}};
 }
 
 // --------------------------------------------------------------------------------------------------- making
@@ -98,14 +93,10 @@ Result<CallAnswer> about(const Json&) {
 }
 
 Result<CallAnswer> make(const Json& json) {
-  RELIEVO_TRY(const FileOrder order, order_from(json));
+  RELIEVO_TRY(MakeOrder order, order_from(json));
   HostProgress progress;
-  RELIEVO_TRY(const LoadedOrder loaded, load(order, progress));
-  Result<MadeRelief> made = make_relief(loaded.input.scene, loaded.options, &progress);
-  if (!made && made.error().input.empty()) made.error().input = name_of(order);
-  if (!made) return std::unexpected(made.error());
-  return CallAnswer{relief_json(std::make_shared<FinishedRelief>(
-      finished(*std::move(made), facts_of(order, order.inputs, loaded), loaded.options, progress)))};
+  RELIEVO_TRY(auto relief, relievo::app::make(std::move(order), progress));
+  return answer_of(std::move(relief));
 }
 
 Result<CallAnswer> make_sample_file(const Json& json) {
@@ -165,30 +156,26 @@ Result<CallAnswer> faces(const Json& json) {
 // -------------------------------------------------------------------------------------------------- sessions
 
 Result<CallAnswer> open(const Json& json) {
-  RELIEVO_TRY(const FileOrder order, order_from(json));
+  RELIEVO_TRY(MakeOrder order, order_from(json));
   HostProgress progress;
-  RELIEVO_TRY(const LoadedOrder loaded, load(order, progress));
-  auto model =
-      PreparedModel::prepare(loaded, name_of(order), facts_of(order, order.inputs, loaded), progress);
-  if (!model && model.error().input.empty()) model.error().input = name_of(order);
-  if (!model) return std::unexpected(model.error());
-  const Surface& surface = (*model)->model().surface();
+  RELIEVO_TRY(auto model, PreparedModel::prepare(std::move(order), progress));
+  const Surface& surface = model->model().surface();
   Json about{{"points", surface.points.size()}, {"triangles", surface.triangulation.triangles.size()}};
-  about["session"] = keep(std::move(*model));
+  about["session"] = keep(std::move(model));
   return CallAnswer{std::move(about)};
 }
 
 Result<CallAnswer> make_of_session(const Json& json) {
   RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
-  RELIEVO_TRY(const FileOrder order, order_from(json));
+  RELIEVO_TRY(const MakeOrder order, order_from(json));
   HostProgress progress;
-  RELIEVO_TRY(FinishedRelief relief, model->make(order, progress));
-  return CallAnswer{relief_json(std::make_shared<FinishedRelief>(std::move(relief)))};
+  RELIEVO_TRY(auto relief, model->make(order, progress));
+  return answer_of(std::move(relief));
 }
 
 Result<CallAnswer> frame(const Json& json) {
   RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
-  RELIEVO_TRY(const FileOrder order, order_from(json));
+  RELIEVO_TRY(const MakeOrder order, order_from(json));
   RELIEVO_TRY(const auto made, model->frame(order));
   const Frame& f = made->frame;
   return CallAnswer{{{"frame", keep(made)},

@@ -2,8 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "common/files.h"
-#include "common/project_file.h"
 #include "relievo/core/length.h"
 #include "relievo/core/text.h"
 
@@ -68,8 +66,8 @@ std::string text_in(const Json& json, const char* key) {
 
 }  // namespace
 
-Result<FileOrder> order_from(const Json& json) {
-  FileOrder order;
+Result<MakeOrder> order_from(const Json& json) {
+  MakeOrder order;
   DepthTexts depth;
   const Json options = json.contains("options") ? json["options"] : Json::object();
   if (!options.is_object()) return option_error("options", "expected an object");
@@ -90,16 +88,6 @@ Result<FileOrder> order_from(const Json& json) {
     for (const Json& path : *inputs)
       if (path.is_string()) order.inputs.push_back(path.get<std::string>());
   return order;
-}
-
-Result<LoadedOrder> load(const FileOrder& order, Progress& progress) {
-  if (order.inputs.empty()) return option_error("inputs", "expected at least one file");
-  RELIEVO_TRY(const std::optional<StoredProject> stored, find_project(order.inputs, order.scan_path));
-  const auto read = [&](const ReliefOptions& options) {
-    return read_scene(order.inputs, order.in, {options.view, options.points.value_or(PointsWanted{}.points)},
-                      &progress);
-  };
-  return load_order(order, stored, read, progress);
 }
 
 }  // namespace relievo::app::web
