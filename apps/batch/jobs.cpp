@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 std::unexpected<Error> fail(const std::string& input, std::string place, std::string expected) {
-  return std::unexpected(Error{ErrorKind::input, input, std::move(place), std::move(expected)});
+  return input_error(input, std::move(place), std::move(expected));
 }
 
 std::string absolute_path(const fs::path& path) {

@@ -34,7 +34,7 @@ class TableReader {
 
  private:
   std::unexpected<Error> fail(std::size_t line, std::string expected) const {
-    return std::unexpected(Error{ErrorKind::input, name_, cat("line ", line), std::move(expected)});
+    return input_error(name_, cat("line ", line), std::move(expected));
   }
 
   char find_separator() const {

@@ -218,7 +218,7 @@ Result<void> do_jobs(const BatchArguments& arguments) {
     if (!record.is_made) failed += cat(failed.empty() ? "" : "\n", record.error);
   }
   if (failed.empty()) return {};
-  return std::unexpected(Error{ErrorKind::geometry, {}, {}, failed});
+  return geometry_error(failed);
 }
 
 Result<void> run_all(const BatchOrder& order, const BatchArguments& arguments, const Shard& shard) {

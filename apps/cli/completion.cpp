@@ -2,18 +2,13 @@
 #include <string_view>
 
 #include "cli/command_table.h"
+#include "common/read_inputs.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app::cli {
 namespace {
 
 using Commands = std::vector<CommandInfo>;
-
-std::string joined(const std::vector<std::string>& words, std::string_view between = " ") {
-  std::string text;
-  for (const std::string& word : words) text += cat(text.empty() ? "" : between, word);
-  return text;
-}
 
 // Returns the text with a backslash before each of the characters.
 std::string escaped(std::string_view text, std::string_view characters) {
@@ -66,7 +61,7 @@ std::string bash_values(const CommandInfo& command) {
     if (flag.is_path)
       text += cat("    ", names, ") paths=1 ;;\n");
     else if (!flag.words.empty())
-      text += cat("    ", names, ") words='", joined(flag.words), "' ;;\n");
+      text += cat("    ", names, ") words='", joined(flag.words, " "), "' ;;\n");
     else
       numbers += cat(numbers.empty() ? "" : "|", names);
   }
@@ -78,7 +73,7 @@ std::string bash_flags(const CommandInfo& command) {
   std::string flags, argument = "paths=1";
   for (const FlagInfo& flag : command.flags) {
     if (!flag.is_argument) flags += cat(flags.empty() ? "" : " ", flag.name);
-    if (flag.is_argument && !flag.words.empty()) argument = cat("words='", joined(flag.words), "'");
+    if (flag.is_argument && !flag.words.empty()) argument = cat("words='", joined(flag.words, " "), "'");
   }
   return cat("      ", command.name, ") if [[ $word == -* ]]; then words='", flags, "'; else ", argument,
              "; fi ;;\n");
@@ -108,7 +103,7 @@ std::string zsh_text(const std::string& help) {
 std::string zsh_flag(const FlagInfo& flag) {
   const std::string action = flag.is_path         ? "_files"
                              : flag.words.empty() ? " "
-                                                  : cat("(", joined(flag.words), ")");
+                                                  : cat("(", joined(flag.words, " "), ")");
   const std::string value = flag.value.empty() ? "" : cat(":", escaped(flag.value, ":[]\\"), ":", action);
   if (flag.is_argument) return cat("'", flag.can_repeat ? "*" : "1", value, "'");
   const std::string rest = cat("[", zsh_text(flag.help), "]", value, "'");
@@ -143,7 +138,7 @@ std::string fish_text(const std::string& text) {
 
 std::string fish_flag(const CommandInfo& command, const FlagInfo& flag) {
   std::string text = cat("complete -c relievo -n '__fish_seen_subcommand_from ", command.name, "'");
-  const std::string words = flag.words.empty() ? "" : cat(" -a ", fish_text(joined(flag.words)));
+  const std::string words = flag.words.empty() ? "" : cat(" -a ", fish_text(joined(flag.words, " ")));
   if (flag.is_argument) return cat(text, words.empty() ? " -F" : words, "\n");
   text += cat(" -l ", flag.name.substr(2));
   if (!flag.short_name.empty()) text += cat(" -s ", flag.short_name.substr(1));

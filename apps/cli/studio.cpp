@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "cli/commands.h"
+#include "common/files.h"
 #include "relievo/core/text.h"
 #include "studio/actions.h"
 #include "studio/disk/disk_store.h"
@@ -29,19 +30,14 @@ void show(const std::string& address) {
   }).detach();
 }
 
-std::string variable(const char* name) {
-  const char* const value = std::getenv(name);
-  return value ? value : "";
-}
-
 // Returns the command that makes the address reachable from the machine that this one was reached from by ssh; "" if it was
 // not. The variable has the address and the port of that machine and of this one.
 std::string tunnel_command(const std::string& address) {
-  std::istringstream connection(variable("SSH_CONNECTION"));
+  std::istringstream connection(environment_variable("SSH_CONNECTION"));
   std::string word, host, host_port;
   if (!(connection >> word >> word >> host >> host_port)) return {};
   const std::string port = address.substr(17, address.find('/', 17) - 17);  // behind "http://127.0.0.1:"
-  const std::string user = variable("USER").empty() ? "" : variable("USER") + "@";
+  const std::string user = environment_variable("USER").empty() ? "" : environment_variable("USER") + "@";
   return cat("ssh -N -L ", port, ":127.0.0.1:", port, host_port == "22" ? "" : cat(" -p ", host_port), " ",
              user, host);
 }

@@ -19,7 +19,7 @@ using ArchiveSource =
     std::unique_ptr<zip_source_t, decltype([](zip_source_t* source) { zip_source_free(source); })>;
 
 std::unexpected<Error> broken(std::string_view name, std::string expected) {
-  return std::unexpected(Error{ErrorKind::input, std::string(name), {}, std::move(expected)});
+  return input_error(std::string(name), {}, std::move(expected));
 }
 
 // Returns the message about a file of the archive that libzip does not unpack, for the reason of that code.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <span>
 
@@ -22,7 +23,7 @@ std::string_view kind_of(mode_t mode) {
 }
 
 std::unexpected<Error> no_file(const std::string& path, mode_t mode) {
-  return std::unexpected(Error{ErrorKind::input, path, {}, cat("expected a file, found ", kind_of(mode))});
+  return input_error(path, {}, cat("expected a file, found ", kind_of(mode)));
 }
 
 // Files beyond half of the memory could be read, but nothing could be made of them.
@@ -50,8 +51,7 @@ Result<std::vector<std::byte>> read_all(const Descriptor& file, std::size_t size
     bytes.resize(filled);
     return bytes;
   }
-  return std::unexpected(
-      Error{ErrorKind::input, path, {}, cat("expected at most ", most >> 20, " MiB, half of the memory")});
+  return input_error(path, {}, cat("expected at most ", most >> 20, " MiB, half of the memory"));
 }
 
 }  // namespace
@@ -88,6 +88,11 @@ std::optional<std::uint64_t> file_size(const std::string& path) {
 std::vector<std::byte> bytes_of(std::string_view text) {
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
+}
+
+std::string environment_variable(const char* name) {
+  const char* const value = std::getenv(name);
+  return value ? value : "";
 }
 
 std::string ending_of(const std::string& path) {

@@ -40,6 +40,9 @@ inline std::string text_of_file(const std::string& path) {
   return std::string(bytes ? text_in(*bytes) : std::string_view());
 }
 
+// Returns the value of a variable of the environment; "" if it is not set.
+std::string environment_variable(const char* name);
+
 // Returns the path's ending in lower case, without the dot.
 std::string ending_of(const std::string& path);
 

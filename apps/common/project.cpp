@@ -27,7 +27,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::unexpected<Error> fail(std::string_view name, std::string_view place, std::string expected) {
-  return std::unexpected(Error{ErrorKind::input, std::string(name), std::string(place), std::move(expected)});
+  return input_error(std::string(name), std::string(place), std::move(expected));
 }
 
 std::string text_or_nothing(const Json& json, const char* key) {

@@ -81,9 +81,7 @@ class FileSource : public ByteSource {
     while (!to.empty()) {
       const ssize_t got = ::pread(file_.number(), to.data(), to.size(), static_cast<off_t>(offset));
       if (got < 0 && errno == EINTR) continue;
-      if (got <= 0)
-        return std::unexpected(
-            Error{ErrorKind::input, path_, cat("byte ", offset), "expected a file that can be read"});
+      if (got <= 0) return input_error(path_, cat("byte ", offset), "expected a file that can be read");
       offset += static_cast<std::uint64_t>(got);
       to = to.subspan(static_cast<std::size_t>(got));
     }
@@ -147,9 +145,7 @@ Result<std::vector<SceneEntry>> entries_of(const std::vector<std::string>& paths
   }
   std::vector<SceneEntry> entries;
   for (const std::string& path : paths) {
-    if (is_scene_file(path))
-      return std::unexpected(
-          Error{ErrorKind::option, path, {}, "expected a scene file alone, or models without one"});
+    if (is_scene_file(path)) return option_error(path, "expected a scene file alone, or models without one");
     entries.push_back({path});
   }
   return entries;
@@ -252,9 +248,9 @@ Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& p
   return std::make_shared<const Image<float>>(std::move(image.values));
 }
 
-std::string joined(const std::vector<std::string>& paths) {
+std::string joined(const std::vector<std::string>& texts, std::string_view between) {
   std::string all;
-  for (const std::string& path : paths) all += cat(all.empty() ? "" : ", ", path);
+  for (const std::string& text : texts) all += cat(all.empty() ? "" : between, text);
   return all;
 }
 

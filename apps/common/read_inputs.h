@@ -70,8 +70,8 @@ Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOpti
 // Returns the height map in the file of that path; null for an empty path. Errors: kind input.
 Result<std::shared_ptr<const Image<float>>> read_base_image(const std::string& path);
 
-// The paths, in one line.
-std::string joined(const std::vector<std::string>& paths);
+// Returns the texts in one line.
+std::string joined(const std::vector<std::string>& texts, std::string_view between = ", ");
 
 // Returns the result; an error that names no input gets this name.
 template <typename T>

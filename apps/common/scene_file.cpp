@@ -35,7 +35,7 @@ class SceneReader {
 
  private:
   std::unexpected<Error> fail(std::string place, std::string expected) const {
-    return std::unexpected(Error{ErrorKind::input, name_, std::move(place), std::move(expected)});
+    return input_error(name_, std::move(place), std::move(expected));
   }
 
   Result<void> check_keys(const Json& object, const std::string& place,
@@ -105,9 +105,8 @@ class SceneReader {
 Result<std::vector<SceneEntry>> read_scene_file(std::string_view text, const std::string& name) {
   const Json scene = Json::parse(text, nullptr, false);
   if (scene.is_discarded())
-    return std::unexpected(
-        Error{ErrorKind::input, name, json_error_place(text),
-              "expected a scene in JSON, {\"models\": [...]}, found text that is no JSON"});
+    return input_error(name, json_error_place(text),
+                       "expected a scene in JSON, {\"models\": [...]}, found text that is no JSON");
   return SceneReader(name).read(scene);
 }
 

@@ -99,7 +99,7 @@ std::optional<double> mm_of(std::string_view unit, LengthUnit bare) {
 Result<LengthUnit> parse_unit(std::string_view name) {
   if (name == "mm") return LengthUnit::mm;
   if (name == "in") return LengthUnit::inch;
-  return std::unexpected(Error{ErrorKind::option, "units", {}, cat("expected mm or in, found '", name, "'")});
+  return option_error("units", cat("expected mm or in, found '", name, "'"));
 }
 
 Result<double> parse_length(std::string_view text, LengthUnit bare) {
@@ -107,11 +107,7 @@ Result<double> parse_length(std::string_view text, LengthUnit bare) {
   skip_spaces(rest);
   const std::optional<double> value = take_sum(rest), mm = mm_of(rest, bare);
   if (value && mm) return *value * *mm;
-  return std::unexpected(
-      Error{ErrorKind::option,
-            {},
-            {},
-            cat("expected a length such as 12.5mm, 2,5cm, 3/8in or 3+0.5, found '", text, "'")});
+  return option_error({}, cat("expected a length such as 12.5mm, 2,5cm, 3/8in or 3+0.5, found '", text, "'"));
 }
 
 }  // namespace relievo

@@ -7,7 +7,7 @@ namespace relievo {
 namespace {
 
 std::unexpected<Error> camera_error(std::string expected) {
-  return std::unexpected(Error{ErrorKind::option, "camera", {}, std::move(expected)});
+  return option_error("camera", std::move(expected));
 }
 
 }  // namespace

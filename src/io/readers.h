@@ -17,7 +17,7 @@ struct Source {
   const FilesBeside* beside = nullptr;  // the files in the same folder, if they can be had
 
   std::unexpected<Error> error(std::string place, std::string expected) const {
-    return std::unexpected(Error{ErrorKind::input, std::string(name), std::move(place), std::move(expected)});
+    return input_error(std::string(name), std::move(place), std::move(expected));
   }
   std::unexpected<Error> error_in_line(std::size_t line, std::string expected) const {
     return error("line " + std::to_string(line), std::move(expected));

@@ -273,8 +273,7 @@ bool can_stream(std::span<const std::byte> head, std::string_view name) {
 Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, const View& view, double points,
                                    Progress* progress) {
   if (!(points >= 1000 && points <= 1e7))
-    return std::unexpected(
-        Error{ErrorKind::option, "points", {}, cat("expected a number from 1000 to 1e+07, found ", points)});
+    return option_error("points", cat("expected a number from 1000 to 1e+07, found ", points));
   const auto found = open_records(source, name);
   if (!found) return std::unexpected(found.error());
   Rows rows(source, found->records);
@@ -282,8 +281,7 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
   const Result<Cloud> sample = take_sample(rows);
   if (!sample) return std::unexpected(sample.error());
   if (sample->size() < 4)
-    return std::unexpected(Error{
-        ErrorKind::input, std::string(name), {}, "expected points, found none with finite coordinates"});
+    return input_error(std::string(name), {}, "expected points, found none with finite coordinates");
   const Scout scouted = scout(*sample);
   ViewGrid front(view, scouted, found->records.normal.has_value(), found->records.colour.has_value());
 

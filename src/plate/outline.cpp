@@ -251,21 +251,13 @@ Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
     return parse_plate_size(cat(text.substr(0, at), "x", text.substr(at + cross_sign.size())), bare);
   const std::optional<Vec2> size = parse_pair(text, 'x', bare);
   if (size && size->minCoeff() > 0) return *size;
-  return std::unexpected(
-      Error{ErrorKind::option,
-            {},
-            {},
-            cat("expected width and height such as 200x150 or 8in x 6in, found '", text, "'")});
+  return option_error({}, cat("expected width and height such as 200x150 or 8in x 6in, found '", text, "'"));
 }
 
 Result<Vec2> parse_shift(std::string_view text, LengthUnit bare) {
   const std::optional<Vec2> shift = parse_pair(text, ',', bare);
   if (shift && shift->cwiseAbs().maxCoeff() <= 1e5) return *shift;
-  return std::unexpected(
-      Error{ErrorKind::option,
-            {},
-            {},
-            cat("expected lengths to the right and up such as 10,-5, found '", text, "'")});
+  return option_error({}, cat("expected lengths to the right and up such as 10,-5, found '", text, "'"));
 }
 
 bool has_free_size(Outline outline) {

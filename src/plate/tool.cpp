@@ -21,13 +21,10 @@ namespace {
 constexpr float nowhere = -std::numeric_limits<float>::infinity();
 
 std::unexpected<Error> fail(std::string_view text) {
-  return std::unexpected(
-      Error{ErrorKind::option,
-            "tool",
-            {},
-            cat("expected ball:DIAMETER or flat:DIAMETER with 0.01 to 1000 mm, v:ANGLE with 1 to "
-                "170 degrees, or v:ANGLE:TIP with a diameter in mm, found '",
-                text, "'")});
+  return option_error("tool",
+                      cat("expected ball:DIAMETER or flat:DIAMETER with 0.01 to 1000 mm, v:ANGLE with 1 to "
+                          "170 degrees, or v:ANGLE:TIP with a diameter in mm, found '",
+                          text, "'"));
 }
 
 std::optional<double> in_range(double value, double least, double most) {

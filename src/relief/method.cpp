@@ -46,8 +46,7 @@ Result<Relief> make_by_method(Method method, const ReliefModel& model, double he
                               double unit_mm, Progress* progress) {
   const MethodInfo& info = info_of(method);
   if (info.needs_all_points && !model.system())
-    return std::unexpected(
-        Error{ErrorKind::option, "mode", {}, cat("expected exact for the method ", name_of(method))});
+    return option_error("mode", cat("expected exact for the method ", name_of(method)));
   if (!info.make) return model.make_at_height(height, shape, unit_mm, progress);
   Relief relief = info.make(model, height);
   if (!(relief.height > 0)) return out_of_reach(0, height * unit_mm);

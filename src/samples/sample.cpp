@@ -38,8 +38,7 @@ Error unknown(std::string_view name) {
 template <typename T>
 Result<void> check_range(const char* option, T value, T least, T most) {
   if (value >= least && value <= most) return {};
-  return std::unexpected(
-      Error{ErrorKind::option, option, "", cat("expected ", least, " to ", most, ", found ", value)});
+  return option_error(option, cat("expected ", least, " to ", most, ", found ", value));
 }
 
 }  // namespace

@@ -101,9 +101,7 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
   join(grid);
   out.cut = cut_ramps(grid);
   const auto known = std::ranges::count(grid.bounds.is_known, 1);
-  if (known < 16)
-    return std::unexpected(
-        Error{ErrorKind::geometry, {}, {}, cat("expected at least 16 pixels with a depth, found ", known)});
+  if (known < 16) return geometry_error(cat("expected at least 16 pixels with a depth, found ", known));
   if (auto go = begin_stage(progress, "smooth depths", 0); !go) return std::unexpected(go.error());
   std::vector<float> z = smoothest(grid.bounds);
   const std::vector<std::uint8_t> is_hole = enclosed_holes(grid.bounds);

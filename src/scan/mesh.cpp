@@ -258,8 +258,7 @@ std::vector<std::array<Vec3f, 3>> normals_to_show(const Mesh& mesh) {
 
 Result<void> check_points(double points) {
   if (points >= 100 && points <= 1e7) return {};
-  return std::unexpected(
-      Error{ErrorKind::option, "points", {}, cat("expected a number from 100 to 1e+07, found ", points)});
+  return option_error("points", cat("expected a number from 100 to 1e+07, found ", points));
 }
 
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options,
@@ -269,13 +268,10 @@ Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling
   const Box box = Box::of(mesh.points);
   const Vec3 centre = box.centre();
   if (!mesh.empty() && !(box.diagonal() > 1e-100 && box.diagonal() < 1e100))
-    return std::unexpected(Error{
-        ErrorKind::geometry, {}, {}, "expected a mesh between 1e-100 and 1e100 units large, found another"});
+    return geometry_error("expected a mesh between 1e-100 and 1e100 units large, found another");
   const SeenMesh seen = look_at(mesh, view, centre);
   const std::optional<double> pixel = pixel_for(seen, options);
-  if (!pixel)
-    return std::unexpected(Error{
-        ErrorKind::geometry, {}, {}, "expected triangles that show an area in this view; try another view"});
+  if (!pixel) return geometry_error("expected triangles that show an area in this view; try another view");
   if (auto go = begin_stage(progress, "mesh samples", 0); !go) return std::unexpected(go.error());
   Cloud cloud = Sampler(mesh, seen, *pixel).sample();
   cloud.outlines = seen_outlines(seen.points, seen.triangles, *pixel);

@@ -4,10 +4,10 @@
 #include <sys/file.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
+#include "common/files.h"
 #include "common/owned_folder.h"
 #include "relievo/core/text.h"
 
@@ -19,11 +19,6 @@ namespace fs = std::filesystem;
 constexpr int most_studios = 9;  // that keep their work side by side
 constexpr std::string_view mark_owner = "studio";
 constexpr unsigned private_folder = 0700;
-
-std::string variable(const char* name) {
-  const char* const value = std::getenv(name);
-  return value ? value : "";
-}
 
 // Locks the folder until this program ends; otherwise errno tells why not.
 Descriptor lock_of(const std::string& folder) {
@@ -47,7 +42,7 @@ bool own_state_folder(const std::string& folder) {
 }
 
 std::string default_state_folder() {
-  const std::string state = variable("XDG_STATE_HOME"), home = variable("HOME");
+  const std::string state = environment_variable("XDG_STATE_HOME"), home = environment_variable("HOME");
   if (!state.empty()) return state + "/relievo";
   if (!home.empty()) return home + "/.local/state/relievo";
   std::error_code ignored;

@@ -43,7 +43,11 @@ struct Error {
 template <typename T>
 using Result = std::expected<T, Error>;
 
-// Return an error of kind option, geometry or cancelled, ready to be returned from a function that returns a Result.
+// Return an error of kind input, option, geometry or cancelled, ready to be returned from a function that returns a
+// Result.
+inline std::unexpected<Error> input_error(std::string input, std::string place, std::string expected) {
+  return std::unexpected(Error{ErrorKind::input, std::move(input), std::move(place), std::move(expected)});
+}
 inline std::unexpected<Error> option_error(std::string option, std::string expected) {
   return std::unexpected(Error{ErrorKind::option, std::move(option), {}, std::move(expected)});
 }

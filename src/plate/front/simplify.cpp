@@ -371,8 +371,7 @@ class Simplifier {
 Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOptions& options,
                                 Progress* progress) {
   if (!(options.tolerance_mm > 0))
-    return std::unexpected(Error{
-        ErrorKind::option, "tolerance", {}, cat("expected a positive length, found ", options.tolerance_mm)});
+    return option_error("tolerance", cat("expected a positive length, found ", options.tolerance_mm));
   if (front.triangles.empty() || front.hull.size() < 3)
     return std::unexpected(
         Error{ErrorKind::geometry, "front", {}, "expected triangles and a hull around them, found none"});
