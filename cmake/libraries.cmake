@@ -14,7 +14,7 @@ if(NOT RELIEVO_WEB)
   return()
 endif()
 
-# Libraries of headers alone are the same everywhere. What they have for streams is left out: that is half of a program.
+# Libraries of headers alone are the same everywhere. Their functions for streams are left out, which are half of a program.
 function(relievo_headers target folder)
   add_library(${target} INTERFACE IMPORTED)
   target_include_directories(${target} SYSTEM INTERFACE ${folder})
