@@ -54,34 +54,40 @@ std::string wrap_text(const ReliefReport::Wrapped& wrap) {
              wrap.mm_per_degree, " mm in a degree");
 }
 
-std::string plane_text(const ScanReport::FoundPlane& plane) {
+Remark remark_on(const ScanReport::FoundPlane& plane) {
   const std::string what = cat("a ", name_in(plane_kinds, plane.kind), ", ", std::lround(100 * plane.share),
                                " % of the visible points");
-  return plane.is_left_out ? cat("left out ", what, "; --plane keep keeps it")
-                           : cat("found ", what, "; --plane drop leaves it out");
+  return plane.is_left_out ? Remark{cat("left out ", what), "plane", "keep", "keeps it"}
+                           : Remark{cat("found ", what), "plane", "drop", "leaves it out"};
+}
+
+std::string line_of(const Remark& remark) {
+  if (remark.effect.empty()) return remark.text;
+  return cat(remark.text, "; --", remark.option, " ", remark.value, " ", remark.effect);
 }
 
 }  // namespace
 
-std::vector<std::string> remarks_on(const ScanReport& scan, std::size_t outliers) {
-  std::vector<std::string> lines;
-  if (scan.has_estimated_normals) lines.push_back("the scan has no normals: they were estimated");
-  if (scan.has_turned_normals) lines.push_back("the scan's normals point inwards: they were turned");
-  if (outliers > 0) lines.push_back(left_out(outliers));
-  if (scan.repeated_points > 0) lines.push_back(repeated_text(scan.repeated_points));
+std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers) {
+  std::vector<Remark> all;
+  if (scan.has_estimated_normals) all.push_back({"the scan has no normals: they were estimated"});
+  if (scan.has_turned_normals) all.push_back({"the scan's normals point inwards: they were turned"});
+  if (outliers > 0) all.push_back({left_out(outliers)});
+  if (scan.repeated_points > 0) all.push_back({repeated_text(scan.repeated_points)});
   const std::size_t facing = scan.visible_points + scan.removed_points;
   if (50 * scan.removed_points > facing)
-    lines.push_back(cat("left out ", 100 * scan.removed_points / facing,
-                        " % of the points that face the viewer, as small groups far from others"));
+    all.push_back({cat("left out ", 100 * scan.removed_points / facing,
+                       " % of the points that face the viewer, as small groups far from others")});
   if (scan.crumbs > 0)
-    lines.push_back(cat("left out ", scan.crumbs, scan.crumbs == 1 ? " small piece" : " small pieces",
-                        " of the surface; --crumbs keep keeps all but single specks"));
-  if (scan.plane) lines.push_back(plane_text(*scan.plane));
-  if (scan.lacks_plane) lines.push_back("found no table or background to leave out");
+    all.push_back({cat("left out ", scan.crumbs, scan.crumbs == 1 ? " small piece" : " small pieces",
+                       " of the surface"),
+                   "crumbs", "keep", "keeps all but single specks"});
+  if (scan.plane) all.push_back(remark_on(*scan.plane));
+  if (scan.lacks_plane) all.push_back({"found no table or background to leave out", "plane"});
   if (scan.removed_noise > 0 && scan.removed_noise == scan.measured_noise)
-    lines.push_back(cat("removed noise of ", std::round(100 * scan.removed_noise) / 100,
-                        " sampling distances; --denoise 0 keeps it"));
-  return lines;
+    all.push_back({cat("removed noise of ", std::round(100 * scan.removed_noise) / 100, " sampling distances"),
+                   "denoise", "0", "keeps it"});
+  return all;
 }
 
 std::vector<std::string> remarks_on(const ReliefReport& report) {
@@ -95,7 +101,8 @@ std::vector<std::string> remarks_on(const ReliefReport& report) {
   if (report.has_needed_steps)
     lines.push_back(cat("slopes alone do not reach the height: depth jumps take ",
                         std::lround(100 * report.steps), " % of it"));
-  for (const std::string& line : remarks_on(static_cast<const ScanReport&>(report))) lines.push_back(line);
+  for (const Remark& remark : remarks_on(static_cast<const ScanReport&>(report)))
+    lines.push_back(line_of(remark));
   if (report.tool && report.reach) lines.push_back(reach_text(*report.tool, *report.reach));
   if (report.simplification_error_mm)
     lines.push_back(cat("the front has ", report.front_triangles, " triangles, the full relief ",

@@ -4,14 +4,22 @@
 #include <cstddef>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "relievo/make_relief.h"
 
 namespace relievo::app {
 
-// Returns a line for each fact that a user should know, without capital and full stop. `outliers` were left out before.
-std::vector<std::string> remarks_on(const ScanReport& scan, std::size_t outliers = 0);
+// A fact that a user should know, without capital and full stop. With a value of an option, if one is named, the fact would
+// be another one: `effect` says how.
+struct Remark {
+  std::string text;
+  std::string_view option = {}, value = {}, effect = {};
+};
+
+// Return what a user should know. `outliers` were left out before.
+std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers = 0);
 std::vector<std::string> remarks_on(const ReliefReport& report);
 
 // Returns the line with a capital and a full stop.

@@ -34,8 +34,9 @@ ModelFacts facts_of(const Surface& surface, std::size_t outliers, std::vector<st
                    .rotation = surface.view.R_view_model,
                    .remarks = {},
                    .histogram = histogram_of(surface.curvature.k)};
-  for (std::string& line : remarks_on(facts.scan, outliers)) remarks.push_back(std::move(line));
-  for (std::string& line : remarks) facts.remarks.push_back(as_sentence(std::move(line)));
+  for (std::string& line : remarks) facts.remarks.push_back({std::move(line)});
+  for (Remark& remark : remarks_on(facts.scan, outliers)) facts.remarks.push_back(std::move(remark));
+  for (Remark& remark : facts.remarks) remark.text = as_sentence(std::move(remark.text));
   return facts;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/wording.h"
 #include "relievo/make_relief.h"
 #include "relievo/options.h"
 #include "relievo/picture/render.h"
@@ -25,7 +26,7 @@ struct ModelFacts {
   Vec2 size = Vec2::Zero(), corner = Vec2::Zero();  // of the relief's box, in the scan's units
   double delta = 0;
   Mat3 rotation = Mat3::Identity();
-  std::vector<std::string> remarks;
+  std::vector<Remark> remarks;         // with sentences as texts
   std::vector<std::size_t> histogram;  // of sqrt(|k|), from 0 to 1
 };
 

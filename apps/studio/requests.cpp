@@ -203,8 +203,9 @@ Json to_json(const EngineStatus& status) {
 
 Json to_json(const ModelFacts& facts) {
   const ScanReport& scan = facts.scan;
-  Json plane;
-  if (scan.plane) plane = {{"share", scan.plane->share}, {"is_left_out", scan.plane->is_left_out}};
+  Json remarks = Json::array();
+  for (const auto& [text, option, value, effect] : facts.remarks)
+    remarks.push_back({{"text", text}, {"option", option}, {"value", value}});
   std::vector<double> rotation;
   for (int i = 0; i < 9; ++i) rotation.push_back(facts.rotation(i / 3, i % 3));
   return {{"input_points", scan.input_points},
@@ -215,11 +216,9 @@ Json to_json(const ModelFacts& facts) {
           {"size", {facts.size.x(), facts.size.y()}},
           {"rho", scan.rho},
           {"noise", scan.removed_noise},
-          {"crumbs", scan.crumbs},
-          {"plane", plane},
           {"delta", facts.delta},
           {"rotation", rotation},
-          {"remarks", facts.remarks},
+          {"remarks", remarks},
           {"histogram", facts.histogram}};
 }
 
@@ -277,7 +276,7 @@ Json stage_list() {
 }
 
 Json error_json(const Error& error) {
-  return {{"kind", name_of(error.kind)}, {"text", error.message()}};
+  return {{"kind", name_of(error.kind)}, {"input", error.input}, {"text", error.message()}};
 }
 
 }  // namespace relievo::app::studio

@@ -61,9 +61,9 @@ export class BaseImage {
   }
 
   // Returns whether an error of a picture says that the image is gone, which is then said once.
-  isMissing({kind, message}) {
+  isMissing({kind, input}) {
     const path = this.doc.now.options[NAME], name = path.slice(path.lastIndexOf("/") + 1);
-    if (kind !== "input" || !path || isGone(path) || !message.startsWith(`${path}:`)) return false;
+    if (kind !== "input" || !path || isGone(path) || input !== path) return false;
     markGone(path);
     offer(`The base image ${name} is gone: the relief is shown without it.`, "Choose it again",
       () => this.file.click());

@@ -14,10 +14,11 @@
 //                                  people
 // and throws EngineError with a text for people.
 
+// `input` is the option or the file that the error is about, whose name the text begins with.
 export class EngineError extends Error {
-  constructor({kind, text}) {
+  constructor({kind, text, input = ""}) {
     super(text);
-    this.kind = kind;
+    Object.assign(this, {kind, input});
   }
 }
 

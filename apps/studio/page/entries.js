@@ -49,7 +49,7 @@ export class Entries {
     await this.engine.check(engineOptions(step));
     if (!isMade) return;
     await this.engine.profile({options: shownOptions(step), from: [0, 0], to: [0, 0]}).catch((error) => {
-      if (error.kind === "option" && !error.message.startsWith("width:")) throw error;
+      if (error.kind === "option" && error.input !== "width") throw error;
     });
   }
 

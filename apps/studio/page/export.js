@@ -104,7 +104,7 @@ export class ExportDialog {
     try {
       await work(isWanted);
     } catch (error) {
-      complaint = error.kind === "cancelled" ? "Cancelled." : inWords(error.message);
+      complaint = error.kind === "cancelled" ? "Cancelled." : inWords(error);
     }
     if (number !== this.runs) return false; // the dialog was opened again meanwhile
     this.isBusy = false;

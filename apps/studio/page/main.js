@@ -103,8 +103,8 @@ let takeRefusalBack = () => {};
 function refuse(text) {
   takeRefusalBack = toast(text);
 }
-function refused({label}, {message}) {
-  refuse(/^[a-z-]+:/.test(message) ? inWords(message) : `${label}: ${message}`);
+function refused({label}, error) {
+  refuse(error.input ? inWords(error) : `${label}: ${error.message}`);
 }
 // An entry need not change anything. A slider's end is none: what it has changed was told while it moved.
 addEventListener("change", ({target}) => target.type !== "range" && takeRefusalBack(), true);
@@ -266,7 +266,7 @@ function failed(error) {
   if (error.kind === "geometry" && !isReady) return; // the next status will show it
   if (placing.fit(error, last)) return opened.keep(), stateCame();
   if (pieces.baseImage.isMissing(error)) return pieces.show(), stage.invalidate();
-  if (error.kind !== "closed") return (error.kind === "lost" ? toast : refuse)(inWords(error.message));
+  if (error.kind !== "closed") return (error.kind === "lost" ? toast : refuse)(inWords(error));
   reopening.begin();
 }
 

@@ -149,7 +149,8 @@ export class OpenDocument {
 
   complain({error, model}) {
     const {path, name} = this.input; // a dropped scan is read from where the engine has put it
-    const why = error.kind === "cancelled" ? "" : inWords(path ? error.text.replaceAll(path, () => name) : error.text);
+    const message = path ? error.text.replaceAll(path, () => name) : error.text;
+    const why = error.kind === "cancelled" ? "" : inWords({input: error.input, message});
     if (model > 0 && !(this.asked && why)) return this.on.refused(why);
     if (why) toast(why);
     if (model > 0) return; // another view is on its way already

@@ -72,14 +72,17 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
 // Controls with a place of their own on the page, by the names of their options.
 const OTHERS = {alpha: "Flatness", crop: "Crop", crumbs: "Keep small pieces", denoise: "Denoise", method: "Method",
   plane: "Keep table, background", tone: "Tone curve", view: "View"};
-// Replaces words of the engine that the page does not use, and advice that only a command line can follow.
-const WORDS = [[/expected shares X0,Y0,X1,Y1\b.*?(?=, found)/,
-  "expected left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"],
-[/; the option channel takes one .*$/, ". Save it as a picture in greys, one value per pixel, and open that"]];
+// What the engine expects in words that the page does not use, by option; and advice that only a command line can follow.
+const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
+const ADVICE = /; the option channel takes one .*$/, OTHER = ". Save it as a picture in greys, one value per pixel, and open that";
 
-// Returns a message of the engine in the words of the page, about an option under the name of its field.
-export const inWords = (message) => WORDS.reduce((text, [found, words]) => text.replace(found, words),
-  message.replace(/^[a-z-]+(?=:)/, (name) => LABELS[name] ?? FIELDS[name]?.label ?? OTHERS[name] ?? name));
+// Returns the message of an error in the words of the page, about an option under the name of its field.
+export function inWords({input, message}) {
+  const label = LABELS[input] ?? FIELDS[input]?.label ?? OTHERS[input];
+  const text = message.replace(ADVICE, OTHER), [found] = (EXPECTED[input] && text.match(/, found '.*$/)) ?? [];
+  if (found) return `${label}: expected ${EXPECTED[input]}${found}`;
+  return label ? label + text.slice(input.length) : text;
+}
 
 export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.

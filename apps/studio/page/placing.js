@@ -60,11 +60,11 @@ export class Placing {
   // Takes the error of the newest picture, and the numbers of the one that is shown. A figure that was moved too far
   // stays where it is shown; one that is too large for its plate becomes as large as fits, or goes to the middle where
   // nothing fits, in the step that left it too little room. Returns whether it was that.
-  fit({kind, message}, shown) {
-    if (kind !== "option" || !message.startsWith("width:")) return false;
+  fit({kind, input, message}, shown) {
+    if (kind !== "option" || input !== "width") return false;
     const {width, shift} = this.doc.now.options, before = this.doc.steps[this.doc.at - 1]?.options;
     const isMoved = before && before.shift !== shift && (width === null || before.width === width);
-    const hasNoRoom = shift && message.startsWith("width: expected at most 0 mm");
+    const hasNoRoom = shift && message.includes("at most 0 mm");
     if (isMoved && shown && shown.options.shift !== shift)
       this.correct({shift: shown.options.shift}, "The plate has no room for the figure there: it stays where it is.");
     else if (hasNoRoom)

@@ -20,8 +20,13 @@ export function cropText(numbers) {
   return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
 }
 
-// Notes that stand beside the picture, too: what was taken out of it, or what fills it and is not the figure.
-const OFFERED = /small piece|\b(table|ground|background|wall)\b/i;
+// What a note offers, by the option and its value that do it.
+const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane drop": "Leave it out",
+  "denoise 0": "Keep the noise"};
+
+// Returns whether a note stands beside the picture, too: it is about what was taken out of the picture, or about what fills
+// it and is not the figure. Readers of depth images tell of their background in words alone.
+const isOffered = ({option, text}) => ["crumbs", "plane"].includes(option) || /background taken out/.test(text);
 
 export class ScanPanel {
   // Calls cropOnPicture() for a frame on the picture.
@@ -39,20 +44,19 @@ export class ScanPanel {
     $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));
     $("#remarks").onclick = () => this.open();
     $("#offers .close").onclick = () => {
-      this.hidden = String(this.offered); // until something else is found
+      this.hidden = this.offeredKey; // until something else is found
       $("#offers").hidden = true;
     };
-    const set = (options) => doc.change({options});
     $("#crop-picture").onclick = cropOnPicture;
     $("#crop").onkeydown = ({key, target}) => {
       if (key === "Escape") target.value = doc.now.options.crop;
     };
-    $("#crop").onchange = (event) => set({crop: event.target.value.replaceAll(" ", "")});
-    $("#crumbs").onchange = (event) => set({crumbs: event.target.checked ? "keep" : "drop"});
-    $("#plane").onchange = (event) => set({plane: event.target.checked ? "keep" : "drop"});
+    $("#crop").onchange = (event) => this.set({crop: event.target.value.replaceAll(" ", "")});
+    $("#crumbs").onchange = (event) => this.set({crumbs: event.target.checked ? "keep" : "drop"});
+    $("#plane").onchange = (event) => this.set({plane: event.target.checked ? "keep" : "drop"});
     $("#denoise").oninput = (event) => this.showNoise(Number(event.target.value));
-    $("#denoise").onchange = (event) => set({denoise: event.target.value});
-    $("#denoise-auto").onchange = (event) => set({denoise: event.target.checked ? "auto" : $("#denoise").value});
+    $("#denoise").onchange = (event) => this.set({denoise: event.target.value});
+    $("#denoise-auto").onchange = (event) => this.set({denoise: event.target.checked ? "auto" : $("#denoise").value});
   }
 
   showCut({input, output}, percent) {
@@ -103,28 +107,29 @@ export class ScanPanel {
   tell(facts) {
     this.facts = facts;
     const notes = facts ? this.notesOn(facts) : [];
-    const entry = ([text, label, options]) => make("li", {}, text,
-      ...(label ? [make("button", {class: "quiet", onclick: () => this.doc.change({options})}, label)] : []));
+    const entry = ({text, option, value, label = REMEDIES[`${option} ${value}`]}) => make("li", {}, text,
+      ...(label ? [make("button", {class: "quiet", onclick: () => this.set({[option]: value})}, label)] : []));
     $("#notes").replaceChildren(...notes.map(entry));
-    this.offered = notes.filter(([text]) => OFFERED.test(text));
+    this.offered = notes.filter(isOffered);
     $("#offers ul").replaceChildren(...this.offered.map(entry));
-    $("#offers").hidden = this.offered.length === 0 || this.hidden === String(this.offered);
+    $("#offers").hidden = this.offered.length === 0 || this.hidden === this.offeredKey;
     $("#remarks").hidden = notes.length === 0;
     $("#remarks").textContent = notes.length === 1 ? "1 note on the scan" : `${notes.length} notes on the scan`;
     this.show();
   }
 
-  notesOn({remarks, crumbs, plane, noise}) {
-    const {options} = this.doc.now, notes = [];
-    for (const text of remarks) {
-      const about = text.split(";")[0] + (text.includes(";") ? "." : "");
-      if (crumbs > 0 && /small piece/.test(text)) notes.push([about, "Keep them", {crumbs: "keep"}]);
-      else if (plane && /; --plane /.test(text))
-        notes.push(plane.is_left_out ? [about, "Keep it", {plane: "keep"}] : [about, "Leave it out", {plane: "drop"}]);
-      else if (noise > 0 && /^Removed noise/.test(text)) notes.push([about, "Keep the noise", {denoise: "0"}]);
-      else notes.push([text]);
-    }
-    if (options.crumbs === "keep") notes.push(["Small pieces are kept.", "Leave them out", {crumbs: "drop"}]);
-    return notes;
+  // The engine says nothing of small pieces that are kept.
+  notesOn({remarks}) {
+    const {crumbs} = this.doc.now.options;
+    const kept = {text: "Small pieces are kept.", option: "crumbs", value: "drop", label: "Leave them out"};
+    return crumbs === "keep" ? [...remarks, kept] : remarks;
+  }
+
+  get offeredKey() {
+    return JSON.stringify(this.offered);
+  }
+
+  set(options) {
+    this.doc.change({options});
   }
 }

@@ -63,7 +63,7 @@ test("ends the engine's work when it is cancelled, and saves no file of it", {sk
 });
 
 test("exports nothing whose piece cannot be made, and says why", {skip}, async () => {
-  const error = {kind: "option", text: "rim-bevel: expected 1 mm"};
+  const error = {kind: "option", input: "rim-bevel", text: "rim-bevel: expected 1 mm"};
   const refuse = (route) => route.fulfill({status: 400, json: {error}});
   await page.route("**/api/piece", refuse);
   await open();

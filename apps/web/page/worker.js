@@ -18,8 +18,8 @@ function work() {
   }
 }
 
-function fail(id, { kind = "failure", message }) {
-  postMessage({ id, error: { kind, text: message }, isOver: kind === "memory" || kind === "failure" });
+function fail(id, { kind = "failure", input, message }) {
+  postMessage({ id, error: { kind, input, text: message }, isOver: kind === "memory" || kind === "failure" });
 }
 
 function bodyOf({ type }, bytes) {

@@ -6,11 +6,13 @@ import path from "node:path";
 import {pathToFileURL} from "node:url";
 import {after, before, test} from "node:test";
 import os from "node:os";
-import {admesh, browserNames, eventually, fileAddress, launch, missing, pageWithLittleMemory, serve, temporaryFolder} from "./support.mjs";
+import {enter, findBrowser, openPanels, savedFiles} from "../../studio/tests/support.mjs";
+import {admesh, eventually, fileAddress, pageWithLittleMemory, serve, temporaryFolder} from "./support.mjs";
 import {missingWebKit, WebKitPage} from "./webkit.mjs";
 
 const relievo = await import(pathToFileURL(path.join(process.env.PACKAGE ?? "build/web/npm", "src/index.js")));
 const native = process.env.RELIEVO;
+const browsers = {chromium: await findBrowser("chromium"), firefox: await findBrowser("firefox")};
 let scans; // a folder of them
 
 // Returns a scan of so many rows, each of as many points.
@@ -39,22 +41,10 @@ before(async () => {
 after(() => fs.rmSync(scans, {recursive: true, force: true}));
 const scan = (name) => path.join(scans, name);
 
-// Waits for a file that grows until it is whole, and returns its place.
-function downloaded(folder, name) {
-  const place = path.join(folder, name);
-  let size = 0;
-  return eventually(() => {
-    const before = size;
-    size = fs.existsSync(place) && !fs.existsSync(`${place}.part`) ? fs.statSync(place).size : 0;
-    return size > 0 && size === before && place;
-  });
-}
-
 // The page in a browser, as somebody uses it.
 class Studio {
-  constructor(page, downloads) {
-    Object.assign(this, {page, downloads, errors: []});
-    page.setDefaultTimeout(120_000);
+  constructor(found, page, downloads) {
+    Object.assign(this, {found, page, downloads, errors: []});
     page.on("pageerror", (error) => this.errors.push(error.message));
   }
 
@@ -80,24 +70,15 @@ class Studio {
   }
 
   async setHeight(mm) {
-    await this.height.click();
-    await this.height.press("ControlOrMeta+a");
-    await this.height.pressSequentially(String(mm));
-    await this.height.press("Enter");
+    await enter(this.height, String(mm));
     await this.page.getByText(new RegExp(`height ${mm.toFixed(2)} mm`)).waitFor();
   }
 
   // Waits for a file that the browser downloads, and returns its place.
   async download(trigger, name) {
-    const place = path.join(this.downloads, name);
-    if (this.page.context().browser().browserType().name() === "chromium") {
-      const event = this.page.waitForEvent("download");
-      await trigger();
-      await (await event).saveAs(place);
-      return place;
-    }
-    await trigger();
-    return downloaded(this.downloads, name);
+    const place = path.join(this.downloads, name), [{bytes}] = await savedFiles(this.found, this.page, 1, trigger);
+    fs.writeFileSync(place, bytes);
+    return place;
   }
 
   async exported(name) {
@@ -115,11 +96,11 @@ class Studio {
 }
 
 async function newStudio(t, name, address) {
-  const downloads = temporaryFolder(t), browser = await launch(name, downloads);
+  const found = browsers[name], downloads = temporaryFolder(t), browser = await found.launch();
   t.after(() => browser.close());
   const context = await browser.newContext({viewport: {width: 1280, height: 800}, acceptDownloads: true});
   const openPage = async () => {
-    const studio = new Studio(await context.newPage(), downloads);
+    const studio = new Studio(found, await context.newPage(), downloads);
     await studio.page.goto(address);
     await studio.page.locator("#samples button").first().waitFor({state: "attached"}); // the page listens by then
     return studio;
@@ -127,9 +108,9 @@ async function newStudio(t, name, address) {
   return {studio: await openPage(), openPage, context};
 }
 
-for (const name of browserNames)
+for (const [name, {skip}] of Object.entries(browsers))
   for (const place of ["from disk", "from a server"])
-    test(`${name}, ${place}: from a scan to a solid`, {skip: missing(name)}, async (t) => {
+    test(`${name}, ${place}: from a scan to a solid`, {skip}, async (t) => {
       const address = place === "from disk" ? fileAddress : await serve(t);
       const {studio} = await newStudio(t, name, address);
       await studio.open(scan("shell.ply"));
@@ -170,7 +151,7 @@ for (const place of ["from disk", "from a server"])
     await page.untilSaid("20,000 points.*height 2\\.50 mm");
   });
 
-const options = {skip: missing("chromium")};
+const options = {skip: browsers.chromium.skip};
 
 test("a project opens with its scan, and several files as a scene", options, async (t) => {
   const {studio, context} = await newStudio(t, "chromium", fileAddress);
@@ -196,7 +177,7 @@ test("a base takes an image, which the browser and a project keep", options, asy
   const {studio} = await newStudio(t, "chromium", fileAddress);
   await studio.open(scan("urn.ply"));
   await studio.untilReady("20,000");
-  await studio.page.locator("details").evaluateAll((all) => all.forEach((panel) => (panel.open = true)));
+  await openPanels(studio.page);
   const image = (page) => page.locator("[data-option='base-image']");
   await studio.page.locator(".base-image input").setInputFiles(scan("map.png"));
   await image(studio.page).filter({hasText: "map.png"}).waitFor();

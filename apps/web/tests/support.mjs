@@ -1,34 +1,13 @@
-// What the tests of the page share: browsers, a static server, and files.
+// What the tests of the page share besides what those of the studio have: a static server, and files.
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
-import {createRequire} from "node:module";
 import os from "node:os";
 import path from "node:path";
 import {pathToFileURL} from "node:url";
 import zlib from "node:zlib";
 
-const tests = path.resolve(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "../../studio/tests/");
 const pageFolder = process.env.PAGE ?? path.resolve("build/web/page");
-const driver = path.join(tests, "node_modules/playwright-core");
-
-// Debian's browsers. Stock Firefox speaks WebDriver BiDi, which tells nothing of downloads from memory.
-const BROWSERS = {
-  chromium: {path: "/usr/bin/chromium", options: () => ({args: ["--no-sandbox", "--disable-gpu", "--no-first-run"]})},
-  firefox: {path: "/usr/bin/firefox-esr", options: (downloadsPath) => ({channel: "moz-firefox", downloadsPath})},
-};
-export const browserNames = Object.keys(BROWSERS);
-
-// Returns why a browser's tests cannot run; false if they can.
-export function missing(name) {
-  const lacks = [BROWSERS[name].path, driver].find((file) => !fs.existsSync(file));
-  return lacks ? `SKIPPED: ${lacks} is not there: run scripts/prepare --web --browser` : false;
-}
-
-export function launch(name, folder) {
-  const {path: executablePath, options} = BROWSERS[name];
-  return createRequire(tests)(driver)[name].launch({executablePath, ...options(folder)});
-}
 
 export function temporaryFolder(t) {
   const folder = fs.mkdtempSync(path.join(os.tmpdir(), "relievo-page-"));
