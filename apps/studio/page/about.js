@@ -1,5 +1,5 @@
-// The engine, and what it said of itself when the page began: options with their ranges and defaults, names of
-// views, materials and stages. The page spells none of these itself.
+// The engine, and its answer when the page began: options with their ranges and defaults, names of views, materials and
+// stages. The page spells none of these itself.
 
 import {Engine} from "./engine.js";
 import {toast} from "./messages.js";

@@ -1,5 +1,5 @@
-// The flatness, which is the paper's height coefficient alpha. It and the saturation decide how high a relief is that has
-// no height to keep.
+// The flatness: the paper's height coefficient alpha. Where no height is kept, alpha and the saturation decide how high
+// the relief is.
 
 import {optionOf} from "./about.js";
 import {$, pair, sentence, textField} from "./controls.js";

@@ -51,7 +51,7 @@ export class BaseImage {
       const part = {base: isImage(options.base) ? options.base : "image", [NAME]: path};
       await this.engine.check(engineOptions({...this.doc.now, options: {...options, ...part}}));
       if (document !== this.engine.document) return;
-      const wasGone = isGone(path); // the same picture was chosen again, whose path is that of its content
+      const wasGone = isGone(path); // the same picture was chosen again: its path depends on its content
       markGone(path, false);
       this.doc.change({options: part});
       if (wasGone) this.redraw();

@@ -97,8 +97,8 @@ export class Comparing {
     this.layOnPlate(context, image.width / this.stage.size.width);
   }
 
-  // The model has a plate of its own, which is a rectangle: seen from the front it becomes the plate of the piece, where
-  // that is round or larger. `scale` is that of the picture's pixels.
+  // The model has a plate of its own, which is a rectangle: seen from the front it becomes the plate of the piece,
+  // where that is round or larger. `scale` is that of the picture's pixels.
   layOnPlate(context, scale) {
     const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
     const {outline, plate, wrap, margin} = stage.doc.now.options, isRound = ["circle", "ellipse"].includes(outline);

@@ -1,4 +1,4 @@
-// Small helpers for the page's elements, and for what the page does later.
+// Small helpers: they make elements, change their state, and put off work.
 
 export const $ = (selector, root = document) => root.querySelector(selector);
 
@@ -15,11 +15,12 @@ export function make(tag, attributes = {}, ...children) {
   return element;
 }
 
-// Returns a row of a label and what it is of.
+// Returns a row with a label and its control.
 export const pair = (label, control, attributes = {}) =>
   make("label", {class: "pair", ...attributes}, make("span", {}, label), control);
 
-// Returns a field: take(text) is called with what was typed, and with Escape show() for what was there before.
+// Returns a field. It calls take(text) with a text that was typed, and after Escape show(), which brings the former
+// text back.
 export function textField(attributes, {take, show}) {
   const input = make("input", {autocomplete: "off", ...attributes});
   input.onchange = () => take(input.value.trim());

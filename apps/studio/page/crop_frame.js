@@ -1,5 +1,5 @@
-// The crop on the picture: the whole scan as the view shows it, and a frame that can be drawn, moved and resized. What
-// lies outside is left out of the relief.
+// The crop on the picture: the whole scan as the view shows it, and a frame that can be drawn, moved and resized. The
+// relief leaves out all that lies outside.
 
 import {$, clamp, make, paint} from "./controls.js";
 import {directionsOf} from "./directions.js";
@@ -113,7 +113,7 @@ export class CropFrame {
   listen() {
     const {element} = this;
     const place = (act) => (event) => {
-      event.stopPropagation(); // what lies below is not meant
+      event.stopPropagation(); // it is not meant for the relief below
       if (event.target.closest("button")) return;
       const {left, top} = element.getBoundingClientRect();
       act(event.clientX - left, event.clientY - top, event);
@@ -174,7 +174,7 @@ export class CropFrame {
     return [...low, ...low.map((x, k) => Math.max(a[k], b[k], x + LEAST)), ...depths];
   }
 
-  // The cursor tells what a drag would do.
+  // The cursor tells whether a drag would move, resize or draw the frame.
   hover(x, y) {
     if (!this.box) return;
     const sides = this.sidesAt(x, y).sort(), isRising = ["0,1", "2,3"].includes(String(sides));

@@ -1,4 +1,4 @@
-// Views as directions: {towards, up} point to the viewer and to what is above, as unit vectors.
+// Views as directions: the unit vectors {towards, up} point to the viewer and upwards.
 
 import {about} from "./about.js";
 import {sentence} from "./controls.js";

@@ -1,11 +1,11 @@
-// The engine as the page sees it. How requests reach it is the transport's concern: transport.js sends them to the program
-// `relievo studio` by HTTP, and in the page that is one file alone apps/web/page/transport.js takes its place.
+// The engine as the page sees it. A transport takes requests to it: transport.js sends them to the program `relievo
+// studio` by HTTP, and in the page that is one file alone apps/web/page/transport.js takes its place.
 //
 // A transport has
-//   traits                         {takesSeveral: whether several files are uploaded together, of which one refers to the
-//                                  others; drawsMeanwhile: whether pictures are drawn while a piece is made; canRemove:
-//                                  whether work is kept until it is removed; slowMs: frames that take longer are drawn
-//                                  with fewer pixels}, which the Engine has, too
+//   traits                         {takesSeveral: whether a scan and the files that it refers to are uploaded together;
+//                                  drawsMeanwhile: whether pictures are drawn while a piece is made; canRemove: whether
+//                                  work is kept until it is removed; slowMs: frames that take longer are drawn with
+//                                  fewer pixels}. The Engine has them, too
 //   call(name, request, {files, signal}) -> {about, body}: the body is an object, a Blob, or the bytes of a picture, with
 //                                  an object about it; the request may be left out
 //   addressOf(file)             -> the address of one of the page's pictures
@@ -14,7 +14,7 @@
 //                                  people
 // and throws EngineError with a text for people.
 
-// `input` is the option or the file that the error is about, whose name the text begins with.
+// `input` names the option or the file that the error is about; the text begins with that name.
 export class EngineError extends Error {
   constructor({kind, text, input = ""}) {
     super(text);
@@ -60,9 +60,9 @@ export class Engine {
   addressOf = (file) => this.#transport.addressOf(file);
   follow = (...listeners) => this.#transport.follow(...listeners);
 
-  // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (what the
-  // program was started with), notice (about the place where work is kept), most_upload (bytes), and perhaps limits (texts
-  // that say what this engine cannot do).
+  // Returns version, options, readable, endings, formats, views, materials, stages, curve, samples, recent, first (the
+  // input or project with which the program was started), notice (about the place where work is kept), most_upload
+  // (bytes), and perhaps limits (texts about the limits of this engine).
   about = async () => (await this.#transport.call("about")).body;
 
   // Returns {document, input, is_there, kept}: the document of a scan, and its state if it is kept.
@@ -72,8 +72,8 @@ export class Engine {
   // Returns {input, is_there, options, studio} of a project file.
   readProject = (file) => this.#ask("project", {name: file.name}, {files: [file]});
 
-  // Prepares the scan of the document that is shown. A view is {view, up, crop, crumbs, plane, denoise, mode, points}, as
-  // `relievo make` has it.
+  // Prepares the scan of the document that is shown. A view is {view, up, crop, crumbs, plane, denoise, mode, points},
+  // as `relievo make` has it.
   open = (input, view) => this.#ask("open", {input, tab: TAB, ...view});
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");
@@ -100,7 +100,7 @@ export class Engine {
   exportFile = (request) => this.#make("export", request);
   packProject = (project) => this.#ask("save", {project});
 
-  // Gives up the request for the piece or its file as well: what the engine answers then is of no use.
+  // Gives up the request for the piece or its file as well: its answer is of no use then.
   cancelPiece() {
     this.#making?.abort();
     return this.#ask("cancel_piece");

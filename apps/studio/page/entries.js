@@ -1,5 +1,5 @@
 // The entries for the piece, typed or chosen: the document takes one after the other, in the order in which they were
-// made, each as a step of its own. Those of which the engine may not make a piece are tried before.
+// made, each as a step of its own. An entry is tried before if the engine may be unable to make a piece of it.
 
 import {$} from "./controls.js";
 import {engineOptions, shownOptions} from "./document.js";
@@ -43,8 +43,8 @@ export class Entries {
     }
   }
 
-  // Throws what the engine says of options that it cannot read or of which no piece can be made, by asking for one of its
-  // heights. A width that does not fit is put right later, and another view is still to be prepared.
+  // Throws the engine's error if it cannot read the options or make a piece of them, which one height of the piece
+  // shows. A width that does not fit is put right later, and another view is still to be prepared.
   async tryOut(step, {isMade}) {
     await this.engine.check(engineOptions(step));
     if (!isMade) return;

@@ -20,8 +20,8 @@ function sizes({triangles, points, size_mm: [x, y]}, pixels) {
 }
 
 export class ExportDialog {
-  // `outcome` is an Outcome; `name` returns the usual name of the files, `heightText` a height as the page shows it; `say`
-  // takes a line for people.
+  // `outcome` is an Outcome; `name` returns the usual name of the files, `heightText` a height as the page shows it;
+  // `say` takes a line for people.
   constructor({engine, outcome, name, heightText, say}) {
     Object.assign(this, {engine, outcome, name, heightText, say, pixels: 2048, piece: null, runs: 0});
     this.dialog = $("#export-dialog");
@@ -43,7 +43,7 @@ export class ExportDialog {
     return about.formats.filter(({name}) => $(`#formats [value="${name}"]`).checked);
   }
 
-  // Takes what was typed; returns false after saying what was not understood.
+  // Takes the number that was typed; returns false after saying that it was not understood.
   choosePixels() {
     let complaint = "";
     const pixels = typedNumber($("#pixels").value, PIXELS, (text) => (complaint = text));
@@ -53,8 +53,8 @@ export class ExportDialog {
     return !complaint;
   }
 
-  // Makes the piece at once, when all that was entered is taken: then its sizes are known, and files of it are written in
-  // a moment.
+  // Makes the piece at once, when all that was entered is taken: then its sizes are known, and files of it are written
+  // in a moment.
   async open() {
     const outcome = this.outcome.known(), usual = this.name();
     this.piece = null;
@@ -90,8 +90,8 @@ export class ExportDialog {
     $("#export-progress").value = making.fraction;
   }
 
-  // Does a piece of work with the progress shown, and says why it failed. Returns whether it did not, and is still wanted:
-  // whoever closes the dialog wants none of it.
+  // Does a piece of work with the progress shown, and says why it failed. Returns whether it did not, and is still
+  // wanted: whoever closes the dialog wants none of it.
   async run(text, work) {
     const number = ++this.runs, isWanted = () => this.dialog.open && number === this.runs;
     this.isBusy = true;

@@ -4,7 +4,7 @@ import {optionOf} from "./about.js";
 import {sentence} from "./controls.js";
 import {spread} from "./slider.js";
 
-// Labels say what the eye sees; `symbol` is that of the paper, for the tip. `hand` is what the slider spans. A
+// Labels are words for what the eye sees; the tip has the symbol of the paper. The slider spans the range `hand`. A
 // number may be typed within the whole range of the option.
 const SLIDERS = {
   height: {label: "Height", hand: [0.1, 40], decimals: 2, spread: spread.log, place: "#shape"},

@@ -55,7 +55,8 @@ function doPostponed() {
   act();
 }
 
-// Calls a function when nothing is being typed, in place of one that waits for that: a field that is moved loses the keys.
+// Calls a function when nothing is being typed, in place of one that waits for that: a field that is moved loses the
+// keys.
 export function whenFinished(act) {
   postponed = act;
   doPostponed();

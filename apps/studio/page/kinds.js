@@ -57,8 +57,8 @@ export function kindOf({options: {form, wrap, rim, outline, thickness}, isDieOfP
 export const dieOf = ({options: {form}}) =>
   ({options: {form: form === "die" ? "relief" : "die"}, isDieOfPiece: form !== "die"});
 
-// Returns the document's changes that begin a kind of work, or go on from its last step. A coin and a seal have the same
-// diameter, and plates with corners begin with the size of the plate before.
+// Returns the document's changes that begin a kind of work, or go on from its last step. A coin and a seal have the
+// same diameter, and plates with corners begin with the size of the plate before.
 function partOf(kind, {diameter, plate, outline}, last) {
   const {part, material} = KINDS[kind];
   const begun = plate && outline !== "ellipse" && part.outline !== "circle" ? {...part, plate, width: null} : part;
@@ -131,7 +131,8 @@ export class KindCards {
     if (lost) this.say(lost);
   }
 
-  // Returns the step with which a kind of work goes on after another one: as it was left in this document, or as it begins.
+  // Returns the step with which a kind of work goes on after another one: as it was left in this document, or as it
+  // begins.
   stepOf(kind, step = this.doc.now) {
     const {steps} = this.doc, isThis = (former) => kindOf(former) === kind;
     const part = partOf(kind, step.options, steps.slice(0, steps.indexOf(step) + 1).findLast(isThis));

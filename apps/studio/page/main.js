@@ -34,7 +34,7 @@ import {Tour} from "./tour.js";
 import {ViewDialog} from "./views.js";
 
 const PICTURE_MS = 600; // from the fine picture to the small one of the document
-const SHOW_MS = 120; // pause of a drag after which all controls show what it has changed
+const SHOW_MS = 120; // pause of a drag after which all controls show its changes
 
 const doc = new Document((before) => changed(before), () => showing.isRunning && showDocument());
 const entries = new Entries({engine, doc, changed: showEntries, refused});
@@ -106,7 +106,7 @@ function refuse(text) {
 function refused({label}, error) {
   refuse(error.input ? inWords(error) : `${label}: ${error.message}`);
 }
-// An entry need not change anything. A slider's end is none: what it has changed was told while it moved.
+// An entry need not change anything. The end of a slider's movement is none: its changes were told while it moved.
 addEventListener("change", ({target}) => target.type !== "range" && takeRefusalBack(), true);
 
 // ----------------------------------------------------------------------------------------------- the document
@@ -208,7 +208,7 @@ function progress(status) {
   if (stage.isReady && stage.model === status.model) shownView.settle(status);
 }
 
-// Another document is shown, whose model is not ready yet: no picture of the one before stays under its name.
+// Another document is shown, and its model is not ready yet: no picture of the one before stays under its name.
 function begun(former) {
   if (former) toast(`Your work on ${former.name} is kept: the start page lists it.`);
   $(".inspector").scrollTop = 0;
@@ -254,7 +254,7 @@ async function arrived(status) {
   stage.share = 1;
   scanPanel.tell(facts);
   cropFrame.refresh();
-  scenePanel.show(engine.takesSeveral ? [] : facts.models); // whose files no other scene finds
+  scenePanel.show(engine.takesSeveral ? [] : facts.models); // no other scene would find their files
   tour.offer();
   $("#save").hidden = $("#export").hidden = $("#choose-view").disabled = false;
   stage.invalidate();
@@ -309,7 +309,8 @@ const showRecentNow = () => keepPicture().then(() => shelf.show());
 
 // ------------------------------------------------------------------------------------------------------- start
 
-// Shows the document that the address names, or what the program was started with, or the one that was changed last.
+// Shows the document that the address names, or the one with which the program was started, or the one that was changed
+// last.
 async function resume({first, recent}) {
   const mine = recent.find(({document}) => `#${document}` === location.hash);
   if (mine) return opened.open(mine.input);
@@ -321,7 +322,7 @@ async function resume({first, recent}) {
 async function start() {
   takeCommands({doc, stage, entries, exporting, views, modes, cropFrame, opened, tour, save: saveProject, openFiles,
     isThere: () => facts !== null, showStart, chooseUnit, failed});
-  document.body.inert = false; // what was clicked before would have been lost
+  document.body.inert = false; // clicks before this would have been lost
   $("#unit").value = localStorage.getItem("unit") === "in" ? "in" : "mm";
   chooseUnit($("#unit").value);
   try {

@@ -201,7 +201,7 @@ export class Measure {
     this.stage.drawOverlay();
   }
 
-  // Called for each new picture, whose heights are new, too.
+  // Called for each new picture, as its heights are new, too.
   pictured() {
     if (this.line) this.setLine({...this.line, heights: null});
   }

@@ -5,7 +5,7 @@ import {$, Pause, make} from "./controls.js";
 const shown = new Pause(hideToast, 8000);
 let isLost = false;
 
-// What stands above the line makes room for it, and what has the focus stays in sight.
+// The parts above the line make room for it, and the element with the focus stays in sight.
 new ResizeObserver(() => {
   document.documentElement.style.setProperty("--toast-height", `${$("#toast").offsetHeight}px`);
   if (!$("#toast").hidden) $(".inspector :focus")?.scrollIntoView({block: "nearest"});
@@ -22,8 +22,8 @@ export function toast(text, isLasting = false) {
   return () => line.isConnected && hideToast();
 }
 
-// A line with a button that does something about it, for so long, and perhaps with others: [label, action] of each. Returns a
-// function that takes it back.
+// A line with a button that does something about it, for so long, and perhaps with others: [label, action] of each.
+// Returns a function that takes it back.
 export function offer(text, label, action, ms = Infinity, others = []) {
   const takeBack = toast(text, true), act = (chosen) => () => {
     takeBack(); // before the action, which may say something itself

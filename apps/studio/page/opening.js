@@ -1,5 +1,5 @@
-// The document that this page shows: opens scans and projects, follows what the engine says of the document, and goes
-// on when another engine or another tab has news of it.
+// The document that this page shows: opens scans and projects, follows the engine's news of the document, and goes on
+// when another engine or another tab has news of it.
 
 import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
@@ -57,10 +57,10 @@ export class OpenDocument {
     await this.openInEngine(found.input);
   }
 
-  // Opens the document that is shown. What the engine says of it may have come already.
+  // Opens the document that is shown. The engine's news of it may have come already.
   async openInEngine(input) {
     const {id} = this, isOpen = this.engine.open(input, viewOf(this.doc.now));
-    this.isOpen = isOpen.catch(() => {}); // whoever opens it is told why it failed
+    this.isOpen = isOpen.catch(() => {}); // the caller of this function is told why it failed
     await isOpen;
     const status = this.statuses.get(id);
     if (status && this.id === id) this.take(status);
@@ -180,7 +180,7 @@ export class OpenDocument {
     await this.reopen();
   }
 
-  // The engine has closed the document: what it said before holds no longer.
+  // The engine has closed the document: its former news holds no longer.
   async closed() {
     this.statuses.delete(this.id);
     await this.reopen();

@@ -17,20 +17,21 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   draft: "Draft angle", tolerance: "Simplify", triangles: "Triangles, at most", resolution: "Resolution", tool: "Tool",
   finish: "Finish",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
-const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic"}; // where a choice of the command line needs more words
+// Choices of the command line that need more words.
+const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic"};
 const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
 const PREPARING = ["up", "points", "mode"];
 const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
-// What rows of shapes are for; the help of their options tells how their texts are written.
+// The uses of the rows of shapes, as tips; the help of their options tells how their texts are written.
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
 const ROWS = Object.keys(LABELS);
 const LEAST_STEP = 0.001; // of arrow keys
 
-// The options of two lengths, by what stands between them.
+// The options of two lengths, with the text between these.
 const PAIRS = {plate: {between: "x", split: /[x×]/}, shift: {between: ",", split: ","}};
 
 // Returns a text such as "200x150" or "5,-3" with each length as typed(length) has it; the text itself if it is no such
@@ -72,9 +73,11 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
 // Controls with a place of their own on the page, by the names of their options.
 const OTHERS = {alpha: "Flatness", crop: "Crop", crumbs: "Keep small pieces", denoise: "Denoise", method: "Method",
   plane: "Keep table, background", tone: "Tone curve", view: "View"};
-// What the engine expects in words that the page does not use, by option; and advice that only a command line can follow.
+// Expectations of the engine, by option, in the words of the page in place of its own.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
-const ADVICE = /; the option channel takes one .*$/, OTHER = ". Save it as a picture in greys, one value per pixel, and open that";
+// Only a command line can follow the engine's advice about pictures in colours.
+const ADVICE = /; the option channel takes one .*$/;
+const OTHER = ". Save it as a picture in greys, one value per pixel, and open that";
 
 // Returns the message of an error in the words of the page, about an option under the name of its field.
 export function inWords({input, message}) {
@@ -141,7 +144,7 @@ export class PieceRows {
     row.rest.begin();
   }
 
-  // Takes what was chosen or typed, unless it is no number where one is wanted.
+  // Takes the choice or the text that was entered, unless it is no number where one is wanted.
   take(name) {
     const {input, rest, isNumber, unit, min, max} = this.rows[name], text = input.value.trim();
     rest.end();
@@ -163,12 +166,13 @@ export class PieceRows {
     return this.entries.add({name, label: LABELS[name], part, isTried: true, isMade});
   }
 
-  // Takes what arrow keys have stepped to and do not rest on yet.
+  // Takes the numbers to which arrow keys have stepped, also before the keys rest.
   takeSteps() {
     for (const [name, {rest}] of Object.entries(this.rows)) if (rest?.isRunning) this.take(name);
   }
 
-  // Shows the document's values, but not in a field in which something is typed or whose entry is being tried.
+  // Shows the document's values, but not in a field in which something is typed, nor in one with an entry that is
+  // tried.
   show() {
     const {options} = this.doc.now, tried = new Set(this.entries.pending.map(({name}) => name));
     for (const [name, {element}] of Object.entries(this.rows)) element.ariaBusy = tried.has(name) ? "true" : null;

@@ -22,8 +22,8 @@ async function together(files) {
 }
 
 export class Projects {
-  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way; `rest()` shows
-  // what there is when nothing is opened.
+  // `open(input, work)` shows a document, see OpenDocument; `take(promise)` shows that bytes are on their way; `rest()`
+  // shows what there is when nothing is opened.
   constructor({engine, open, take, rest, failed}) {
     Object.assign(this, {engine, open, take, rest, failed});
     $("#locate").onchange = (event) => {

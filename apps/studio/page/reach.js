@@ -5,7 +5,8 @@ import {$, make, unbroken} from "./controls.js";
 import {shownOptions} from "./document.js";
 import {withUnit} from "./lengths.js";
 
-// Changes that may let a relief be higher, with the words for what limits it, the draft angle first, as without it the answer takes no time.
+// Changes that may let a relief be higher, with the words for what limits it, the draft angle first, as without it the
+// answer takes no time.
 const LOOSER = [
   {limit: "The draft angle", action: "Drop the draft angle", part: {draft: null}},
   {limit: "The steepest wall", action: "Allow steeper walls", part: {steepest: 85}},

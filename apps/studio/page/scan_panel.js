@@ -20,12 +20,12 @@ export function cropText(numbers) {
   return short.every((x, i) => x === WHOLE[i]) ? "" : short.slice(0, isDeep ? 6 : 4).join();
 }
 
-// What a note offers, by the option and its value that do it.
+// The offers of notes, by the option and the value that they set.
 const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane drop": "Leave it out",
   "denoise 0": "Keep the noise"};
 
-// Returns whether a note stands beside the picture, too: it is about what was taken out of the picture, or about what fills
-// it and is not the figure. Readers of depth images tell of their background in words alone.
+// Returns whether a note stands beside the picture, too. It does if something was taken out of the picture, or fills it
+// and is not the figure. Readers of depth images tell of their background in words alone.
 const isOffered = ({option, text}) => ["crumbs", "plane"].includes(option) || /background taken out/.test(text);
 
 export class ScanPanel {
@@ -87,7 +87,7 @@ export class ScanPanel {
     $("#denoise-value").textContent = noise.toFixed(2);
   }
 
-  // Shows what the document says.
+  // Shows the document's values.
   show() {
     const {crop, crumbs, plane, denoise} = this.doc.now.options;
     const key = [crop, crumbs, plane, denoise, this.facts?.noise].join();
@@ -103,7 +103,7 @@ export class ScanPanel {
       this.showCut(cut, 100 * (WHOLE[cut.at] === 1 ? 1 - numbers[cut.at] : numbers[cut.at]));
   }
 
-  // Shows what was found; nothing for null.
+  // Shows the facts that were found; none for null.
   tell(facts) {
     this.facts = facts;
     const notes = facts ? this.notesOn(facts) : [];

@@ -56,7 +56,8 @@ function shapeText(option, {name, values}) {
 }
 
 export class ShapeRow {
-  // Calls take(change) with what makes the option's new text of its present one, and say(text) with a line for people.
+  // Calls take(change) with a function that makes the option's new text of its present one, and say(text) with a line
+  // for people.
   constructor({option, label, title, take, say}) {
     Object.assign(this, {option, label, take, say, fields: []});
     this.input = make("select", {id: option, "data-option": option, "aria-label": label},
@@ -90,7 +91,7 @@ export class ShapeRow {
     return {name, about, input};
   }
 
-  // Takes what was chosen or typed, unless it is no value or another shape was chosen meanwhile.
+  // Takes the entry, unless it is no value or another shape was chosen meanwhile.
   changed(name, about, input) {
     const {name: shape, text: shown} = this.shown, typed = input.value.trim(), {checked} = input;
     const value = about.isWord || typed === "" ? "" : typedNumber(typed, about, this.say);

@@ -87,7 +87,7 @@ export class Slider {
     this.onEnd();
   }
 
-  // Escape: the number is again what it was before something was typed.
+  // Escape: the number before the typing is shown again.
   takeBack() {
     this.show(this.value);
     this.number.select();
@@ -152,7 +152,7 @@ export class Slider {
     if (!isUnfinished(this.number)) this.number.value = text;
   }
 
-  // Marks a value on the slider, such as the largest that can be reached, and says what it is; none for null.
+  // Marks a value on the slider, such as the largest that can be reached, with a title; none for null.
   showMark(value, title = "") {
     this.mark.hidden = value === null || value > this.hand[1];
     this.range.title = value === null ? "" : title; // the mark is too thin to be pointed at

@@ -58,7 +58,7 @@ export class Stage {
     this.pump();
   }
 
-  // Another scan is shown, whose pictures are still to come: no mark of the one before stays.
+  // Another scan is shown, and its pictures are still to come: no mark of the one before stays.
   clear() {
     Object.assign(this, {isReady: false, model: 0, about: null, line: null});
     this.measure.clear();
@@ -78,7 +78,7 @@ export class Stage {
     if (!isBusy) for (const resolve of this.resting.splice(0)) resolve();
   }
 
-  // Waits for the last picture of what the document says, or until there is none to be had. Returns whether it is there.
+  // Waits for the last picture of the document as it is, or until there is none to be had. Returns whether it is there.
   async rest() {
     await new Promise((resolve) => {
       this.resting.push(resolve);
@@ -150,7 +150,7 @@ export class Stage {
     const {image, about} = await frame;
     if (!this.isReady || model !== this.model) return; // another document or view is shown by now
     if (!isFine && number !== this.wanted && !this.isTable && !this.waitsForPicture)
-      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // whoever draws it says what is wrong
+      (this.ahead = this.ask(false, false)).frame.catch(() => {}); // its error is told when it is drawn
     paint(this.picture, image);
     this.pixelsPerMm = about.pixels_per_mm * this.size.width / image.width;
     this.about = about;
@@ -266,7 +266,7 @@ export class Stage {
   press(event) {
     const isOther = event.target.id === "split" || event.button > 1 || !event.isPrimary;
     if (isOther || this.drag || !this.about) return;
-    this.doc.endStroke(); // what keys or the wheel did before is another step
+    this.doc.endStroke(); // changes by keys or the wheel before are another step
     this.element.setPointerCapture(event.pointerId);
     this.element.classList.add("dragging");
     const isDivider = event.button === 0 && this.comparing.isAt(event.offsetX);
@@ -283,7 +283,7 @@ export class Stage {
     if (isStepwise) Object.assign(drag, {x, y});
   }
 
-  // The cursor tells what a drag would take.
+  // The cursor tells whether a drag would take a line's end or the divider.
   hover({offsetX: x, offsetY: y}) {
     const line = {section: this.line, measure: this.measure.line}[this.tool];
     this.element.classList.toggle("at-divider", this.comparing.isAt(x));
@@ -320,7 +320,7 @@ export class Stage {
     this.invalidate();
   }
 
-  // Takes back what the running drag has changed; the rest of it changes nothing. Returns whether there was anything.
+  // Takes back the changes of the running drag; the rest of it changes nothing. Returns whether there were any.
   takeBack() {
     const isEnded = ["turn", "place"].includes(this.drag?.tool);
     if (isEnded) {

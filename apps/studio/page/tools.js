@@ -1,8 +1,8 @@
-// The tools of the picture: what a drag with each of them moves, and what the arrow keys do. An entry has
+// The tools of the picture, with their functions for drags and arrow keys. A tool has
 //   does                    for the name of the picture
 //   isLevel                 whether the relief is seen from the front with it
 //   isStepwise              whether a drag is taken step by step, from where the pointer was last
-//   press(stage, event)     for what comes before a drag
+//   press(stage, event)     when a drag begins
 //   move(stage, to)         `to` is {x, y, dx, dy, event}: where the pointer is, and how far it went
 //   release(stage, drag)    when a drag has ended
 //   step(stage, x, y)       by arrow keys, finely with Shift
@@ -33,7 +33,7 @@ function place(stage, {dx, dy, event}) {
   stage.drawOverlay();
 }
 
-// Calls set(line) with a line that is drawn, or of which an end is dragged.
+// Calls set(line) with the line that is drawn or dragged by an end.
 function drawLine(stage, line, {x, y, dx, dy}, set) {
   if (Math.hypot(dx, dy) > 3) set(stage.measure.dragged(line, stage.drag, stage.toPlace(x, y)));
 }
@@ -85,7 +85,7 @@ export const TOOLS = {
   none: {}, // of a drag that was taken back
 };
 
-// Takes keys on the relief: arrows move what the tool in hand moves, and + and - zoom.
+// Takes keys on the relief: arrows are for the tool in hand, and + and - zoom.
 export function takeKey(stage, event) {
   const {width, height} = stage.size, step = ARROWS[event.key], size = event.shiftKey ? 0.2 : 1;
   if (event.key === "+") return stage.zoomBy(1.2, width / 2, height / 2);

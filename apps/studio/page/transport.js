@@ -45,7 +45,7 @@ export class Transport {
   }
 
   // A browser has six connections to a server for all its tabs, and a stream of events occupies one. So the tab that
-  // has the lock opens the stream and passes on what it says; when that tab goes, another has the lock.
+  // has the lock opens the stream and passes on its events; when that tab goes, another has the lock.
   follow(onStatus, onLost) {
     const tabs = new BroadcastChannel(location.pathname);
     const take = (status) => (status ? onStatus(status) : onLost());

@@ -22,8 +22,8 @@ export class ViewDialog {
     this.listen();
   }
 
-  // Shows beside the name of the document's view what it shows: sides have their names by the file's axes, and whoever
-  // wrote the file may have had the face of a figure look downwards.
+  // Shows a picture of the document's view beside its name: sides have their names by the file's axes, and the face of
+  // a figure may look downwards in the file.
   async tell({options, input}, isThere) {
     $("#view-name").textContent = viewName(options.view);
     const directions = directionsOf(options), picture = $("#view-picture");
@@ -38,7 +38,7 @@ export class ViewDialog {
     picture.hidden = false;
   }
 
-  // Draws what each side shows.
+  // Draws the picture of each side.
   async drawSides() {
     for (const button of $("#sides").children) {
       const {image} = await this.engine.scan({...SIDES[button.dataset.side], ...SIDE});

@@ -70,10 +70,7 @@ test("tells in forced colours what is pressed, which material is which, and wher
   }
 });
 
-test("leaves the picture room on a phone, and at a zoom of 200 %", {skip}, async () => {
-  await page.setViewportSize(PHONE);
-  const wide = await page.locator("#stage").boundingBox();
-  assert.ok(wide.width === PHONE.width && wide.height > 330, `${wide.width} x ${wide.height}`);
+test("leaves the picture room at a zoom of 200 %", {skip}, async () => {
   await page.setViewportSize(ZOOMED);
   const {width, height} = await page.locator("#stage").boundingBox();
   assert.ok(width >= 300 && height >= 300, `${width} x ${height}`);

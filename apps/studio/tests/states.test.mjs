@@ -139,6 +139,13 @@ test("fits every screen before the first scan", {skip}, async (state) => {
   await button("Dismiss").click();
 });
 
+test("leaves the picture room on a phone", {skip}, async () => {
+  await page.setViewportSize(PHONE);
+  const {width, height} = await page.locator("#stage").boundingBox();
+  assert.ok(width === PHONE.width && height > 330, `${width} x ${height}`);
+  await page.setViewportSize(DESK);
+});
+
 for (const [name, {enter, leave, part}] of Object.entries(STATES))
   test(`fits every screen: ${name}`, {skip}, async (state) => {
     try {

@@ -98,8 +98,8 @@ export class EngineProcess {
     });
   }
 
-  // Waits until the status of a document is as `isMeant` says, which is asked again after each pause. By itself it waits
-  // until nothing is prepared.
+  // Waits until the status of a document is as `isMeant` says, which is asked again after each pause. By itself it
+  // waits until nothing is prepared.
   async until(isMeant = ({busy}) => !busy, document = this.document, pauseMs = 20) {
     for (const end = Date.now() + PATIENCE_MS; Date.now() < end; await sleep(pauseMs)) {
       const status = await this.json("status", {document});

@@ -2,8 +2,8 @@
 
 const PIECE = 4 << 20; // bytes that are read at once
 
-// Returns a file as npm/src/files.js describes, and throws if the browser does not let it be read. Only workers can read
-// without waiting.
+// Returns a file as npm/src/files.js describes, and throws if the browser does not let it be read. Only workers can
+// read without waiting.
 export function fileOf(blob) {
   const reader = new FileReaderSync();
   let start = 0, piece = new Uint8Array();

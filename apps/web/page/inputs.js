@@ -26,8 +26,8 @@ export const scansOf = (state) => [scanOf(inputOf(state)),
 const endingOf = ({name}) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 const BESIDE = new Set(["mtl", "bin", "png", "jpg", "jpeg", "tif", "tiff"]); // where another file is the model
 
-// Returns of several files the one that is opened: the only one, the scene, or the model that the others belong to. Models
-// side by side get a scene of their own.
+// Returns of several files the one that is opened: the only one, the scene, or the model that the others belong to.
+// Models side by side get a scene of their own.
 export function mainOf(files) {
   const scene = files.find((file) => endingOf(file) === "json");
   if (files.length === 1 || scene) return scene ?? files[0];

@@ -1,5 +1,5 @@
 // Takes requests to the engine in WebAssembly, which runs in a worker, and to the work that the browser keeps. It takes
-// the place of apps/studio/page/transport.js, and engine.js there says what a transport has.
+// the place of apps/studio/page/transport.js; engine.js there describes transports.
 import {compile} from "../../../npm/src/compile.js";
 import {CANCELLED, EngineError, TAB, cancelled} from "../../studio/page/engine.js";
 import {BASE_IMAGE, bytesOf, documentOf, inputOf, mainOf, scanOf} from "./inputs.js";
@@ -19,21 +19,22 @@ const LIMITS = [
 ];
 
 export class Transport {
-  traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31}; // so that 30 are drawn in a second
+  // 30 frames are to be drawn in a second.
+  traits = {takesSeveral: true, drawsMeanwhile: false, canRemove: false, slowMs: 31};
   #store = new BrowserStore();
   #module = null;
   #pictures = null; // of the page, by name
   #worker = null;
   #waiting = new Map(); // by number of the message
   #last = 0;
-  #opened = {document: "", input: null}; // what was opened last
+  #opened = {document: "", input: null}; // the document that was opened last
   #isOpen = new Set(); // documents, in this worker
   #statuses = new Map(); // by document, as told last
   #kept = new Map(); // by document, when it was kept last, and by which tab
   #onStatus = () => {};
   #say = () => {};
   #tabs = null;
-  // What takes the place of the program's files and threads.
+  // The requests that the page answers itself, in place of the program's files and threads.
   #own = {
     about: () => this.#about(), document: ({input}) => this.#find(input), open: (request) => this.#open(request),
     upload: (_, files) => this.#upload(files), project: ({name}, [file]) => this.#readProject(name, file),
@@ -65,7 +66,7 @@ export class Transport {
     worker.postMessage({module});
   }
 
-  // Ends the worker: what waits for it gets the error, and what is asked for next starts another one.
+  // Ends the worker: waiting requests get the error, and the next one starts another worker.
   #end(error, others = error) {
     this.#worker?.terminate();
     this.#worker = null;
@@ -75,7 +76,7 @@ export class Transport {
     for (const {isMaking, reject} of waiting) reject(isMaking ? error : others);
   }
 
-  // Ends what the worker prepares, of which nothing is wanted any more.
+  // Ends the worker's preparation of a document that is not wanted any more.
   #endPreparation() {
     if (this.#worker && this.#status().busy) this.#end(cancelled(), closed());
   }

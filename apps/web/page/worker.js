@@ -1,5 +1,5 @@
-// The worker of the page: the engine in WebAssembly. It takes {id, call, request, files} and answers {id, status, about,
-// body}, {id, error} or, when it can go on no longer, {id, error, isOver}; and {statuses} whenever one has changed.
+// The worker of the page: the engine in WebAssembly. It takes {id, call, request, files} and answers {id, status, type,
+// about, body}, {id, error} or, when it can go on no longer, {id, error, isOver}; and {statuses} when one has changed.
 import { Engine } from "../../../npm/src/engine.js";
 import { fileOf } from "./blob_file.js";
 
