@@ -85,8 +85,9 @@ std::vector<Remark> remarks_on(const ScanReport& scan, std::size_t outliers) {
   if (scan.plane) all.push_back(remark_on(*scan.plane));
   if (scan.lacks_plane) all.push_back({"found no table or background to leave out", "plane"});
   if (scan.removed_noise > 0 && scan.removed_noise == scan.measured_noise)
-    all.push_back({cat("removed noise of ", std::round(100 * scan.removed_noise) / 100, " sampling distances"),
-                   "denoise", "0", "keeps it"});
+    all.push_back(
+        {cat("removed noise of ", std::round(100 * scan.removed_noise) / 100, " sampling distances"),
+         "denoise", "0", "keeps it"});
   return all;
 }
 
