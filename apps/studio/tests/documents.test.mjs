@@ -255,12 +255,14 @@ test("keeps every document with its scan until it is removed, and says how much 
     await keep(other, ids[i], stateOf(inputs[i], 3, 5));
   }
   const models = [{file: inputs[0].path}, {file: inputs[1].path}];
+  const lost = await dropped(other, "lost.xyz", "0 0 1\n"); // its document is not kept
   const scene = await dropped(other, "scene.json", JSON.stringify({models}));
   const ofScene = (await other.json("document", {input: scene})).document;
   await keep(other, ofScene, stateOf(scene, 3, 5));
   await other.stop();
+  assert.ok(existsSync(lost.path));
   other = await studioIn("many");
-  assert.ok(inputs.every((input) => existsSync(input.path)));
+  assert.ok(inputs.every((input) => existsSync(input.path)) && !existsSync(lost.path));
   const sizes = filesIn(place).filter((name) => /^(documents|scans).*\./.test(name));
   const bytes = sizes.reduce((sum, name) => sum + statSync(path.join(place, name)).size, 0);
   assert.deepEqual(await other.json("kept"), {documents: count + 1, bytes});
@@ -280,6 +282,9 @@ test("keeps every document with its scan until it is removed, and says how much 
   assert.equal(await remove(ids[3]), 200);
   assert.equal((await other.json("recent")).recent.some(({document}) => document === ids[3]), false);
   for (const id of ["../address", "", "0123"]) assert.equal(await remove(id), 400);
+  rmSync(inputs.at(-1).path);
+  assert.equal((await other.json("recent")).recent.find(({document}) => document === ids.at(-1)).is_there, false);
+  assert.equal(await heightKept(other, inputs.at(-1)), 3);
   await other.stop();
 });
 
@@ -319,21 +324,6 @@ int fsync(int file) { while (access(getenv("GO"), F_OK)) usleep(5000); return sy
   assert.deepEqual(answers, ["heard", "kept"]);
   events.destroy();
   await other.stop();
-});
-
-test("keeps dropped scans for as long as it runs and their documents are kept", async () => {
-  const other = await studioIn("dropped"), inputs = [];
-  for (let i = 0; i < 12; ++i) inputs.push(await dropped(other, `${i}.xyz`, `${i} 0 0\n`));
-  for (const input of inputs) assert.ok(existsSync(input.path));
-  const {document} = await other.json("document", {input: inputs[0]});
-  await keep(other, document, stateOf(inputs[0], 3, 5));
-  await other.stop();
-  const next = await studioIn("dropped");
-  assert.deepEqual(inputs.map((input) => existsSync(input.path)), inputs.map((_, i) => i === 0));
-  rmSync(inputs[0].path);
-  assert.equal((await next.json("recent")).recent[0].is_there, false);
-  assert.equal(await heightKept(next, inputs[0]), 3);
-  await next.stop();
 });
 
 test("shows several documents at once, each with its own scan, settings and files", async () => {

@@ -90,7 +90,7 @@ test("keeps the controls of a rim with it, and takes it off a piece without an o
 test("keeps the figure's size on another plate, as long as it fits", {skip}, async () => {
   const plate = labelled("Plate size"), shift = page.locator("#shift");
   const longer = async () => Number(await text("Longer side in mm"));
-  await enter(plate, "200x150");
+  await enter(plate, "20cm x 150");
   await untilPiece("200.00 × 150.00");
   assert.ok((await longer()) > 120, "as large as fits");
   await set("Longer side in mm", 64);

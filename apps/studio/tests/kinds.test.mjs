@@ -65,6 +65,7 @@ test("makes the die of exactly the piece that is shown, and takes it back", {ski
   assert.deepEqual([coin.name, die.name], ["scan-coin.stl", "scan-die.stl"]);
   await page.getByText(`The die itself is ${die.told.join(" × ")} mm.`).waitFor();
   assert.deepEqual(die.told, die.size);
+  assert.ok(Number(die.size[0]) > Number(coin.size[0]), "the die is larger than its coin");
   const [relief, hollow] = [await profile("relief"), (await profile("die")).reverse()];
   const inner = relief.flatMap((z, i) => (i > 30 && i < 370 ? [Math.abs(z + hollow[i])] : []));
   assert.ok(inner.filter((gap) => gap < 0.02).length > 0.97 * inner.length, `${Math.max(...inner)}`);

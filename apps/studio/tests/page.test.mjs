@@ -4,11 +4,10 @@ import {readFileSync, writeFileSync} from "node:fs";
 import path from "node:path";
 import {test} from "node:test";
 import {DESK, PHONE, TABLET, browser, button, chooseView, drag, engine, exportDialog, exportFiles, exported, field,
-  folder, found, labelled, middleOf, numbers, openExport, openFile, page, pieceSize, plateLength, preset, press, radio,
-  scan, set, skip, slider, startEngine, text, toast, touchScreen, undo, undoAll, untilTold,
-  withBrowser} from "./page_suite.mjs";
-import {doubleClick, enter, eventually, openPanels, readStl, run, savedFiles, type, untilListening, untilReady,
-  untilTimersRan, writeSample} from "./support.mjs";
+  folder, found, middleOf, numbers, openExport, openFile, page, plateLength, preset, press, radio, scan, set, skip,
+  slider, startEngine, text, toast, touchScreen, undo, withBrowser} from "./page_suite.mjs";
+import {doubleClick, enter, eventually, openPanels, run, savedFiles, type, untilListening, untilReady,
+  writeSample} from "./support.mjs";
 
 const complaints = [];
 
@@ -18,16 +17,11 @@ withBrowser(async () => {
   first.on("pageerror", (error) => complaints.push(error.message));
   first.on("console", (message) => message.type() === "error" &&
     complaints.push(`${message.text()} ${message.location().url}`));
-  await start(first);
+  await first.goto((await startEngine()).address);
+  await untilListening(first); // and keeps panels open
+  await openPanels(first);
   return first;
 });
-
-// Panels stay open when the page is loaded anew, once its program listens to them.
-async function start(first = page) {
-  await first.goto((await startEngine()).address);
-  await untilListening(first);
-  await openPanels(first);
-}
 
 const kind = radio, stage = () => page.getByRole("application", {name: /^Relief/});
 const value = async (name) => Number(await text(name));
@@ -485,59 +479,6 @@ test("moves nothing by itself where motion is to be reduced", {skip}, async (con
     return context.skip("the browser's driver does not reduce motion");
   assert.equal(await longest(), 0);
   await page.emulateMedia({reducedMotion: "no-preference"});
-});
-
-test("cuts a round plate", {skip}, async () => {
-  await labelled("Outline").selectOption("Circle");
-  const {isClosed, size} = await exported(), before = readStl(readFileSync(path.join(folder, "make.stl")));
-  assert.ok(isClosed);
-  assert.ok(Math.abs(size[0] - size[1]) < 0.01, `${size}`);
-  assert.ok(size[0] > Math.max(...before.size.slice(0, 2)), `${size}, the rectangle ${before.size}`);
-  await undo();
-  assert.equal(await labelled("Outline").inputValue(), "rectangle");
-});
-
-test("fits the relief into a plate of the size that is asked for", {skip}, async () => {
-  const width = await value("Longer side in mm");
-  await enter(labelled("Plate size"), "20cm x 150");
-  await untilTold(/piece 200\.00 × 150\.00/);
-  assert.notEqual(await value("Longer side in mm"), width);
-  await kind("Coin").click();
-  await enter(labelled("Diameter"), "80");
-  await untilTold(/piece 80\.00 × 80\.00/);
-  const most = await value("Longer side in mm");
-  await set("Longer side in mm", 30);
-  await untilTold(/piece 80\.00 × 80\.00/);
-  assert.equal(await value("Longer side in mm"), 30);
-  await set("Longer side in mm", 500); // the plate leaves less
-  await eventually(async () => assert.equal(await value("Longer side in mm"), most)); // as its frame tells
-  await kind("Seal").click();
-  assert.equal(await labelled("Diameter").inputValue(), "80");
-  await picture();
-  assert.ok((await pieceSize())[0] > 80, "the die is larger than its coin");
-  await undoAll(page, () => kind("Plaque").isChecked());
-  await undo();
-  await eventually(async () => assert.equal(await value("Longer side in mm"), width));
-});
-
-test("goes on after a reload and after a new start of the engine", {skip}, async () => {
-  await set("Margin in mm", 7);
-  const shown = await picture();
-  await page.reload();
-  await untilReady(page);
-  assert.equal(await value("Margin in mm"), 7);
-  await becomesSame(shown);
-  await untilTimersRan(page, 1000); // it has nothing more to keep
-  complaints.length = 0;
-  await engine.stop();
-  await toast().getByText(/engine has stopped/).waitFor();
-  await start();
-  complaints.length = 0;  // of the time without an engine
-  await untilReady(page);
-  assert.equal(await value("Margin in mm"), 7);
-  await becomesSame(shown);
-  await undo();
-  assert.equal(await value("Margin in mm"), 5);
 });
 
 test("says in plain words what is wrong with a file", {skip}, async () => {
