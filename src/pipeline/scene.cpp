@@ -16,11 +16,12 @@ namespace {
 constexpr double gap = .08, widest = 1.5;  // in heights of a model
 
 std::unexpected<Error> option_error(const SceneModel& model, std::string expected) {
-  return option_error(model.name, std::move(expected));
+  return std::unexpected(Error{ErrorKind::option, model.name, {}, std::move(expected)});
 }
 
 Result<void> check(const Scene& scene) {
-  if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");
+  if (scene.models.empty())
+    return std::unexpected(Error{ErrorKind::option, {}, {}, "expected a scene of at least one model"});
   for (const SceneModel& model : scene.models) {
     const Pose& pose = model.pose;
     if (!(pose.scale >= 1e-6 && pose.scale <= 1e6))

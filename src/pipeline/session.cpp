@@ -163,7 +163,8 @@ struct Session::State {
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
     const auto [known, last, all_sides, denoise] = shared.with(
         [](const Shared& s) { return std::tuple(s.turntable, s.measured, s.all_sides, s.denoise); });
-    if (!last.cloud) return geometry_error("expected points that were prepared");
+    if (!last.cloud)
+      return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected points that were prepared"});
     if (known) return known;
     View whole = view;
     whole.crop = {};
