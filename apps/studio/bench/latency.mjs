@@ -6,7 +6,7 @@
 // made is shown by the next one.
 import path from "node:path";
 import {pathToFileURL} from "node:url";
-import {EngineProcess, areKindsDrawn, findBrowser, openPanels, removeFolder, temporaryFolder} from "../tests/support.mjs";
+import {EngineProcess, areKindsDrawn, findBrowser, openPanels, temporaryFolder} from "../tests/support.mjs";
 
 const SECONDS = 4, EVENTS_PER_SECOND = 60;
 // The sliders by their names, today's and former ones; a drag goes over these shares of a slider or of the picture.
@@ -69,7 +69,6 @@ async function measureOpening(scan) {
     exact.push(end - events[0]);
     await page.close();
     await engine.stop();
-    removeFolder(state);
   }
   for (const [name, times] of Object.entries({"opening, first relief": first, "opening, exact relief": exact}))
     row([path.basename(scan, path.extname(scan)), name, times.sort((a, b) => a - b)[2].toFixed(0), "", "", ""]);
@@ -83,12 +82,9 @@ async function openInPage(page, scan) {
 }
 
 async function openInProgram(page, scan) {
-  const state = temporaryFolder(), engine = await new EngineProcess(state, path.resolve(scan)).ready();
+  const engine = await new EngineProcess(temporaryFolder(), path.resolve(scan)).ready();
   await page.goto(engine.address);
-  return async () => {
-    await engine.stop();
-    removeFolder(state);
-  };
+  return () => engine.stop();
 }
 
 async function drag(page, {slider, tool, from, to}) {

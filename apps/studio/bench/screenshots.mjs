@@ -1,5 +1,5 @@
 // Takes the README's pictures of the studio: node apps/studio/bench/screenshots.mjs
-import {EngineProcess, areKindsDrawn, findBrowser, removeFolder, temporaryFolder} from "../tests/support.mjs";
+import {EngineProcess, areKindsDrawn, findBrowser, temporaryFolder} from "../tests/support.mjs";
 
 const found = await findBrowser();
 if (found.missing) throw new Error(found.missing);
@@ -38,4 +38,3 @@ await dark.getByRole("button", {name: "Light table"}).click();
 await take(dark, "light-table");
 await browser.close();
 await engine.stop();
-removeFolder(state);

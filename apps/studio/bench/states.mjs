@@ -2,7 +2,7 @@
 // node apps/studio/bench/states.mjs FOLDER
 import path from "node:path";
 import {STATES, showScene} from "../tests/states.mjs";
-import {EngineProcess, findBrowser, openPanels, removeFolder, temporaryFolder, untilReady,
+import {EngineProcess, findBrowser, openPanels, temporaryFolder, untilReady,
   writeScans} from "../tests/support.mjs";
 
 const SCREENS = [{width: 1280, height: 800}, {width: 390, height: 844}];
@@ -37,4 +37,3 @@ await showScene(page, scans);
 await take("a scene");
 await browser.close();
 await engine.stop();
-removeFolder(folder);

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import net from "node:net";
 import path from "node:path";
 import {after, before} from "node:test";
-import {EngineProcess, removeFolder, temporaryFolder, writeSample} from "./support.mjs";
+import {EngineProcess, temporaryFolder, writeSample} from "./support.mjs";
 
 export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
 export let engine;
@@ -19,10 +19,7 @@ export function withEngine(sample, points, begin = () => engine.open({path: scan
     engine = await new EngineProcess(state).ready();
     await begin();
   });
-  after(async () => {
-    await engine?.stop();
-    removeFolder(folder);
-  });
+  after(() => engine?.stop());
 }
 
 // Starts another studio, in a folder of that name.

@@ -214,7 +214,7 @@ test("waits with an export for a view that is being prepared", {skip}, async () 
 const SEED = 7, SEQUENCES = 15; // random_entries.mjs runs hundreds of them
 
 test("takes random sequences of entries, and exports what it shows", {skip, timeout: 540000}, async () => {
-  const shown = await showSmallScan(found);
+  const shown = await showSmallScan();
   try {
     for (let i = 0; i < SEQUENCES; ++i) await runSequence(shown, SEED + i);
   } finally {

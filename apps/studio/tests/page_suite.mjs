@@ -2,8 +2,8 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {after, before} from "node:test";
-import {EngineProcess, enter, eventually, findBrowser, openPanels, readStl, removeFolder, savedFiles, showScan,
-  temporaryFolder, untilReady, writeSample} from "./support.mjs";
+import {EngineProcess, enter, eventually, findBrowser, openPanels, readStl, savedFiles, showScan, temporaryFolder,
+  untilReady, writeSample} from "./support.mjs";
 
 export const found = await findBrowser(), {skip} = found;
 export const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
@@ -20,7 +20,6 @@ export function withBrowser(begin) {
   after(async () => {
     await browser?.close();
     await engine?.stop();
-    removeFolder(folder);
   });
 }
 

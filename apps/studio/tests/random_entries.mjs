@@ -4,8 +4,9 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import {fileURLToPath} from "node:url";
-import {areKindsDrawn, enter, eventually, findBrowser, openPanels, readStl, removeFolder, savedFiles, showScan,
-  temporaryFolder, untilReady, writeSample} from "./support.mjs";
+import {button, exportFiles, found, option, radio} from "./page_suite.mjs";
+import {areKindsDrawn, enter, eventually, openPanels, readStl, showScan, temporaryFolder, untilReady,
+  writeSample} from "./support.mjs";
 
 // Returns a function that returns numbers from 0 to 1, the same ones for the same seed.
 export function randomNumbers(seed) {
@@ -28,8 +29,8 @@ const NUMBERS = [...Object.keys(RANGES), "plate", "shift"];
 const BESIDES = {diameter: ["plate", "width", "shift"], plate: ["diameter", "width", "shift"]};
 
 export class RandomEntries {
-  constructor({browser, page, random}) {
-    Object.assign(this, {browser, page, random, done: [], typed: {}});
+  constructor({page, random}) {
+    Object.assign(this, {page, random, done: [], typed: {}});
   }
 
   between(low, high) {
@@ -38,10 +39,6 @@ export class RandomEntries {
 
   oneOf(list) {
     return list[Math.floor(this.random() * list.length)];
-  }
-
-  field(name) {
-    return this.page.locator(`[data-option="${name}"]`).first();
   }
 
   // Does a random number of things, then looks whether all that was typed is there, and was made.
@@ -87,7 +84,7 @@ export class RandomEntries {
   }
 
   async enter(name, text) {
-    const field = this.field(name), {keyboard} = this.page;
+    const field = option(name, this.page), {keyboard} = this.page;
     if (!(await field.isVisible()) || !(await field.isEnabled())) return false;
     const isConfirmed = this.random() < 0.7;
     this.done.push(`${name} ${text}${isConfirmed ? " Enter" : ""}`);
@@ -101,7 +98,7 @@ export class RandomEntries {
   async choose() {
     const name = this.oneOf(KINDS);
     this.done.push(name);
-    await this.page.getByRole("radio", {name, exact: true}).click();
+    await radio(name, this.page).click();
     this.typed = {};
   }
 
@@ -115,19 +112,19 @@ export class RandomEntries {
 
   // A button takes what is typed before, which may enable it, or disable it.
   async press(name) {
-    const button = this.page.getByRole("button", {name, exact: true});
+    const pressed = button(name, this.page);
     this.done.push(name);
     await this.page.evaluate(() => document.activeElement.blur());
-    if (await button.isDisabled()) return;
-    await button.click({timeout: 1000}).catch(() => {}); // which has nothing to do any more
+    if (await pressed.isDisabled()) return;
+    await pressed.click({timeout: 1000}).catch(() => {}); // it has nothing to do any more
     this.typed = {};
   }
 
   // Presses a button until it is disabled, or so many times. Returns how many times that was.
   async pressAll(name, most = Infinity) {
-    const button = this.page.getByRole("button", {name, exact: true});
+    const pressed = button(name, this.page);
     let steps = 0;
-    for (; steps < most && (await button.isEnabled()); ++steps) await button.click();
+    for (; steps < most && (await pressed.isEnabled()); ++steps) await pressed.click();
     return steps;
   }
 
@@ -147,12 +144,9 @@ export class RandomEntries {
 
   async exported() {
     await this.open();
-    const told = await this.compare(), {browser, page} = this;
-    const [{bytes}] = await savedFiles(browser, page, 1, () => page.locator("#export-go").click());
-    const {size, isClosed} = readStl(bytes);
+    const told = await this.compare(), [{bytes}] = await exportFiles(1, this.page), {size, isClosed} = readStl(bytes);
     assert.ok(isClosed);
     this.near(size, told.size, "the file and the dialog");
-    await page.locator("#export-dialog").waitFor({state: "hidden"});
   }
 
   near(found, wanted, text) {
@@ -172,7 +166,7 @@ export class RandomEntries {
     const fields = await this.snapshot();
     for (const [name, text] of Object.entries(this.typed).filter(([name]) => fields[name] !== undefined))
       this.sameText(fields[name], text, name);
-    const isReached = (await this.field("height").getAttribute("aria-invalid")) !== "true";
+    const isReached = (await option("height", this.page).getAttribute("aria-invalid")) !== "true";
     if (isReached) this.near([dialog.height], [Number(fields.height)], "height and its field");
     if (["Seal", "Bent"].includes(fields.kind)) return dialog;
     const [x, y, z] = dialog.size, plate = fields.plate?.split("x").map(Number);
@@ -200,8 +194,8 @@ export class RandomEntries {
   }
 }
 
-// Shows a small scan whose pieces are made quickly. Returns what is needed for runSequence(), and close().
-export async function showSmallScan(found) {
+// Shows a small scan: its pieces are made quickly. Returns {page, close}.
+export async function showSmallScan() {
   const folder = temporaryFolder(), scan = path.join(folder, "scan.ply"), state = path.join(folder, "state");
   writeSample("green_man", 2000, scan);
   const browser = await found.launch(), screen = {width: 900, height: 600}; // so that pictures are drawn quickly, too
@@ -224,13 +218,12 @@ export async function showSmallScan(found) {
   const close = async () => {
     await browser.close();
     await engine.stop();
-    removeFolder(folder);
   };
-  return {browser: found, page, close};
+  return {page, close};
 }
 
-export async function runSequence({browser, page}, seed) {
-  const entries = new RandomEntries({browser, page, random: randomNumbers(seed)});
+export async function runSequence({page}, seed) {
+  const entries = new RandomEntries({page, random: randomNumbers(seed)});
   try {
     await entries.run();
   } catch (error) {
@@ -240,9 +233,8 @@ export async function runSequence({browser, page}, seed) {
 }
 
 async function main(sequences, seed) {
-  const found = await findBrowser();
   if (found.skip) return;
-  let failed = 0, shown = await showSmallScan(found);
+  let failed = 0, shown = await showSmallScan();
   for (let i = 0; i < sequences; ++i) {
     try {
       await runSequence(shown, seed + i);
@@ -250,7 +242,7 @@ async function main(sequences, seed) {
       ++failed;
       console.log(`FAILED ${error.message}`);
       await shown.close();
-      shown = await showSmallScan(found);
+      shown = await showSmallScan();
     }
     if ((i + 1) % 25 === 0) console.log(`${i + 1} sequences, ${failed} failed`);
   }

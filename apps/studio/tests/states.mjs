@@ -1,34 +1,30 @@
 // The states of the studio's page, for tests and pictures of each. A state is entered from the plain relief, which
 // shows one scan of a file with all panels open, and left for it again.
+import {button, choose, field, undo} from "./page_suite.mjs";
 import {enter, untilReady} from "./support.mjs";
 
-const button = (page, name) => page.getByRole("button", {name, exact: true});
-const press = (name) => (page) => button(page, name).click();
+const press = (name) => (page) => button(name, page).click();
 const escape = (page) => page.keyboard.press("Escape");
 const nothing = () => {};
 
-const choose = async (page, name) => {
-  await page.getByRole("radio", {name, exact: true}).click();
-  await untilReady(page);
-};
-const tool = (name) => ({enter: (page) => choose(page, name), leave: (page) => choose(page, "Light")});
+const tool = (name) => ({enter: (page) => choose(name, page), leave: (page) => choose("Light", page)});
 
-// The work that a kind sets is taken back at once.
-const undo = async (page) => {
-  await button(page, "Undo").click();
+// The changes of a state are taken back at once.
+const undone = (times) => async (page) => {
+  await undo(times, page);
   await untilReady(page);
 };
-const kind = (name) => ({enter: (page) => choose(page, name), leave: undo});
+const kind = (name) => ({enter: (page) => choose(name, page), leave: undone(1)});
 
 // More than steps at depth jumps can make up for.
 const highest = async (page) => {
-  await enter(page.getByRole("spinbutton", {name: "Steepest wall in degrees"}), "30");
-  await enter(page.getByRole("spinbutton", {name: "Height in mm"}), "300");
+  await enter(field("Steepest wall in degrees", page), "30");
+  await enter(field("Height in mm", page), "300");
   await page.locator("#reach button").waitFor();
 };
 
 const exporting = async (page) => {
-  await button(page, "Export").click();
+  await button("Export", page).click();
   const dialog = page.getByRole("dialog", {name: "Export"});
   await dialog.getByText(/triangles/).waitFor();
   await dialog.getByRole("checkbox", {name: /^Height map/}).check();
@@ -37,9 +33,9 @@ const exporting = async (page) => {
 // Each step of the tour is entered from the plain relief.
 const tourStep = (step) => ({
   part: ".tour", leave: escape, enter: async (page) => {
-    await button(page, "Help").click();
-    await button(page, "Take the tour").click();
-    for (let i = 1; i < step; ++i) await button(page, "Next").click();
+    await button("Help", page).click();
+    await button("Take the tour", page).click();
+    for (let i = 1; i < step; ++i) await button("Next", page).click();
   },
 });
 
@@ -53,7 +49,7 @@ export const STATES = {
   ...Object.fromEntries(["Turn", "Orbit", "Pan", "Place", "Crop", "Section", "Measure"].map((name) =>
     [`tool ${name}`, tool(name)])),
   ...Object.fromEntries(["Coin", "Carving", "Seal", "Lithophane", "Bent"].map((name) => [`kind ${name}`, kind(name)])),
-  "a height out of reach": {enter: highest, leave: async (page) => (await undo(page), undo(page))},
+  "a height out of reach": {enter: highest, leave: undone(2)},
   comparison: {enter: press("Compare"), leave: press("Compare")},
   "light table": {enter: press("Light table"), leave: press("Light table")},
   "choosing the view": {part: "#view-dialog", enter: press("Choose view"), leave: escape},

@@ -15,13 +15,17 @@ const CHROMIUM_FLAGS = ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no
 // All waits end when what they wait for comes. This is how long it may take on a machine that is busy with other work.
 export const PATIENCE_MS = 240000;
 
+const folders = [];
+const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true, maxRetries: 5});
+process.on("exit", () => folders.forEach(removeFolder));
+
+// Returns a folder that goes with this process.
 export function temporaryFolder() {
-  return mkdtempSync(path.join(tmpdir(), "relievo-studio-"));
+  folders.push(mkdtempSync(path.join(tmpdir(), "relievo-studio-")));
+  return folders.at(-1);
 }
 
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
-
-export const removeFolder = (folder) => rmSync(folder, {recursive: true, force: true});
 
 // `relievo studio` with its own state folder.
 export class EngineProcess {
@@ -267,7 +271,6 @@ export async function findBrowser(name = process.env.BROWSER || "chromium") {
   try {
     const {default: {chromium, firefox}} = await import(process.env.PLAYWRIGHT ?? "playwright-core");
     const folder = isFirefox ? temporaryFolder() : null; // of downloads
-    process.on("exit", () => folder && removeFolder(folder));
     const firefoxUserPrefs = {"browser.download.alwaysOpenPanel": false}; // which takes the focus from the page
     const settings = {executablePath, timeout: PATIENCE_MS}, start = () => (isFirefox
       ? firefox.launch({...settings, channel: "moz-firefox", downloadsPath: folder, firefoxUserPrefs})
