@@ -24,7 +24,9 @@ export const pair = (label, control, attributes = {}) =>
 export function textField(attributes, {take, show}) {
   const input = make("input", {autocomplete: "off", ...attributes});
   input.onchange = () => take(input.value.trim());
-  input.onkeydown = ({key}) => key === "Escape" && show();
+  input.onkeydown = ({key}) => {
+    if (key === "Escape") show(); // a result of false would take the key away
+  };
   return input;
 }
 
