@@ -104,7 +104,7 @@ export class Measure {
     return {from: [-half, 0], to: [half, 0]};
   }
 
-  // Has the heights along the part of a line that lies on the piece shown.
+  // Shows the section along the part of a line that lies on the piece.
   async cut(line) {
     const {stage} = this, {outline, wrap} = stage.doc.now.options;
     const isRound = ["circle", "ellipse"].includes(outline) && wrap === "none";

@@ -51,7 +51,7 @@ export class ViewDialog {
     this.dialog.returnValue = "cancel";
     $("#suggestion").textContent = "";
     this.dialog.showModal();
-    this.look(directionsOf(options) ?? SIDES.front); // which is not chosen yet
+    this.look(directionsOf(options) ?? SIDES.front); // the view may not be chosen yet
     this.drawSides().catch(this.onFailed);
   }
 
