@@ -20,7 +20,7 @@ const MOVEMENTS = {
 };
 
 const found = await findBrowser();
-if (found.missing) throw new Error(found.missing);
+if (found.skip) throw new Error(found.skip);
 const browser = await found.launch();
 const row = (cells) => console.log(`| ${cells.join(" | ")} |`);
 const isPage = (file) => path.extname(file) === ".html";

@@ -2,7 +2,7 @@
 import {EngineProcess, areKindsDrawn, findBrowser, temporaryFolder} from "../tests/support.mjs";
 
 const found = await findBrowser();
-if (found.missing) throw new Error(found.missing);
+if (found.skip) throw new Error(found.skip);
 const browser = await found.launch(), state = temporaryFolder();
 const engine = await new EngineProcess(state, "--linger", "600").ready();
 

@@ -7,7 +7,7 @@ import {EngineProcess, findBrowser, openPanels, temporaryFolder, untilReady,
 
 const SCREENS = [{width: 1280, height: 800}, {width: 390, height: 844}];
 const [into] = process.argv.slice(2), found = await findBrowser();
-if (!into || found.missing) throw new Error(found.missing ?? "expected a folder for the pictures");
+if (!into || found.skip) throw new Error(found.skip || "expected a folder for the pictures");
 const browser = await found.launch(), folder = temporaryFolder();
 const scans = writeScans(folder, 30000);
 const engine = await new EngineProcess(path.join(folder, "state"), scans[0]).ready();
