@@ -141,20 +141,19 @@ export class Document {
     return true;
   }
 
-  get canUndo() {
-    return this.at > 0;
-  }
-  get canRedo() {
-    return this.at + 1 < this.steps.length;
+  // Returns whether there is a step so many steps after the present one, or before it for negative numbers.
+  can(by) {
+    return this.steps[this.at + by] !== undefined;
   }
 
   undo() {
-    if (this.canUndo) this.move(-1);
+    this.move(-1);
   }
   redo() {
-    if (this.canRedo) this.move(1);
+    this.move(1);
   }
   move(by) {
+    if (!this.can(by)) return;
     const before = this.now;
     this.at += by;
     this.stroke = null;

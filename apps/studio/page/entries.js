@@ -87,8 +87,8 @@ export class Entries {
   show() {
     const names = [...new Set(this.pending.map(({label}) => label))], isWaiting = names.length > 0;
     $("#trying").textContent = isWaiting ? `Trying ${names.join(", ")} …` : "";
-    $("#undo").disabled = !this.doc.canUndo && !isWaiting;
-    $("#redo").disabled = !this.doc.canRedo || isWaiting;
+    $("#undo").disabled = !this.doc.can(-1) && !isWaiting;
+    $("#redo").disabled = !this.doc.can(1) || isWaiting;
   }
 
   // Waits until all entries are taken or refused.

@@ -7,6 +7,7 @@ import {test} from "node:test";
 import {DESK, browser, button, choose, drag, engine, field, folder, middleOf, numbers, openFile, option, page,
   pieceSize, press, radio, skip, slider, startEngine, text, toast, undo, undoAll, untilText, untilTold,
   visiblePoints as points, withBrowser} from "./page_suite.mjs";
+import {randomNumbers} from "./random_entries.mjs";
 import {EngineProcess, areKindsDrawn, enter, eventually, holdRequests, ignoreTimers, openPanels, run, untilListening,
   untilReady, untilTimersRan, writeSample, writeScans} from "./support.mjs";
 
@@ -465,12 +466,6 @@ test("keeps the view that was asked for last when the one before it arrives late
   await other.close();
 });
 
-// Returns an endless row of numbers from 0 to 1, the same each time.
-function randomNumbers() {
-  let seed = 1;
-  return () => (seed = (seed * 16807) % 2147483647) / 2147483647;
-}
-
 // Returns a normal of a ball at random.
 function anyNormal(random) {
   const z = 2 * random() - 1, angle = 2 * Math.PI * random(), r = Math.sqrt(1 - z * z);
@@ -487,7 +482,7 @@ function writePoints(file, points) {
 
 // Writes a ball on a tilted table, 4 x 4 of its radius, whose points scatter.
 function writeBallOnTable(file) {
-  const random = randomNumbers(), n = [0, 0.766, 0.643], points = [];
+  const random = randomNumbers(1), n = [0, 0.766, 0.643], points = [];
   for (let i = 0; i < 6000; ++i) {
     const normal = anyNormal(random);
     points.push({place: normal.map((x, k) => x + n[k]), normal});
@@ -499,7 +494,7 @@ function writeBallOnTable(file) {
 
 // Writes a ball with a small one beside it, of .4 % of its area.
 function writeBallWithCrumb(file) {
-  const random = randomNumbers(), ball = (count, radius, x) => Array.from({length: count}, () => {
+  const random = randomNumbers(1), ball = (count, radius, x) => Array.from({length: count}, () => {
     const normal = anyNormal(random), [a, b, c] = normal.map((y) => y * radius);
     return {place: [a + x, b, c], normal};
   });
