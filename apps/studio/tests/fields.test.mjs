@@ -407,9 +407,10 @@ test("names the tone curve and the view where they limit the height, and loosens
 
 test("can redo after a drag that was taken back, and ends none after another slider's pause", {skip}, async () => {
   const [heights, counts] = await page.evaluate(async () => {
-    const {Document, FIRST} = await import(new URL("document.js", location)), doc = new Document(() => {});
-    const seen = [], see = () => seen.push(doc.now.options.height), counts = [];
-    doc.begin(FIRST);
+    const {Document, FIRST} = await import(new URL("document.js", location));
+    const [doc, other] = [1, 2].map(() => new Document(() => {})), counts = [];
+    const seen = [], see = () => seen.push(doc.now.options.height);
+    for (const each of [doc, other]) each.begin(FIRST);
     for (const height of [6, 7]) doc.change({options: {height}});
     doc.undo();
     for (const height of [8, 9]) doc.change({options: {height}}, "height");
@@ -418,11 +419,10 @@ test("can redo after a drag that was taken back, and ends none after another sli
     see();
     doc.redo();
     see();
-    doc.begin(FIRST);
     for (const [height, ended] of [[6, "width"], [7, "height"], [8, null]]) {
-      doc.change({options: {height}}, "height");
-      counts.push(doc.steps.length);
-      doc.endStroke(ended);
+      other.change({options: {height}}, "height");
+      counts.push(other.steps.length);
+      other.endStroke(ended);
     }
     return [seen, counts];
   });
