@@ -17,16 +17,15 @@ function writeModule() {
 }
 
 function typeOf(option) {
-  const isText = option.choices || typeof option.default === "string" || !("min" in option || "max" in option || typeof option.default === "number" || typeof option.default === "object");
-  if (option.choices && !option.is_of_input && !["TEXT", "VIEW"].includes(option.unit))
+  if (option.choices && option.stage !== "input" && !["TEXT", "VIEW"].includes(option.unit))
     return [...option.choices.map((choice) => JSON.stringify(choice)), "(string & {})"].join(" | ");
-  if (isText) return "string";
+  if (!("min" in option)) return "string";
   return option.unit === "MM" ? "number | string" : "number";
 }
 
 function optionTypes(table) {
   const lines = table.map((option) => {
-    const range = "min" in option || "max" in option ? ` From ${option.min ?? "-infinity"} to ${option.max ?? "infinity"}.` : "";
+    const range = "min" in option ? ` From ${option.min} to ${option.max}.` : "";
     const initial = option.default_text ? ` Default: ${option.default_text}.` : "";
     const text = `${option.help.charAt(0).toUpperCase()}${option.help.slice(1)}.${range}${initial}`.replaceAll("*/", "* /");
     return `  /** ${text} */\n  ${camelCase(option.keyword)}?: ${typeOf(option)};`;

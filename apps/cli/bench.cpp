@@ -64,7 +64,7 @@ Result<void> measure_mode(const Surface& surface, Mode mode, int frames, BenchRe
 
 Result<std::vector<Mode>> modes_of(const BenchArguments& arguments, const Surface& surface) {
   if (arguments.mode == "all") return std::vector{Mode::exact, Mode::subspace};
-  const Result<Mode> mode = parse_mode(arguments.mode);
+  const Result<Mode> mode = parse_choice("mode", arguments.mode, mode_choices);
   if (!mode) return std::unexpected(mode.error());
   return std::vector{resolve_mode(*mode, surface)};
 }

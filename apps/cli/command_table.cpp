@@ -4,9 +4,8 @@
 #include <cctype>
 
 #include "relievo/core/text.h"
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 #include "relievo/samples/sample.h"
-#include "relievo/scan/depth_image.h"
 
 namespace relievo::app::cli {
 namespace {
@@ -34,15 +33,8 @@ std::vector<std::string> words_of(const std::string& command, const std::string&
   if (name == "methods") return method_words();
   if (command == "bench" && name == "mode") return {"exact", "subspace", "auto", "all"};
   if (name == "view") return {"front", "back", "left", "right", "top", "bottom"};
-  std::vector<std::string> words;
-  const auto take = [&](const OptionField& field, const auto&) {
-    if (field.name == name) words = copies(field.choices);
-  };
-  OptionTexts texts;
-  visit(texts, take);
-  DepthTexts depth;
-  visit(depth, take);
-  return words;
+  const OptionRow* const option = find_option(name);
+  return option == nullptr ? std::vector<std::string>() : copies(option->choices);
 }
 
 // A path is named by its ending ("P.png") or by a word for files and folders.

@@ -5,7 +5,7 @@
 namespace relievo::app::cli {
 
 void add_input_flags(CLI::App& command, InputTexts& texts) {
-  add_flags(command, texts.depth);
+  add_flags(command, texts.depth, [](const OptionRow& option) { return !option.is_of_relief(); });
   command
       .add_option("--camera", texts.camera, "of a depth image: focal lengths and centre, or a file with them")
       ->type_name("FX,FY,CX,CY");
@@ -27,23 +27,17 @@ void add_scene_flags(CLI::App& command, SceneArguments& arguments) {
                   "point cloud, mesh or depth image, several of them, or a scene (JSON), as for make")
       ->required()
       ->type_name("INPUT");
-  command.add_option("--view", arguments.view, "as for make")->type_name("SIDE")->capture_default_str();
-  command.add_option("--up", arguments.up, "as for make")->type_name("X,Y,Z");
-  command.add_option("--crop", arguments.crop, "as for make")->type_name("X0,Y0,X1,Y1");
-  command.add_option("--crumbs", arguments.crumbs, "as for make")->type_name("WHAT")->capture_default_str();
-  command.add_option("--plane", arguments.plane, "as for make")->type_name("WHAT")->capture_default_str();
-  command.add_option("--denoise", arguments.denoise, "as for make")
-      ->type_name("NOISE")
-      ->capture_default_str();
+  const auto is_of_view = [](const OptionRow& option) { return option.stage == OptionStage::view; };
+  add_flags(command, arguments.view, is_of_view, [](const OptionRow&) { return "as for make"; });
   add_input_flags(command, arguments.in);
 }
 
 Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progress) {
   RELIEVO_TRY(const InputArguments in, parse_input_texts(arguments.in));
-  RELIEVO_TRY(const View view, parse_view(static_cast<const ViewTexts&>(arguments)));
-  const PointsWanted wanted{view};
+  RELIEVO_TRY(const ReliefOptions options, parse_options(arguments.view));
+  const PointsWanted wanted{options.view};
   RELIEVO_TRY(const SceneInput input, read_scene(arguments.paths, in, wanted, progress));
-  const View chosen = chosen_view(input.scene, view);
+  const View chosen = chosen_view(input.scene, options.view);
   RELIEVO_TRY(ViewSample sample, sample_for_view(input.scene, chosen, {}, progress));
   return SampledView{std::move(sample), chosen};
 }

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "common/read_inputs.h"
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 #include "relievo/view_sample.h"
 
 namespace relievo::app::cli {
 
 // InputArguments as they are typed.
 struct InputTexts {
-  DepthTexts depth;
+  OptionValues depth;
   std::string camera;
   double stream_above_mb = InputArguments{}.stream_above_mb;
 };
@@ -24,12 +24,13 @@ void add_input_flags(CLI::App& command, InputTexts& texts);
 Result<InputArguments> parse_input_texts(const InputTexts& texts);
 
 // The inputs of a command and the side of them to look at.
-struct SceneArguments : ViewTexts {
+struct SceneArguments {
   std::vector<std::string> paths;
+  OptionValues view;
   InputTexts in;
 };
 
-// Adds INPUT, the flags of ViewTexts and the flags of InputTexts.
+// Adds INPUT, the flags of the view and the flags of InputTexts.
 void add_scene_flags(CLI::App& command, SceneArguments& arguments);
 
 struct SampledView {
@@ -38,7 +39,7 @@ struct SampledView {
 };
 
 // Reads the inputs and takes the points seen in their view, as `make` does. Errors: those of parse_input_texts(),
-// parse_view(), read_scene() and sample_for_view().
+// parse_options(), read_scene() and sample_for_view().
 Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progress);
 
 }  // namespace relievo::app::cli

@@ -3,7 +3,6 @@
 #include <memory>
 
 #include "cli/commands.h"
-#include "cli/flags.h"
 #include "cli/make_options.h"
 #include "cli/terminal.h"
 #include "common/export_file.h"
@@ -26,18 +25,16 @@ struct MakeArguments : MakeOptions {
 };
 
 // Gives the outputs their unit and sizes, and returns the order.
-Result<CheckedOrder> order_of(MakeArguments& arguments, const CLI::App& command) {
+Result<CheckedOrder> order_of(MakeArguments& arguments) {
   ReliefFiles& outputs = arguments.outputs;
   RELIEVO_TRY(outputs.unit, parse_unit(arguments.units));
   outputs.heightmap_px = arguments.heightmap_px;
   outputs.preview_px = arguments.preview_px;
   MakeOrder order;
-  order.texts = arguments.relief;
+  order.values = arguments.relief;
   order.inputs = arguments.inputs;
   order.base_image_path = arguments.base_image;
   order.scan_path = arguments.scan;
-  for (const ReliefField& field : option_fields())
-    if (command.count(cat("--", field.name)) > 0) order.given.emplace(field.name);
   RELIEVO_TRY(order.in, parse_input_texts(arguments.in));
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
   if (outputs.solid.empty())
@@ -80,8 +77,8 @@ Result<Finished> run(CheckedOrder order, const ReliefFiles& outputs, Progress& p
   return finished;
 }
 
-Result<void> make(MakeArguments arguments, const CLI::App& command) {
-  RELIEVO_TRY(CheckedOrder order, order_of(arguments, command));
+Result<void> make(MakeArguments arguments) {
+  RELIEVO_TRY(CheckedOrder order, order_of(arguments));
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
   const Result<Finished> finished = run(std::move(order), arguments.outputs, progress);
@@ -136,7 +133,7 @@ void add_make(CLI::App& program, Result<void>& result) {
   add_make_options(command, *arguments);
   add_number(command, "--threads", arguments->threads, CLI::Range(0, 256), "0 for all [0 to 256]");
   command.add_flag("--quiet", arguments->is_quiet, "print errors only");
-  command.callback([arguments, &command, &result] { result = make(*arguments, command); });
+  command.callback([arguments, &result] { result = make(*arguments); });
 }
 
 }  // namespace relievo::app::cli

@@ -25,7 +25,7 @@ void add_make_options(CLI::App& command, MakeOptions& options) {
       .add_option("--base-image", options.base_image,
                   "height map that the relief lies on, bright is high: PNG or TIFF")
       ->type_name("B.png");
-  add_flags(command, options.relief);
+  add_flags(command, options.relief, &OptionRow::is_of_relief);
   const auto refuse = [](const std::string&) {
     throw CLI::ValidationError("--surface", "expected --finish, its new name");
   };

@@ -5,13 +5,13 @@
 #include <string>
 
 #include "cli/input_flags.h"
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 
 namespace relievo::app::cli {
 
 // The options of a relief and of its files, as the user types them.
 struct MakeOptions {
-  OptionTexts relief;
+  OptionValues relief;
   InputTexts in;
   std::string base_image;
   std::string units = "mm";

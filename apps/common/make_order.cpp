@@ -14,12 +14,10 @@ namespace relievo::app {
 Result<ReliefOptions> options_of(const MakeOrder& order, const std::optional<StoredProject>& stored) {
   std::optional<Project> project;
   if (stored) project = stored->project;
-  OptionTexts texts = order.texts;
-  const auto is_given = [&](std::string_view name) { return order.given.contains(std::string(name)); };
-  if (project) texts = with_given(project->options, order.texts, is_given);
-  const bool has_image = order.base_image || !order.base_image_path.empty();
-  if (has_image && texts.base == OptionTexts{}.base && !is_given("base")) texts.base = "image";
-  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
+  OptionValues values = order.values;
+  if (project) values = with_given(project->options, values);
+  if (order.base_image || !order.base_image_path.empty()) values.try_emplace("base", "image");
+  RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(
       std::shared_ptr<const Image<float>> image,
       order.base_image ? order.base_image : base_image_for(options.base, order.base_image_path, project));

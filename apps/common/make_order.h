@@ -5,7 +5,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,8 +20,7 @@ namespace relievo::app {
 
 // Tells how to make a relief.
 struct MakeOrder {
-  OptionTexts texts;
-  std::set<std::string> given;  // names of the options that are not left to their defaults
+  OptionValues values;
   InputArguments in;
   std::vector<std::string> inputs = {};  // paths
   std::string base_image_path = {};

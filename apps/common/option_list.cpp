@@ -1,116 +1,121 @@
 #include "common/option_list.h"
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "relievo/core/text.h"
-#include "relievo/scan/depth_image.h"
 
 namespace relievo::app {
 namespace {
 
 using Json = nlohmann::json;
 
-bool is_number(const ReliefField& field) {
-  return !std::holds_alternative<std::string OptionTexts::*>(field.value);
-}
-
-// Returns the default of an option for each method that has a shape.
-Json effective_default(const ReliefField& field) {
+// Returns the default of a number for each method that has a shape.
+Json number_by_method(const OptionRow& option) {
   Json by_method = Json::object();
   bool is_same = true;
   ReliefOptions options;
   for (const MethodInfo& info : methods) {
     if (!has_shape(info.method)) continue;
     options.method = info.method;
-    const double value = field.effective(options);
-    is_same &= by_method.empty() || by_method.front() == value;
-    by_method[std::string(info.name)] = value;
+    const std::optional<double> value = option.access.number(options);
+    if (!value) return {};
+    is_same &= by_method.empty() || by_method.front() == *value;
+    by_method[std::string(info.name)] = *value;
   }
   return is_same ? by_method.front() : by_method;
 }
 
 // Null where nothing that has a value rules.
-Json default_of(const ReliefField& field) {
-  if (field.effective) return effective_default(field);
-  const OptionTexts defaults;
-  return std::visit(
-      [&]<typename M>(const M member) -> Json {
-        if constexpr (std::is_same_v<M, std::optional<double> NumericOptions::*>)
-          return {};
-        else
-          return defaults.*member;
-      },
-      field.value);
+Json default_of(const OptionRow& option) {
+  if (option.access.number) return number_by_method(option);
+  return std::visit([](const auto& value) { return Json(value); }, option.initial);
 }
 
-std::string plain(const Json& value) {
+// Returns the defaults that differ with a form, by its name, or with a diameter.
+Json other_defaults(const OptionRow& option) {
+  Json others = Json::object();
+  const ReliefOptions plain;
+  const std::optional<double> usual = option.access.number ? option.access.number(plain) : std::nullopt;
+  if (!usual) return others;
+  const auto compare = [&](std::string_view name, const ReliefOptions& with) {
+    if (const auto value = option.access.number(with); value != usual) others[std::string(name)] = *value;
+  };
+  ReliefOptions with;
+  for (const auto& [name, form] : form_choices) with.form = form, compare(name, with);
+  with = plain;
+  with.diameter_mm = with.effective_width_mm();
+  compare("diameter", with);
+  return others;
+}
+
+std::string plain_text(const Json& value) {
   return value.is_string() ? value.get<std::string>() : cat(value.get<double>());
 }
 
-std::string range_text(const ReliefField& field) {
-  return is_number(field) ? cat(" [", field.min, " to ", field.max, "]") : std::string();
+std::string range_text(const OptionRow& option) {
+  return option.is_number() ? cat(" [", option.min, " to ", option.max, "]") : std::string();
+}
+
+Json entry_of(const OptionRow& option) {
+  Json entry{{"name", option.name},
+             {"unit", option.unit},
+             {"help", option.help},
+             {"stage", name_in(option_stages, option.stage)}};
+  if (option.is_number()) entry.update({{"min", option.min}, {"max", option.max}});
+  if (!option.choices.empty()) entry["choices"] = option.choices;
+  if (const Json value = default_of(option); !value.is_null()) entry["default"] = value;
+  if (const Json others = other_defaults(option); !others.empty()) entry["default_with"] = others;
+  if (!option.in_studio.empty()) entry["in_studio"] = option.in_studio;
+  if (option.is_stated) entry["is_stated"] = true;
+  return entry;
 }
 
 }  // namespace
 
-std::string default_text(const ReliefField& field) {
-  if (!field.otherwise.empty()) return std::string(field.otherwise);
-  const Json value = default_of(field);
-  if (!value.is_object()) return plain(value);
+std::string default_text(const OptionRow& option) {
+  if (!option.otherwise.empty()) return std::string(option.otherwise);
+  const Json value = default_of(option);
+  if (!value.is_object()) return plain_text(value);
   std::string text;
   for (const auto& [method, number] : value.items())
-    text += cat(text.empty() ? "" : ", ", plain(number), " with method ", method);
+    text += cat(text.empty() ? "" : ", ", plain_text(number), " with method ", method);
   return text;
 }
 
-std::string help_text(const OptionField& field) {
-  return field.choices.empty() ? std::string(field.help) : cat(field.help, "; ", either(field.choices));
+std::string help_text(const OptionRow& option) {
+  return option.choices.empty() ? std::string(option.help) : cat(option.help, "; ", either(option.choices));
 }
 
 Json option_list() {
   Json list = Json::array();
-  for (const ReliefField& field : option_fields()) {
-    Json entry{{"name", field.name}, {"unit", field.unit}, {"help", field.help}};
-    if (is_number(field)) entry.update({{"min", field.min}, {"max", field.max}});
-    if (!field.choices.empty()) entry["choices"] = field.choices;
-    if (const Json value = default_of(field); !value.is_null()) entry["default"] = value;
-    list.push_back(entry);
-  }
+  for (const OptionRow& option : option_table())
+    if (option.is_of_relief()) list.push_back(entry_of(option));
   return list;
 }
 
-std::string keyword_of(const OptionField& field) {
-  std::string keyword(field.name);
+std::string keyword_of(const OptionRow& option) {
+  std::string keyword(option.name);
   std::ranges::replace(keyword, '-', '_');
-  if (field.unit == "MM") return keyword + "_mm";
-  return field.unit == "DEG" ? keyword + "_deg" : keyword;
+  if (option.is_length()) return keyword + "_mm";
+  return option.unit == "DEG" ? keyword + "_deg" : keyword;
 }
 
 Json keyword_list() {
-  Json list = option_list();
-  std::size_t i = 0;
-  for (const ReliefField& field : option_fields()) {
-    list[i]["keyword"] = keyword_of(field);
-    list[i++]["default_text"] = default_text(field);
+  Json list = Json::array();
+  for (const OptionRow& option : option_table()) {
+    Json& entry = list.emplace_back(entry_of(option));
+    entry.update({{"keyword", keyword_of(option)}, {"default_text", default_text(option)}});
   }
-  const DepthTexts depth;
-  visit(depth, [&](const OptionField& field, const auto& value) {
-    Json entry{{"keyword", keyword_of(field)}, {"name", field.name},    {"unit", field.unit},
-               {"help", field.help},           {"default_text", value}, {"default", value}};
-    if (!field.choices.empty()) entry["choices"] = field.choices;
-    entry["is_of_input"] = true;
-    list.push_back(entry);
-  });
   return list;
 }
 
 std::string option_markdown() {
   std::string text = "| flag | meaning | default |\n| --- | --- | --- |\n";
-  for (const ReliefField& field : option_fields())
-    text += cat("| `--", field.name, " ", field.unit, "` | ", help_text(field), range_text(field), " | ",
-                default_text(field), " |\n");
+  for (const OptionRow& option : option_table())
+    if (option.is_of_relief())
+      text += cat("| `--", option.name, " ", option.unit, "` | ", help_text(option), range_text(option),
+                  " | ", default_text(option), " |\n");
   return text;
 }
 

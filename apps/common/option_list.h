@@ -4,26 +4,26 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 
 namespace relievo::app {
 
 // Returns what rules where the option is not given, for people: "5", "0.04 with method layered, 0.02 with method paper".
-std::string default_text(const ReliefField& field);
+std::string default_text(const OptionRow& option);
 
 // Returns the help, with the words that may stand there.
-std::string help_text(const OptionField& field);
+std::string help_text(const OptionRow& option);
 
-// Returns a list of objects with name, unit, help and slider (whether the studio shows it live); of numbers with min
-// and max; of enumerations with choices. `default` is there if something rules without a value: itself, or, where
-// methods differ, an object of method names and values.
+// Returns a list of objects with name, unit, help and stage; of numbers with min and max; of enumerations with choices.
+// `default` is there if something rules without a value: itself, or, where methods differ, an object of method names and
+// values. `default_with` has the defaults that a form, by its name, or a diameter puts in its place. `in_studio` and
+// `is_stated` are those of OptionRow. The options of depth images are left out.
 nlohmann::json option_list();
 
 // Returns the name of an option as an argument of a function, with its unit: "height_mm".
-std::string keyword_of(const OptionField& field);
+std::string keyword_of(const OptionRow& option);
 
-// Returns option_list() and then the options of depth images, whose entries have is_of_input; each with its keyword and
-// default_text.
+// Returns all rows as option_list() does, those of depth images, too, each with its keyword and default_text.
 nlohmann::json keyword_list();
 
 // Returns the rows of the README's table.

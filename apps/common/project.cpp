@@ -8,14 +8,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <type_traits>
 
 #include "common/descriptor.h"
 #include "common/files.h"
 #include "common/read_inputs.h"
 #include "common/wording.h"
 #include "relievo/core/json_place.h"
-#include "relievo/core/option_field.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
 #include "relievo/samples/sample.h"
@@ -35,82 +33,47 @@ std::string text_or_nothing(const Json& json, const char* key) {
   return found != json.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-// Takes one field from the JSON if it is there; remembers the first of a wrong type.
-struct FieldReader {
-  const Json& json;
-  std::string wrong, wrong_type;
-  std::size_t taken = 0;
-
-  void operator()(const OptionField& field, double& value) { take(field, value, json_number); }
-  void operator()(const OptionField& field, std::optional<double>& value) { take(field, value, json_number); }
-  void operator()(const OptionField& field, std::string& value) {
-    take(field, value, [](const Json& j) { return j.is_string(); });
-  }
-
-  static bool json_number(const Json& j) { return j.is_number(); }
-
-  template <typename T, typename IsRight>
-  void take(const OptionField& field, T& value, IsRight is_right) {
-    using Value = std::conditional_t<std::is_same_v<T, std::string>, std::string, double>;
-    const auto found = json.find(field.name);
-    if (found == json.end()) return;
-    ++taken;
-    if (is_right(*found)) {
-      value = found->template get<Value>();
-    } else if (wrong.empty()) {
-      wrong = field.name;
-      wrong_type = std::is_same_v<T, std::string> ? "expected a text" : "expected a number";
-    }
-  }
-};
-
-std::string unknown_name(const Json& json) {
-  for (const auto& [key, value] : json.items()) {
-    const auto is_known = [&](const ReliefField& field) { return field.name == key; };
-    if (std::ranges::none_of(option_fields(), is_known)) return key;
-  }
-  return {};
-}
-
 constexpr const char* base_image_name = "base-image";
 
 }  // namespace
 
-OptionTexts with_given(OptionTexts own, const OptionTexts& given,
-                       const std::function<bool(std::string_view)>& is_given) {
-  if (is_given("alpha")) own.height_mm = std::nullopt;
-  if (is_given("alpha") && !is_given("method")) own.method.clear();  // which is then the paper's
-  for (const ReliefField& field : option_fields())
-    if (is_given(field.name))
-      std::visit([&](const auto member) { own.*member = given.*member; }, field.value);
+OptionValues with_given(OptionValues own, const OptionValues& given) {
+  if (given.contains("alpha")) own.erase("height"), own.erase("method");  // which is then the paper's
+  for (const auto& [name, value] : given) own.insert_or_assign(name, value);
   return own;
 }
 
-Json to_json(const OptionTexts& options) {
+Json to_json(const OptionValues& options) {
   Json json = Json::object();
-  visit(options, [&]<typename T>(const OptionField& field, const T& value) {
-    const std::string key(field.name);
-    if constexpr (std::is_same_v<T, std::optional<double>>) {
-      if (value) json[key] = *value;
-    } else if constexpr (std::is_same_v<T, std::string>) {
-      if (!value.empty()) json[key] = value;
-    } else {
-      json[key] = value;
-    }
-  });
+  for (const OptionRow& option : option_table()) {
+    const auto found = options.find(option.name);
+    const OptionValue& value = found == options.end() ? option.initial : found->second;
+    if (!option.is_of_relief() || value == OptionValue()) continue;
+    std::visit([&](const auto& each) { json[option.name] = each; }, value);
+  }
   return json;
 }
 
-Result<OptionTexts> texts_from_json(const Json& json, std::string_view name) {
-  if (!json.is_object()) return fail(name, "options", "expected an object" + found(json));
-  OptionTexts options;
-  FieldReader reader{json, {}, {}};
-  visit(options, reader);
-  if (!reader.wrong.empty())
-    return fail(name, cat("options.", reader.wrong), reader.wrong_type + found(json[reader.wrong]));
-  if (reader.taken != json.size())
-    return fail(name, "options", cat("expected known options, found '", unknown_name(json), "'"));
-  return options;
+std::optional<OptionValue> value_from_json(const Json& json) {
+  if (json.is_number()) return json.get<double>();
+  if (json.is_string()) return json.get<std::string>();
+  return std::nullopt;
+}
+
+Result<OptionValues> values_from_json(const Json& given, std::string_view name) {
+  if (!given.is_object()) return fail(name, "options", "expected an object" + found(given));
+  OptionValues values;
+  for (const auto& [key, json] : given.items()) {
+    const OptionRow* const option = find_option(key);
+    if (!option || !option->is_of_relief())
+      return fail(name, "options", cat("expected known options, found '", key, "'"));
+    const std::optional<OptionValue> value = value_from_json(json);
+    if (!value || std::holds_alternative<double>(*value) != option->is_number())
+      return fail(name, cat("options.", key),
+                  (option->is_number() ? "expected a number" : "expected a text") + found(json));
+    if (*value != option->initial) values.emplace(key, *value);
+  }
+  return values;
 }
 
 std::string base_image_path_in(const Json& options) {
@@ -120,9 +83,9 @@ std::string base_image_path_in(const Json& options) {
 namespace {
 
 // Returns the options of the table alone: the height map of a base is none of them.
-Result<OptionTexts> texts_without_image(Json json, std::string_view name) {
+Result<OptionValues> values_without_image(Json json, std::string_view name) {
   if (!base_image_path_in(json).empty()) json.erase(base_image_name);
-  return texts_from_json(json, name);
+  return values_from_json(json, name);
 }
 
 // The height map that was read last, for pictures that follow one another.
@@ -151,8 +114,8 @@ Result<std::shared_ptr<const Image<float>>> last_base_image(const std::string& p
 }  // namespace
 
 Result<ReliefOptions> options_from_json(const Json& json, std::string_view name) {
-  RELIEVO_TRY(const OptionTexts texts, texts_without_image(json, name));
-  RELIEVO_TRY(ReliefOptions options, parse_options(texts));
+  RELIEVO_TRY(const OptionValues values, values_without_image(json, name));
+  RELIEVO_TRY(ReliefOptions options, parse_options(values));
   RELIEVO_TRY(std::shared_ptr<const Image<float>> image, last_base_image(base_image_path_in(json)));
   RELIEVO_CHECK(take_base_image(std::move(image), options.base));
   return options;
@@ -188,8 +151,8 @@ Result<Project> read_project(std::string_view text, std::string_view name) {
     return fail(name, "relievo", "expected a project of version 1" + found(json.value("relievo", Json())));
   RELIEVO_TRY(const ScanSource input, input_from_json(json.value("input", Json()), name));
   const Json options = json.value("options", Json());
-  RELIEVO_TRY(const OptionTexts texts, texts_without_image(options, name));
-  return Project{input, texts, base_image_path_in(options)};
+  RELIEVO_TRY(const OptionValues values, values_without_image(options, name));
+  return Project{input, values, base_image_path_in(options)};
 }
 
 void FileHash::append(std::string_view bytes) {

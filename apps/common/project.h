@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "relievo/core/image.h"
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 #include "relievo/scene.h"
 
 namespace relievo::app {
@@ -25,7 +25,7 @@ struct ScanSource {
 
 struct Project {
   ScanSource input;
-  OptionTexts options;
+  OptionValues options;
   std::string base_image_path;  // of the height map of a base; empty if there is none
   // That map, or why it cannot be read. Null unless find_project() has read it.
   Result<std::shared_ptr<const Image<float>>> base_image = nullptr;
@@ -36,17 +36,19 @@ struct Project {
 // belongs to the studio. Errors: kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns the options of a project with those in place of its own that the user gave, too: `is_given` tells by name. A
-// given alpha rules in place of the project's height.
-OptionTexts with_given(OptionTexts own, const OptionTexts& given,
-                       const std::function<bool(std::string_view)>& is_given);
+// Returns the options of a project, with those in place of its own that the user gave, too. A given alpha rules in place of
+// the project's height.
+OptionValues with_given(OptionValues own, const OptionValues& given);
 
-// Returns the options with the names of the table; those without a value are left out.
-nlohmann::json to_json(const OptionTexts& options);
+// Returns the values of all options that have one, given or by default.
+nlohmann::json to_json(const OptionValues& options);
 
-// Returns the texts of an object as to_json() makes it. Errors: kind input for names that are not in the table and
-// values of another type, calling the object `name`.
-Result<OptionTexts> texts_from_json(const nlohmann::json& json, std::string_view name);
+// Returns the value of a number or a text; nothing of any other.
+std::optional<OptionValue> value_from_json(const nlohmann::json& json);
+
+// Returns the values of an object as to_json() makes it, without those that are the default. Errors: kind input for names
+// that are not in the table and values of another type, calling the object `name`.
+Result<OptionValues> values_from_json(const nlohmann::json& json, std::string_view name);
 
 // The same, read by parse_options(), with the height map whose path "base-image" is. Errors: also those of parse_options(),
 // read_base_image() and take_base_image().

@@ -121,7 +121,7 @@ void Actions::open(const Json& json, Answer& to) {
   const std::string id = document_of(*input);
   const auto engine = open_document(*input, json.value("tab", ""));
   if (!engine) return answer(to, engine.error());
-  (*engine)->show(*input, preparation_texts(json));
+  (*engine)->show(*input, view_values(json));
   const Lock lock(storing_);
   store_.touch(id);
   answer(to, {{"document", id}});
@@ -261,7 +261,7 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
                                  const std::string& folder) {
   RELIEVO_TRY(const ProjectFile file, unpack_project(bytes, name));
   RELIEVO_TRY(Project project, read_project(file.text, name));
-  RELIEVO_CHECK(parse_options(project.options));
+  RELIEVO_TRY(const ReliefOptions read, parse_options(project.options));
   ScanSource& input = project.input;
   const Lock lock(storing_);
   if (file.scan) {
@@ -278,11 +278,14 @@ Result<Json> Actions::project_in(std::span<const std::byte> bytes, const std::st
     input.path = (std::filesystem::path(folder) / input.path).lexically_normal().string();
   if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
   RELIEVO_CHECK(check_place(input));
-  Json options = app::to_json(project.options);
+  Json options = app::to_json(project.options), usual = Json::object();
+  for (const OptionRow& option : option_table())
+    if (option.is_stated && option.is_number()) usual[option.name] = option.access.number(read).value_or(0);
   if (!image.empty()) options["base-image"] = image;
   return Json{{"input", app::to_json(input)},
               {"is_there", is_there(input)},
               {"options", std::move(options)},
+              {"usual", std::move(usual)},
               {"studio", Json::parse(file.text).value("studio", Json::object())}};
 }
 
@@ -297,10 +300,8 @@ Result<void> Actions::begin_with(const std::string& path, const std::string& ful
   first_ = {{"input", to_json(input)}, {"is_there", true}};
   // The page prepares a kept document in its own view.
   if (store_.document(document_of(input)) == "") {
-    PreparationTexts first_view;
-    first_view.view = "auto";
     RELIEVO_TRY(const auto engine, open_document(input, {}));
-    engine->open(input, first_view);
+    engine->open(input, first_view());
   }
   return {};
 }

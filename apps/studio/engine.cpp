@@ -38,17 +38,21 @@ struct ShownModel : NumberedModel {
   LoadedScan scan;
 };
 
-// Returns the texts with the side that was chosen for them.
-PreparationTexts with_side(PreparationTexts texts, const std::optional<ViewGuess>& best) {
-  if (texts.view != "auto" || !best) return texts;
-  texts.view = best->name;
-  texts.up = best->up;
-  return texts;
+// Returns the values with the side that was chosen for them.
+OptionValues with_side(OptionValues values, const std::optional<ViewGuess>& best) {
+  const auto side = values.find("view");
+  if (side == values.end() || side->second != OptionValue("auto") || !best) return values;
+  side->second = std::string(best->name);
+  if (best->up.empty())
+    values.erase("up");
+  else
+    values["up"] = std::string(best->up);
+  return values;
 }
 
 struct Shared {
   ScanSource wanted;  // asked for last, with its view
-  PreparationTexts view;
+  OptionValues view;
   std::optional<ViewGuess> best;             // the side that was chosen for the view "auto"
   std::shared_ptr<const ScanSource> unread;  // asked for, but not yet read
   LoadedScan scan;                           // read last
@@ -80,10 +84,10 @@ struct Engine::State {
   Session session;  // last: its thread uses what stands above
 
   // Returns the preparation of a view of the scan that was asked for last.
-  Preparation preparation_of(const View& view, const PreparationTexts& texts) {
+  Preparation preparation_of(const ReliefOptions& options) {
     Preparation preparation;
-    const auto chosen = std::make_shared<View>(view);
-    preparation.points = [this, chosen, number = texts.points](Progress& progress) {
+    const auto chosen = std::make_shared<View>(options.view);
+    preparation.points = [this, chosen, number = options.points](Progress& progress) {
       return points(*chosen, number, progress);
     };
     preparation.chosen_view = [chosen] { return *chosen; };
@@ -91,7 +95,7 @@ struct Engine::State {
       return shared.with([](const Shared& s) { return s.scan; }).all_sides();
     };
     preparation.makes_first_relief = !changed;  // with one thread, the page does not ask for it
-    preparation.mode = parse_mode(texts.mode).value_or(Mode::automatic);
+    preparation.mode = options.mode;
     preparation.ready = [this](const Preparation::Model& model) {
       shared.with([&](Shared& s) { s.shown = {{model, new_model_number()}, s.scan}; });
     };
@@ -184,19 +188,20 @@ struct Engine::State {
 Engine::Engine(const std::function<void()>& changed) : state_(std::make_unique<State>(changed)) {}
 Engine::~Engine() = default;
 
-void Engine::open(const ScanSource& input, const PreparationTexts& view) {
-  Preparation preparation = state_->preparation_of(parse_view(view).value_or(View{}), view);
+void Engine::open(const ScanSource& input, const OptionValues& view) {
+  // A view that cannot be read is refused by the next picture.
+  Preparation preparation = state_->preparation_of(parse_options(view).value_or(ReliefOptions{}));
   const auto unread = std::make_shared<const ScanSource>(input);
-  state_->shared.with([&, wanted = input, texts = view](Shared& s) mutable {
+  state_->shared.with([&, wanted = input, values = view](Shared& s) mutable {
     s.unread = unread;
     s.wanted = std::move(wanted);
-    s.view = std::move(texts);
+    s.view = std::move(values);
     s.best.reset();
   });
   state_->session.open(std::move(preparation));
 }
 
-void Engine::show(const ScanSource& input, const PreparationTexts& view) {
+void Engine::show(const ScanSource& input, const OptionValues& view) {
   const SessionStatus session = state_->session.status();
   const auto [is_open, has_view] = state_->shared.with([&](const Shared& s) {
     return std::pair(is_same(s.wanted, input), s.view == view || with_side(s.view, s.best) == view);
@@ -207,14 +212,12 @@ void Engine::show(const ScanSource& input, const PreparationTexts& view) {
     (void)choose_view(view);  // a view that cannot be read is refused by the next picture
 }
 
-Result<void> Engine::choose_view(const PreparationTexts& view) {
-  const Result<View> parsed = parse_view(view);
-  if (!parsed) return std::unexpected(parsed.error());
-  RELIEVO_CHECK(parse_mode(view.mode));
+Result<void> Engine::choose_view(const OptionValues& view) {
+  RELIEVO_TRY(const ReliefOptions options, parse_options(view));
   const LoadedScan scan = state_->scan_in_use();
-  Preparation preparation = state_->preparation_of(*parsed, view);
-  const bool is_open = state_->shared.with([&, texts = view](Shared& s) mutable {
-    s.view = std::move(texts);
+  Preparation preparation = state_->preparation_of(options);
+  const bool is_open = state_->shared.with([&, values = view](Shared& s) mutable {
+    s.view = std::move(values);
     s.best.reset();
     return scan.cloud() || s.unread;
   });

@@ -10,19 +10,11 @@
 #include "common/export_file.h"
 #include "common/project.h"
 #include "relievo/make_relief.h"
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 #include "studio/drawing.h"
 #include "studio/piece.h"
 
 namespace relievo::app::studio {
-
-// The options by which a scan is prepared; all others change without that.
-struct PreparationTexts : ViewTexts {
-  std::string mode = "auto";
-  std::optional<double> points = {};
-
-  bool operator==(const PreparationTexts&) const = default;
-};
 
 // The engine's present work, and the scan that it is done for.
 struct EngineStatus {
@@ -31,7 +23,7 @@ struct EngineStatus {
   double fraction = 0;
   std::optional<Error> error;  // of the last opening or change of view
   ScanSource input;            // of the scan that is shown
-  PreparationTexts view;       // that was last asked for
+  OptionValues view;           // that was last asked for: the options by which a scan is prepared
   std::string making_stage;    // of the file that is being made; empty if there is none
   double making_fraction = 0;
   std::uint64_t model =
@@ -56,14 +48,14 @@ class Engine {
 
   // Reads the scan and prepares the view in the background. The old relief stays until the new one is ready,
   // and for good if that fails.
-  void open(const ScanSource& input, const PreparationTexts& view);
+  void open(const ScanSource& input, const OptionValues& view);
 
   // Does what of open() and choose_view() is needed to show the scan in that view: nothing, if it is shown already.
-  void show(const ScanSource& input, const PreparationTexts& view);
+  void show(const ScanSource& input, const OptionValues& view);
 
   // Prepares another view of the scan that was opened last or, if that failed, of the one that is shown.
-  // Errors: those of parse_view() and parse_mode(); kind geometry if there is no scan.
-  Result<void> choose_view(const PreparationTexts& view);
+  // Errors: those of parse_options(); kind geometry if there is no scan.
+  Result<void> choose_view(const OptionValues& view);
 
   void cancel();
 

@@ -46,7 +46,7 @@ std::shared_ptr<Engine> Actions::engine_of(const Json& json, Answer& to) {
 void Actions::view(const Json& json, Answer& to) {
   const auto engine = engine_of(json, to);
   if (!engine) return;
-  const auto ok = engine->choose_view(preparation_texts(json));
+  const auto ok = engine->choose_view(view_values(json));
   ok ? answer(to, Json::object()) : answer(to, ok.error());
 }
 

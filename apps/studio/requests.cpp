@@ -131,12 +131,10 @@ Result<PictureRequest> picture_request(const Json& json) {
   texts.erase("height");
   request.key_but_height = texts.dump();
   if (const auto turned = json.find("turned"); turned != json.end()) {
-    RELIEVO_TRY(View view, view_from(*turned));
-    view.crop = request.options.view.crop;
-    view.has_crumbs = request.options.view.has_crumbs;
-    view.has_plane = request.options.view.has_plane;
-    view.denoise = request.options.view.denoise;
-    request.turned = view;
+    RELIEVO_TRY(const View towards, view_from(*turned));
+    request.turned = request.options.view;
+    request.turned->R_view_model = towards.R_view_model;
+    request.turned->is_best = false;
   }
   if (json.contains("u")) {
     request.u = number(json, "u", {0, 1e12, 1});
@@ -163,13 +161,27 @@ Result<View> view_from(const Json& json) {
   return view_towards(*towards, *up);
 }
 
-PreparationTexts preparation_texts(const Json& json) {
-  const PreparationTexts none;
-  return {{json.value("view", none.view), json.value("up", none.up), json.value("crop", none.crop),
-           json.value("crumbs", none.crumbs), json.value("plane", none.plane),
-           json.value("denoise", none.denoise)},
-          json.value("mode", none.mode),
-          json.value("points", Json()).is_null() ? std::nullopt : number(json, "points", {1000, 1e7, 0})};
+OptionValues view_values(const Json& json) {
+  OptionValues values;
+  for (const OptionRow& option : option_table()) {
+    if (!option.is_prepared()) continue;
+    const auto found = json.find(option.name);
+    const bool is_there = found != json.end() && !found->is_null();
+    OptionValue value = option.initial;
+    if (is_there && option.is_number())
+      value = found->get<double>();
+    else if (is_there)
+      value = found->get<std::string>();
+    if (value != OptionValue()) values.emplace(option.name, std::move(value));
+  }
+  return values;
+}
+
+OptionValues first_view() {
+  Json first = Json::object();
+  for (const OptionRow& option : option_table())
+    if (!option.in_studio.empty()) first[option.name] = option.in_studio;
+  return view_values(first);
 }
 
 Result<ExportOrder> export_order_from(const Json& json) {
@@ -179,11 +191,19 @@ Result<ExportOrder> export_order_from(const Json& json) {
   return ExportOrder{static_cast<int>(*pixels), material};
 }
 
-static Json to_json(const PreparationTexts& texts) {
-  return {{"view", texts.view},   {"up", texts.up},
-          {"crop", texts.crop},   {"crumbs", texts.crumbs},
-          {"plane", texts.plane}, {"denoise", texts.denoise},
-          {"mode", texts.mode},   {"points", texts.points ? Json(*texts.points) : Json()}};
+// Options without a value are empty texts, or null if they are numbers.
+static Json shown_json(const OptionValues& values) {
+  Json json = Json::object();
+  for (const OptionRow& option : option_table()) {
+    if (!option.is_prepared()) continue;
+    const auto found = values.find(option.name);
+    const OptionValue& value = found == values.end() ? option.initial : found->second;
+    if (option.is_number() && value == OptionValue())
+      json[option.name] = nullptr;
+    else
+      std::visit([&](const auto& each) { json[option.name] = each; }, value);
+  }
+  return json;
 }
 
 Json to_json(const EngineStatus& status) {
@@ -195,7 +215,7 @@ Json to_json(const EngineStatus& status) {
             {"error", nullptr},
             {"input", nullptr},
             {"making", {{"stage", status.making_stage}, {"fraction", status.making_fraction}}},
-            {"shown", to_json(status.view)}};
+            {"shown", shown_json(status.view)}};
   if (status.error) json["error"] = error_json(*status.error);
   if (status.model > 0) json["input"] = to_json(status.input);
   return json;

@@ -19,8 +19,11 @@ Result<View> view_from(const nlohmann::json& json);
 // Returns the longer side of a height map, and the material of a picture.
 Result<ExportOrder> export_order_from(const nlohmann::json& json);
 
-// Returns the texts of a view as the page sends them; those that are missing have their defaults.
-PreparationTexts preparation_texts(const nlohmann::json& json);
+// Returns the options by which a scan is prepared, as the page sends them; those that are missing have their defaults.
+OptionValues view_values(const nlohmann::json& json);
+
+// Returns these options as a new document has them.
+OptionValues first_view();
 
 nlohmann::json to_json(const EngineStatus& status);
 nlohmann::json to_json(const ModelFacts& facts);

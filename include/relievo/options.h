@@ -1,4 +1,4 @@
-// The options of a relief as typed values. A program fills them in, or parse_options() makes them of texts.
+// The options of a relief as typed values. A program fills them in, or parse_options() reads them.
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 
 namespace relievo {
 
-// Those that are plain numbers; option_fields() has their ranges.
+// The options that are plain numbers; option_table() has their ranges.
 struct NumericOptions {
   std::optional<double> width_mm;      // longer side of the relief, without margin; see effective_width_mm()
   std::optional<double> diameter_mm;   // of the plate, which is then a circle; as small as the relief allows
@@ -70,7 +70,12 @@ struct ReliefOptions : NumericOptions {
   // Nothing where the shape gives the height: by the paper's method, and for a lithophane. A height that was not asked for
   // is a share of the width, or the largest that the view reaches.
   std::optional<double> effective_height_mm() const;
+  // The height that is asked for, or else that of a lithophane or a share of the width: see docs/decisions/default-height.md.
+  double usual_height_mm() const {
+    return height_mm.value_or(form == Form::lithophane ? 2.4 : .05 * effective_width_mm());
+  }
   double effective_alpha() const { return alpha.value_or(4); }
+  double effective_steepest_deg() const { return steepest_deg.value_or(76); }  // that of Shape::max_slope
   // The margin is small where a diameter is given, as on coins.
   double effective_margin_mm() const { return margin_mm.value_or(diameter_mm ? 1 : 5); }
   // Little for a lithophane, through whose thinnest places the light is to come.

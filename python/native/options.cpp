@@ -10,48 +10,20 @@
 namespace relievo::python {
 namespace {
 
-[[noreturn]] void raise_type(const std::string& keyword, const char* expected, py::handle value) {
-  throw py::type_error(cat(keyword, ": expected ", expected, ", found ", Py_TYPE(value.ptr())->tp_name));
+[[noreturn]] void raise_type(const std::string& keyword, std::string_view expected, py::handle value) {
+  throw py::type_error(cat(keyword, ": ", expected, ", found ", Py_TYPE(value.ptr())->tp_name));
 }
 
-// Takes the values of the keywords that a table of options names.
-struct KeywordReader {
-  const py::dict& given;
-
-  void operator()(const OptionField& field, double& value) const {
-    if (const std::optional<double> number = take_number(field)) value = *number;
-  }
-  void operator()(const OptionField& field, std::optional<double>& value) const {
-    if (const std::optional<double> number = take_number(field)) value = number;
-  }
-  void operator()(const OptionField& field, std::string& value) const {
-    const py::object found = find(field);
-    if (found.is_none()) return;
-    if (!py::isinstance<py::str>(found)) raise_type(app::keyword_of(field), "a text", found);
-    value = found.cast<std::string>();
-  }
-
-  py::object find(const OptionField& field) const { return given.attr("get")(app::keyword_of(field)); }
-
-  // Lengths may be texts with a unit, as on the command line.
-  std::optional<double> take_number(const OptionField& field) const {
-    const py::object found = find(field);
-    if (found.is_none()) return std::nullopt;
-    const bool is_length = field.unit == "MM";
-    if (is_length && py::isinstance<py::str>(found)) {
-      Result<double> length = parse_length(found.cast<std::string>());
-      if (!length) length.error().input = field.name;
-      return value_or_raise(std::move(length));
-    }
-    const double number = PyBool_Check(found.ptr()) ? -1 : PyFloat_AsDouble(found.ptr());
-    if (PyBool_Check(found.ptr()) || PyErr_Occurred()) {
-      PyErr_Clear();
-      raise_type(app::keyword_of(field), is_length ? "a number or a length such as '4in'" : "a number",
-                 found);
-    }
-    return number;
-  }
-};
+// Returns a number or a text of the option's type; lengths may be texts with a unit, as on the command line.
+OptionValue value_of(const OptionRow& option, py::handle given) {
+  const bool is_text = py::isinstance<py::str>(given);
+  if (is_text && (!option.is_number() || option.is_length())) return given.cast<std::string>();
+  const double number = is_text || PyBool_Check(given.ptr()) ? -1 : PyFloat_AsDouble(given.ptr());
+  const bool is_number = !is_text && !PyBool_Check(given.ptr()) && !PyErr_Occurred();
+  PyErr_Clear();
+  if (!is_number || !option.is_number()) raise_type(app::keyword_of(option), expected_type(option), given);
+  return number;
+}
 
 py::object table() {
   return py::module_::import("json").attr("loads")(app::keyword_list().dump());
@@ -60,31 +32,29 @@ py::object table() {
 }  // namespace
 
 std::string keyword_of(std::string_view name) {
-  for (const ReliefField& field : option_fields())
-    if (field.name == name) return app::keyword_of(field);
   if (name == "base-image") return "base_image";
-  DepthTexts depth;
-  std::string keyword(name);
-  visit(depth, [&](const OptionField& field, const auto&) {
-    if (field.name == name) keyword = app::keyword_of(field);
-  });
-  return keyword;
+  const OptionRow* const option = find_option(name);
+  return option ? app::keyword_of(*option) : std::string(name);
 }
 
-OptionTexts texts_of(const py::dict& given) {
-  OptionTexts texts;
-  visit(texts, KeywordReader{given});
-  return texts;
+OptionValues values_of(const py::dict& given) {
+  OptionValues values;
+  for (const OptionRow& option : option_table()) {
+    const py::object found = given.attr("get")(app::keyword_of(option));
+    if (!found.is_none()) values.emplace(option.name, value_of(option, found));
+  }
+  return values;
 }
 
 app::InputArguments input_arguments(const py::dict& given) {
-  DepthTexts depth;
-  const KeywordReader reader{given};
-  visit(depth, reader);
   app::InputArguments arguments;
-  arguments.depth = value_or_raise(parse_depth(depth));
-  reader({"camera", "TEXT", ""}, arguments.camera);
-  reader({"stream_above_mb", "MB", ""}, arguments.stream_above_mb);
+  arguments.depth = value_or_raise(parse_depth(values_of(given)));
+  const OptionRow camera{.name = "camera", .unit = "TEXT", .help = {}};
+  const OptionRow stream{.name = "stream_above_mb", .unit = "MB", .min = 0, .max = 1e9, .help = {}};
+  if (const py::object found = given.attr("get")("camera"); !found.is_none())
+    arguments.camera = std::get<std::string>(value_of(camera, found));
+  if (const py::object found = given.attr("get")("stream_above_mb"); !found.is_none())
+    arguments.stream_above_mb = std::get<double>(value_of(stream, found));
   return arguments;
 }
 

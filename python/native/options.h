@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "common/read_inputs.h"
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 
 namespace relievo::python {
 
@@ -15,11 +15,12 @@ namespace relievo::python {
 // draft_deg. Other texts are returned unchanged.
 std::string keyword_of(std::string_view name);
 
-// Returns the options of a dict of keywords and values; None stands for the default. Raises TypeError for a value of
-// another type, and relievo.Error for a text that is no length.
-OptionTexts texts_of(const pybind11::dict& given);
+// Returns the values of a dict of keywords and values; None stands for the default. Raises TypeError for a value of another
+// type.
+OptionValues values_of(const pybind11::dict& given);
 
-// Returns how a depth image is read, and from which size files are read piece by piece. Raises as texts_of() does.
+// Returns how a depth image is read, and from which size files are read piece by piece. Raises as values_of() does, and
+// relievo.Error.
 app::InputArguments input_arguments(const pybind11::dict& given);
 
 void add_options(pybind11::module_& module);

@@ -146,13 +146,9 @@ std::string scan_path_of(const py::dict& keywords) {
 }  // namespace
 
 app::MakeOrder order_of(const py::list& sources, const py::dict& keywords) {
-  app::MakeOrder order{texts_of(keywords), {}, input_arguments(keywords)};
+  app::MakeOrder order{values_of(keywords), input_arguments(keywords)};
   take_sources(sources, order);
   order.scan_path = scan_path_of(keywords);
-  for (const ReliefField& field : option_fields()) {
-    const std::string keyword = keyword_of(field.name);
-    if (keywords.contains(keyword) && !keywords[keyword.c_str()].is_none()) order.given.emplace(field.name);
-  }
   const py::object image = keywords.attr("get")("base_image");
   if (image.is_none()) return order;
   if (py::isinstance<py::str>(image))

@@ -16,17 +16,22 @@ from . import _native
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 TABLE: list[dict[str, Any]] = _native.option_table()
-RELIEF = [row for row in TABLE if not row.get("is_of_input")]
-INPUT = [row["keyword"] for row in TABLE if row.get("is_of_input")] + ["camera", "base_image", "scan", "stream_above_mb"]
 
-_TEXTS = {row["keyword"] for row in TABLE if "min" not in row and row["unit"] not in ("R", "N")}
+
+def of_stage(*stages: str) -> list[str]:
+    """Returns the keywords of the options whose change costs the work of one of those stages."""
+    return [row["keyword"] for row in TABLE if row["stage"] in stages]
+
+
+INPUT = [*of_stage("input"), "camera", "base_image", "scan", "stream_above_mb"]
+
+_TEXTS = {row["keyword"] for row in TABLE if "min" not in row}
 
 # What a session prepares once, and what its frames can change.
-PREPARED = {"view", "up", "crop", "crumbs", "plane", "denoise", "mode", "points", *INPUT} - {"base_image"}
-SHAPE = {"width_mm", "height_mm", "alpha", "saturation", "detail", "method", "steepest_deg", "boundary", "steps", "tone"}
-OF_MAKE = [row["keyword"] for row in RELIEF] + INPUT
+PREPARED = {*of_stage("view", "model"), *INPUT} - {"base_image"}
+OF_MAKE = [row["keyword"] for row in TABLE if row["stage"] != "input"] + INPUT
 OF_SESSION = [keyword for keyword in OF_MAKE if keyword not in PREPARED]
-OF_FRAME = [keyword for keyword in OF_MAKE if keyword in SHAPE]
+OF_FRAME = of_stage("shape")
 
 _EXTRA_HELP = {
     "camera": "of a depth image: FX,FY,CX,CY, the matrix, or a file with one of them",
@@ -78,7 +83,7 @@ def text_of(value: Any) -> Any:
 
 
 def _annotation(row: Mapping[str, Any]) -> Any:
-    if "min" in row or row["unit"] in ("R", "N"):
+    if "min" in row:
         return Union[float, str, None] if row["unit"] == "MM" else Union[float, None]
     has_numbers = row["unit"] in ("SIDE", "X,Y,Z", "X0,Y0,X1,Y1", "NOISE", "X,Y;..")
     return Any if has_numbers else Union[str, None]
@@ -100,9 +105,7 @@ def _help(known: Sequence[str]) -> str:
             continue
         words = f"; {', '.join(row['choices'])}" if "choices" in row else ""
         ends = f" [{row['min']:g} to {row['max']:g}]" if "min" in row else ""
-        default = row["default_text"]
-        default = f"{default:g}" if isinstance(default, float) else default
-        lines.append(f"    {row['keyword']}: {row['help']}{words}{ends}; default: {default}")
+        lines.append(f"    {row['keyword']}: {row['help']}{words}{ends}; default: {row['default_text']}")
     lines += [f"    {name}: {_EXTRA_HELP[name]}" for name in known if name in _EXTRA_HELP]
     return "\n".join(lines)
 

@@ -16,8 +16,6 @@
 namespace relievo {
 namespace {
 
-constexpr double default_lithophane_mm = 2.4;  // height where none is asked for
-
 // Lowest and highest point of the front, ground included.
 std::pair<double, double> span_of(const HeightFieldMesh& front) {
   double lowest = front.ground_mm, highest = lowest;
@@ -72,7 +70,7 @@ Result<FormedFront> full_front(const Surface& surface, const Relief& relief, con
   const double scale = mm_per_unit(surface, options);
   FormedFront made;
   if (options.form == Form::lithophane) {
-    made.height_mm = options.height_mm.value_or(default_lithophane_mm);
+    made.height_mm = options.usual_height_mm();
     made.front = lithophane(surface, scale, made.height_mm);
   } else {
     made.height_mm = relief.height * scale;

@@ -4,35 +4,17 @@
 #include <utility>
 
 #include "relievo/core/text.h"
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 #include "relievo/relief/shape.h"
 
 namespace relievo {
 namespace {
 
-Result<void> check_range(const OptionField& field, double value) {
-  if (value >= field.min && value <= field.max) return {};
-  const std::string_view hint = value == 0 && field.otherwise == "none" ? "; leave it out for none" : "";
-  return option_error(std::string(field.name),
-                      cat("expected a number from ", field.min, " to ", field.max, ", found ", value, hint));
-}
-
-struct RangeCheck {
-  const ReliefOptions& options;
-  const OptionField& field;
-
-  Result<void> operator()(double NumericOptions::*member) const {
-    return check_range(field, options.*member);
-  }
-  Result<void> operator()(std::optional<double> NumericOptions::*member) const {
-    return options.*member ? check_range(field, *(options.*member)) : Result<void>();
-  }
-  Result<void> operator()(std::string OptionTexts::*) const { return {}; }
-};
-
 Result<void> check_ranges(const ReliefOptions& options) {
-  for (const ReliefField& field : option_fields())
-    RELIEVO_CHECK(std::visit(RangeCheck{options, field}, field.value));
+  for (const OptionRow& option : option_table())
+    if (option.access.number)
+      if (const std::optional<double> number = option.access.number(options))
+        RELIEVO_CHECK(check_range(option, *number));
   return {};
 }
 
@@ -121,9 +103,8 @@ Method ReliefOptions::effective_method() const {
 }
 
 std::optional<double> ReliefOptions::effective_height_mm() const {
-  constexpr double share_of_width = .05;  // see docs/decisions/default-height.md
-  if (height_mm || effective_method() == Method::paper || form == Form::lithophane) return height_mm;
-  return share_of_width * effective_width_mm();
+  if (effective_method() == Method::paper || form == Form::lithophane) return height_mm;
+  return usual_height_mm();
 }
 
 double ReliefOptions::effective_saturation() const {

@@ -30,7 +30,6 @@ struct Shared {
   SessionStatus status;
   Measured measured;  // last
   std::function<Preparation::Points(Progress&)> all_sides;
-  std::optional<double> denoise;               // of the view that was prepared last
   std::shared_ptr<const Turntable> turntable;  // of the measured points; null before the first turn
   std::shared_ptr<Progress> turning;           // of the newest turn(), until it returns
   std::optional<TurnedRelief> first;           // of the measured points in first_view, until there is a model
@@ -113,7 +112,6 @@ struct Session::State {
       if (s.measured.cloud != measured) {
         s.measured = {cloud, measured};
         s.all_sides = std::move(all_sides);
-        s.denoise = view.denoise;
         s.turntable = nullptr;
         s.first.reset();
       }
@@ -161,14 +159,14 @@ struct Session::State {
 
   // Returns what turns the points that were measured last. They are measured again where they are those of one view.
   Result<std::shared_ptr<const Turntable>> turntable(const View& view, Progress& progress) {
-    const auto [known, last, all_sides, denoise] = shared.with(
-        [](const Shared& s) { return std::tuple(s.turntable, s.measured, s.all_sides, s.denoise); });
+    const auto [known, last, all_sides] =
+        shared.with([](const Shared& s) { return std::tuple(s.turntable, s.measured, s.all_sides); });
     if (!last.cloud)
       return std::unexpected(Error{ErrorKind::geometry, {}, {}, "expected points that were prepared"});
     if (known) return known;
-    View whole = view;
+    View whole = last.cloud->view();
+    whole.R_view_model = view.R_view_model;
     whole.crop = {};
-    whole.denoise = denoise;
     RELIEVO_TRY(const auto points, all_sides ? all_sides(progress) : Preparation::Points(last.of));
     RELIEVO_CHECK(check_cancelled(&progress));
     std::shared_ptr<const MeasuredCloud> measured = last.cloud;

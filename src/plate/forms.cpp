@@ -59,10 +59,6 @@ double darkness(double bright, const Range& range) {
 
 }  // namespace
 
-Result<Form> parse_form(std::string_view name) {
-  return parse_choice("form", name, form_choices);
-}
-
 HeightFieldMesh mirrored(HeightFieldMesh front) {
   for (Vec3& p : front.points) p.x() = -p.x();
   for (Triangle& t : front.triangles) std::swap(t[1], t[2]);

@@ -241,10 +241,6 @@ std::optional<Vec2> parse_pair(std::string_view text, char separator, LengthUnit
 
 }  // namespace
 
-Result<Outline> parse_outline(std::string_view name) {
-  return parse_choice("outline", name, outline_choices);
-}
-
 Result<Vec2> parse_plate_size(std::string_view text, LengthUnit bare) {
   constexpr std::string_view cross_sign = "\u00d7";  // people write it as well as x
   if (const std::size_t at = text.find(cross_sign); at != std::string_view::npos)

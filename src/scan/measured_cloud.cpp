@@ -138,7 +138,7 @@ Result<void> MeasuredCloud::measure_points(const View& view, Progress* progress)
 // several scans overlap, points without noise lie closer together than the surface is sampled.
 void MeasuredCloud::remove_noise(const View& view, const Progress* progress) {
   measured_noise_ = measure_noise(cloud_, spacing_);
-  removed_noise_ = view.denoise.value_or(measured_noise_);
+  removed_noise_ = view.noise_to_remove(measured_noise_);
   if (removed_noise_ == 0) return;
   relievo::remove_noise(cloud_, spacing_, removed_noise_, progress);
   if (progress && progress->is_cancelled()) return;

@@ -22,6 +22,9 @@ class MeasuredCloud {
   // of the view, and so do the exact outlines of a mesh.
   bool serves(const View& view) const;
 
+  // Returns the view that they were measured for.
+  const View& view() const { return view_; }
+
   // The points, from the centre of their box, in the axes of the cloud and in the order of a space-filling curve, which
   // makes all results independent of the file's order. Signs of estimated normals are arbitrary.
   const Cloud& cloud() const { return cloud_; }
@@ -46,7 +49,7 @@ class MeasuredCloud {
   Result<void> measure_points(const View& view, Progress* progress);
   void remove_noise(const View& view, const Progress* progress);
 
-  View view_;  // that it was measured for
+  View view_;
   Cloud cloud_;
   Spacing spacing_;
   std::unique_ptr<const KdTree<Vec3>> tree_;

@@ -68,7 +68,7 @@ void estimate_again(Cloud& cloud, double noise) {
 void sign_normals(ViewCloud& viewed, Surface& surface) {
   give_signs(viewed.cloud, viewed.spacing());
   surface.measured_noise = measure_noise(viewed.cloud, viewed.spacing());
-  surface.removed_noise = surface.view.denoise.value_or(surface.measured_noise);
+  surface.removed_noise = surface.view.noise_to_remove(surface.measured_noise);
   if (surface.removed_noise == 0) return;
   estimate_again(viewed.cloud, surface.removed_noise);
   remove_noise(viewed.cloud, viewed.spacing(), surface.removed_noise);

@@ -103,7 +103,7 @@ Result<std::optional<double>> parse_denoise(std::string_view text) {
   if (text == "auto") return std::optional<double>();
   const auto noise = parse_numbers(text);
   if (!noise || noise->size() != 1 || !((*noise)[0] >= 0 && (*noise)[0] <= 1))
-    return option_error("denoise", cat("expected auto or a number from 0 to 1, found '", text, "'"));
+    return option_error({}, cat("expected auto or a number from 0 to 1, found '", text, "'"));
   return (*noise)[0];
 }
 

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "relievo/option_texts.h"
+#include "relievo/option_table.h"
 #include "relievo/relief/weights.h"
 
 namespace relievo {
@@ -59,14 +59,12 @@ TEST(Options, OutOfRangeAreNamed) {
 }
 
 TEST(Options, TheBestViewFindsWhatIsUp) {
-  OptionTexts texts;
-  texts.view = "auto";
-  const Result<ReliefOptions> options = parse_options(texts);
+  const Result<ReliefOptions> options = parse_options({{"view", "auto"}});
   ASSERT_TRUE(options);
   EXPECT_TRUE(options->view.is_best);
-  texts.up = "0,0,1";
-  ASSERT_FALSE(parse_options(texts));
-  EXPECT_EQ(parse_options(texts).error().input, "up");
+  const Result<ReliefOptions> refused = parse_options({{"view", "auto"}, {"up", "0,0,1"}});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().input, "up");
 }
 
 TEST(Options, HeightAndAlphaContradict) {

@@ -64,13 +64,6 @@ double height_around(const HeightFieldMesh& front, const Vec2& centre, double ra
   return median(heights);
 }
 
-TEST(Forms, AreToldByTheirNames) {
-  EXPECT_EQ(*parse_form("relief"), Form::relief);
-  EXPECT_EQ(*parse_form("lithophane"), Form::lithophane);
-  EXPECT_EQ(parse_form("coin").error().message(),
-            "form: expected one of relief, mirror, die or lithophane, found 'coin'");
-}
-
 TEST(Forms, AMirrorSwapsLeftAndRight) {
   const MadeRelief relief = made(Form::relief), mirror = made(Form::mirror);
   const double width = box_of(relief.solid).max.x();

@@ -338,11 +338,5 @@ TEST(Outlines, OnlyTheRectangleIsTheBoxOfItsPoints) {
   }
 }
 
-TEST(Outlines, AreToldByTheirNames) {
-  for (const auto& [name, outline] : outline_choices) EXPECT_EQ(*parse_outline(name), outline);
-  EXPECT_EQ(parse_outline("star").error().message(),
-            "outline: expected one of " + either(names_of(outline_choices)) + ", found 'star'");
-}
-
 }  // namespace
 }  // namespace relievo

@@ -160,14 +160,6 @@ TEST(Relief, OfAFigureWithFloatingFragmentsExists) {
   EXPECT_EQ(relief.height, .1);
 }
 
-TEST(Relief, ModesHaveNames) {
-  EXPECT_EQ(parse_mode("exact"), Mode::exact);
-  EXPECT_EQ(parse_mode("subspace"), Mode::subspace);
-  EXPECT_EQ(parse_mode("auto"), Mode::automatic);
-  EXPECT_NE(parse_mode("fast").error().message().find("mode: expected one of exact, subspace or auto"),
-            std::string::npos);
-}
-
 TEST(Relief, OfTheSubspaceIsCloseAndAsHighAsAsked) {
   const Surface surface = find_surface(figure(), {}).value();
   const auto relief = [&](Mode mode) {

@@ -255,21 +255,6 @@ TEST(DepthCloud, LargeImagesAreReduced) {
   EXPECT_EQ(made->cloud.size(), 80U * 60);
 }
 
-TEST(DepthTexts, AreReadOnce) {
-  const auto options = parse_depth({"inverse", 3, 2, "keep"});
-  ASSERT_TRUE(options);
-  EXPECT_EQ(options->values, DepthValues::inverse);
-  EXPECT_EQ(options->range, 2);
-  EXPECT_EQ(options->channel, 3);
-  EXPECT_EQ(options->background, Background::keep);
-  EXPECT_EQ(parse_depth({"far", 0, 1, "auto"}).error().message(),
-            "depth-values: expected one of depth, height, inverse or luminance, found 'far'");
-  EXPECT_EQ(parse_depth({"depth", 0, 1, "cut"}).error().input, "background");
-  EXPECT_EQ(parse_depth({"depth", 0, 11, "auto"}).error().input, "depth-range");
-  EXPECT_EQ(parse_depth({"depth", 1.5, 1, "auto"}).error().input, "channel");
-  EXPECT_EQ(parse_depth({"depth", 65, 1, "auto"}).error().input, "channel");
-}
-
 TEST(DepthCloud, RefusesWhatItCannotUse) {
   DepthOptions options;
   options.range = 0;

@@ -101,7 +101,7 @@ TEST(Denoise, IsAutoOrANumberUpToOne) {
   EXPECT_EQ(*parse_denoise("1"), 1);
   for (const char* wrong : {"", "yes", "-0.1", "1.1", "nan", "inf", "0.1,0.2", "0.1x"}) {
     ASSERT_FALSE(parse_denoise(wrong)) << wrong;
-    EXPECT_EQ(parse_denoise(wrong).error().input, "denoise");
+    EXPECT_EQ(parse_denoise(wrong).error().kind, ErrorKind::option);
   }
 }
 

@@ -24,9 +24,6 @@ inline constexpr std::array<Choice<Form>, 4> form_choices{{{"relief", Form::reli
                                                            {"die", Form::die},
                                                            {"lithophane", Form::lithophane}}};
 
-// Returns the form of that name. Errors: kind option for any other name.
-Result<Form> parse_form(std::string_view name);
-
 // Returns the front with left and right swapped.
 HeightFieldMesh mirrored(HeightFieldMesh front);
 

@@ -38,9 +38,6 @@ struct OutlineOptions {
   Vec2 size_mm = Vec2::Zero();
 };
 
-// Returns the outline of that name. Errors: kind option for any other name.
-Result<Outline> parse_outline(std::string_view name);
-
 // Returns width and height in millimetres of a text such as "200x150" or "8in x 6in": two lengths, see parse_length(),
 // with x or the multiplication sign between them.
 // A unit behind the second alone is that of both. Errors: kind option for any other text; the error's input is empty, for

@@ -77,9 +77,4 @@ enum class Mode {
 inline constexpr std::array<Choice<Mode>, 3> mode_choices{
     {{"exact", Mode::exact}, {"subspace", Mode::subspace}, {"auto", Mode::automatic}}};
 
-// Returns the mode of that name. Errors: kind option for any other, naming mode.
-inline Result<Mode> parse_mode(std::string_view name) {
-  return parse_choice("mode", name, mode_choices);
-}
-
 }  // namespace relievo

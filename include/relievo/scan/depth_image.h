@@ -4,12 +4,10 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <vector>
 
 #include "relievo/core/choice.h"
 #include "relievo/core/image.h"
-#include "relievo/core/option_field.h"
 #include "relievo/core/progress.h"
 #include "relievo/scan/cloud.h"
 
@@ -61,47 +59,6 @@ struct DepthOptions {
 
 // Checks ranges. Errors: kind option, naming the option.
 Result<void> check(const DepthOptions& options);
-
-// The options that users type, as texts and numbers.
-struct DepthTexts {
-  std::string values = "depth";
-  double channel = 0;
-  double range = DepthOptions{}.range;
-  std::string background = "auto";
-};
-
-// Calls f(field, value) for each of them, as visit() of OptionTexts does.
-template <typename Texts, typename F>
-requires std::is_same_v<std::remove_const_t<Texts>, DepthTexts>
-void visit(Texts& o, F&& f) {
-  f(OptionField{.name = "depth-values",
-                .unit = "KIND",
-                .help =
-                    "of a depth image: depth (0 is missing), height, inverse depth as estimators give it, or "
-                    "luminance, also of colours, bright being near",
-                .choices = names_of(depth_value_choices)},
-    o.values);
-  f(OptionField{.name = "channel",
-                .unit = "N",
-                .help = "of a depth image with several channels: the one with the depths; 0: the only one",
-                .min = 0,
-                .max = 64},
-    o.channel);
-  f(OptionField{.name = "depth-range",
-                .unit = "R",
-                .help = "of a depth image without camera: nearest to farthest, in picture widths",
-                .min = .01,
-                .max = 10},
-    o.range);
-  f(OptionField{.name = "background",
-                .unit = "B",
-                .help = "of a depth image: keep, remove or auto (remove if there is no camera)",
-                .choices = names_of(background_choices)},
-    o.background);
-}
-
-// Returns the options that the texts ask for, without camera. Errors: kind option, naming the option.
-Result<DepthOptions> parse_depth(const DepthTexts& texts);
 
 // The points of a depth image, and what was done to obtain them.
 struct DepthCloud {

@@ -34,7 +34,7 @@ struct Surface {
   // The table or background that was found, in the coordinates of `points`. It is left out unless View::has_plane.
   std::optional<SupportPlane> plane = {};
   double measured_noise = 0;  // along the normals, in sampling distances; 0 if little
-  double removed_noise = 0;   // what View::denoise asked for, or the measured noise
+  double removed_noise = 0;   // what the view asks for, or else the measured noise
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 
@@ -46,7 +46,7 @@ struct Surface {
 std::vector<Vec2> in_plane(std::span<const Vec3> points);
 
 // Returns the surface of the part of the cloud that the view crops. Normals are estimated if the cloud has none, and
-// turned if they point inwards. Noise is removed, see View::denoise. Pieces of less than 0.5 % of what is seen
+// turned if they point inwards. Noise is removed as the view asks for. Pieces of less than 0.5 % of what is seen
 // are left out as crumbs, and so is a support plane with what is behind it if the view says so.
 // Errors: kind geometry if a coordinate is not finite, normals do not match the points, fewer than 4 points
 // are given or face the viewer, all are equal or on one line, or the visible points enclose no area; kind

@@ -28,12 +28,14 @@ struct View {
   Crop crop = {};
   bool has_crumbs = false;  // shows pieces of the surface that are taken for crumbs, see find_surface()
   bool has_plane = true;  // shows the table or background that the figure stands on, see find_support_plane()
-  std::optional<double> denoise =
-      {};  // noise that is removed, in sampling distances, [0, 1]; else what is measured
-  bool is_best =
-      false;  // the best side is still to be chosen, when the model is known: see chosen_view() in scene.h
+  std::optional<double> denoise = {};  // to remove, in sampling distances, [0, 1]; else the measured noise
+  // The best side is still to be chosen, when the model is known: see chosen_view() in scene.h.
+  bool is_best = false;
 
   bool operator==(const View&) const = default;
+
+  // Returns the noise to remove from points whose noise was measured.
+  double noise_to_remove(double measured) const { return denoise.value_or(measured); }
 };
 
 // Returns the view from the direction `towards_viewer`, which points from the model to the viewer: (0, 0, 1)
@@ -51,8 +53,8 @@ Result<View> parse_view(std::string_view text, std::string_view up = {});
 // kind option for anything but such numbers, in [0, 1] and ascending.
 Result<Crop> parse_crop(std::string_view text);
 
-// Returns the noise to remove that "auto" or a number in [0, 1] names, see View::denoise. Errors: kind option for any other
-// text.
+// Returns the noise to remove that "auto" or a number in [0, 1] names, see View. Errors: kind option for any other text; the
+// error's input is empty, for the caller to fill in.
 Result<std::optional<double>> parse_denoise(std::string_view text);
 
 // Returns the points of a cloud that the view's crop shows, in their order.

@@ -1,0 +1,85 @@
+#include "cli/flags.h"
+
+#include <array>
+#include <charconv>
+
+#include "common/option_list.h"
+#include "relievo/core/length.h"
+#include "relievo/core/text.h"
+#include "relievo/plate/tool.h"
+
+namespace relievo::app::cli {
+namespace {
+
+std::string exact_text(double number) {
+  std::array<char, 32> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
+}
+
+Result<std::string> length_in_mm(std::string_view text, LengthUnit bare) {
+  RELIEVO_TRY(const double mm, parse_length(text, bare));
+  return exact_text(mm);
+}
+
+Result<std::string> plate_in_mm(std::string_view text, LengthUnit bare) {
+  RELIEVO_TRY(const Vec2 mm, parse_plate_size(text, bare));
+  return cat(exact_text(mm.x()), "x", exact_text(mm.y()));
+}
+
+Result<std::string> tool_in_mm(std::string_view text, LengthUnit bare) {
+  RELIEVO_TRY(const Tool tool, parse_tool(text, bare));
+  return text_of(tool);
+}
+
+// Returns the unit of --units; millimetres where it is not given or the command has no such flag.
+LengthUnit unit_of(const CLI::App& command) {
+  const CLI::Option* const units = command.get_option_no_throw("--units");
+  if (units == nullptr || units->count() == 0) return LengthUnit::mm;
+  return parse_unit(units->results().back()).value_or(LengthUnit::mm);
+}
+
+// Lengths may carry a unit, or be in that of --units, wherever that stands.
+CLI::Validator in_mm(const CLI::App& command, Result<std::string> (*convert)(std::string_view, LengthUnit)) {
+  const auto transform = [&command, convert](std::string& text) {
+    const Result<std::string> mm = convert(text, unit_of(command));
+    if (!mm) return mm.error().expected;
+    text = *mm;
+    return std::string();
+  };
+  return CLI::Validator(transform, "");
+}
+
+template <typename T>
+CLI::Option* add_flag(CLI::App& command, OptionValues& values, const OptionRow& option) {
+  const auto take = [&values, &option](const T& value) { values[std::string(option.name)] = value; };
+  return command.add_option_function<T>(cat("--", option.name), take);
+}
+
+std::string initial_text(const OptionRow& option) {
+  if (const double* const number = std::get_if<double>(&option.initial)) return cat(*number);
+  return std::get<std::string>(option.initial);
+}
+
+}  // namespace
+
+std::string flag_help(const OptionRow& option) {
+  const std::string range = option.is_number() ? cat(" [", option.min, " to ", option.max, "]") : "";
+  const bool is_shown = !initial_text(option).empty();
+  return cat(help_text(option), range, is_shown ? "" : cat("; default: ", default_text(option)));
+}
+
+void add_flags(CLI::App& command, OptionValues& values,
+               const std::function<bool(const OptionRow&)>& is_wanted,
+               const std::function<std::string(const OptionRow&)>& help) {
+  for (const OptionRow& option : option_table()) {
+    if (!is_wanted(option)) continue;
+    CLI::Option* const flag = option.is_number() ? add_flag<double>(command, values, option)
+                                                 : add_flag<std::string>(command, values, option);
+    flag->description(help(option))->type_name(std::string(option.unit))->default_str(initial_text(option));
+    if (option.is_length()) flag->transform(in_mm(command, length_in_mm));
+    if (option.unit == "TOOL") flag->transform(in_mm(command, tool_in_mm));
+    if (option.unit == "WxH") flag->transform(in_mm(command, plate_in_mm));
+  }
+}
+
+}  // namespace relievo::app::cli

@@ -1,0 +1,262 @@
+#include "relievo/option_table.h"
+
+#include <algorithm>
+
+#include "pipeline/option_targets.h"
+
+namespace relievo {
+namespace {
+
+using enum OptionStage;
+
+std::vector<std::string_view> all_method_names() {
+  std::vector<std::string_view> names;
+  for (const MethodInfo& info : methods) names.push_back(info.name);
+  return names;
+}
+
+// These functions take a second argument besides the text.
+Result<Method> method_of(std::string_view text) {
+  return parse_method(text);
+}
+Result<Tool> tool_of(std::string_view text) {
+  return parse_tool(text);
+}
+Result<Vec2> plate_of(std::string_view text) {
+  return parse_plate_size(text);
+}
+Result<Vec2> shift_of(std::string_view text) {
+  return parse_shift(text);
+}
+Result<std::string> same(std::string_view text) {
+  return std::string(text);
+}
+
+Result<void> read_channel(const OptionValue& value, OptionTargets& to) {
+  const double channel = std::get<double>(value);
+  to.depth.channel = static_cast<int>(channel);
+  if (to.depth.channel == channel) return {};
+  return option_error({}, cat("expected a whole number, found ", channel));
+}
+
+// The words for whether the view has crumbs, or a support plane.
+constexpr std::array<Choice<bool>, 2> keep_choices{{{"drop", false}, {"keep", true}}};
+
+// A row is easier to read in few long lines than with a line for each member.
+// clang-format off
+
+// Returns the rows of the relief's height and compression.
+std::vector<OptionRow> shape_rows() {
+  return {
+      {.name = "width", .unit = "MM", .stage = shape, .min = .1, .max = 1e5,
+       .help = "length of the relief's longer side; margin and rim are added to it",
+       .otherwise = "100, or as much as diameter or plate allow", .is_stated = true,
+       .access = number<&ReliefOptions::width_mm, &ReliefOptions::effective_width_mm>},
+      {.name = "height", .unit = "MM", .stage = shape, .min = 1e-4, .max = 1e5,
+       .help = "from the lowest to the highest point of the front, met exactly",
+       .otherwise = "5 % of the width, or what the view reaches; by method paper what alpha gives; 2.4 for a "
+                    "lithophane",
+       .is_stated = true,
+       .access = number<&ReliefOptions::height_mm, &ReliefOptions::usual_height_mm>},
+      {.name = "alpha", .unit = "A", .stage = shape, .min = 0, .max = 1e9,
+       .help = "the paper's height coefficient, more is flatter; not together with height",
+       .access = number<&ReliefOptions::alpha, &ReliefOptions::effective_alpha>},
+      {.name = "saturation", .unit = "B", .stage = shape, .min = 0, .max = 100,
+       .help = "the paper's beta: 0 compresses all parts alike, more favours what is strongly curved",
+       .is_stated = true,
+       .access = number<&ReliefOptions::saturation, &ReliefOptions::effective_saturation>},
+      {.name = "detail", .unit = "G", .stage = shape, .min = 0, .max = 1,
+       .help = "the paper's gamma, the strength of detail; with method layered, how much coarse shapes are attenuated",
+       .is_stated = true,
+       .access = number<&ReliefOptions::detail, &ReliefOptions::effective_detail>},
+      {.name = "method", .unit = "NAME", .stage = shape, .choices = all_method_names(),
+       .help = "method that compresses the depths", .otherwise = "paper with an alpha, else layered",
+       .in_studio = "layered", .is_stated = true, .access = text<&ReliefOptions::method, method_of>},
+  };
+}
+
+// Returns the rows of the relief's limits.
+std::vector<OptionRow> limit_rows() {
+  return {
+      {.name = "steepest", .unit = "DEG", .stage = shape, .min = 1, .max = 89,
+       .help = "steepest slope asked of the surface, which walls at depth jumps can exceed",
+       .access = number<&ReliefOptions::steepest_deg, &ReliefOptions::effective_steepest_deg>},
+      {.name = "draft", .unit = "DEG", .stage = triangles, .min = 1, .max = 80,
+       .help = "least angle of walls off the vertical, kept by every triangle of the front: 15 for coin dies",
+       .otherwise = "any",
+       .access = number<&ReliefOptions::draft_deg>},
+      {.name = "boundary", .unit = "W", .stage = shape, .min = .1, .max = 100,
+       .help = "width of the soft rim, in sampling distances", .is_stated = true,
+       .access = number<&ReliefOptions::boundary_width, &ReliefOptions::effective_boundary_width>},
+      {.name = "steps", .unit = "SHARE", .stage = shape, .min = 0, .max = .95,
+       .help = "share of the height that depth jumps take, which else vanish; they take more where slopes alone do "
+               "not reach the height",
+       .initial = NumericOptions{}.steps, .is_stated = true,
+       .access = number<&ReliefOptions::steps>},
+      {.name = "tone", .unit = "X,Y;..", .stage = shape,
+       .help = "tone curve that replaces the saturation: share of the slope kept over the square root of the curvature",
+       .otherwise = "none", .access = text<&ReliefOptions::tone, parse_tone_curve>},
+      {.name = "mode", .unit = "MODE", .stage = model, .choices = names_of(mode_choices),
+       .help = "subspace solves for about 8,000 control points: half the memory, 1 to 4 % of the height off; auto does "
+               "so above 1.5 million visible points",
+       .initial = "exact", .in_studio = "auto", .is_stated = true,
+       .access = word<&ReliefOptions::mode, mode_choices>},
+  };
+}
+
+// Returns the rows of the side of the model that the relief shows.
+std::vector<OptionRow> view_rows() {
+  return {
+      {.name = "view", .unit = "SIDE", .stage = view,
+       .help = "side shown: front (+Z), back, left, right, top, bottom or the direction X,Y,Z towards the viewer; "
+               "auto: the side that suits a relief best, upright",
+       .initial = "front", .in_studio = "auto", .is_stated = true, .access = text<&OptionTargets::side, same>},
+      {.name = "up", .unit = "X,Y,Z", .stage = view,
+       .help = "direction shown upright", .otherwise = "+Y, of top -Z, of bottom +Z",
+       .access = text<&OptionTargets::up, same>},
+      {.name = "crop", .unit = "X0,Y0,X1,Y1", .stage = view,
+       .help = "part of the scan that is used, in shares of its box as seen, from below on the left; with ,NEAR,FAR a "
+               "part of its depth, too",
+       .otherwise = "all of it", .access = text<&View::crop, parse_crop>},
+      {.name = "crumbs", .unit = "WHAT", .stage = view, .choices = names_of(keep_choices),
+       .help = "drop or keep pieces of less than 0.5 % of what is seen",
+       .initial = "drop", .access = word<&View::has_crumbs, keep_choices>},
+      {.name = "plane", .unit = "WHAT", .stage = view, .choices = names_of(keep_choices),
+       .help = "keep or drop a table or background that is found: a plane that the figure stands on or before, and "
+               "what lies behind it",
+       .initial = "keep", .access = word<&View::has_plane, keep_choices>},
+      {.name = "denoise", .unit = "NOISE", .stage = view,
+       .help = "noise that is removed while creases stay, as standard deviation in sampling distances, 0 to 1; auto: "
+               "as much as is measured",
+       .initial = "auto", .access = text<&View::denoise, parse_denoise>},
+  };
+}
+
+std::vector<OptionRow> plate_rows() {
+  return {
+      {.name = "outline", .unit = "SHAPE", .stage = plate, .choices = names_of(outline_choices),
+       .help = "outline of the plate; round has round corners, none is the relief alone, cut out along its silhouette",
+       .otherwise = "rectangle; circle with a diameter", .in_studio = "rectangle",
+       .access = word<&OptionTargets::outline, outline_choices>},
+      {.name = "corner", .unit = "MM", .stage = plate, .min = .01, .max = 1e5,
+       .help = "radius of the corners of outline round", .initial = NumericOptions{}.corner_mm,
+       .access = number<&ReliefOptions::corner_mm>},
+      {.name = "diameter", .unit = "MM", .stage = plate, .min = .1, .max = 1e5,
+       .help = "diameter of a round plate with margin and rim, in which the relief is as large as fits, or as width "
+               "says; in a die, of the piece that it makes",
+       .otherwise = "what the relief needs",
+       .access = number<&ReliefOptions::diameter_mm>},
+      {.name = "plate", .unit = "WxH", .stage = plate,
+       .help = "width and height of the plate with margin and rim, in which the relief is as large as fits, or as "
+               "width says: 200x150 or 8inx6in, with outline rectangle, round or ellipse",
+       .otherwise = "what the relief needs", .access = text<&ReliefOptions::plate_mm, plate_of>},
+      {.name = "shift", .unit = "X,Y", .stage = plate,
+       .help = "how far the relief lies to the right of the middle of a plate whose size is given, and above it",
+       .otherwise = "0,0", .access = text<&ReliefOptions::shift_mm, shift_of>},
+      {.name = "margin", .unit = "MM", .stage = plate, .min = .01, .max = 1e5,
+       .help = "least flat ground around the relief", .otherwise = "5; 1 with a diameter", .is_stated = true,
+       .access = number<&ReliefOptions::margin_mm, &ReliefOptions::effective_margin_mm>},
+      {.name = "thickness", .unit = "MM", .stage = plate, .min = .01, .max = 1e5,
+       .help = "smallest thickness of the plate, without the relief",
+       .otherwise = "3; 0.8 for a lithophane", .is_stated = true,
+       .access = number<&ReliefOptions::thickness_mm, &ReliefOptions::effective_thickness_mm>},
+      {.name = "rim", .unit = "MM", .stage = plate, .min = .01, .max = 1e5,
+       .help = "width of a raised edge along the outline, as coins have; in a die, of the groove that it fits",
+       .otherwise = "none", .access = number<&ReliefOptions::rim_mm>},
+      {.name = "rim-height", .unit = "MM", .stage = plate, .min = .001, .max = 1e5,
+       .help = "height of the rim above the ground",
+       .otherwise = "the relief's height, as far as the rim is wide enough for its bevel",
+       .access = number<&ReliefOptions::rim_height_mm>},
+      {.name = "rim-bevel", .unit = "MM", .stage = plate, .min = .001, .max = 1e5,
+       .help = "width of the rim's slanting inner side", .otherwise = "0.3 of the rim's height",
+       .access = number<&ReliefOptions::rim_bevel_mm>},
+  };
+}
+
+// Returns the rows by which the solid is bent and formed.
+std::vector<OptionRow> body_rows() {
+  return {
+      {.name = "base", .unit = "SHAPE", .stage = body, .choices = names_of(base_choices),
+       .help = "surface under the relief, with numbers in mm and degrees: wave:height=4,length=40 fold:angle=15,hollow "
+               "cylinder:diameter=200,direction=0 dome:height=5; image is the height map that base-image names",
+       .initial = "plane", .access = text<&ReliefOptions::base, parse_base>},
+      {.name = "wrap", .unit = "BODY", .stage = body, .choices = names_of(wrap_choices),
+       .help = "body around which the finished plate is bent: cylinder:diameter=60 cylinder:turn=360 "
+               "cone:turn=90,angle=8 sphere:diameter=80,inside; without a size it goes around 180 degrees, a sphere "
+               "120; height maps stay flat",
+       .initial = "none", .access = text<&ReliefOptions::wrap, parse_wrap>},
+      {.name = "points", .unit = "N", .stage = model, .min = 1000, .max = 1e7,
+       .help = "visible points to take from a mesh, a scene, a depth image or a cloud too large for memory",
+       .otherwise = "300000; 15 for each triangle of meshes that have few, at least 100000",
+       .access = number<&ReliefOptions::points>},
+      {.name = "form", .unit = "FORM", .stage = body, .choices = names_of(form_choices),
+       .help = "mirror swaps left and right, die is the hollow that strikes or casts the relief, lithophane is thick "
+               "where the model is dark",
+       .initial = "relief", .access = word<&ReliefOptions::form, form_choices>},
+      {.name = "tool", .unit = "TOOL", .stage = triangles,
+       .help = "report which areas a milling tool can reach: ball:DIAMETER, flat:DIAMETER, v:ANGLE or, with a round "
+               "tip, v:ANGLE:DIAMETER",
+       .otherwise = "none", .access = text<&ReliefOptions::tool, tool_of>},
+      {.name = "finish", .unit = "KIND", .stage = triangles, .choices = names_of(finish_choices),
+       .help = "reachable is the surface that the tool leaves, on a plane base",
+       .initial = "full", .access = word<&ReliefOptions::finish, finish_choices>},
+  };
+}
+
+std::vector<OptionRow> triangle_rows() {
+  return {
+      {.name = "resolution", .unit = "MM", .stage = triangles, .min = 1e-3, .max = 100,
+       .help = "finest step of the samples of which the solid is made",
+       .otherwise = "a 700th of the width, or the sampling distance if that is less",
+       .access = number<&ReliefOptions::resolution_mm>},
+      {.name = "tolerance", .unit = "MM", .stage = triangles, .min = 1e-4, .max = 100,
+       .help = "fewer triangles, nowhere further than this from the full relief", .otherwise = "all triangles",
+       .access = number<&ReliefOptions::tolerance_mm>},
+      {.name = "triangles", .unit = "N", .stage = triangles, .min = 100, .max = 1e9,
+       .help = "most triangles of the solid, which are finest where it curves; with tolerance as many as that needs, "
+               "at most these",
+       .otherwise = "any number",
+       .access = number<&ReliefOptions::triangles>},
+  };
+}
+
+// Returns the rows by which a depth image is read.
+std::vector<OptionRow> depth_rows() {
+  return {
+      {.name = "depth-values", .unit = "KIND", .stage = input, .choices = names_of(depth_value_choices),
+       .help = "of a depth image: depth (0 is missing), height, inverse depth as estimators give it, or luminance, "
+               "also of colours, bright being near",
+       .initial = "depth", .access = word<&DepthOptions::values, depth_value_choices>},
+      {.name = "channel", .unit = "N", .stage = input, .min = 0, .max = 64,
+       .help = "of a depth image with several channels: the one with the depths; 0: the only one",
+       .initial = 0., .access = {read_channel}},
+      {.name = "depth-range", .unit = "R", .stage = input, .min = .01, .max = 10,
+       .help = "of a depth image without camera: nearest to farthest, in picture widths",
+       .initial = DepthOptions{}.range, .access = {read_number<&DepthOptions::range>}},
+      {.name = "background", .unit = "B", .stage = input, .choices = names_of(background_choices),
+       .help = "of a depth image: keep, remove or auto (remove if there is no camera)",
+       .initial = "auto", .access = word<&DepthOptions::background, background_choices>},
+  };
+}
+
+// clang-format on
+
+}  // namespace
+
+std::span<const OptionRow> option_table() {
+  static const std::vector<OptionRow> rows = [] {
+    std::vector<OptionRow> all;
+    for (const auto& part :
+         {shape_rows(), limit_rows(), view_rows(), plate_rows(), body_rows(), triangle_rows(), depth_rows()})
+      all.insert(all.end(), part.begin(), part.end());
+    return all;
+  }();
+  return rows;
+}
+
+const OptionRow* find_option(std::string_view name) {
+  const auto found = std::ranges::find(option_table(), name, &OptionRow::name);
+  return found == option_table().end() ? nullptr : &*found;
+}
+
+}  // namespace relievo

@@ -1,0 +1,63 @@
+// Where the values of the table of options go when they are read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <type_traits>
+
+#include "relievo/option_table.h"
+
+namespace relievo {
+
+struct OptionTargets {
+  ReliefOptions relief;
+  DepthOptions depth;
+  std::string side = "front", up;  // make the view together
+  std::optional<Outline> outline;  // otherwise a circle with a diameter
+};
+
+template <typename T, typename Owner>
+T& target(T Owner::*member, OptionTargets& to) {
+  if constexpr (std::is_same_v<Owner, View>)
+    return to.relief.view.*member;
+  else if constexpr (std::is_same_v<Owner, DepthOptions>)
+    return to.depth.*member;
+  else if constexpr (std::is_same_v<Owner, OptionTargets>)
+    return to.*member;
+  else
+    return to.relief.*member;
+}
+
+template <auto member>
+Result<void> read_number(const OptionValue& value, OptionTargets& to) {
+  target(member, to) = std::get<double>(value);
+  return {};
+}
+
+template <auto of>
+std::optional<double> ruling_number(const ReliefOptions& options) {
+  if constexpr (std::is_member_function_pointer_v<decltype(of)>)
+    return (options.*of)();
+  else
+    return options.*of;
+}
+
+// Reads a number into a member. `ruling` is that member, or the function that returns its default, too.
+template <auto member, auto ruling = member>
+constexpr OptionAccess number{read_number<member>, ruling_number<ruling>};
+
+// Reads a text into a member by a function that takes the text alone.
+template <auto member, auto parse>
+constexpr OptionAccess text{[](const OptionValue& value, OptionTargets& to) -> Result<void> {
+  RELIEVO_TRY(target(member, to), parse(std::get<std::string>(value)));
+  return {};
+}};
+
+// Reads one of the words of a table into a member.
+template <auto member, const auto& choices>
+constexpr OptionAccess word{[](const OptionValue& value, OptionTargets& to) -> Result<void> {
+  RELIEVO_TRY(target(member, to), parse_choice({}, std::get<std::string>(value), choices));
+  return {};
+}};
+
+}  // namespace relievo

@@ -1,0 +1,157 @@
+#include "relievo/option_table.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace relievo {
+namespace {
+
+std::string complaint(const OptionValues& values) {
+  const auto options = parse_options(values);
+  return options ? "" : options.error().message();
+}
+
+std::string depth_complaint(const OptionValues& values) {
+  const auto options = parse_depth(values);
+  return options ? "" : options.error().message();
+}
+
+void expect_defaults(const ReliefOptions& read) {
+  const ReliefOptions options;
+  EXPECT_EQ(read.width_mm, options.width_mm);
+  EXPECT_EQ(read.method, options.method);
+  EXPECT_EQ(read.mode, options.mode);
+  EXPECT_EQ(read.view, options.view);
+  EXPECT_EQ(read.outline, options.outline);
+  EXPECT_EQ(read.base.kind, options.base.kind);
+  EXPECT_EQ(read.wrap.kind, options.wrap.kind);
+  EXPECT_EQ(read.form, options.form);
+  EXPECT_EQ(read.finish, options.finish);
+  EXPECT_FALSE(read.tone || read.tool);
+}
+
+TEST(ParseOptions, DefaultsAreThoseOfTheOptions) {
+  OptionValues defaults;
+  for (const OptionRow& option : option_table())
+    if (option.initial != OptionValue()) defaults.emplace(option.name, option.initial);
+  for (const OptionValues& values : {OptionValues(), defaults}) {
+    const auto read = parse_options(values);
+    ASSERT_TRUE(read) << read.error().message();
+    expect_defaults(*read);
+    EXPECT_EQ(parse_depth(values)->range, DepthOptions{}.range);
+  }
+}
+
+TEST(ParseOptions, EachBecomesItsValue) {
+  const auto options = parse_options({{"height", 3.},
+                                      {"points", 5000.},
+                                      {"thickness", "1/8in"},
+                                      {"method", "gradient"},
+                                      {"mode", "auto"},
+                                      {"view", "left"},
+                                      {"up", "0,0,1"},
+                                      {"outline", "hexagon"},
+                                      {"wrap", "cone:turn=90"},
+                                      {"form", "die"},
+                                      {"tool", "ball:1/8in"},
+                                      {"finish", "reachable"}});
+  ASSERT_TRUE(options) << options.error().message();
+  EXPECT_EQ(options->height_mm, 3);
+  EXPECT_EQ(options->points, 5000);
+  EXPECT_NEAR(*options->thickness_mm, 3.175, 1e-12);
+  EXPECT_EQ(options->method, Method::gradient);
+  EXPECT_EQ(options->mode, Mode::automatic);
+  EXPECT_LT((options->view.R_view_model.row(2) - Vec3(-1, 0, 0).transpose()).norm(), 1e-12);
+  EXPECT_LT((options->view.R_view_model.row(1) - Vec3(0, 0, 1).transpose()).norm(), 1e-12);
+  EXPECT_EQ(options->outline, Outline::hexagon);
+  EXPECT_EQ(options->wrap.kind, WrapKind::cone);
+  EXPECT_EQ(options->wrap.turn_deg, 90);
+  EXPECT_EQ(options->form, Form::die);
+  EXPECT_NEAR(options->tool->diameter_mm, 3.175, 1e-12);
+  EXPECT_EQ(options->finish, Finish::reachable);
+  const auto others = parse_options({{"tone", "0,0.5;1,0.25"}, {"base", "wave:height=2"}, {"diameter", 30.}});
+  ASSERT_TRUE(others) << others.error().message();
+  EXPECT_EQ(others->tone->points().size(), 2U);
+  EXPECT_EQ(others->base.height_mm, 2);
+  EXPECT_EQ(others->outline, Outline::circle);
+}
+
+TEST(ParseOptions, AWrongTextIsNamedWithoutDashes) {
+  for (const OptionRow& option : option_table()) {
+    if (option.is_number() || !option.is_of_relief()) continue;
+    const auto options = parse_options({{std::string(option.name), "nonsense"}});
+    ASSERT_FALSE(options) << option.name;
+    EXPECT_EQ(options.error().kind, ErrorKind::option) << option.name;
+    EXPECT_EQ(options.error().input, option.name);
+    EXPECT_TRUE(options.error().expected.starts_with("expected ")) << options.error().expected;
+    EXPECT_NE(options.error().expected.find("found 'nonsense'"), std::string::npos) << option.name;
+  }
+}
+
+TEST(ParseOptions, TellsWhatItExpected) {
+  EXPECT_EQ(complaint({{"finish", "polished"}}),
+            "finish: expected one of full or reachable, found 'polished'");
+  EXPECT_EQ(complaint({{"rim", -1.}}), "rim: expected a number from 0.01 to 100000, found -1");
+  EXPECT_EQ(complaint({{"base", "wave"}, {"wrap", "sphere"}}),
+            "wrap: expected either base or wrap, found both");
+  EXPECT_EQ(complaint({{"alpha", "4"}}), "alpha: expected a number");
+  EXPECT_EQ(complaint({{"view", 4.}}), "view: expected a text");
+  EXPECT_EQ(complaint({{"hight", 4.}}), "hight: expected the name of an option");
+  EXPECT_TRUE(complaint({{"width", "wide"}}).starts_with("width: expected"));
+}
+
+TEST(ParseDepth, ReadsAndChecksTheRowsOfDepthImages) {
+  const auto options = parse_depth(
+      {{"depth-values", "inverse"}, {"channel", 3.}, {"depth-range", 2.}, {"background", "keep"}});
+  ASSERT_TRUE(options);
+  EXPECT_EQ(options->values, DepthValues::inverse);
+  EXPECT_EQ(options->range, 2);
+  EXPECT_EQ(options->channel, 3);
+  EXPECT_EQ(options->background, Background::keep);
+  EXPECT_EQ(depth_complaint({{"depth-values", "far"}}),
+            "depth-values: expected one of depth, height, inverse or luminance, found 'far'");
+  EXPECT_TRUE(depth_complaint({{"background", "cut"}}).starts_with("background: "));
+  EXPECT_EQ(depth_complaint({{"depth-range", 11.}}),
+            "depth-range: expected a number from 0.01 to 10, found 11");
+  EXPECT_EQ(depth_complaint({{"channel", 1.5}}), "channel: expected a whole number, found 1.5");
+  EXPECT_EQ(depth_complaint({{"channel", 65.}}), "channel: expected a number from 0 to 64, found 65");
+}
+
+TEST(OptionTable, HasNamesOfTheirOwnHelpAndADefault) {
+  std::set<std::string_view> names;
+  for (const OptionRow& option : option_table()) {
+    EXPECT_TRUE(!option.name.empty() && names.insert(option.name).second) << option.name;
+    EXPECT_FALSE(option.unit.empty()) << option.name;
+    EXPECT_FALSE(option.help.empty()) << option.name;
+    EXPECT_LT(option.min, option.max) << option.name;
+    EXPECT_NE(option.access.read, nullptr) << option.name;
+    const bool has_number = option.access.number && option.access.number(ReliefOptions{});
+    EXPECT_TRUE(has_number || !option.otherwise.empty() || option.initial != OptionValue()) << option.name;
+  }
+}
+
+// All numbers are in the table: none can be typed that is not checked.
+TEST(OptionTable, HasARowForEachNumber) {
+  std::size_t bytes = 0;
+  for (const OptionRow& option : option_table()) {
+    if (!option.access.number) continue;
+    const bool may_be_missing = option.initial == OptionValue();
+    bytes += may_be_missing ? sizeof(std::optional<double>) : sizeof(double);
+  }
+  EXPECT_EQ(sizeof(NumericOptions), bytes);
+}
+
+TEST(OptionTable, ChoicesAreWhatIsRead) {
+  for (const OptionRow& option : option_table())
+    for (const std::string_view choice : option.choices) {
+      OptionValues values{{"height", 3.}, {"tool", "ball:1"}};
+      values[std::string(option.name)] = std::string(choice);
+      EXPECT_EQ(complaint(values) + depth_complaint(values), "") << option.name << " " << choice;
+    }
+}
+
+}  // namespace
+}  // namespace relievo
