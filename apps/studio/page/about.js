@@ -19,12 +19,17 @@ async function ask() {
 
 export const about = await ask();
 
-// Returns {name, unit, help, min, max, choices, default} of an option; min and max of numbers only, choices of
-// enumerations only.
+// Returns the row of an option: {name, unit, help, stage, default, default_with, in_studio, is_stated}, with min and
+// max of numbers, and choices of enumerations.
 export const optionOf = (name) => about.options.find((option) => option.name === name);
 
-// Returns the value that rules with a method where the option is not given; null if it has none.
-export function defaultOf(name, method) {
-  const value = optionOf(name).default ?? null;
-  return value?.[method] ?? value; // an object where methods differ
+// Returns the value that rules where the option is not given; null if it has none. `by` is the method, or a form or
+// "diameter" with which another default rules.
+export function defaultOf(name, by) {
+  const option = optionOf(name), value = option.default ?? null;
+  return option.default_with?.[by] ?? value?.[by] ?? value; // an object where methods differ
 }
+
+// Returns the names of the options of some stages.
+export const namesOf = (...stages) =>
+  about.options.filter(({stage}) => stages.includes(stage)).map(({name}) => name);

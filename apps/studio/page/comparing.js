@@ -2,6 +2,7 @@
 // place. The engine fits each picture to its own plate, and the model's is no larger than the figure with its margin.
 
 import {$, clamp, make} from "./controls.js";
+import {isRound} from "./measure.js";
 
 const NEAR = 12; // pixels from the divider at which the pointer takes it
 const ALIKE = 1e-3; // scales that differ by less differ by less than a pixel
@@ -101,8 +102,8 @@ export class Comparing {
   // where that is round or larger. `scale` is that of the picture's pixels.
   layOnPlate(context, scale) {
     const {stage} = this, {camera, about: {relief_mm: figure, size_mm: size}} = stage;
-    const {outline, plate, wrap, margin} = stage.doc.now.options, isRound = ["circle", "ellipse"].includes(outline);
-    if (!(isRound || plate) || wrap !== "none" || camera.yaw || camera.pitch || !figure) return;
+    const {outline, plate, wrap, margin} = stage.doc.now.options, isEllipse = isRound(outline);
+    if (!(isEllipse || plate) || wrap !== "none" || camera.yaw || camera.pitch || !figure) return;
     const at = (x, y) => stage.toPixels([x, y]).map((pixel) => pixel * scale);
     const [[left, bottom], [right, top]] = figure, [red, green, blue, opacity] =
       context.getImageData(...at(left, bottom).map(Math.round), 1, 1).data;
@@ -113,7 +114,7 @@ export class Comparing {
       draw(from[0], to[1], to[0] - from[0], from[1] - to[1]);
       context.fill();
     };
-    const box = (...sides) => context.rect(...sides), piece = (x, y, wide, high) => (isRound
+    const box = (...sides) => context.rect(...sides), piece = (x, y, wide, high) => (isEllipse
       ? context.ellipse(x + wide / 2, y + high / 2, wide / 2, high / 2, 0, 0, 2 * Math.PI) : box(x, y, wide, high));
     const corners = [at(-size[0] / 2, -size[1] / 2), at(size[0] / 2, size[1] / 2)];
     context.fillStyle = `rgb(${red} ${green} ${blue})`;

@@ -1,22 +1,16 @@
 // The document: the options of the relief that is being made, and all its former states. It is plain data, so that
 // it can be stored, undone and saved.
 
-import {about, defaultOf} from "./about.js";
+import {about, defaultOf, optionOf} from "./about.js";
 
-// The options whose first value in the page differs from the engine's default.
-const START = {view: "auto", height: 5, method: "layered", outline: "rectangle",
-  mode: "auto", tone: "", "base-image": "", up: "", crop: "", crumbs: "drop", plane: "keep", denoise: "auto"};
-
-// The options that the page changes besides.
-const CHANGED = ["width", "saturation", "detail", "steepest", "boundary", "steps", "corner",
-  "margin", "thickness", "rim", "rim-height", "rim-bevel", "diameter", "plate", "shift", "base", "wrap", "form",
-  "tool", "finish", "points", "resolution", "tolerance", "triangles", "draft"];
+// Returns the value of an option in a new document: its own for the studio, or else the engine's default.
+const firstOf = ({name, in_studio: own}) => own ?? defaultOf(name, optionOf("method").in_studio);
 
 export const FIRST = Object.freeze({
   input: null,
-  options: Object.freeze({
-    ...Object.fromEntries(CHANGED.map((name) => [name, defaultOf(name, START.method)])), ...START,
-  }),
+  // In place of alpha, which depends on the height, a document has u.
+  options: Object.freeze({...Object.fromEntries(about.options.filter(({name}) => name !== "alpha")
+    .map((option) => [option.name, firstOf(option)])), "base-image": ""}),
   isHeightLocked: true,
   u: null, // of the compression, while the height is not locked
   isDieOfPiece: false, // a die that was made of the piece before, whose kind it keeps
@@ -177,19 +171,15 @@ export class Document {
   }
 }
 
-// The options that the engine always gets. The others rule by their absence, or go without saying.
-const ALWAYS = new Set(["height", "width", "method", "mode", "view", "saturation", "detail", "boundary", "steps",
-  "margin", "thickness"]);
-
 // The options that a lithophane has not, as it is printed: a document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
-// Returns the options as the engine and `relievo make` take them.
+// Returns the options as the engine and `relievo make` take them: most rule by their absence, or go without saying.
 export function engineOptions(step) {
   const {outline, form} = step.options, options = {};
   for (const [name, value] of Object.entries(step.options)) {
     const isThere = value !== null && value !== "" && value !== undefined;
-    if (isThere && (ALWAYS.has(name) || value !== FIRST.options[name])) options[name] = value;
+    if (isThere && (optionOf(name)?.is_stated || value !== FIRST.options[name])) options[name] = value;
   }
   options.height = Math.round(options.height * 1e4) / 1e4;
   if (outline === "round") options.corner = step.options.corner;
@@ -221,23 +211,11 @@ export function projectOf(step) {
 const isDirection = (light) =>
   Array.isArray(light) && light.length === 3 && light.every(Number.isFinite) && light.some((x) => x !== 0);
 
-const BY_METHOD = ["saturation", "detail", "boundary"]; // whose defaults differ
-
-// `relievo make` gives these sizes in mm to a relief where a project names no others.
-export const LITHOPHANE = Object.freeze({form: "lithophane", thickness: 0.8, height: 2.4});
-export const MARGIN_IN_DIAMETER = 1;
-const usualHeight = ({width}) => 0.05 * (width ?? defaultOf("width") ?? 100);
-const usualSize = (options) => ({
-  margin: options.diameter ? MARGIN_IN_DIAMETER : FIRST.options.margin,
-  ...(options.form === LITHOPHANE.form ? LITHOPHANE : {height: usualHeight(options)}),
-});
-
-// Returns the step that a project file describes, as the engine has read it.
-export function stepOfProject({input, options: {alpha, ...options} = {}, studio = {}}) {
+// Returns the step that a project file describes, as the engine has read it. `usual` are the numbers that rule where it
+// names no others; the width may depend on the plate.
+export function stepOfProject({input, options: {alpha, ...options} = {}, usual = {}, studio = {}}) {
   const method = options.method ?? (alpha === undefined ? FIRST.options.method : "paper");
-  const rules = Object.fromEntries(BY_METHOD.map((name) => [name, defaultOf(name, method)]));
-  const usual = {...FIRST.options, ...rules, method, width: null, ...usualSize(options)};
-  const step = {...FIRST, input, options: {...usual, ...options}};
+  const step = {...FIRST, input, options: {...FIRST.options, ...usual, method, width: null, ...options}};
   if (options.height === undefined && method === "paper") {
     step.isHeightLocked = false;
     step.u = uOfAlpha(alpha ?? defaultOf("alpha"), step.options.saturation);

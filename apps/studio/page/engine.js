@@ -69,11 +69,10 @@ export class Engine {
   find = (input) => this.#ask("document", {input});
   // Returns the input that files of the browser make.
   upload = async (files) => (await this.#ask("upload", {name: files[0].name}, {files})).input;
-  // Returns {input, is_there, options, studio} of a project file.
+  // Returns {input, is_there, options, usual, studio} of a project file.
   readProject = (file) => this.#ask("project", {name: file.name}, {files: [file]});
 
-  // Prepares the scan of the document that is shown. A view is {view, up, crop, crumbs, plane, denoise, mode, points},
-  // as `relievo make` has it.
+  // Prepares the scan of the document that is shown. A view has the options by which a scan is prepared, see viewOf().
   open = (input, view) => this.#ask("open", {input, tab: TAB, ...view});
   chooseView = (view) => this.#ask("view", view);
   cancel = () => this.#ask("cancel");

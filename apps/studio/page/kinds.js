@@ -2,7 +2,7 @@
 
 import {defaultOf} from "./about.js";
 import {$, check, make, paint} from "./controls.js";
-import {FIRST, LITHOPHANE, MARGIN_IN_DIAMETER, shownOptions} from "./document.js";
+import {FIRST, shownOptions} from "./document.js";
 import {takeArrowKeys} from "./inputs.js";
 import {shortLength, shown} from "./lengths.js";
 
@@ -11,7 +11,7 @@ const PLAIN = Object.freeze({outline: "rectangle", diameter: null, plate: "", sh
   "rim-height": null, "rim-bevel": null, base: "plane", "base-image": "", wrap: "none", form: "relief", draft: null});
 
 const plaque = {...PLAIN, width: null, height: 5, margin: 5, thickness: 3};
-const circle = {...PLAIN, outline: "circle", width: null, margin: MARGIN_IN_DIAMETER};
+const circle = {...PLAIN, outline: "circle", width: null, margin: defaultOf("margin", "diameter")};
 export const RIM = ["rim", "rim-height", "rim-bevel"];
 const PLATE = ["plate", "outline", "corner", "margin", "thickness"];
 
@@ -33,7 +33,9 @@ export const KINDS = {
     note: "The diameter is that of what it shapes: the die is wider, by a rim of its own. Walls that lean by the " +
       "draft angle let it come off."},
   lithophane: {label: "Lithophane", title: "Lithophane: a picture in thickness, lit from behind",
-    material: "porcelain", part: {...plaque, ...LITHOPHANE},
+    material: "porcelain",
+    part: {...plaque, form: "lithophane", thickness: defaultOf("thickness", "lithophane"),
+      height: defaultOf("height", "lithophane")},
     panel: ["thickness", "plate", "margin", "form"],
     note: "The plate is as thick as the brightest places, and height is what the darkest add. Porcelain is lit from " +
       "behind. A tool and a draft angle wait for the other kinds."},
@@ -75,11 +77,9 @@ function measuresOf({diameter, plate, width, height}) {
     .filter(Boolean).join(", ");
 }
 
-// The options that a kind leaves as they are: how the scan is seen and shaped.
-const KEPT = ["view", "up", "crop", "crumbs", "plane", "denoise", "mode", "points", "method", "saturation", "detail",
-  "steepest", "boundary", "steps", "tone", "tool", "finish", "resolution", "tolerance", "triangles"];
-
-const kept = (options) => Object.fromEntries(KEPT.map((name) => [name, options[name]]));
+// Returns the options that no kind sets, and that all leave as they are: how the scan is seen and shaped.
+const OF_KINDS = new Set(Object.values(KINDS).flatMap(({part}) => Object.keys(part)));
+const kept = (options) => Object.fromEntries(Object.entries(options).filter(([name]) => !OF_KINDS.has(name)));
 
 const WIDTH = 176, HEIGHT = 132; // pixels of a picture
 const PAUSE_MS = 60;

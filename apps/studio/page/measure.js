@@ -70,12 +70,14 @@ function dimension(from, to, text, picture, at) {
   return [...strokes, ...labelled(from, to, text, "dimension", picture, at)];
 }
 
+export const isRound = (outline) => outline === "circle" || outline === "ellipse";
+
 // Returns the part of a line that lies on a plate of that size; null if it passes by.
-function onPlate({from, to}, [width, height], isRound) {
+function onPlate({from, to}, [width, height], isEllipse) {
   const scaled = ([x, y]) => [2 * x / width, 2 * y / height], a = scaled(from), d = scaled(sub(to, from));
   let low = 0, high = 1;
   const within = (enters, leaves) => ([low, high] = [Math.max(low, enters), Math.min(high, leaves)]);
-  if (isRound) {
+  if (isEllipse) {
     const square = dot(d, d), nearest = -dot(a, d) / square, rest = dot(a, a) - 1;
     const half = Math.sqrt(nearest * nearest - rest / square);
     within(nearest - half, nearest + half);
@@ -107,8 +109,8 @@ export class Measure {
   // Shows the section along the part of a line that lies on the piece.
   async cut(line) {
     const {stage} = this, {outline, wrap} = stage.doc.now.options;
-    const isRound = ["circle", "ellipse"].includes(outline) && wrap === "none";
-    const {from, to} = onPlate(line, stage.about.size_mm, isRound) ?? {};
+    const isEllipse = isRound(outline) && wrap === "none";
+    const {from, to} = onPlate(line, stage.about.size_mm, isEllipse) ?? {};
     stage.on.section(from ? await stage.heights(from, to) : [], from, to);
   }
 

@@ -1,13 +1,14 @@
 // The document that this page shows: opens scans and projects, follows the engine's news of the document, and goes on
 // when another engine or another tab has news of it.
 
+import {namesOf} from "./about.js";
 import {FIRST} from "./document.js";
 import {TAB} from "./engine.js";
 import {engineBack, toast} from "./messages.js";
 import {inWords} from "./pieces.js";
 
-export const viewOf = ({options: {view, up, crop, crumbs, plane, denoise, mode, points}}) =>
-  ({view, up, crop, crumbs, plane, denoise, mode, points});
+const PREPARED = namesOf("view", "model");
+export const viewOf = ({options}) => Object.fromEntries(PREPARED.map((name) => [name, options[name]]));
 
 export const isSameView = (a, b) => Object.keys(a).every((name) => a[name] === b[name]);
 

@@ -3,7 +3,7 @@
 import {optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, Pause, clamp, make, pair, sentence} from "./controls.js";
-import {FIRST, LITHOPHANE, NOT_PRINTED} from "./document.js";
+import {FIRST, NOT_PRINTED} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {isUnfinished} from "./inputs.js";
 import {KINDS} from "./kinds.js";
@@ -19,9 +19,7 @@ const LABELS = {outline: "Outline", diameter: "Diameter", plate: "Plate size",
   up: "Upright", points: "Points from meshes", mode: "Precision"};
 // Choices of the command line that need more words.
 const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automatic"};
-const MAKING = ["draft", "tolerance", "triangles", "resolution", "tool", "finish"];
-const PREPARING = ["up", "points", "mode"];
-const placeOf = (name) => (MAKING.includes(name) ? "#making" : PREPARING.includes(name) ? "#preparing" : "#piece");
+const PLACES = {triangles: "#making", view: "#preparing", model: "#preparing"}; // of other stages "#piece"
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
 // The uses of the rows of shapes, as tips; the help of their options tells how their texts are written.
@@ -70,18 +68,24 @@ function besides(name, value, {outline, diameter, plate, width}, shownWidth) {
   return (name === "diameter" && diameter) || (name === "plate" && plate) ? {width: shownWidth, shift: ""} : {};
 }
 
-// Controls with a place of their own on the page, by the names of their options.
-const OTHERS = {alpha: "Flatness", crop: "Crop", crumbs: "Keep small pieces", denoise: "Denoise", method: "Method",
-  plane: "Keep table, background", tone: "Tone curve", view: "View"};
+// Controls whose labels do not name their options.
+const OTHERS = {tone: "Tone curve", view: "View"};
 // Expectations of the engine, by option, in the words of the page in place of its own.
 const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such as 0,0.2,1,0.8"};
 // Only a command line can follow the engine's advice about pictures in colours.
 const ADVICE = /; the option channel takes one .*$/;
 const OTHER = ". Save it as a picture in greys, one value per pixel, and open that";
 
+// Returns the name of an option on the page: where no table has it, its control tells.
+function labelOf(name) {
+  const control = document.querySelector(`[data-option="${name}"]`);
+  return LABELS[name] ?? FIELDS[name]?.label ?? OTHERS[name] ?? control?.getAttribute("aria-label") ??
+    control?.closest("label")?.firstElementChild.textContent ?? name;
+}
+
 // Returns the message of an error in the words of the page, about an option under the name of its field.
 export function inWords({input, message}) {
-  const label = LABELS[input] ?? FIELDS[input]?.label ?? OTHERS[input];
+  const label = optionOf(input) && labelOf(input);
   const text = message.replace(ADVICE, OTHER), [found] = (EXPECTED[input] && text.match(/, found '.*$/)) ?? [];
   if (found) return `${label}: expected ${EXPECTED[input]}${found}`;
   return label ? label + text.slice(input.length) : text;
@@ -93,7 +97,7 @@ export class PieceRows {
     Object.assign(this, {engine, doc, entries, say, shownWidth, rows: {}});
     for (const name of ROWS) {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
-      $(placeOf(name)).append(this.rows[name].element);
+      $(PLACES[optionOf(name).stage] ?? "#piece").append(this.rows[name].element);
     }
     this.baseImage = new BaseImage({engine, doc, say, redraw});
     this.rows.base.element.after(this.baseImage.element);
@@ -188,7 +192,7 @@ export class PieceRows {
     this.baseImage.show();
     for (const name of ["rim-height", "rim-bevel"]) this.rows[name].element.hidden = !options.rim;
     this.shownUnit = lengthUnit.unit;
-    for (const name of NOT_PRINTED) this.rows[name].element.hidden = options.form === LITHOPHANE.form;
+    for (const name of NOT_PRINTED) this.rows[name].element.hidden = options.form === "lithophane";
     if (!options.tool) this.rows.finish.element.hidden = true;
   }
 }

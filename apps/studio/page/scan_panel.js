@@ -28,6 +28,23 @@ const REMEDIES = {"crumbs keep": "Keep them", "plane keep": "Keep it", "plane dr
 // and is not the figure. Readers of depth images tell of their background in words alone.
 const isOffered = ({option, text}) => ["crumbs", "plane"].includes(option) || /background taken out/.test(text);
 
+const keepRow = (name, label, title) => make("label", {class: "pair", title}, make("span", {}, label),
+  make("input", {id: name, "data-option": name, type: "checkbox"}));
+
+// Returns the rows of what the view leaves out of a scan.
+const viewRows = () => [
+  keepRow("crumbs", "Keep small pieces", "Pieces of less than 0.5 % of what is seen"),
+  keepRow("plane", "Keep table, background",
+    "A table or background that is found: a plane that the figure stands on or before"),
+  make("div", {class: "slider", title: "Standard deviation of the scan's noise, in distances between its points, " +
+    "that is smoothed away while creases stay"},
+  make("div", {class: "row"}, make("span", {class: "name"}, "Denoise"), make("output", {id: "denoise-value"})),
+  make("input", {id: "denoise", "data-option": "denoise", type: "range", min: 0, max: 1, step: 0.01,
+    "aria-label": "Denoise"})),
+  make("label", {class: "pair", title: "As much noise is removed as the scan shows"}, make("span", {}, "As measured"),
+    make("input", {id: "denoise-auto", type: "checkbox"})),
+];
+
 export class ScanPanel {
   // Calls cropOnPicture() for a frame on the picture.
   constructor({doc, cropOnPicture}) {
@@ -41,6 +58,7 @@ export class ScanPanel {
       input.after(output);
       return {input, output, at};
     });
+    $("#preparing").before(...viewRows());
     $("#cuts").prepend(make("p", {class: "muted"}, "Cut away a table, a background, or what is not wanted:"));
     $("#remarks").onclick = () => this.open();
     $("#offers .close").onclick = () => {

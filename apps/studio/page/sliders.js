@@ -1,17 +1,17 @@
 // The sliders on the page, with the lock of the height and the method: shows the document's values, and changes them.
 
-import {defaultOf} from "./about.js";
+import {defaultOf, namesOf, optionOf} from "./about.js";
 import {$, make} from "./controls.js";
 import {FIRST} from "./document.js";
 import {FIELDS} from "./fields.js";
 import {withUnit} from "./lengths.js";
 import {Slider, lockButton} from "./slider.js";
 
-// What shapes heights: a lithophane, which is made from light and colours, has none of it.
-const SHAPING = ["detail", "boundary", "steepest", "steps"];
+// The sliders that shape heights, besides sizes: a lithophane, which is made from light and colours, has none of them.
+const SHAPING = namesOf("shape").filter((name) => FIELDS[name] && optionOf(name).unit !== "MM");
 
-// The options on which the width depends that the plate leaves.
-const PLATE = ["outline", "diameter", "plate", "shift", "margin", "rim", "corner"];
+// The width that the plate leaves depends on these.
+const PLATE = namesOf("plate");
 
 // Returns the changes of the document that a slider makes: u is to be found anew for another height.
 const partOf = (name, value) => ({options: {[name]: value}, ...(name === "height" ? {u: null} : {})});
@@ -100,7 +100,7 @@ export class Sliders {
     $("#method").value = options.method;
     const noShape = isShaped ? "" : "A lithophane is made from light and colours, not from heights";
     for (const name of SHAPING) this.all[name].disable(noShape);
-    this.all.saturation.disable(noShape || (options.tone !== "" ? "The tone curve takes its place" : ""));
+    if (isShaped && options.tone !== "") this.all.saturation.disable("The tone curve takes its place");
     this.all.corner.element.hidden = options.outline !== "round";
     this.all.margin.disable(options.outline === "none" ? "There is no plate around the relief" : "");
     this.lock.setAttribute("aria-pressed", isHeightLocked);

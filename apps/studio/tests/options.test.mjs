@@ -212,8 +212,11 @@ test("lays the relief on an image that is chosen or dropped, names it and remove
 
 test("opens projects as make makes them, whose height, width or height coefficient they name or not", {skip}, async () => {
   const stepsOf = (...all) => page.evaluate(async (all) => {
-    const {stepOfProject} = await import(new URL("document.js", location));
-    return all.map((options) => stepOfProject({options}));
+    const [{stepOfProject}, {engine}] = await Promise.all(["document.js", "about.js"].map((file) =>
+      import(new URL(file, location))));
+    const opened = (options) => engine.readProject(new File([JSON.stringify({relievo: 1, input: {sample: "still_life"},
+      options})], "a.relievo"));
+    return Promise.all(all.map(async (options) => stepOfProject(await opened(options))));
   }, all);
   const steps = await stepsOf({width: 60}, {method: "paper"}, {alpha: 2}, {form: "lithophane"});
   assert.deepEqual(steps.map(({options: {height, thickness, method, detail}}) => [height, thickness, method, detail]),
