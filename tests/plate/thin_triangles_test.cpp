@@ -66,6 +66,19 @@ TEST(ThinTriangles, StayWhereTheFrontWouldHangByACorner) {
   EXPECT_EQ(solid.triangles.size(), 3);
 }
 
+// Points of a silhouette that are almost on one line leave a slit between it and thin triangles beyond it. The outer of
+// these holds two sides together, and so does the inner, until both are gone.
+TEST(ThinTriangles, BeyondASlitAreAllRemoved) {
+  const std::vector<Vec3> points{{0, 0, 1},   {3, 0, 1},  {1, 1e-9, 1}, {2, 1e-9, 1},
+                                 {1.5, 0, 1}, {.5, 1, 1}, {1.5, 1, 1},  {2.5, 1, 1}};
+  const std::vector<Triangle> wide{{0, 2, 5}, {2, 6, 5}, {2, 4, 6}, {4, 3, 6}, {3, 7, 6}, {3, 1, 7}};
+  std::vector<Triangle> triangles = wide;
+  triangles.insert(triangles.end(), {{0, 1, 2}, {2, 1, 3}});
+  Solid solid = surface_of(points, triangles);
+  flip_thin_triangles(solid, true);
+  EXPECT_EQ(solid.triangles, wide);
+}
+
 // The silhouette's points, and those of the hull, where the plate's ring begins, are almost on one line, and are so again
 // in another unit.
 TEST(ThinTriangles, LeaveNoPlateThatCutsItself) {

@@ -126,14 +126,14 @@ class BoxTree {
   }
 
  private:
-  // The box of a range of triangles is stored at twice its middle, which no other range has.
+  // The box of a range of two triangles or more is stored at twice its middle, which no other such range has.
   static std::size_t slot(std::size_t begin, std::size_t end) { return begin + end; }
 
   void build(std::size_t begin, std::size_t end) {
+    if (end - begin <= 1) return;
     Box box;
     for (std::size_t i = begin; i < end; ++i) box.extend(triangles_[i].min), box.extend(triangles_[i].max);
     boxes_[slot(begin, end)] = box;
-    if (end - begin <= 1) return;
     Eigen::Index axis = 0;
     box.size().maxCoeff(&axis);
     const std::size_t middle = (begin + end) / 2;
@@ -146,9 +146,13 @@ class BoxTree {
 
   template <typename F>
   void visit(std::size_t begin, std::size_t end, std::size_t i, F& f) const {
+    if (end <= i + 1) return;
+    if (end - begin == 1) {
+      if (triangles_[i].overlaps(triangles_[begin].min, triangles_[begin].max)) f(begin);
+      return;
+    }
     const Box& box = boxes_[slot(begin, end)];
-    if (end <= i + 1 || !triangles_[i].overlaps(box.min, box.max)) return;
-    if (end - begin == 1) return f(begin);
+    if (!triangles_[i].overlaps(box.min, box.max)) return;
     const std::size_t middle = (begin + end) / 2;
     visit(begin, middle, i, f), visit(middle, end, i, f);
   }

@@ -89,14 +89,29 @@ class Flipper {
     return fans_->left_of(from, to) == no_index || fans_->left_of(to, from) == no_index;
   }
 
+  // Returns the triangles around a corner, from the one on one side of the edge between it and `other` to the last before
+  // the front ends, or before the first would come again.
+  std::vector<Index> side_of(Index corner, Index other, bool is_left) const {
+    std::vector<Index> side;
+    for (Index end = other; side.size() < fans_->around(corner).size();) {
+      const Index t = is_left ? fans_->left_of(corner, end) : fans_->left_of(end, corner);
+      if (t == no_index) return side;
+      side.push_back(t);
+      end = *std::ranges::find_if(front_.triangles[t], [&](Index i) { return i != corner && i != end; });
+    }
+    return side;
+  }
+
   // Returns whether the front would hang together by the corner c alone without the triangle abc, at whose edge ab it ends.
+  // It would not if all triangles on one side of c are thin, too: they are removed after this one.
   bool would_pinch(const Triangle& abc) const {
     const auto [a, b, c] = abc;
-    if (is_edge_of_front(b, c) || is_edge_of_front(c, a)) return false;
-    return std::ranges::any_of(fans_->around(c), [&](Index t) {
-      return std::ranges::any_of(front_.triangles[t],
-                                 [&](Index i) { return i != abc[2] && is_edge_of_front(abc[2], i); });
-    });
+    const auto are_thin = [&](const std::vector<Index>& side) {
+      return std::ranges::all_of(side, [&](Index t) { return is_thin(t); });
+    };
+    const std::vector<Index> before = side_of(c, a, false), after = side_of(c, b, true);
+    const bool is_inside = before.size() == fans_->around(c).size();  // it goes all around, up to abc
+    return !is_inside && !are_thin(before) && !are_thin(after);
   }
 
   void remove(Index thin, const Triangle& abc) {
