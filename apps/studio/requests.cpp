@@ -166,13 +166,9 @@ OptionValues view_values(const Json& json) {
   for (const OptionRow& option : option_table()) {
     if (!option.is_prepared()) continue;
     const auto found = json.find(option.name);
-    const bool is_there = found != json.end() && !found->is_null();
-    OptionValue value = option.initial;
-    if (is_there && option.is_number())
-      value = found->get<double>();
-    else if (is_there)
-      value = found->get<std::string>();
-    if (value != OptionValue()) values.emplace(option.name, std::move(value));
+    const OptionValue value =
+        found == json.end() ? option.initial : value_from_json(*found).value_or(OptionValue());
+    if (value != OptionValue()) values.emplace(option.name, value);
   }
   return values;
 }

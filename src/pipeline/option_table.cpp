@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "pipeline/option_targets.h"
+#include "relievo/core/text.h"
 
 namespace relievo {
 namespace {

@@ -36,8 +36,10 @@ Result<void> read_number(const OptionValue& value, OptionTargets& to) {
 
 template <auto of>
 std::optional<double> ruling_number(const ReliefOptions& options) {
-  if constexpr (std::is_member_function_pointer_v<decltype(of)>)
+  if constexpr (requires { (options.*of)(); })
     return (options.*of)();
+  else if constexpr (requires { options.view.*of; })
+    return options.view.*of;
   else
     return options.*of;
 }

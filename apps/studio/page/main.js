@@ -48,13 +48,13 @@ const curve = new CurveEditor(changeTone, () => doc.endStroke());
 const views = new ViewDialog(engine, (view) => doc.change({options: view}), failed);
 const modes = new Modes({stage, doc, cropFrame});
 const alphaRow = new AlphaRow({doc, say: refuse});
+const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const pieces = new PieceRows({engine, doc, entries, say: refuse, shownWidth, redraw: stateCame});
 const outcome = new Outcome({doc, stage, entries, pieces, frame: () => last});
 const exporting = new ExportDialog({engine, outcome, name: () => fileName(doc.now), heightText, say: toast});
 const isAtRest = () => !stage.isBusy && doc.stroke === null && stage.finished === stage.wanted;
 const kinds = new KindCards({engine, doc, entries, isAtRest, say: refuse});
 const kindPanel = new KindPanel({doc, entries, elements: {...pieces.elements, ...sliders.elements}});
-const scanPanel = new ScanPanel({doc, cropOnPicture: () => modes.setTool("crop")});
 const tour = new Tour(() => {
   if (facts && !$("#start").hidden) showStart(false);
   return facts !== null;

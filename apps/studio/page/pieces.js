@@ -1,6 +1,6 @@
 // The rows of all options of the engine that are no sliders.
 
-import {optionOf} from "./about.js";
+import {about, optionOf} from "./about.js";
 import {BaseImage, withoutImage} from "./base_image.js";
 import {$, Pause, clamp, make, pair, sentence} from "./controls.js";
 import {FIRST, NOT_PRINTED} from "./document.js";
@@ -26,7 +26,6 @@ const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
-const ROWS = Object.keys(LABELS);
 const LEAST_STEP = 0.001; // of arrow keys
 
 // The options of two lengths, with the text between these.
@@ -76,9 +75,14 @@ const EXPECTED = {crop: "left, bottom, right and top as shares from 0 to 1, such
 const ADVICE = /; the option channel takes one .*$/;
 const OTHER = ". Save it as a picture in greys, one value per pixel, and open that";
 
+const controlOf = (name) => document.querySelector(`[data-option="${name}"]`);
+
+// Returns whether an option has a label, or a control somewhere else on the page. Any other gets a row with its name.
+const isLabelled = (name) => name in LABELS || name in FIELDS || controlOf(name) !== null;
+
 // Returns the name of an option on the page: where no table has it, its control tells.
 function labelOf(name) {
-  const control = document.querySelector(`[data-option="${name}"]`);
+  const control = controlOf(name);
   return LABELS[name] ?? FIELDS[name]?.label ?? OTHERS[name] ?? control?.getAttribute("aria-label") ??
     control?.closest("label")?.firstElementChild.textContent ?? name;
 }
@@ -95,7 +99,8 @@ export class PieceRows {
   // `say` takes a line for people; `shownWidth` returns the width in mm of the relief that is shown.
   constructor({engine, doc, entries, say, shownWidth, redraw}) {
     Object.assign(this, {engine, doc, entries, say, shownWidth, rows: {}});
-    for (const name of ROWS) {
+    for (const {name} of about.options) if (!isLabelled(name)) LABELS[name] = sentence(name.replaceAll("-", " "));
+    for (const name of Object.keys(LABELS)) {
       this.rows[name] = SHAPES[name] ? this.shapeRow(name) : this.row(name);
       $(PLACES[optionOf(name).stage] ?? "#piece").append(this.rows[name].element);
     }
@@ -105,7 +110,7 @@ export class PieceRows {
 
   // The elements by the names of their options.
   get elements() {
-    return Object.fromEntries(ROWS.map((name) => [name, this.rows[name].element]));
+    return Object.fromEntries(Object.entries(this.rows).map(([name, {element}]) => [name, element]));
   }
 
   shapeRow(option) {
