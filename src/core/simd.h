@@ -9,9 +9,9 @@
 
 namespace relievo {
 
-// Vectors of eight or four floats, or four doubles. Code written with them compiles to AVX2 inside a function
-// marked RELIEVO_AVX2 and to pairs of SSE2 instructions elsewhere; both give the same bits, because products
-// and sums are never contracted. The vectors need no alignment and may alias other types:
+// Vectors of eight or four floats, or four doubles. Code written with them compiles to AVX2 inside RELIEVO_WIDE()
+// and to pairs of SSE2 instructions elsewhere; both give the same bits, because products and sums are never
+// contracted. The vectors need no alignment and may alias other types:
 // as typedefs, for clang ignores the alignment of a using-declaration.
 typedef float Float8 __attribute__((vector_size(32), aligned(4), may_alias));
 typedef float Float4 __attribute__((vector_size(16), aligned(4), may_alias));
@@ -24,8 +24,17 @@ typedef double Double4 __attribute__((vector_size(32), aligned(8), may_alias));
 #endif
 #define RELIEVO_INLINE inline __attribute__((always_inline))
 
-// Returns whether functions marked RELIEVO_AVX2 shall be called; initially, whether the processor has AVX2.
+// Returns whether RELIEVO_WIDE() shall use AVX2; initially, whether the processor has it.
 bool uses_avx2();
+
+template <typename F>
+RELIEVO_AVX2 decltype(auto) call_with_avx2(F&& f) {
+  return f();
+}
+
+// Evaluates a call of a function marked RELIEVO_INLINE, which is compiled twice: to AVX2, and to what every processor has.
+#define RELIEVO_WIDE(...) \
+  (uses_avx2() ? call_with_avx2([&]() __attribute__((always_inline)) { return __VA_ARGS__; }) : (__VA_ARGS__))
 
 // For tests: turns them off, or on again if the processor has AVX2.
 void allow_avx2(bool is_allowed);

@@ -143,13 +143,6 @@ RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, 
   std::memcpy(to, &sums, sizeof sums);
 }
 
-RELIEVO_AVX2 void envelope_avx2(const Framed& from, const Profile& profile, int x, int y, float* to) {
-  envelope(from, profile, x, y, to);
-}
-void envelope_plain(const Framed& from, const Profile& profile, int x, int y, float* to) {
-  envelope(from, profile, x, y, to);
-}
-
 }  // namespace
 
 Image<float> dilate(const Image<float>& image, const Profile& profile, int border) {
@@ -162,8 +155,8 @@ Image<float> dilate(const Image<float>& image, const Profile& profile, int borde
       [&](std::size_t row) {
         float result[block];
         for (int x = 0; x < out.width; x += block) {
-          (uses_avx2() ? envelope_avx2 : envelope_plain)(from, profile, x - border + from.frame,
-                                                         static_cast<int>(row) - border + from.frame, result);
+          RELIEVO_WIDE(envelope(from, profile, x - border + from.frame,
+                                static_cast<int>(row) - border + from.frame, result));
           const int count = std::min(block, out.width - x);
           std::copy_n(result, count, &out.at(x, static_cast<int>(row)));
         }

@@ -48,10 +48,6 @@ RELIEVO_INLINE void evaluate_pairs(const PairInput& input, const MultilevelSplin
   }
 }
 
-RELIEVO_AVX2 void evaluate_pairs_avx2(const PairInput& input, const MultilevelSpline::PairValues& values) {
-  evaluate_pairs(input, values);
-}
-
 }  // namespace
 
 MultilevelSpline::MultilevelSpline(std::span<const Vec2> sites, std::span<const float> weights,
@@ -198,7 +194,7 @@ void MultilevelSpline::pair_up(const SplineFunction& a, const SplineFunction& b,
 void MultilevelSpline::evaluate(std::span<const float> pair, std::span<const SplinePlace> places,
                                 const PairValues& values) const {
   const PairInput input{pair.data(), levels_.back().columns, places};
-  uses_avx2() ? evaluate_pairs_avx2(input, values) : evaluate_pairs(input, values);
+  RELIEVO_WIDE(evaluate_pairs(input, values));
 }
 
 }  // namespace relievo

@@ -8,7 +8,6 @@
 
 #include "relief/height_search.h"
 #include "relief/jump_lift.h"
-#include "relief/layered_slopes.h"
 #include "relief/step_heights.h"
 #include "relief/style.h"
 #include "relief/vertex_normals.h"

@@ -1,16 +1,67 @@
-// The slopes of the layered style for frames, of eight points at a time.
-// Tested by tests/relief/layered_slopes_test.cpp.
+// The slopes of the layered style, of one point or of eight at a time.
+// Tested by tests/relief/layers_test.cpp and tests/relief/layered_slopes_test.cpp.
 #pragma once
 
-#include <span>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
 
-#include "relief/style.h"
-#include "relief/weight_table.h"
+#include "core/simd.h"
+#include "relievo/relief/layers.h"
 
 namespace relievo {
 
-// Writes the same bits as write_slopes().
-void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
-                           std::span<Vec2f> slopes);
+// Returns the weighted sum of a point's layers. It handles all eight numbers at once.
+RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
+  typedef std::int16_t Short8 __attribute__((vector_size(16)));
+  static_assert(sizeof(Short8) == sizeof(PointLayers));
+  Short8 parts;
+  std::memcpy(&parts, &layers, sizeof parts);
+  const Float8 weights{w.fine, w.fine, w.middle, w.middle, w.coarse, w.coarse, w.broad, w.broad};
+  const Float8 kept = weights * __builtin_convertvector(parts, Float8);
+  return LayerXy::unit *
+         Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
+}
+
+// What make_slopes() computes with: one number, or eight. GCC forgets that a Float8 needs no alignment where it is itself
+// the argument of a template.
+template <typename Real>
+struct OneNumber {
+  using Values = Real;
+  static Real root(Real value) { return std::sqrt(value); }
+};
+struct EightFloats {
+  typedef Float8 Values;
+  static RELIEVO_INLINE Float8 root(Float8 values) {
+    for (int i = 0; i < 8; ++i) values[i] = std::sqrt(values[i]);
+    return values;
+  }
+};
+
+// Turns the weighted layers (x, y) of points into their target slopes: (x, y) / sqrt(1 - t^2 (x^2 + y^2)) with t the
+// height share, which anticipates the tilt that the height correction leaves. At t = 1 that is the slope of the normal
+// with this x and y; near 0, where surfaces end up almost level, it is (x, y) itself. Slopes are shortened to at most
+// `max_slope`.
+template <typename Numbers, typename Real>
+RELIEVO_INLINE void make_slopes(typename Numbers::Values& x, typename Numbers::Values& y,
+                                Real height_share_sq, Real max_slope) {
+  const typename Numbers::Values sine_sq = x * x + y * y, left_sq = sine_sq * height_share_sq;
+  const Real most_sq = max_slope * max_slope;
+  // The tangent is sine / cosine; beyond the steepest slope its length is set to max_slope instead.
+  const typename Numbers::Values scale = sine_sq <= most_sq * (1 - left_sq)
+                                             ? 1 / Numbers::root(1 - left_sq)
+                                             : max_slope / Numbers::root(sine_sq);
+  x *= scale, y *= scale;
+}
+
+// Returns the target slope of a point whose layers are multiplied by `weight` first.
+template <typename Real>
+Eigen::Vector2<Real> layered_slope(const PointLayers& layers, const LayerWeights& w, Real weight,
+                                   Real max_slope) {
+  const Vec2f sum = weighted_sum(layers, w);
+  Real x = weight * static_cast<Real>(sum.x()), y = weight * static_cast<Real>(sum.y());
+  make_slopes<OneNumber<Real>>(x, y, static_cast<Real>(w.height_share * w.height_share), max_slope);
+  return {x, y};
+}
 
 }  // namespace relievo

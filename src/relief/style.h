@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "relief/height_span.h"
+#include "relief/layered_slopes.h"
 #include "relief/membrane/height_correction.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
@@ -164,5 +165,11 @@ void write_slopes(const SlopeInput& input, const Style& style, const Weight& wei
                                            static_cast<Real>(input.boundary_weight[i]));
   });
 }
+
+class WeightTable;
+
+// The same bits as write_slopes() for the layered style in single precision, of eight points at a time.
+void write_slopes_by_eight(const SlopeInput& input, const LayeredStyle& style, const WeightTable& weight,
+                           std::span<Vec2f> slopes);
 
 }  // namespace relievo

@@ -49,7 +49,7 @@ RELIEVO_INLINE void subtract_strip(const Product& p, Index j, Index from, Index 
   if (i < p.rows) subtract_tile<1, Width>(p, i, j, from, to);
 }
 
-RELIEVO_INLINE void subtract_product_inline(const Product& p) {
+RELIEVO_INLINE void subtract(const Product& p) {
   const Index block = 128;  // of the depth: this many columns of A stay in the cache
   for (Index from = 0; from < p.depth; from += block) {
     const Index to = std::min(p.depth, from + block);
@@ -72,8 +72,8 @@ RELIEVO_INLINE void scale(double* x, double factor, Index from, Index to) {
 
 // Eliminates the columns [begin, begin + width) one after the other. Returns the same as eliminate_columns().
 // After a failure it goes on with pivots of 1, so that no element becomes infinite.
-RELIEVO_INLINE Index eliminate_inline(FrontalMatrix& front, Index begin, Index width,
-                                      std::span<const double> smallest_pivot) {
+RELIEVO_INLINE Index eliminate(FrontalMatrix& front, Index begin, Index width,
+                               std::span<const double> smallest_pivot) {
   const Index end = begin + width;
   Index failed = no_index;
   for (Index j = begin; j < end; ++j) {
@@ -89,7 +89,7 @@ RELIEVO_INLINE Index eliminate_inline(FrontalMatrix& front, Index begin, Index w
 
 // Inverts the columns [begin, begin + width) one after the other, the last one first: the columns to the
 // right of column j are already inverted.
-RELIEVO_INLINE void invert_inline(FrontalMatrix& front, Index begin, Index width) {
+RELIEVO_INLINE void invert(FrontalMatrix& front, Index begin, Index width) {
   const Index end = begin + width;
   for (Index j = end; j-- > begin;) {
     double* column = front.column(j);
@@ -106,19 +106,8 @@ RELIEVO_INLINE void invert_inline(FrontalMatrix& front, Index begin, Index width
   }
 }
 
-RELIEVO_AVX2 void subtract_product_avx2(const Product& p) {
-  subtract_product_inline(p);
-}
-RELIEVO_AVX2 Index eliminate_avx2(FrontalMatrix& front, Index begin, Index width,
-                                  std::span<const double> smallest) {
-  return eliminate_inline(front, begin, width, smallest);
-}
-RELIEVO_AVX2 void invert_avx2(FrontalMatrix& front, Index begin, Index width) {
-  invert_inline(front, begin, width);
-}
-
 void subtract_product(const Product& p) {
-  uses_avx2() ? subtract_product_avx2(p) : subtract_product_inline(p);
+  RELIEVO_WIDE(subtract(p));
 }
 
 // A multiple of `narrow`, so that only the last block of columns is incomplete.
@@ -129,10 +118,7 @@ Index first_half(Index width) {
 // Halves the columns until few are left, so that nearly all of the work is in matrix products.
 Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
                             std::span<const double> smallest_pivot) {
-  if (width <= narrow) {
-    return uses_avx2() ? eliminate_avx2(front, begin, width, smallest_pivot)
-                       : eliminate_inline(front, begin, width, smallest_pivot);
-  }
+  if (width <= narrow) return RELIEVO_WIDE(eliminate(front, begin, width, smallest_pivot));
   const Index half = first_half(width), middle = begin + half;
   const Index failed = eliminate_recursively(front, begin, half, smallest_pivot);
   const double* left = front.column(begin) + middle;
@@ -145,10 +131,7 @@ Index eliminate_recursively(FrontalMatrix& front, Index begin, Index width,
 // With columns [La; Lb; Ld] on the left and [Lc; Le] on the right, already inverted to [Wc; We]: the rows
 // below La become [Wc Lb; Ld + We Lb], and then the left is inverted on its own.
 void invert_recursively(FrontalMatrix& front, Index begin, Index width, std::vector<double>& scratch) {
-  if (width <= narrow) {
-    uses_avx2() ? invert_avx2(front, begin, width) : invert_inline(front, begin, width);
-    return;
-  }
+  if (width <= narrow) return RELIEVO_WIDE(invert(front, begin, width));
   const Index half = first_half(width), middle = begin + half, rest = width - half;
   invert_recursively(front, middle, rest, scratch);
   scratch.resize(std::max(scratch.size(), std::size_t{half} * rest));

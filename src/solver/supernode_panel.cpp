@@ -129,7 +129,7 @@ RELIEVO_INLINE void multiply_transposed(NodeSize node, const float* values, cons
   }
 }
 
-RELIEVO_INLINE void forward_inline(const Subtree& subtree) {
+RELIEVO_INLINE void forward(const Subtree& subtree) {
   alignas(32) float out[largest_subtree_rows + 8], b[largest_subtree_rows];
   const float* values = subtree.values;
   const std::uint16_t* rows = subtree.rows;
@@ -160,7 +160,7 @@ RELIEVO_INLINE std::size_t value_count(NodeSize node) {
   return values_before(full, rows) + std::size_t{node.width - full} * (rows - full);
 }
 
-RELIEVO_INLINE void backward_inline(const Subtree& end) {
+RELIEVO_INLINE void backward(const Subtree& end) {
   alignas(32) float x[largest_subtree_rows + 8];
   const float* values = end.values;
   const std::uint16_t* rows = end.rows;
@@ -177,40 +177,24 @@ RELIEVO_INLINE void backward_inline(const Subtree& end) {
   }
 }
 
-RELIEVO_AVX2 void forward_avx2(const Subtree& subtree) {
-  forward_inline(subtree);
-}
-RELIEVO_AVX2 void backward_avx2(const Subtree& end) {
-  backward_inline(end);
-}
-RELIEVO_AVX2 void add_product_avx2(NodeSize node, const float* values, const float* b, float* out) {
-  add_product(node, values, b, out);
-}
-RELIEVO_AVX2 void multiply_avx2(NodeSize node, const float* values, const float* x, float* result) {
-  multiply_transposed(node, values, x, result);
-}
-
 }  // namespace
 
 void substitute_forward(const Subtree& subtree) {
-  uses_avx2() ? forward_avx2(subtree) : forward_inline(subtree);
+  RELIEVO_WIDE(forward(subtree));
 }
 
 void substitute_backward(const Subtree& end) {
-  uses_avx2() ? backward_avx2(end) : backward_inline(end);
+  RELIEVO_WIDE(backward(end));
 }
 
 void substitute_forward(NodeSize node, const float* values, float* work, float* scratch) {
   std::copy_n(work, node.width, scratch);
   std::fill_n(work, node.width, 0.0F);
-  if (uses_avx2())
-    add_product_avx2(node, values, scratch, work);
-  else
-    add_product(node, values, scratch, work);
+  RELIEVO_WIDE(add_product(node, values, scratch, work));
 }
 
 void substitute_backward(NodeSize node, const float* values, float* work, float* scratch) {
-  uses_avx2() ? multiply_avx2(node, values, work, scratch) : multiply_transposed(node, values, work, scratch);
+  RELIEVO_WIDE(multiply_transposed(node, values, work, scratch));
   std::copy_n(scratch, node.width, work);
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "core/simd.h"
+#include "relief/style.h"
+#include "relief/weight_table.h"
 #include "support/shapes.h"
 
 namespace relievo {

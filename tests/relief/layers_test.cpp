@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "relief/layered_slopes.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
 #include "relievo/scan/surface.h"

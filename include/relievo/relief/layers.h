@@ -3,8 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -55,33 +53,5 @@ struct LayerWeights {
   // exp(-10 detail), exp(-20.5 detail) and exp(-55 detail); 0 treats all alike. `height_share` in [0, 1].
   static LayerWeights of(double u, double detail, double height_share);
 };
-
-// Returns the weighted sum of a point's layers. It handles all eight numbers at once.
-inline Vec2f weighted_sum(const PointLayers& layers, const LayerWeights& w) {
-  const auto parts = std::bit_cast<std::array<std::int16_t, 8>>(layers);
-  const std::array<float, 8> weights{w.fine,   w.fine,   w.middle, w.middle,
-                                     w.coarse, w.coarse, w.broad,  w.broad};
-  std::array<float, 8> kept;
-  for (std::size_t i = 0; i < 8; ++i) kept[i] = weights[i] * static_cast<float>(parts[i]);
-  return LayerXy::unit *
-         Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
-}
-
-// Returns the target slope of a point whose weighted layers sum to (x, y): (x, y) / sqrt(1 - t^2 (x^2 + y^2))
-// with t the height share, which anticipates the tilt that the height correction leaves. At t = 1 that is the slope of
-// the normal with this x and y; near 0, where surfaces end up almost level, it is (x, y) itself. x and y are
-// multiplied by `weight` first; the slope is shortened to at most `max_slope`.
-template <typename Real>
-Eigen::Vector2<Real> layered_slope(const PointLayers& layers, const LayerWeights& w, Real weight,
-                                   Real max_slope) {
-  const Vec2f sum = weighted_sum(layers, w);
-  const Real x = weight * static_cast<Real>(sum.x()), y = weight * static_cast<Real>(sum.y());
-  const Real sine_sq = x * x + y * y, most_sq = max_slope * max_slope;
-  const Real left_sq = sine_sq * static_cast<Real>(w.height_share * w.height_share);
-  // The tangent is sine / cosine; beyond the steepest slope its length is set to max_slope instead.
-  const Real scale =
-      sine_sq <= most_sq * (1 - left_sq) ? 1 / std::sqrt(1 - left_sq) : max_slope / std::sqrt(sine_sq);
-  return {x * scale, y * scale};
-}
 
 }  // namespace relievo

@@ -85,19 +85,6 @@ RELIEVO_INLINE void add(DiscBand& band, std::span<const FrontDisc> discs) {
   }
 }
 
-RELIEVO_AVX2 void draw_avx2(DiscBand& band, std::span<const FrontDisc> discs) {
-  draw(band, discs);
-}
-void draw_plain(DiscBand& band, std::span<const FrontDisc> discs) {
-  draw(band, discs);
-}
-RELIEVO_AVX2 void add_avx2(DiscBand& band, std::span<const FrontDisc> discs) {
-  add(band, discs);
-}
-void add_plain(DiscBand& band, std::span<const FrontDisc> discs) {
-  add(band, discs);
-}
-
 }  // namespace
 
 DiscBand::DiscBand(int columns, int first_row, int rows)
@@ -108,11 +95,11 @@ DiscBand::DiscBand(int columns, int first_row, int rows)
 }
 
 void DiscBand::draw_depths(std::span<const FrontDisc> discs) {
-  (uses_avx2() ? draw_avx2 : draw_plain)(*this, discs);
+  RELIEVO_WIDE(draw(*this, discs));
 }
 
 void DiscBand::add_normals(std::span<const FrontDisc> discs) {
-  (uses_avx2() ? add_avx2 : add_plain)(*this, discs);
+  RELIEVO_WIDE(add(*this, discs));
 }
 
 void DiscBand::write(FrontCells& cells) const {
