@@ -14,15 +14,8 @@ struct WeightedEdge {
   float weight;
 };
 
-// The edges of point i are edges[begin[i]] up to edges[begin[i + 1]], in ascending order of the other points.
-struct Adjacency {
-  std::vector<Index> begin;
-  std::vector<WeightedEdge> edges;
-
-  std::span<const WeightedEdge> operator[](Index i) const {
-    return std::span(edges).subspan(begin[i], begin[i + 1] - begin[i]);
-  }
-};
+// The edges of each point, in ascending order of the other points.
+using Adjacency = Groups<WeightedEdge>;
 
 // Equation (9): the edges of points, one point after the other. A corner is 3 t + i for corner i of triangle t.
 class EdgeRows {
@@ -65,22 +58,19 @@ class EdgeRows {
 Adjacency adjacency_of(std::span<const Vec2> points, const std::vector<Triangle>& triangles,
                        const Boundary& boundary, std::span<const float> weights) {
   const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
-  Adjacency result{std::vector<Index>(points.size() + 1, 0), {}};
-  result.edges =
-      rows_in_order<WeightedEdge>(result.begin, [&](std::size_t first, std::size_t end, auto&& row) {
-        EdgeRows rows(points, triangles);
-        for (std::size_t i = first; i < end; ++i)
-          row(i, [&](std::vector<WeightedEdge>& edges) {
-            const std::size_t before = edges.size();
-            rows.add(corners[i], edges);
-            for (std::size_t e = before; e < edges.size(); ++e) {
-              edges[e].weight = edge_weight(edges[e].weight);
-              if (!weights.empty())
-                edges[e].weight *= jump_share(boundary, weights, static_cast<Index>(i), edges[e].to);
-            }
-          });
+  return rows_in_order<WeightedEdge>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
+    EdgeRows rows(points, triangles);
+    for (std::size_t i = first; i < end; ++i)
+      row(i, [&](std::vector<WeightedEdge>& edges) {
+        const std::size_t before = edges.size();
+        rows.add(corners[i], edges);
+        for (std::size_t e = before; e < edges.size(); ++e) {
+          edges[e].weight = edge_weight(edges[e].weight);
+          if (!weights.empty())
+            edges[e].weight *= jump_share(boundary, weights, static_cast<Index>(i), edges[e].to);
+        }
       });
-  return result;
+  });
 }
 
 // Equation (9): the matrix of its normal equations, a weighted Laplacian; boundary points, at 0, drop out.
@@ -115,9 +105,8 @@ Eigen::SparseMatrix<double> laplacian(const Adjacency& adjacency, std::span<cons
 }
 
 // Equation (9): the right-hand side of a point is the sum over its edges of weight / 2 (s_p + s_q) . (p - q).
-void add_coefficients(std::span<const Vec2> points, const Adjacency& adjacency,
-                      std::span<const Index> unknown, HeightEquations& equations) {
-  equations.begin.assign(points.size() + 1, 0);
+Groups<MatrixEntry> coefficients_of(std::span<const Vec2> points, const Adjacency& adjacency,
+                                    std::span<const Index> unknown) {
   const auto add = [&](Index i, std::vector<MatrixEntry>& entries) {
     const bool is_free = unknown[i] != no_index;
     bool has_itself = is_free;
@@ -129,11 +118,10 @@ void add_coefficients(std::span<const Vec2> points, const Adjacency& adjacency,
     }
     if (!has_itself) entries.push_back({i});
   };
-  equations.edges =
-      rows_in_order<MatrixEntry>(equations.begin, [&](std::size_t first, std::size_t end, auto&& row) {
-        for (std::size_t i = first; i < end; ++i)
-          row(i, [&](std::vector<MatrixEntry>& entries) { add(static_cast<Index>(i), entries); });
-      });
+  return rows_in_order<MatrixEntry>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
+    for (std::size_t i = first; i < end; ++i)
+      row(i, [&](std::vector<MatrixEntry>& entries) { add(static_cast<Index>(i), entries); });
+  });
 }
 
 }  // namespace
@@ -149,7 +137,7 @@ HeightEquations height_equations(std::span<const Vec2> points, const Triangulati
   }
   const Adjacency adjacency = adjacency_of(points, triangulation.triangles, boundary, weights);
   equations.A = laplacian(adjacency, unknown, equations.free_points);
-  add_coefficients(points, adjacency, unknown, equations);
+  equations.edges = coefficients_of(points, adjacency, unknown);
   return equations;
 }
 

@@ -14,12 +14,10 @@ namespace relievo {
 struct HeightEquations {
   std::vector<Index> free_points;  // point of each unknown: those that are not on the boundary
   Eigen::SparseMatrix<double> A;   // lower triangle, by unknown: the weighted Laplacian
-  // The edges of point i are edges[begin[i]] up to edges[begin[i + 1]], in ascending order of the other points;
-  // every point has one to itself, too, so that vertex_normal_matrix() can reuse the pattern. The coefficient of
-  // an edge is half its weight times the step from the other point; 0 at boundary points, whose heights are 0.
-  // The right-hand side is SlicedEllMatrix::divergence().
-  std::vector<Index> begin = {0};
-  std::vector<MatrixEntry> edges;
+  // The edges of each point, in ascending order of the other points. Every point has one to itself, too, so that
+  // vertex_normal_matrix() can reuse the pattern. The coefficient of an edge is half its weight times the step from
+  // the other point; 0 at boundary points, whose heights are 0. The right-hand side is SlicedEllMatrix::divergence().
+  Groups<MatrixEntry> edges;
 };
 
 // Returns the equations. `weights` as for HeightSystem::build().

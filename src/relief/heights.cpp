@@ -10,10 +10,9 @@ Result<HeightSystem> HeightSystem::build(std::span<const Vec2> points, const Tri
   std::vector<Vec2> positions;
   positions.reserve(equations.free_points.size());
   for (const Index i : equations.free_points) positions.push_back(points[i]);
-  Result<solver::Cholesky> factor = solver::Cholesky::factor(equations.A, positions);
-  if (!factor) return std::unexpected(factor.error());
-  factor->renumber(equations.free_points);
-  return HeightSystem(std::move(*factor), SlicedEllMatrix(equations.begin, equations.edges));
+  RELIEVO_TRY(solver::Cholesky factor, solver::Cholesky::factor(equations.A, positions));
+  factor.renumber(equations.free_points);
+  return HeightSystem(std::move(factor), SlicedEllMatrix(equations.edges));
 }
 
 HeightSystem::HeightSystem(solver::Cholesky factor, SlicedEllMatrix edges)

@@ -20,31 +20,28 @@ inline Groups<Index> corners_inside(std::size_t points, const std::vector<Triang
   });
 }
 
-// Returns the entries of all rows, row by row, and sets begin[i] to the first of row i; `begin` has one element more than
-// there are rows. make(first, end, row) calls row(i, add) for each i of [first, end) in ascending order, and add(entries)
-// appends the entries of that row.
+// Returns the entries of each row. make(first, end, row) calls row(i, add) for each i of [first, end) in ascending order,
+// and add(entries) appends the entries of that row.
 template <typename Entry, typename Make>
-std::vector<Entry> rows_in_order(std::vector<Index>& begin, Make&& make) {
-  const std::size_t rows = begin.size() - 1;
+Groups<Entry> rows_in_order(std::size_t rows, Make&& make) {
+  Groups<Entry> all{std::vector<Index>(rows + 1), {}};
   std::vector<std::vector<Entry>> parts((rows + default_grain - 1) / default_grain);
-  begin[0] = 0;
   parallel_ranges(rows, default_grain, [&](std::size_t first, std::size_t end) {
     std::vector<Entry>& part = parts[first / default_grain];
     part.reserve(8 * (end - first));
     make(first, end, [&](std::size_t i, auto&& add) {
       const std::size_t before = part.size();
       add(part);
-      begin[i + 1] = static_cast<Index>(part.size() - before);
+      all.begin[i + 1] = static_cast<Index>(part.size() - before);
     });
   });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<Entry> entries;
-  entries.reserve(begin.back());
+  std::partial_sum(all.begin.begin(), all.begin.end(), all.begin.begin());
+  all.items.reserve(all.begin.back());
   for (std::vector<Entry>& part : parts) {
-    entries.insert(entries.end(), part.begin(), part.end());
+    all.items.insert(all.items.end(), part.begin(), part.end());
     part = {};
   }
-  return entries;
+  return all;
 }
 
 }  // namespace relievo

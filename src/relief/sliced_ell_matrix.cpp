@@ -100,30 +100,16 @@ struct Slices {
   }
 };
 
-RELIEVO_INLINE void divergence_inline(const Slices& slices, const Vec2f* slopes, float* sums) {
+RELIEVO_INLINE void divergence_of(const Slices& slices, const Vec2f* slopes, float* sums) {
   for (std::size_t s = slices.first; s < slices.end; ++s) divergence_of(slices[s], slopes, sums);
 }
-RELIEVO_AVX2 void divergence_avx2(const Slices& slices, const Vec2f* slopes, float* sums) {
-  divergence_inline(slices, slopes, sums);
-}
 
-RELIEVO_INLINE void normals_inline(const Slices& slices, const float* heights, Vec3f* normals) {
+RELIEVO_INLINE void normals_of(const Slices& slices, const float* heights, Vec3f* normals) {
   for (std::size_t s = slices.first; s < slices.end; ++s) normals_of(slices[s], heights, normals);
-}
-RELIEVO_AVX2 void normals_avx2(const Slices& slices, const float* heights, Vec3f* normals) {
-  normals_inline(slices, heights, normals);
 }
 
 // The entries of each row, as they are given.
-struct Rows {
-  std::span<const Index> begin;
-  std::span<const MatrixEntry> entries;
-
-  std::size_t size() const { return begin.size() - 1; }
-  std::span<const MatrixEntry> operator[](Index i) const {
-    return entries.subspan(begin[i], begin[i + 1] - begin[i]);
-  }
-};
+using Rows = Groups<MatrixEntry>;
 
 SlicedEllMatrix::Pattern pattern_of(const Rows& rows) {
   SlicedEllMatrix::Pattern pattern;
@@ -191,16 +177,13 @@ std::vector<SlicedEllMatrix::Coefficients> coefficients_in(const SlicedEllMatrix
 
 }  // namespace
 
-SlicedEllMatrix::SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries)
-    : pattern_(std::make_shared<const Pattern>(pattern_of({begin, entries}))),
-      coefficients_(coefficients_in(*pattern_, {begin, entries})) {}
+SlicedEllMatrix::SlicedEllMatrix(const Rows& rows)
+    : pattern_(std::make_shared<const Pattern>(pattern_of(rows))),
+      coefficients_(coefficients_in(*pattern_, rows)) {}
 
-SlicedEllMatrix::SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries,
-                                 const SlicedEllMatrix& like)
-    : pattern_(like.pattern_),
-      coefficients_(coefficients_in(*pattern_, {begin, entries})),
-      owns_pattern_(false) {
-  if (coefficients_.empty() && !entries.empty()) *this = SlicedEllMatrix(begin, entries);
+SlicedEllMatrix::SlicedEllMatrix(const Rows& rows, const SlicedEllMatrix& like)
+    : pattern_(like.pattern_), coefficients_(coefficients_in(*pattern_, rows)), owns_pattern_(false) {
+  if (coefficients_.empty() && !rows.items.empty()) *this = SlicedEllMatrix(rows);
 }
 
 std::size_t SlicedEllMatrix::memory() const {
@@ -217,9 +200,7 @@ void SlicedEllMatrix::for_runs(F&& f) const {
 }
 
 void SlicedEllMatrix::divergence(std::span<const Vec2f> slopes, std::span<float> sums) const {
-  for_runs([&](const Slices& slices) {
-    (uses_avx2() ? divergence_avx2 : divergence_inline)(slices, slopes.data(), sums.data());
-  });
+  for_runs([&](const Slices& slices) { RELIEVO_WIDE(divergence_of(slices, slopes.data(), sums.data())); });
 }
 
 void SlicedEllMatrix::divergence(std::span<const Vec2> slopes, std::span<double> sums) const {
@@ -241,9 +222,7 @@ void SlicedEllMatrix::divergence(std::span<const Vec2> slopes, std::span<double>
 }
 
 void SlicedEllMatrix::normals(std::span<const float> heights, std::span<Vec3f> normals) const {
-  for_runs([&](const Slices& slices) {
-    (uses_avx2() ? normals_avx2 : normals_inline)(slices, heights.data(), normals.data());
-  });
+  for_runs([&](const Slices& slices) { RELIEVO_WIDE(normals_of(slices, heights.data(), normals.data())); });
 }
 
 }  // namespace relievo

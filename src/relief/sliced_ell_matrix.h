@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/groups.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
@@ -21,13 +22,12 @@ struct MatrixEntry {
 // (SELL-C-sigma; Kreutzer, Hager, Wellein, Fehske and Bishop, 2014). Sums run in the order of the entries given.
 class SlicedEllMatrix {
  public:
-  // Copies the entries of point i, which are entries[begin[i]] up to entries[begin[i + 1]].
-  SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries);
+  // Copies the entries of each point.
+  explicit SlicedEllMatrix(const Groups<MatrixEntry>& rows);
 
   // The same, but reuses the sparsity pattern of `like` if it contains all these entries in order; unused slots get
   // coefficient 0.
-  SlicedEllMatrix(std::span<const Index> begin, std::span<const MatrixEntry> entries,
-                  const SlicedEllMatrix& like);
+  SlicedEllMatrix(const Groups<MatrixEntry>& rows, const SlicedEllMatrix& like);
 
   // Returns the number of points.
   std::size_t size() const { return pattern_->size; }

@@ -69,14 +69,13 @@ SlicedEllMatrix vertex_normal_matrix(std::span<const Vec2> points, const Triangu
                                      const Boundary& boundary, const SlicedEllMatrix* like) {
   const std::vector<Triangle>& triangles = triangulation.triangles;
   const Groups<Index> corners = corners_inside(points.size(), triangles, boundary);
-  std::vector<Index> begin(points.size() + 1);
-  const std::vector<MatrixEntry> entries =
-      rows_in_order<MatrixEntry>(begin, [&](std::size_t first, std::size_t end, auto&& row) {
+  const auto entries =
+      rows_in_order<MatrixEntry>(points.size(), [&](std::size_t first, std::size_t end, auto&& row) {
         NormalRows rows(points, triangles);
         for (std::size_t i = first; i < end; ++i)
           row(i, [&](std::vector<MatrixEntry>& added) { rows.add(corners[i], added); });
       });
-  return like ? SlicedEllMatrix(begin, entries, *like) : SlicedEllMatrix(begin, entries);
+  return like ? SlicedEllMatrix(entries, *like) : SlicedEllMatrix(entries);
 }
 
 }  // namespace relievo

@@ -11,8 +11,7 @@ namespace {
 
 // Points with 0 to 9 links each to any others, and a slope and a height each.
 struct Linked {
-  std::vector<Index> begin = {0};
-  std::vector<MatrixEntry> links;
+  Groups<MatrixEntry> links;
   std::vector<Vec2f> slopes;
   std::vector<float> heights;
 
@@ -21,26 +20,22 @@ struct Linked {
     const auto number = [&] { return static_cast<float>(random.uniform(-1, 1)); };
     for (std::size_t i = 0; i < n; ++i) {
       for (std::size_t count = random.bits() % 10; count > 0; --count)
-        links.push_back({static_cast<Index>(random.bits() % n), {number(), number()}});
-      begin.push_back(static_cast<Index>(links.size()));
+        links.items.push_back({static_cast<Index>(random.bits() % n), {number(), number()}});
+      links.begin.push_back(static_cast<Index>(links.items.size()));
       slopes.emplace_back(number(), number());
       heights.push_back(number());
     }
   }
 
-  std::span<const MatrixEntry> of(std::size_t i) const {
-    return std::span(links).subspan(begin[i], begin[i + 1] - begin[i]);
-  }
-
   std::vector<float> divergence() const {
     std::vector<float> sums(heights.size(), -1.F);
-    SlicedEllMatrix(begin, links).divergence(slopes, sums);
+    SlicedEllMatrix(links).divergence(slopes, sums);
     return sums;
   }
 
   std::vector<Vec3f> normals() const {
     std::vector<Vec3f> out(heights.size());
-    SlicedEllMatrix(begin, links).normals(heights, out);
+    SlicedEllMatrix(links).normals(heights, out);
     return out;
   }
 };
@@ -52,7 +47,7 @@ TEST_P(PointLinksOf, GiveTheDivergence) {
   const std::vector<float> sums = linked.divergence();
   for (std::size_t i = 0; i < sums.size(); ++i) {
     float expected = 0;
-    for (const MatrixEntry& link : linked.of(i))
+    for (const MatrixEntry& link : linked.links[i])
       expected += (linked.slopes[i] + linked.slopes[link.other]).dot(link.coefficient);
     ASSERT_NEAR(sums[i], expected, 1e-5F);
   }
@@ -63,10 +58,10 @@ TEST_P(PointLinksOf, GiveTheSameDivergenceInDouble) {
   std::vector<Vec2> slopes;
   for (const Vec2f& s : linked.slopes) slopes.push_back(s.cast<double>());
   std::vector<double> sums(slopes.size(), -1);
-  SlicedEllMatrix(linked.begin, linked.links).divergence(slopes, sums);
+  SlicedEllMatrix(linked.links).divergence(slopes, sums);
   for (std::size_t i = 0; i < sums.size(); ++i) {
     double expected = 0;
-    for (const MatrixEntry& link : linked.of(i))
+    for (const MatrixEntry& link : linked.links[i])
       expected += (slopes[i] + slopes[link.other]).dot(link.coefficient.cast<double>());
     ASSERT_NEAR(sums[i], expected, 1e-14);
   }
@@ -77,7 +72,7 @@ TEST_P(PointLinksOf, GiveNormals) {
   const std::vector<Vec3f> normals = linked.normals();
   for (std::size_t i = 0; i < normals.size(); ++i) {
     Vec3f expected = Vec3f::UnitZ();
-    for (const MatrixEntry& link : linked.of(i))
+    for (const MatrixEntry& link : linked.links[i])
       expected.head<2>() += linked.heights[link.other] * link.coefficient;
     ASSERT_LT((normals[i] - expected.normalized()).norm(), 1e-5F);
   }
