@@ -88,7 +88,7 @@ struct Comparer {
 
   // Appends reliefs of one height by each method; nothing if one of them fails.
   Result<void> add_reliefs(double share, Comparison& comparison) {
-    const double width = Box::of(model->surface().points).longer_side();
+    const double width = model->surface().longer_side();
     std::vector<ComparedRelief> reliefs;
     for (const Method method : comparison.methods) {
       RELIEVO_TRY(const Relief relief,

@@ -36,7 +36,7 @@ Result<std::vector<double>> base_heights(const Surface& surface, const ReliefOpt
 // Makes the relief of the height that its shape gives it, which must not be 0.
 Result<Relief> make_free(const ReliefModel& model, const Shape& shape) {
   Relief relief = model.make(shape);
-  const double least = 1e-6 * Box::of(model.surface().points).longer_side();
+  const double least = 1e-6 * model.surface().longer_side();
   if (relief.height > least) return relief;
   return geometry_error(
       "expected a shape that gives the relief a height, found 0 mm in this view: ask for a height, "
@@ -117,7 +117,7 @@ Shape shape_of(const ReliefOptions& options) {
 }
 
 double mm_per_unit(const Surface& surface, const ReliefOptions& options) {
-  return options.effective_width_mm() / Box::of(surface.points).longer_side();
+  return options.effective_width_mm() / surface.longer_side();
 }
 
 Result<ReliefModel> prepare(const Cloud& points, const View& view, Mode mode, Progress* progress) {

@@ -14,7 +14,7 @@ namespace {
 
 // Returns the hull of a relief whose longer side is 1.
 std::vector<Vec2> unit_hull(const Surface& surface) {
-  const double longer_side = Box::of(surface.points).longer_side();
+  const double longer_side = surface.longer_side();
   std::vector<Vec2> hull;
   for (const Index i : surface.triangulation.hull)
     hull.emplace_back(surface.points[i].head<2>() / longer_side);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/extent.h"
 #include "relievo/core/parallel.h"
 #include "relievo/scan/surface.h"
 #include "scan/surface_blur.h"
@@ -14,7 +13,7 @@ namespace {
 // Splits the field into its bands, weights them and adds them up again.
 void weigh_bands(std::vector<Vec2f>& field, const Surface& surface, const GradientOptions& options) {
   std::vector<Vec2f> sum(field.size(), Vec2f::Zero());
-  double sigma = options.finest_band * longer_side_of(surface.points);
+  double sigma = options.finest_band * surface.longer_side();
   for (std::size_t band = 0; band < options.band_weights.size(); ++band, sigma *= 2) {
     const auto weight = static_cast<float>(options.band_weights[band]);
     const std::vector<Vec2f> whole = field;

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "core/groups.h"
-#include "geometry/extent.h"
 #include "geometry/neighbours.h"
 #include "relief/edge_weight.h"
 #include "relief/style.h"
@@ -111,7 +110,7 @@ struct Band {
 
 // Returns ends of the edges that are inverted at one of the knots.
 std::vector<Vec2> inverted_places(const Surface& surface, std::span<const Field> heights) {
-  const auto least = static_cast<float>(least_inversion * longer_side_of(surface.points));
+  const auto least = static_cast<float>(least_inversion * surface.longer_side());
   std::vector<Vec2> inverted;
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
     const Triangle& corners = surface.triangulation.triangles[t];
@@ -248,7 +247,7 @@ JumpLift JumpLift::find(const JumpLiftInput& input) {
   const Surface& surface = input.surface;
   if (surface.boundary.wall_side.empty()) return {};
   const std::vector<Field> heights = reference_heights(input);
-  const double distance = fading_distance * longer_side_of(surface.points);
+  const double distance = fading_distance * surface.longer_side();
   const Band band = band_of(surface, movable_points(surface, heights, extent * distance));
   const double area = std::numbers::sqrt3 / 2 * surface.rho * surface.rho;  // of a point
   const auto screen = static_cast<float>(area / (distance * distance));

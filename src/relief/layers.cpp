@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/extent.h"
 #include "relievo/core/parallel.h"
 #include "scan/surface_blur.h"
 
@@ -30,7 +29,7 @@ Vec2f faded_xy(const Vec3f& normal) {
 
 std::vector<PointLayers> normal_layers(std::span<const Vec3> points, std::span<const Vec3f> normals) {
   std::vector<PointLayers> layers(points.size());
-  const double longer_side = longer_side_of(points);
+  const double longer_side = Box::of(points).longer_side();
   if (!(longer_side > 0)) return layers;
   std::vector<Vec2f> kept(points.size());
   parallel_for(kept.size(), [&](std::size_t i) { kept[i] = faded_xy(normals[i]); });

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/extent.h"
 #include "geometry/neighbours.h"
 #include "relievo/core/parallel.h"
 
@@ -63,7 +62,7 @@ std::vector<std::uint8_t> jump_triangles(const Surface& surface) {
 }
 
 std::vector<float> jump_weights(const Surface& surface) {
-  const double side = longer_side_of(surface.points), full_distance = full_weight_distance * side;
+  const double side = surface.longer_side(), full_distance = full_weight_distance * side;
   const std::vector<Vec2> jumps = points_at_high_jumps(surface, least_jump_height * side);
   const KdTree<Vec2> tree(jumps);
   std::vector<float> weights(surface.points.size(), 1);

@@ -1,5 +1,3 @@
-#include "geometry/extent.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,13 +12,8 @@ namespace relievo {
 namespace {
 
 TEST(Extent, LongerSideIsInTheViewPlane) {
-  EXPECT_EQ(longer_side_of(std::vector<Vec3>{{1, 2, 0}, {4, 9, 50}, {2, 3, 0}}), 7);
-  EXPECT_EQ(longer_side_of({}), 0);
-}
-
-TEST(Extent, DepthRankIsTheShareOfDeeperPoints) {
-  const std::vector<Vec3> points{{0, 0, 3}, {0, 0, -1}, {0, 0, 3}, {0, 0, 7}};
-  EXPECT_EQ(depth_ranks(points), (std::vector<double>{.25, 0, .25, .75}));
+  EXPECT_EQ(Box::of(std::vector<Vec3>{{1, 2, 0}, {4, 9, 50}, {2, 3, 0}}).longer_side(), 7);
+  EXPECT_EQ(Box().longer_side(), 0);
 }
 
 TEST(Weld, FindsTheFirstOfCoincidentPoints) {

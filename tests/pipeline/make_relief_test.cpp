@@ -83,7 +83,7 @@ TEST(MakeRelief, FitsIntoAPlateOfTheSizeAskedFor) {
   options.width_mm = 20;  // smaller than would fit: the plate stays
   const auto made = make_relief(*model, options);
   EXPECT_NEAR(box_of(made->solid).size().x(), 80, 1e-9);
-  EXPECT_NEAR(made->report.scale * Box::of(model->surface().points).longer_side(), 20, 1e-9);
+  EXPECT_NEAR(made->report.scale * model->surface().longer_side(), 20, 1e-9);
   options.form = Form::die;  // the groove of the coin's rim, and around it as much again and the bevel
   const Vec3 die = box_of(make_relief(*model, options)->solid).size();
   EXPECT_GT(die.x(), 80 + 2 * 2);

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/extent.h"
 #include "relievo/core/parallel.h"
 #include "relievo/quality/measures.h"
 #include "relievo/relief/baselines.h"
@@ -42,7 +41,7 @@ Relief relief_of(const ReliefModel& model, double height, std::optional<Membrane
 void expect_to_keep_what_compression_keeps(const ReliefModel& m) {
   const ReliefMetrics metrics(m.surface());
   for (const double share : {.0125, .025, .05}) {
-    const double height = share * longer_side_of(m.surface().points);
+    const double height = share * m.surface().longer_side();
     const Measures ours = metrics.measure(relief_of(m, height).heights);
     const Measures baseline = metrics.measure(gradient_relief(m, height).heights);
     EXPECT_GT(ours.detail[2], baseline.detail[2] - .001) << share;
@@ -62,7 +61,7 @@ TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
   EXPECT_GT(mask.membrane_at(.25).height_share, 1.1 * model().membrane_at(.25).height_share);
   EXPECT_LT(mask.membrane_at(1).pull_length, .5 * model().membrane_at(1).pull_length);
   expect_to_keep_what_compression_keeps(mask);
-  const double height = .0125 * longer_side_of(mask.surface().points);
+  const double height = .0125 * mask.surface().longer_side();
   const MembraneParams like_the_shell = model().membrane_at(relief_of(mask, height).shape.compression.u);
   const ReliefMetrics metrics(mask.surface());
   EXPECT_LT(metrics.measure(relief_of(mask, height, like_the_shell).heights).order,
@@ -73,7 +72,7 @@ TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
 TEST(MembraneTuning, CompressesAsStronglyAsPossible) {
   const ReliefMetrics metrics(model().surface());
   for (const double share : {.0125, .025}) {
-    const double height = share * longer_side_of(model().surface().points);
+    const double height = share * model().surface().longer_side();
     const Relief relief = relief_of(model(), height);
     const MembraneParams params = *relief.shape.membrane,
                          stronger{.8 * params.height_share, params.pull_length};

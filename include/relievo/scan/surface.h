@@ -38,6 +38,9 @@ struct Surface {
   bool has_estimated_normals = false;
   bool has_flipped_normals = false;  // the cloud's normals pointed inwards
 
+  // Returns the longer side of the points' box in the view plane; 0 without points.
+  double longer_side() const { return Box::of(points).longer_side(); }
+
   // Returns the bytes held, colours not counted.
   std::size_t memory() const;
 };

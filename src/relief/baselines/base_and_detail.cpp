@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "geometry/extent.h"
 #include "relief/baselines/scaled.h"
 #include "relievo/core/parallel.h"
 #include "relievo/relief/baselines.h"
@@ -42,8 +41,7 @@ Relief base_and_detail_relief(const ReliefModel& model, double height, const Det
   const std::vector<Vec2> slopes = moderate_slopes(surface);
   std::vector<double> heights(slopes.size());
   model.system()->solve(slopes, heights);
-  const std::vector<Vec2f> smooth =
-      smoothed(heights, surface, options.scale * longer_side_of(surface.points));
+  const std::vector<Vec2f> smooth = smoothed(heights, surface, options.scale * surface.longer_side());
   std::vector<double> z = depths(surface);
   for (std::size_t i = 0; i < z.size(); ++i)
     z[i] += options.amplification * (heights[i] - static_cast<double>(smooth[i].x()));

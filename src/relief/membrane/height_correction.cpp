@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/memory.h"
+#include "core/quantile.h"
 #include "geometry/edges.h"
-#include "geometry/extent.h"
 #include "geometry/plane.h"
 #include "relief/membrane/soft_clip.h"
 #include "relievo/core/parallel.h"
@@ -128,7 +128,7 @@ std::vector<solver::Tie> silhouette_ties(const Surface& surface, const Lattice& 
 solver::Stiffness stiffness_of(const Surface& surface, std::span<const float> weights, const Lattice& lattice,
                                std::span<const float> coverage) {
   const std::vector<std::uint8_t> jump = is_at_jump(surface, lattice);
-  const Scale scale(longer_side_of(surface.points), surface.rho);
+  const Scale scale(surface.longer_side(), surface.rho);
   const float stiff = scale.in_cells_squared(HeightCorrection::bending_length);
   solver::Stiffness s{std::vector<float>(lattice.nodes()), tension_of(weights, lattice)};
   for (std::size_t n = 0; n < coverage.size(); ++n) {
@@ -156,19 +156,18 @@ HeightLimits HeightLimits::of(double height, const MembraneParams& params) {
 }
 
 HeightCorrection::HeightCorrection(const Surface& surface, std::span<const float> jump_weights)
-    : HeightCorrection(surface, jump_weights, longer_side_of(surface.points)) {}
-
-HeightCorrection::HeightCorrection(const Surface& surface, std::span<const float> jump_weights, double side)
-    : side_(side),
-      cell_(Scale(side, surface.rho).cell),
+    : side_(surface.longer_side()),
+      cell_(Scale(side_, surface.rho).cell),
       lattice_(surface.points, free_points(surface.boundary), cell_),
       coverage_(coverage_of(surface, lattice_)),
       sheet_(lattice_.width(), stiffness_of(surface, jump_weights, lattice_, coverage_),
              silhouette_ties(surface, lattice_)),
       ranks_(lattice_.nodes()) {
   std::vector<Lattice::Corners> sums(lattice_.nodes());
-  const std::vector<double> ranks = depth_ranks(surface.points);
-  lattice_.gather(std::span<const double>(ranks), sums, ranks_);
+  std::vector<double> depths;
+  for (const Vec3& p : surface.points) depths.push_back(p.z());
+  depths = ranks(depths);
+  lattice_.gather(std::span<const double>(depths), sums, ranks_);
 }
 
 HeightCorrection::Workspace HeightCorrection::make_workspace() const {

@@ -85,7 +85,6 @@ class HeightCorrection {
   void compress_heights(const Heights<Real>& heights, Workspace& workspace) const;
 
  private:
-  HeightCorrection(const Surface& surface, std::span<const float> jump_weights, double longer_side);
   void set_limits(float height, float pull, Workspace& w) const;
   Lattice::Extent rest_around(std::size_t node, const Workspace& w) const;
 

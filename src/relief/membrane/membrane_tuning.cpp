@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "geometry/extent.h"
 #include "quality/image_measures.h"
 #include "relief/height_span.h"
 #include "relievo/core/parallel.h"
@@ -193,7 +192,7 @@ MembraneParams MembraneTuning::at(double u) const {
 
 Result<MembraneTuning> tune_membrane(const TuningInput& input, const Progress* progress) {
   MembraneTuning tuning;
-  if (input.surface.rho > coarsest_rho * longer_side_of(input.surface.points)) return tuning;
+  if (input.surface.rho > coarsest_rho * input.surface.longer_side()) return tuning;
   const BaselineComparison comparison(input);
   if (!comparison.is_measurable()) return tuning;
   Spans spans;
