@@ -16,4 +16,18 @@ UsedPoints compact(std::size_t point_count, std::span<Triangle> triangles) {
   return used;
 }
 
+std::vector<std::uint8_t> used_points(std::size_t point_count, std::span<const Triangle> triangles) {
+  std::vector<std::uint8_t> is_used(point_count, 0);
+  for (const Triangle& t : triangles)
+    for (const Index i : t) is_used[i] = 1;
+  return is_used;
+}
+
+Box used_box(std::span<const Vec3> points, std::span<const Triangle> triangles) {
+  Box box;
+  for (const Triangle& t : triangles)
+    for (const Index i : t) box.extend(points[i]);
+  return box;
+}
+
 }  // namespace relievo

@@ -1,6 +1,7 @@
-// Leaves out the points of a mesh that no triangle uses.
+// The points of a mesh that its triangles use.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -27,5 +28,20 @@ struct UsedPoints {
 // Renumbers the corners of triangles over `point_count` points so that they count used points only, which keep
 // their order.
 UsedPoints compact(std::size_t point_count, std::span<Triangle> triangles);
+
+// Removes the points of a mesh, and their colours, that no triangle uses.
+template <typename AnyMesh>
+UsedPoints drop_unused(AnyMesh& mesh) {
+  UsedPoints used = compact(mesh.points.size(), mesh.triangles);
+  mesh.points = used.pick(mesh.points);
+  mesh.colours = used.pick(mesh.colours);
+  return used;
+}
+
+// Returns for each of `point_count` points whether a triangle uses it.
+std::vector<std::uint8_t> used_points(std::size_t point_count, std::span<const Triangle> triangles);
+
+// Returns the box of the points that triangles use.
+Box used_box(std::span<const Vec3> points, std::span<const Triangle> triangles);
 
 }  // namespace relievo

@@ -64,4 +64,12 @@ std::vector<Vec2> inset(std::span<const Vec2> polygon, double mm) {
   return moved;
 }
 
+bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth) {
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 side = polygon[(i + 1) % polygon.size()] - polygon[i], to_place = place - polygon[i];
+    if (cross(side, to_place) < depth * side.norm()) return false;
+  }
+  return true;
+}
+
 }  // namespace relievo

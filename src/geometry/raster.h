@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "relievo/core/image.h"
+#include "relievo/core/parallel.h"
 #include "relievo/core/types.h"
 
 namespace relievo {
@@ -72,6 +73,14 @@ class Rasterizer {
   std::vector<std::size_t> first_;  // per band and one more: where its triangles begin
   std::vector<Index> triangles_;    // by band, in the scene's order
 };
+
+// Draws a scene in bands of that many rows, and calls use(band) for each, concurrently.
+template <typename F>
+void draw_bands(const RasterInput& scene, int band_rows, F&& use) {
+  const Rasterizer rasterizer(scene, band_rows);
+  parallel_for(
+      rasterizer.bands(), [&](std::size_t b) { use(rasterizer.draw(b)); }, 1);
+}
 
 // Weights of the triangle's corners at a place in the picture; not negative, also for places outside.
 Vec3f corner_weights(const RasterInput& scene, Index triangle, double x, double y);

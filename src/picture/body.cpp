@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/compact.h"
 #include "relievo/core/parallel.h"
 #include "relievo/scan/mesh.h"
 
@@ -94,10 +95,7 @@ SolidBody::SolidBody(const Solid& solid)
       places_(solid.points.size()),
       heights_(solid.points.size()),
       normals_(relief_normals(solid)) {
-  Box box;
-  for (const Triangle& t : solid.triangles)
-    for (const Index i : t) box.extend(solid.points[i]);
-  const Vec2 middle = box.centre().head<2>();
+  const Vec2 middle = used_box(solid.points, solid.triangles).centre().head<2>();
   parallel_for(places_.size(), [&](std::size_t i) {
     places_[i] = solid.points[i].head<2>() - middle;
     heights_[i] = static_cast<float>(solid.points[i].z() - solid.ground_mm);

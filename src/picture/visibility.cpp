@@ -43,9 +43,7 @@ VisiblePoint visible_point(const DrawnBody& body, const RasterInput& input, Inde
 
 void draw_visibility(const DrawnBody& body, const RasterInput& input, VisibilityBuffer& buffer) {
   buffer.resize(input.width, input.height);
-  const Rasterizer rasterizer(input, 16);
-  const auto draw_band = [&](std::size_t b) {
-    const RowBand band = rasterizer.draw(b);
+  draw_bands(input, 16, [&](const RowBand& band) {
     const Fragment* fragment = band.fragments.pixels.data();
     for (int y = band.first_row; y < band.first_row + band.fragments.height; ++y)
       for (int x = 0; x < input.width; ++x, ++fragment)
@@ -54,8 +52,7 @@ void draw_visibility(const DrawnBody& body, const RasterInput& input, Visibility
                 ? VisiblePoint{}
                 : visible_point(body, input, fragment->triangle,
                                 {static_cast<float>(x) + .5F, static_cast<float>(y) + .5F, fragment->z});
-  };
-  parallel_for(rasterizer.bands(), draw_band, 1);
+  });
 }
 
 float height_mm(const DrawnBody& body, const VisiblePoint& seen) {

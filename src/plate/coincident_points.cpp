@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/compact.h"
+
 namespace relievo {
 namespace {
 
@@ -16,9 +18,7 @@ struct Stored {
 }  // namespace
 
 std::vector<std::array<Index, 2>> find_coincident_points(const Solid& solid) {
-  std::vector<bool> is_used(solid.points.size());
-  for (const Triangle& t : solid.triangles)
-    for (const Index i : t) is_used[i] = true;
+  const std::vector<std::uint8_t> is_used = used_points(solid.points.size(), solid.triangles);
   std::vector<Stored> stored;
   stored.reserve(solid.points.size());
   for (std::size_t i = 0; i < solid.points.size(); ++i) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/compact.h"
+#include "geometry/convex_polygon.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
 #include "plate/front/silhouette.h"
@@ -107,9 +109,7 @@ std::vector<Triangle> relief_of(const Solid& front) {
 // Returns the Delaunay triangulation of the front's used points and the ground's points. Its indices count
 // the front's points first, used or not, and then the ground's.
 std::vector<Triangle> triangulated(const HeightFieldMesh& front, const std::vector<Vec2>& ground) {
-  std::vector<std::uint8_t> is_used(front.points.size(), 0);
-  for (const Triangle& t : front.triangles)
-    for (const Index i : t) is_used[i] = 1;
+  const std::vector<std::uint8_t> is_used = used_points(front.points.size(), front.triangles);
   std::vector<Vec2> points;
   std::vector<Index> indices;
   for (Index i = 0; i < is_used.size(); ++i) {
@@ -176,14 +176,6 @@ std::optional<Cover> covered(const HeightFieldMesh& front, std::vector<Triangle>
 }
 
 }  // namespace
-
-bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth) {
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 side = polygon[(i + 1) % polygon.size()] - polygon[i], to_place = place - polygon[i];
-    if (cross(side, to_place) < depth * side.norm()) return false;
-  }
-  return true;
-}
 
 double ground_spacing(const Deformation& deformation, std::span<const Vec2> polygon, double z,
                       double tolerance_mm) {

@@ -10,9 +10,6 @@
 
 namespace relievo {
 
-// Returns true if the place lies inside the convex polygon, at least `depth` from its sides.
-bool is_within(const Vec2& place, std::span<const Vec2> polygon, double depth = 0);
-
 // Returns the spacing in mm of points at height z within the convex polygon at which their triangles,
 // deformed, are about within the tolerance. It makes at most about 200,000 points, and is at most a quarter
 // of the diagonal of the polygon's box.

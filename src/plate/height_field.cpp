@@ -5,18 +5,12 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/compact.h"
 #include "geometry/raster.h"
 #include "relievo/core/parallel.h"
 
 namespace relievo {
 namespace {
-
-Box front_box(const Solid& solid) {
-  Box box;
-  for (std::size_t t = 0; t < solid.front_triangles; ++t)
-    for (const Index i : solid.triangles[t]) box.extend(solid.points[i]);
-  return box;
-}
 
 // Heights count from the lowest point, which keeps their single-precision digits.
 RasterInput front_input(const Solid& solid, const HeightField& field) {
@@ -32,26 +26,6 @@ RasterInput front_input(const Solid& solid, const HeightField& field) {
     input.points[i] = {place.x(), place.y(), p.z() - field.box.min.z()};
   });
   return input;
-}
-
-// Draws the front; height_of(input, fragment, pixel) is the height above the lowest point where a triangle is seen.
-template <typename HeightOf>
-void draw(const Solid& solid, HeightField& field, HeightOf height_of) {
-  field.is_beside = filled_image(field.z.width, field.z.height, std::uint8_t{1});
-  const RasterInput input = front_input(solid, field);
-  const int band_rows = 32;
-  const Rasterizer rasterizer(input, band_rows);
-  const auto draw_band = [&](std::size_t b) {
-    const RowBand band = rasterizer.draw(b);
-    const std::size_t first = field.z.index(0, band.first_row);
-    for (std::size_t i = 0; i < band.fragments.pixels.size(); ++i) {
-      const Fragment& fragment = band.fragments.pixels[i];
-      if (fragment.triangle == no_index) continue;
-      field.is_beside.pixels[first + i] = 0;
-      field.z.pixels[first + i] = std::max(0.F, height_of(input, fragment, first + i));
-    }
-  };
-  parallel_for(rasterizer.bands(), draw_band, 1);
 }
 
 // The front's corners as files hold them. The floats are stored first, because g++ 12 drops the rounding of double(float(x))
@@ -141,9 +115,18 @@ HeightField flat_height_field(const Box& box, int longer_side_px) {
 }
 
 HeightField draw_height_field(const Solid& solid, int longer_side_px) {
-  HeightField field = flat_height_field(front_box(solid), longer_side_px);
+  const auto front = std::span(solid.triangles).first(solid.front_triangles);
+  HeightField field = flat_height_field(used_box(solid.points, front), longer_side_px);
   if (field.z.empty()) return field;
-  draw(solid, field, [](const RasterInput&, const Fragment& fragment, std::size_t) { return fragment.z; });
+  field.is_beside = filled_image(field.z.width, field.z.height, std::uint8_t{1});
+  draw_bands(front_input(solid, field), 32, [&](const RowBand& band) {
+    const std::size_t first = field.z.index(0, band.first_row);
+    for (std::size_t i = 0; i < band.fragments.size(); ++i) {
+      if (band.fragments[i].triangle == no_index) continue;
+      field.is_beside[first + i] = 0;
+      field.z[first + i] = std::max(0.F, band.fragments[i].z);
+    }
+  });
   return field;
 }
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "geometry/compact.h"
+#include "geometry/convex_polygon.h"
 #include "plate/deformation.h"
 #include "plate/ground_mesh.h"
 #include "plate/plate_ground.h"
@@ -144,23 +144,21 @@ void lift(std::vector<Vec3>& points, const TargetSurface& target, double sign) {
 
 // Returns the used points and the triangles of a surface as a height field within its outline.
 HeightFieldMesh as_front(const PlateSurface& surface) {
-  HeightFieldMesh front{{}, surface.solid.triangles, surface.outline};
-  const UsedPoints used = compact(surface.solid.points.size(), front.triangles);
-  front.points = used.pick(surface.solid.points);
-  front.colours = used.pick(surface.solid.colours);
+  HeightFieldMesh front{surface.solid.points, surface.solid.triangles, surface.outline};
+  front.colours = surface.solid.colours;
+  const UsedPoints used = drop_unused(front);
   for (Index& i : front.hull) i = used.new_number[i];
   return front;
 }
 
 // Simplifies a surface that has been lifted.
 Result<void> simplify_surface(PlateSurface& surface, const SimplifyOptions& options) {
-  Result<SimplifiedMesh> simpler = simplify(as_front(surface), options);
-  if (!simpler) return std::unexpected(simpler.error());
-  surface.solid.points = std::move(simpler->front.points);
-  surface.solid.triangles = std::move(simpler->front.triangles);
-  surface.solid.colours = std::move(simpler->front.colours);
-  surface.solid.error_mm += simpler->error_mm;
-  surface.outline = std::move(simpler->front.hull);
+  RELIEVO_TRY(SimplifiedMesh simpler, simplify(as_front(surface), options));
+  surface.solid.points = std::move(simpler.front.points);
+  surface.solid.triangles = std::move(simpler.front.triangles);
+  surface.solid.colours = std::move(simpler.front.colours);
+  surface.solid.error_mm += simpler.error_mm;
+  surface.outline = std::move(simpler.front.hull);
   return {};
 }
 
@@ -185,9 +183,7 @@ Result<void> follow(PlateSurface& surface, const TargetSurface& target, const Pl
   const double ground_z = surface.solid.ground_mm;
   if (is_simplified || target.is_lifted) lift(surface.solid.points, target, 1);
   if (!is_simplified) return {};
-  if (auto good = simplify_surface(surface, {options.simplify_mm, options.max_slope, options.most_triangles});
-      !good)
-    return good;
+  RELIEVO_CHECK(simplify_surface(surface, {options.simplify_mm, options.max_slope, options.most_triangles}));
   lift(surface.solid.points, target, -1);
   find_regions(surface.solid, rim_inner, ground_z, options.simplify_mm);
   if (target.is_lifted) lift(surface.solid.points, target, 1);
@@ -195,13 +191,6 @@ Result<void> follow(PlateSurface& surface, const TargetSurface& target, const Pl
 }
 
 }  // namespace
-
-Box used_box(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
-  Box box;
-  for (const Triangle& t : triangles)
-    for (const Index i : t) box.extend(points[i]);
-  return box;
-}
 
 void fill_colours(Solid& solid) {
   if (!solid.colours.empty()) solid.colours.resize(solid.points.size(), plate_colour);
@@ -224,9 +213,8 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
   const std::vector<Vec2> outline = extent_of(front, options);
   TargetSurface target = target_on(base);
   if (is_wrapped) {
-    const Result<Wrap> wrap = Wrap::around(options.wrap, outline);
-    if (!wrap) return std::unexpected(wrap.error());
-    target = target_around(*wrap, front.ground_mm);
+    RELIEVO_TRY(const Wrap wrap, Wrap::around(options.wrap, outline));
+    target = target_around(wrap, front.ground_mm);
   }
   const double spacing =
       options.outline == Outline::none
@@ -234,8 +222,7 @@ Result<PlateSurface> make_plate_surface(const HeightFieldMesh& front, const Base
           : ground_spacing(target.deformation, outline, front.ground_mm, options.tolerance_mm);
   PlateSurface surface = flat_plate_surface(front, options, spacing);
   const std::vector<Vec2> rim_inner = rim_inner_of(front, options);
-  if (auto good = follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_inner); !good)
-    return std::unexpected(good.error());
+  RELIEVO_CHECK(follow(surface, moved(std::move(target), -surface.solid.shift), options, rim_inner));
   return surface;
 }
 

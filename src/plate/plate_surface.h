@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/compact.h"
 #include "plate/plate_rings.h"
 #include "relievo/plate/solid.h"
 
@@ -16,9 +17,6 @@ struct PlateSurface {
   IndexPolygon outline;                                      // empty if the plate has no ground
   double spacing = std::numeric_limits<double>::infinity();  // of the points on the ground
 };
-
-// Returns the box of the points that triangles use.
-Box used_box(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles);
 
 inline constexpr Colour plate_colour = {200, 200,
                                         200};  // of ground, walls and bottom of a coloured relief: light grey

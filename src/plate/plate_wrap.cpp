@@ -32,10 +32,10 @@ Result<void> check_room(const Solid& plate, const Wrap& wrap) {
   const double towards_axis = wrap.is_inside() ? highest - plate.ground_mm : plate.ground_mm;
   const double room = (1 - least_free) * wrap.min_radius_mm();
   if (towards_axis <= room) return {};
-  return plate_error(ErrorKind::option, "wrap",
-                     cat("expected a diameter of at least ",
-                         wrap.diameter_mm() + 2 * (towards_axis / (1 - least_free) - wrap.min_radius_mm()),
-                         " mm, as ", towards_axis, " mm reach towards the axis, found ", wrap.diameter_mm()));
+  return option_error(
+      "wrap", cat("expected a diameter of at least ",
+                  wrap.diameter_mm() + 2 * (towards_axis / (1 - least_free) - wrap.min_radius_mm()),
+                  " mm, as ", towards_axis, " mm reach towards the axis, found ", wrap.diameter_mm()));
 }
 
 // Checks that the two sides that meet after a full turn are straight and equal.
@@ -43,8 +43,8 @@ Result<void> check_closed(const PlateOptions& options, const Wrap& wrap) {
   // Rounding leaves a cosine of 6e-17 at 180 degrees.
   const bool is_straight = wrap.across().cwiseAbs().minCoeff() < 1e-12;
   if (is_box(options.outline) && options.rim.width_mm == 0 && is_straight) return {};
-  return plate_error(ErrorKind::option, "wrap",
-                     "expected outline rectangle, no rim and an upright or level axis for a full turn");
+  return option_error("wrap",
+                      "expected outline rectangle, no rim and an upright or level axis for a full turn");
 }
 
 // A point on one of the two sides of the plate that are to be joined.
@@ -64,22 +64,13 @@ std::vector<SidePoint> side_of(const Solid& plate, const Vec2& direction) {
       farthest = std::max(farthest, distance[i]), nearest = std::min(nearest, distance[i]);
   const double near_side =
       std::max(1e-4, 1e-6 * (farthest - nearest));  // more than convexity_offset() moves points
-  std::vector<std::uint8_t> is_used(plate.points.size(), 0);
-  for (const Triangle& t : plate.triangles)
-    for (const Index i : t) is_used[i] = 1;
+  const std::vector<std::uint8_t> is_used = used_points(plate.points.size(), plate.triangles);
   std::vector<SidePoint> side;
   for (Index i = 0; i < distance.size(); ++i)
     if (is_used[i] && distance[i] > farthest - near_side)
       side.push_back({along.dot(plate.points[i].head<2>()), plate.points[i].z(), i});
   std::ranges::sort(side, {}, [](const SidePoint& p) { return std::tuple(p.along, p.z); });
   return side;
-}
-
-// Removes the points that no triangle uses.
-void drop_unused(Solid& solid) {
-  const UsedPoints used = compact(solid.points.size(), solid.triangles);
-  solid.points = used.pick(solid.points);
-  solid.colours = used.pick(solid.colours);
 }
 
 // Joins the plate's two sides and removes their walls.
@@ -92,8 +83,7 @@ Result<void> close_ring(Solid& plate, const Vec2& across) {
     is_good = std::abs(left[i].along - right[i].along) + std::abs(left[i].z - right[i].z) < 1e-6;
     other[right[i].point] = left[i].point;
   }
-  if (!is_good)
-    return plate_error(ErrorKind::geometry, "wrap", "expected sides that fit each other, found others");
+  if (!is_good) return geometry_error("wrap", "expected sides that fit each other, found others");
   std::vector<std::uint8_t> is_side(plate.points.size(), 0);
   for (const SidePoint& p : left) is_side[p.point] = 1;
   for (const SidePoint& p : right) is_side[p.point] = 1;
@@ -117,13 +107,12 @@ Result<Wrap> plate_wrap(const Solid& plate, const PlateOptions& options) {
 
 Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   if (options.wrap.kind == WrapKind::none)
-    return plate_error(ErrorKind::option, "wrap", "expected cylinder, cone or sphere, found none");
-  const Result<Wrap> wrap = plate_wrap(plate, options);
-  if (!wrap) return std::unexpected(wrap.error());
-  if (auto good = check_room(plate, *wrap); !good) return std::unexpected(good.error());
+    return option_error("wrap", "expected cylinder, cone or sphere, found none");
+  RELIEVO_TRY(const Wrap wrap, plate_wrap(plate, options));
+  RELIEVO_CHECK(check_room(plate, wrap));
   Deformation deformation;
-  deformation.at = [&](const Vec3& p) { return wrap->at(p.head<2>(), p.z() - plate.ground_mm); };
-  deformation.min_feature_mm = wrap->min_radius_mm();
+  deformation.at = [&](const Vec3& p) { return wrap.at(p.head<2>(), p.z() - plate.ground_mm); };
+  deformation.min_feature_mm = wrap.min_radius_mm();
   Solid body = plate;
   IndexPolygon no_outline;
   // A simplified front deviates by its own tolerance, which refining must not mend: it would undo the
@@ -131,9 +120,9 @@ Result<Solid> wrap_plate(const Solid& plate, const PlateOptions& options) {
   const double error_mm =
       refine(body, no_outline, deformation, options.tolerance_mm + 1.5 * options.simplify_mm);
   body.error_mm = options.simplify_mm > 0 ? plate.error_mm + options.tolerance_mm : error_mm;
-  if (wrap->is_closed()) {
-    if (auto good = check_closed(options, *wrap); !good) return std::unexpected(good.error());
-    if (auto good = close_ring(body, wrap->across()); !good) return std::unexpected(good.error());
+  if (wrap.is_closed()) {
+    RELIEVO_CHECK(check_closed(options, wrap));
+    RELIEVO_CHECK(close_ring(body, wrap.across()));
   }
   parallel_for(body.points.size(), [&](std::size_t i) { body.points[i] = deformation.at(body.points[i]); });
   const Box box = used_box(body.points, body.triangles);

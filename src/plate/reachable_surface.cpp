@@ -39,8 +39,7 @@ class ToolHeights {
 
   // Returns the place of a sample at the height that the tool leaves.
   Vec3 place(int x, int y) const {
-    const Vec2 middle = field_.box.centre().head<2>(),
-               place = middle + field_.mm_per_pixel * Vec2(x + .5 - width() / 2.0, height() / 2.0 - y - .5);
+    const Vec2 place = field_.to_mm(x + .5, y + .5);
     return {place.x(), place.y(), field_.box.min.z() + static_cast<double>(closed_.at(x, y))};
   }
 

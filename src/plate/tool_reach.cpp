@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/compact.h"
 #include "plate/tool_samples.h"
 #include "relievo/core/image.h"
 #include "relievo/core/parallel.h"
@@ -45,9 +46,7 @@ Image<float> difference(const Image<float>& a, const Image<float>& b) {
 }  // namespace
 
 ToolReach measure_reach(const Solid& solid, const Tool& tool) {
-  Box box;
-  for (const Triangle& t : std::span(solid.triangles).first(solid.front_triangles))
-    for (const Index i : t) box.extend(solid.points[i]);
+  const Box box = used_box(solid.points, std::span(solid.triangles).first(solid.front_triangles));
   ToolReach reach;
   if (box.is_empty()) return reach;
   HeightField field = front_samples(solid, box, tool);

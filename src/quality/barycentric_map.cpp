@@ -25,21 +25,15 @@ BarycentricMap::BarycentricMap(std::span<const Vec3> points, const Triangulation
     const Vec2 place = to_pixels(points[i]);
     scene.points[i] = {place.x(), place.y(), 0};
   });
-  const Rasterizer raster(scene, 16);
-  parallel_for(
-      raster.bands(),
-      [&](std::size_t b) {
-        const RowBand band = raster.draw(b);
-        for (int y = 0; y < band.fragments.height; ++y)
-          for (int x = 0; x < width(); ++x) {
-            const Index t = band.fragments.at(x, y).triangle;
-            const int row = band.first_row + y;
-            if (t != no_index)
-              places_.at(x, row) = {t, triangulation.triangles[t],
-                                    corner_weights(scene, t, x + .5, row + .5)};
-          }
-      },
-      1);
+  draw_bands(scene, 16, [&](const RowBand& band) {
+    for (int y = 0; y < band.fragments.height; ++y)
+      for (int x = 0; x < width(); ++x) {
+        const Index t = band.fragments.at(x, y).triangle;
+        const int row = band.first_row + y;
+        if (t != no_index)
+          places_.at(x, row) = {t, triangulation.triangles[t], corner_weights(scene, t, x + .5, row + .5)};
+      }
+  });
 }
 
 }  // namespace relievo

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/keep_where.h"
 #include "geometry/space_curve.h"
 #include "relievo/core/text.h"
 #include "relievo/scan/normals.h"
@@ -68,12 +69,11 @@ Result<void> check_digits(const Cloud& cloud, double rho) {
 // search around them would read all, so that many would take quadratic time. Which eight depends on the file's order.
 void thin_out_coincident(std::span<const Vec3> points, std::vector<Index>& order) {
   constexpr std::size_t most = 8;
-  std::size_t kept = 0, same = 0;
-  for (std::size_t i = 0; i < order.size(); ++i) {
+  std::size_t same = 0;
+  keep_where(order, [&](std::size_t i) {
     same = i > 0 && points[order[i]] == points[order[i - 1]] ? same + 1 : 0;
-    if (same < most) order[kept++] = order[i];
-  }
-  order.resize(kept);
+    return same < most;
+  });
 }
 
 }  // namespace

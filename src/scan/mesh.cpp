@@ -2,8 +2,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include "geometry/compact.h"
 #include "geometry/raster.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/text.h"
@@ -67,8 +69,7 @@ SeenMesh look_at(const Mesh& mesh, const View& view, const Vec3& centre) {
     if ((normals[0] + normals[1] + normals[2]).dot(flat) > 0)
       for (Vec3f& n : normals) n = -n;
   });
-  for (const Triangle& t : seen.triangles)
-    for (const Index i : t) seen.box.extend(seen.points[i]);
+  seen.box = used_box(seen.points, seen.triangles);
   return seen;
 }
 
@@ -87,19 +88,12 @@ RasterInput scene_of(const SeenMesh& seen, double pixel) {
 }
 
 std::size_t covered_pixels(const RasterInput& scene) {
-  const Rasterizer raster(scene, rows_per_band);
-  std::vector<std::size_t> covered(raster.bands());
-  parallel_for(
-      raster.bands(),
-      [&](std::size_t b) {
-        const RowBand band = raster.draw(b);
-        covered[b] = static_cast<std::size_t>(std::ranges::count_if(
-            band.fragments.pixels, [](const Fragment& s) { return s.triangle != no_index; }));
-      },
-      1);
-  std::size_t sum = 0;
-  for (const std::size_t c : covered) sum += c;
-  return sum;
+  std::atomic<std::size_t> covered = 0;
+  draw_bands(scene, rows_per_band, [&](const RowBand& band) {
+    covered += static_cast<std::size_t>(std::ranges::count_if(
+        band.fragments.pixels, [](const Fragment& s) { return s.triangle != no_index; }));
+  });
+  return covered;
 }
 
 // Returns the side of the pixels: the spacing asked for, or such that about the wanted number of pixels show
@@ -157,9 +151,7 @@ class Sampler {
   void draw() {
     along_rows_ = filled_image(columns_ * fine, rows_, no_index);
     along_columns_ = filled_image(columns_, rows_ * fine, no_index);
-    const Rasterizer raster(scene_, rows_per_band);
-    const auto keep = [&](std::size_t b) {
-      const RowBand band = raster.draw(b);
+    draw_bands(scene_, rows_per_band, [&](const RowBand& band) {
       for (int r = 0; r < band.fragments.height; ++r) {
         const int row = band.first_row + r;
         for (int c = middle; c < scene_.width; c += fine)
@@ -168,8 +160,7 @@ class Sampler {
         for (int c = 0; c < scene_.width; ++c)
           along_rows_.at(c, row / fine) = band.fragments.at(c, r).triangle;
       }
-    };
-    parallel_for(raster.bands(), keep, 1);
+    });
   }
 
   Index in_row(int row, int fine_column) const {
@@ -263,8 +254,8 @@ Result<void> check_points(double points) {
 
 Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling& options,
                           Progress* progress) {
-  if (auto ok = check_points(options.points); !ok) return std::unexpected(ok.error());
-  if (auto go = begin_stage(progress, "mesh", 0); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(check_points(options.points));
+  RELIEVO_CHECK(begin_stage(progress, "mesh", 0));
   const Box box = Box::of(mesh.points);
   const Vec3 centre = box.centre();
   if (!mesh.empty() && !(box.diagonal() > 1e-100 && box.diagonal() < 1e100))
@@ -272,7 +263,7 @@ Result<Cloud> sample_mesh(const Mesh& mesh, const View& view, const MeshSampling
   const SeenMesh seen = look_at(mesh, view, centre);
   const std::optional<double> pixel = pixel_for(seen, options);
   if (!pixel) return geometry_error("expected triangles that show an area in this view; try another view");
-  if (auto go = begin_stage(progress, "mesh samples", 0); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "mesh samples", 0));
   Cloud cloud = Sampler(mesh, seen, *pixel).sample();
   cloud.outlines = seen_outlines(seen.points, seen.triangles, *pixel);
   turn_back(cloud, view, centre);

@@ -8,6 +8,7 @@
 #include "core/angle.h"
 #include "core/quantile.h"
 #include "core/random.h"
+#include "geometry/convex_polygon.h"
 #include "geometry/plane.h"
 #include "relievo/core/parallel.h"
 
@@ -170,14 +171,6 @@ std::vector<Vec2> convex_hull(std::vector<Vec2> points) {
   return hull;
 }
 
-bool is_within(const std::vector<Vec2>& hull, const Vec2& p) {
-  for (std::size_t i = 0; i < hull.size(); ++i) {
-    const Vec2 a = hull[i], side = hull[(i + 1) % hull.size()] - a, to = p - a;
-    if (cross(side, to) < 0) return false;
-  }
-  return true;
-}
-
 // Returns about the area that points in a plane cover: that of the cells of a grid in which there are any.
 double covered_area(const std::vector<Vec2>& points) {
   constexpr int side = 64;
@@ -210,7 +203,7 @@ bool has_figure_over(const Plane& plane, const Sample& sample, const std::vector
   const auto points = static_cast<double>(figure.size());
   if (points < least_figure * static_cast<double>(sample.points.size())) return false;
   const std::vector<Vec2> hull = convex_hull(std::move(floor));
-  const auto over = std::ranges::count_if(figure, [&](const Vec2& p) { return is_within(hull, p); });
+  const auto over = std::ranges::count_if(figure, [&](const Vec2& p) { return is_within(p, hull); });
   if (static_cast<double>(over) < least_over * points) return false;
   return quantile(rises, .9) > least_rise * std::sqrt(covered_area(figure));
 }

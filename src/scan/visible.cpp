@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/disjoint_sets.h"
+#include "core/keep_where.h"
 #include "geometry/neighbours.h"
 #include "geometry/point_set.h"
 #include "relievo/core/parallel.h"
@@ -66,10 +67,7 @@ class Visibility {
     buffer.splat(discs);
     std::vector<std::uint8_t> is_front(facing.size());
     parallel_for(facing.size(), [&](std::size_t j) { is_front[j] = is_in_front(facing[j], buffer); });
-    std::size_t kept = 0;
-    for (std::size_t j = 0; j < facing.size(); ++j)
-      if (is_front[j]) facing[kept++] = facing[j];
-    facing.resize(kept);
+    keep_where(facing, [&](std::size_t j) { return is_front[j] != 0; });
     return facing;
   }
 
@@ -120,10 +118,7 @@ class Visibility {
         if ((at(visible[a]) - at(visible[b])).head<2>().norm() > radius) continue;
         is_hidden[at(visible[a]).z() < at(visible[b]).z() ? a : b] = 1;
       }
-    std::size_t kept = 0;
-    for (std::size_t a = 0; a < visible.size(); ++a)
-      if (!is_hidden[a]) visible[kept++] = visible[a];
-    visible.resize(kept);
+    keep_where(visible, [&](std::size_t a) { return !is_hidden[a]; });
     std::sort(visible.begin(), visible.end());
     return visible;
   }

@@ -51,8 +51,11 @@ inline std::unexpected<Error> input_error(std::string input, std::string place, 
 inline std::unexpected<Error> option_error(std::string option, std::string expected) {
   return std::unexpected(Error{ErrorKind::option, std::move(option), {}, std::move(expected)});
 }
+inline std::unexpected<Error> geometry_error(std::string input, std::string expected) {
+  return std::unexpected(Error{ErrorKind::geometry, std::move(input), {}, std::move(expected)});
+}
 inline std::unexpected<Error> geometry_error(std::string expected) {
-  return std::unexpected(Error{ErrorKind::geometry, {}, {}, std::move(expected)});
+  return geometry_error({}, std::move(expected));
 }
 inline std::unexpected<Error> cancelled_error() {
   return std::unexpected(Error{ErrorKind::cancelled, {}, {}, "cancelled"});

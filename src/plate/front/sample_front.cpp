@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/keep_where.h"
 #include "geometry/edges.h"
 #include "geometry/point_set.h"
 #include "geometry/segment_grid.h"
@@ -130,7 +131,7 @@ class Sampler {
     for (Index t = 0; t < is_band_.size(); ++t)
       if (is_band_[t] && is_smooth_[t]) divide_inside(t);
     each_edge(
-        front_.triangles, [&](const TriangleSide& side) { return is_band_[side.triangle] != 0; },
+        front_.triangles, [&](const TriangleSide& s) { return is_band_[s.triangle] != 0; },
         [&](std::span<const TriangleSide> sides) { divide_edge(sides); });
   }
 
@@ -167,17 +168,11 @@ class Sampler {
     const auto plane = [&](std::size_t i) -> Vec2 { return out_.points[i].head<2>(); };
     for (std::size_t i = 0; i < out_.points.size(); ++i)
       if (is_fixed_[i]) band_points_.add(plane(i), 0);
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < out_.points.size(); ++i) {
-      if (!is_fixed_[i] && !band_points_.add(plane(i), least)) continue;
-      out_.points[kept] = out_.points[i];
-      slopes_[kept] = slopes_[i];
-      is_fixed_[kept] = is_fixed_[i];
-      if (!out_.colours.empty()) out_.colours[kept] = out_.colours[i];
-      ++kept;
-    }
-    out_.points.resize(kept), slopes_.resize(kept), is_fixed_.resize(kept);
-    if (!out_.colours.empty()) out_.colours.resize(kept);
+    std::vector<std::uint8_t> is_left(out_.points.size());
+    for (std::size_t i = 0; i < is_left.size(); ++i)
+      is_left[i] = is_fixed_[i] || band_points_.add(plane(i), least);
+    const auto is_kept = [&](std::size_t i) { return is_left[i] != 0; };
+    keep_where(out_.points, is_kept), keep_where(slopes_, is_kept), keep_where(out_.colours, is_kept);
   }
 
   bool is_open(int x, int y) const {

@@ -22,16 +22,11 @@ SampleGrid sample_grid(const HeightFieldMesh& front, double step, int block) {
   }
   // In pictures y points down, which turns triangles over.
   grid.triangle = filled_image(grid.input.width, grid.input.height, no_index);
-  const Rasterizer rasterizer(grid.input, 32);
-  parallel_for(
-      rasterizer.bands(),
-      [&](std::size_t b) {
-        const RowBand band = rasterizer.draw(b);
-        const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));
-        std::ranges::transform(band.fragments.pixels, grid.triangle.pixels.begin() + first,
-                               [](const Fragment& f) { return f.triangle; });
-      },
-      1);
+  draw_bands(grid.input, 32, [&](const RowBand& band) {
+    const auto first = static_cast<std::ptrdiff_t>(grid.triangle.index(0, band.first_row));
+    std::ranges::transform(band.fragments.pixels, grid.triangle.pixels.begin() + first,
+                           [](const Fragment& f) { return f.triangle; });
+  });
   return grid;
 }
 

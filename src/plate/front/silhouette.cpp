@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/disjoint_sets.h"
+#include "core/keep_where.h"
 #include "geometry/compact.h"
 #include "geometry/edges.h"
 #include "geometry/plane.h"
@@ -46,13 +47,6 @@ void mark_smaller_fans(std::span<const Spoke> around, std::span<const Triangle> 
     if (fans.find(i) != fans.find(largest)) is_marked[around[i].triangle] = 1;
 }
 
-void remove(std::vector<Triangle>& triangles, const std::vector<std::uint8_t>& is_marked) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < triangles.size(); ++t)
-    if (!is_marked[t]) triangles[kept++] = triangles[t];
-  triangles.resize(kept);
-}
-
 // Removes triangles until the boundary passes every point at most once. Removing a fan may pinch other
 // points, hence the repetition; it ends since triangles only become fewer.
 void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
@@ -69,7 +63,7 @@ void cut_pinches(std::vector<Triangle>& triangles, std::size_t points) {
       while (end < spokes.size() && spokes[end].point == spokes[begin].point) ++end;
       mark_smaller_fans(std::span(spokes).subspan(begin, end - begin), triangles, is_marked);
     }
-    remove(triangles, is_marked);
+    keep_where(triangles, [&](std::size_t t) { return !is_marked[t]; });
   }
 }
 
@@ -95,10 +89,8 @@ void drop_small_pieces(const HeightFieldMesh& front, std::vector<Triangle>& tria
 
 // The front of these triangles, with the points they use.
 HeightFieldMesh with_used_points(const HeightFieldMesh& front, std::vector<Triangle> triangles) {
-  HeightFieldMesh alone{{}, std::move(triangles), {}, front.ground_mm};
-  const UsedPoints used = compact(front.points.size(), alone.triangles);
-  alone.points = used.pick(front.points);
-  alone.colours = used.pick(front.colours);
+  HeightFieldMesh alone{front.points, std::move(triangles), {}, front.ground_mm, front.colours};
+  drop_unused(alone);
   return alone;
 }
 

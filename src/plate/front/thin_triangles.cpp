@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/keep_where.h"
 #include "geometry/compact.h"
 #include "geometry/plane.h"
 #include "geometry/predicates.h"
@@ -149,17 +150,11 @@ class Flipper {
   }
 
   void drop_removed() {
-    std::size_t kept = 0;
-    for (std::size_t t = 0; t < is_removed_.size(); ++t) {
-      if (is_removed_[t]) continue;
-      front_.triangles[kept] = front_.triangles[t];
-      front_.regions[kept++] = front_.regions[t];
-    }
-    if (kept == is_removed_.size()) return;
-    front_.triangles.resize(kept), front_.regions.resize(kept);
-    const UsedPoints used = compact(front_.points.size(), front_.triangles);
-    front_.points = used.pick(front_.points);
-    front_.colours = used.pick(front_.colours);
+    if (std::ranges::count(is_removed_, 0) == std::ssize(is_removed_)) return;
+    const auto is_left = [&](std::size_t t) { return !is_removed_[t]; };
+    keep_where(front_.triangles, is_left);
+    keep_where(front_.regions, is_left);
+    drop_unused(front_);
   }
 
   Solid& front_;

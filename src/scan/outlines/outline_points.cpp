@@ -11,6 +11,7 @@
 #include "relievo/core/parallel.h"
 #include "scan/outlines/notches.h"
 #include "scan/outlines/row_points.h"
+#include "scan/pick.h"
 
 namespace relievo {
 namespace {
@@ -90,22 +91,14 @@ class NewSurface {
 
   // Replaces the points, in the order of a space-filling curve, and triangulates them.
   void replace(Surface& surface, PointMeasures& measures) const {
-    std::vector<Vec2> plane = in_plane(points_);
-    const std::vector<Index> order = hilbert_order(plane);
-    const auto pick = [&](const auto& from) {
-      std::remove_cvref_t<decltype(from)> to;
-      if (!from.empty())
-        for (const Index i : order) to.push_back(from[i]);
-      return to;
-    };
-    surface.points = pick(points_);
-    surface.normals = pick(normals_);
-    surface.colours = pick(colours_);
-    measures.k = pick(k_);
-    measures.spacing = pick(spacing_);
-    plane = in_plane(surface.points);
+    const std::vector<Index> order = hilbert_order(in_plane(points_));
+    surface.points = pick(points_, order);
+    surface.normals = pick(normals_, order);
+    surface.colours = pick(colours_, order);
+    measures = {pick(k_, order), pick(spacing_, order)};
+    const std::vector<Vec2> plane = in_plane(surface.points);
     surface.triangulation = delaunay(plane);
-    set_boundary(surface, plane, pick(places_));
+    set_boundary(surface, plane, pick(places_, order));
   }
 
  private:

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "core/disjoint_sets.h"
+#include "core/keep_where.h"
 #include "scan/outlines/outlines.h"
 
 namespace relievo {
@@ -21,15 +22,6 @@ constexpr double connection_length = 3;
 struct Rim {
   std::uint32_t jumps = 0, behind = 0;
 };
-
-template <typename T>
-void keep(std::vector<T>& values, const std::vector<std::uint8_t>& is_kept) {
-  if (values.empty()) return;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < is_kept.size(); ++i)
-    if (is_kept[i]) values[kept++] = values[i];
-  values.resize(kept);
-}
 
 // Returns per point whether it stays.
 std::vector<std::uint8_t> points_to_keep(const Surface& surface) {
@@ -65,11 +57,12 @@ bool drop_small_patches(Surface& surface, PointMeasures& measures) {
   const std::vector<std::uint8_t> is_kept = points_to_keep(surface);
   const auto kept = std::ranges::count(is_kept, std::uint8_t{1});
   if (kept == std::ssize(is_kept) || kept < 4) return false;
-  keep(surface.points, is_kept);
-  keep(surface.normals, is_kept);
-  keep(surface.colours, is_kept);
-  keep(measures.k, is_kept);
-  keep(measures.spacing, is_kept);
+  const auto stays = [&](std::size_t i) { return is_kept[i] != 0; };
+  keep_where(surface.points, stays);
+  keep_where(surface.normals, stays);
+  keep_where(surface.colours, stays);
+  keep_where(measures.k, stays);
+  keep_where(measures.spacing, stays);
   return true;
 }
 

@@ -1,0 +1,18 @@
+// Removes elements of lists. Tested by tests/io/io_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace relievo {
+
+// Keeps the elements of whose numbers is_kept(i) holds, in their order. It asks once for each number, ascending.
+template <typename T, typename IsKept>
+void keep_where(std::vector<T>& values, IsKept&& is_kept) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (is_kept(i)) values[kept++] = values[i];
+  values.resize(kept);
+}
+
+}  // namespace relievo
