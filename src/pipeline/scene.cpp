@@ -15,20 +15,15 @@ namespace {
 
 constexpr double gap = .08, widest = 1.5;  // in heights of a model
 
-std::unexpected<Error> option_error(const SceneModel& model, std::string expected) {
-  return std::unexpected(Error{ErrorKind::option, model.name, {}, std::move(expected)});
-}
-
 Result<void> check(const Scene& scene) {
-  if (scene.models.empty())
-    return std::unexpected(Error{ErrorKind::option, {}, {}, "expected a scene of at least one model"});
+  if (scene.models.empty()) return option_error({}, "expected a scene of at least one model");
   for (const SceneModel& model : scene.models) {
     const Pose& pose = model.pose;
     if (!(pose.scale >= 1e-6 && pose.scale <= 1e6))
-      return option_error(model, cat("expected a scale from 1e-06 to 1e+06, found ", pose.scale));
-    if (!pose.rotate_deg.allFinite()) return option_error(model, "expected angles that are finite");
+      return option_error(model.name, cat("expected a scale from 1e-06 to 1e+06, found ", pose.scale));
+    if (!pose.rotate_deg.allFinite()) return option_error(model.name, "expected angles that are finite");
     if (pose.translate && !pose.translate->allFinite())
-      return option_error(model, "expected a place that is finite");
+      return option_error(model.name, "expected a place that is finite");
   }
   return {};
 }
@@ -131,7 +126,7 @@ bool Pose::operator==(const Pose& other) const {
 }
 
 Result<std::vector<PlacedModel>> place_models(const Scene& scene, const View& view) {
-  if (auto ok = check(scene); !ok) return std::unexpected(ok.error());
+  RELIEVO_CHECK(check(scene));
   const bool is_placed =
       scene.models.size() == 1 ||
       std::ranges::any_of(scene.models, [](const SceneModel& m) { return m.pose.translate.has_value(); });

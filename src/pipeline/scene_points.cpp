@@ -106,10 +106,6 @@ PlacedCloud placed_cloud(const SceneModel& model, const PlacedModel& place, cons
   return placed;
 }
 
-std::unexpected<Error> geometry_error(const SceneModel& model, std::string expected) {
-  return std::unexpected(Error{ErrorKind::geometry, model.name, {}, std::move(expected)});
-}
-
 Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& places, const View& view,
                         Progress* progress) {
   Parts parts;
@@ -121,10 +117,11 @@ Result<Parts> place_all(const Scene& scene, const std::vector<PlacedModel>& plac
       continue;
     }
     if (model.file->cloud.size() < 4)
-      return geometry_error(model, cat("expected at least 4 points, found ", model.file->cloud.size()));
+      return geometry_error(model.name, cat("expected at least 4 points, found ", model.file->cloud.size()));
     parts.clouds.push_back(placed_cloud(model, places[i], view, parts));
     if (!(parts.clouds.back().spacing.rho > 0))
-      return geometry_error(model, "expected points at a distance from each other, found most of them equal");
+      return geometry_error(model.name,
+                            "expected points at a distance from each other, found most of them equal");
   }
   return parts;
 }

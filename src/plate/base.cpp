@@ -45,7 +45,7 @@ Vec2 across(double direction_deg) {
 }  // namespace
 
 Result<Base> Base::over(const BaseOptions& options, std::span<const Vec2> outline) {
-  if (auto good = check_numbers(options); !good) return std::unexpected(good.error());
+  RELIEVO_CHECK(check_numbers(options));
   const Box box = Box::of(outline);
   Base base;
   if (options.kind == BaseKind::plane || box.is_empty()) return base;

@@ -62,11 +62,9 @@ Result<double> enforce_draft_in_float(Solid& solid, double max_slope) {
   front.free_inner_points(solid);
   const std::vector<double> before = front.heights;
   if (!limit_slopes(front.field(), max_slope, Rounding::single_precision, front.heights))
-    return std::unexpected(Error{ErrorKind::geometry,
-                                 "draft",
-                                 {},
-                                 "expected triangles that keep the limit in single precision, found some "
-                                 "that do not: fewer points help, as a tolerance leaves"});
+    return geometry_error("draft",
+                          "expected triangles that keep the limit in single precision, found some "
+                          "that do not: fewer points help, as a tolerance leaves");
   double largest = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     if (front.heights[i] == before[i]) continue;

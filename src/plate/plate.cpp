@@ -83,31 +83,27 @@ Solid closed(PlateSurface surface, const PlateOptions& options) {
 // `alone`.
 Result<const HeightFieldMesh*> front_shown(const HeightFieldMesh& front, const PlateOptions& options,
                                            HeightFieldMesh& alone) {
-  if (auto good = check_plate(front, options); !good) return std::unexpected(good.error());
+  RELIEVO_CHECK(check_plate(front, options));
   if (options.outline != Outline::none) return &front;
   alone = relief_alone(front);
   if (!alone.triangles.empty()) return &alone;
-  return plate_error(ErrorKind::geometry, "front", "expected triangles of the relief, found ground only");
+  return geometry_error("front", "expected triangles of the relief, found ground only");
 }
 
 }  // namespace
 
 Result<Base> plate_base(const HeightFieldMesh& front, const PlateOptions& options) {
   HeightFieldMesh alone;
-  const Result<const HeightFieldMesh*> shown = front_shown(front, options, alone);
-  if (!shown) return std::unexpected(shown.error());
-  return base_under(**shown, options);
+  RELIEVO_TRY(const HeightFieldMesh* const shown, front_shown(front, options, alone));
+  return base_under(*shown, options);
 }
 
 Result<Solid> make_plate(const HeightFieldMesh& front, const PlateOptions& options) {
   HeightFieldMesh alone;
-  const Result<const HeightFieldMesh*> shown = front_shown(front, options, alone);
-  if (!shown) return std::unexpected(shown.error());
-  const Result<Base> base = base_under(**shown, options);
-  if (!base) return std::unexpected(base.error());
-  Result<PlateSurface> surface = make_plate_surface(**shown, *base, options);
-  if (!surface) return std::unexpected(surface.error());
-  return closed(std::move(*surface), options);
+  RELIEVO_TRY(const HeightFieldMesh* const shown, front_shown(front, options, alone));
+  RELIEVO_TRY(const Base base, base_under(*shown, options));
+  RELIEVO_TRY(PlateSurface surface, make_plate_surface(*shown, base, options));
+  return closed(std::move(surface), options);
 }
 
 }  // namespace relievo

@@ -76,7 +76,7 @@ Result<WrapOptions> parse_wrap(std::string_view text) {
 }
 
 Result<Wrap> Wrap::around(const WrapOptions& options, std::span<const Vec2> outline) {
-  if (auto good = check_numbers(options); !good) return std::unexpected(good.error());
+  RELIEVO_CHECK(check_numbers(options));
   const Box box = Box::of(outline);
   Wrap wrap;
   wrap.kind_ = options.kind;

@@ -21,10 +21,6 @@ namespace {
 // steps; the least squares aim at the second, because they end with a few triangles up to 0.4 % above it.
 constexpr double kept_share = .999, solved_share = .9945;
 
-std::unexpected<Error> fail(std::string expected) {
-  return std::unexpected(Error{ErrorKind::geometry, "draft", {}, std::move(expected)});
-}
-
 double draft_deg_of(double slope) {
   return 90 - to_degrees(std::atan(slope));
 }
@@ -48,10 +44,11 @@ class Limiter {
 
   Result<void> limit(Relief& relief, Progress* progress) {
     if (!keeps(std::vector<double>(plane_.size(), 0.0)))
-      return fail(cat("expected a base that leans by at least ", draft_deg_of(options_.max_slope),
-                      " degrees off the vertical everywhere, found a steeper one"));
+      return geometry_error("draft",
+                            cat("expected a base that leans by at least ", draft_deg_of(options_.max_slope),
+                                " degrees off the vertical everywhere, found a steeper one"));
     const auto is_cancelled = [&] { return progress && progress->is_cancelled(); };
-    if (auto built = build_nearest(); !built) return built;
+    RELIEVO_CHECK(build_nearest());
     nearest_->apply(relief.heights, is_cancelled);
     if (is_cancelled()) return cancelled_error();
     for (int tries = 0; tries < most_tries; ++tries) {
@@ -62,7 +59,7 @@ class Limiter {
       relief.height = height_span(relief.heights);
       if (is_flat) return {};
     }
-    return fail("expected triangles that can be made flat enough, found some that cannot");
+    return geometry_error("draft", "expected triangles that can be made flat enough, found some that cannot");
   }
 
  private:
@@ -81,9 +78,8 @@ class Limiter {
   Result<void> build_nearest() {
     if (nearest_) return {};
     const Surface& surface = model_->surface();
-    Result<HeightSystem> system = HeightSystem::build(plane_, surface.triangulation, surface.boundary);
-    if (!system) return std::unexpected(system.error());
-    system_.emplace(std::move(*system));
+    RELIEVO_TRY(HeightSystem system, HeightSystem::build(plane_, surface.triangulation, surface.boundary));
+    system_.emplace(std::move(system));
     nearest_.emplace(surface, *system_, options_.base, solved_share * options_.max_slope);
     return {};
   }
@@ -124,7 +120,7 @@ class DraftSearch {
   // At 64 times the height that the steepest slope reaches on half of the relief, the reliefs of baselines consist of walls.
   // This scale does not depend on the height asked for, so that the largest height is the same for all of them.
   double largest_log_scale() const {
-    const double half_side = Box::of(model_.surface().points).longer_side() / 2;
+    const double half_side = model_.surface().longer_side() / 2;
     return std::log(64 * half_side * limiter_.max_slope() / order_.height);
   }
 
@@ -157,7 +153,7 @@ class DraftSearch {
   Result<Relief> at_most() {
     const double end =
         has_shape(order_.method) ? std::numeric_limits<double>::infinity() : largest_log_scale();
-    if (auto made = make(end); !made) return std::unexpected(made.error());
+    RELIEVO_CHECK(make(end));
     return scaled();
   }
 
@@ -170,9 +166,10 @@ class DraftSearch {
   }
 
   Result<Relief> too_high() const {
-    return fail(cat("expected a height that walls under this draft angle can reach, at most ",
-                    relief_.height * order_.unit_mm, " mm for this view, width and method, found ",
-                    order_.height * order_.unit_mm, " mm"));
+    return geometry_error("draft",
+                          cat("expected a height that walls under this draft angle can reach, at most ",
+                              relief_.height * order_.unit_mm, " mm for this view, width and method, found ",
+                              order_.height * order_.unit_mm, " mm"));
   }
 
   const ReliefModel& model_;
@@ -193,7 +190,7 @@ Result<Relief> limit_draft(const ReliefModel& model, Relief relief, const DraftO
                            Progress* progress) {
   Limiter limiter(model, options);
   if (limiter.keeps(relief.heights)) return relief;
-  if (auto done = limiter.limit(relief, progress); !done) return std::unexpected(done.error());
+  RELIEVO_CHECK(limiter.limit(relief, progress));
   return relief;
 }
 

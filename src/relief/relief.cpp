@@ -26,13 +26,20 @@ Mode resolve_mode(Mode mode, const Surface& surface) {
 }
 
 struct ReliefModel::State {
+  // What the surface alone decides. The system of all points may be exchanged for that of control points.
+  struct Parts {
+    std::vector<PointLayers> layers;
+    StepHeights steps;
+    JumpLift jump_lift;
+    HeightCorrection correction;
+    std::variant<HeightSystem, SubspaceModel> solver;
+  };
+
   Surface surface;
-  std::vector<PointLayers> layers;
-  StepHeights steps;
-  JumpLift jump_lift;
-  HeightCorrection correction;
+  Parts parts;
   MembraneTuning tuning;
-  std::variant<HeightSystem, SubspaceModel> solver;
+
+  static Result<Parts> prepare_parts(const Surface& surface, Progress* progress);
 
   // Returns the heights that (9) finds for the slopes of that shape.
   std::vector<double> solve(const Shape& shape, const SlopeInput& input) const;
@@ -47,22 +54,22 @@ const Surface& ReliefModel::surface() const {
   return state_->surface;
 }
 std::span<const PointLayers> ReliefModel::layers() const {
-  return state_->layers;
+  return state_->parts.layers;
 }
 const HeightSystem* ReliefModel::system() const {
-  return std::get_if<HeightSystem>(&state_->solver);
+  return std::get_if<HeightSystem>(&state_->parts.solver);
 }
 const SubspaceModel* ReliefModel::subspace() const {
-  return std::get_if<SubspaceModel>(&state_->solver);
+  return std::get_if<SubspaceModel>(&state_->parts.solver);
 }
 const StepHeights& ReliefModel::steps() const {
-  return state_->steps;
+  return state_->parts.steps;
 }
 const JumpLift& ReliefModel::jump_lift() const {
-  return state_->jump_lift;
+  return state_->parts.jump_lift;
 }
 const HeightCorrection& ReliefModel::correction() const {
-  return state_->correction;
+  return state_->parts.correction;
 }
 MembraneParams ReliefModel::membrane_at(double u) const {
   return state_->tuning.at(u);
@@ -73,7 +80,7 @@ namespace {
 // Goes on from the system of all points, which it takes, to that of the control points.
 Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const PointLayers> layers,
                                        HeightSystem system, Progress* progress) {
-  if (auto go = begin_stage(progress, "reference heights", .83); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "reference heights", .83));
   const SubspaceOptions options;
   const auto reference = [&] {
     const HeightSystem all = std::move(system);  // freed at once: it is most of the memory
@@ -84,69 +91,46 @@ Result<SubspaceModel> prepare_subspace(const Surface& surface, std::span<const P
 
 }  // namespace
 
-namespace {
-
-// The parts of a model that its surface decides, without tuning.
-struct Parts {
-  std::vector<PointLayers> layers;
-  HeightSystem system;
-  StepHeights steps;
-  JumpLift jump_lift;
-  HeightCorrection correction;
-};
-
-Result<Parts> prepare_parts(const Surface& surface, Progress* progress) {
-  if (auto go = begin_stage(progress, "layers", .72); !go) return std::unexpected(go.error());
+Result<ReliefModel::State::Parts> ReliefModel::State::prepare_parts(const Surface& surface,
+                                                                    Progress* progress) {
+  RELIEVO_CHECK(begin_stage(progress, "layers", .72));
   const std::vector<float> weights = jump_weights(surface);
   std::vector<PointLayers> layers;
   std::optional<HeightCorrection> correction;
   parallel_both([&] { layers = normal_layers(surface.points, surface.normals); },
                 [&] { correction.emplace(surface, weights); });
-  if (auto go = begin_stage(progress, "factorisation", .75); !go) return std::unexpected(go.error());
-  Result<HeightSystem> system =
-      HeightSystem::build(in_plane(surface.points), surface.triangulation, surface.boundary, weights);
-  if (!system) return std::unexpected(system.error());
+  RELIEVO_CHECK(begin_stage(progress, "factorisation", .75));
+  RELIEVO_TRY(HeightSystem system, HeightSystem::build(in_plane(surface.points), surface.triangulation,
+                                                       surface.boundary, weights));
   RELIEVO_CHECK(check_cancelled(progress));
-  StepHeights steps = find_step_heights(surface, weights, *system);
-  JumpLift jump_lift = JumpLift::find({surface, layers, *system});
-  if (auto go = begin_stage(progress, "tuning", .8); !go) return std::unexpected(go.error());
-  return Parts{std::move(layers), std::move(*system), std::move(steps), std::move(jump_lift),
-               std::move(*correction)};
+  StepHeights steps = find_step_heights(surface, weights, system);
+  JumpLift jump_lift = JumpLift::find({surface, layers, system});
+  RELIEVO_CHECK(begin_stage(progress, "tuning", .8));
+  return Parts{std::move(layers), std::move(steps), std::move(jump_lift), std::move(*correction),
+               std::move(system)};
 }
 
-}  // namespace
-
 Result<ReliefModel> ReliefModel::prepare(Surface surface, Progress* progress, Mode mode) {
-  RELIEVO_TRY(Parts parts, prepare_parts(surface, progress));
+  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, progress));
   RELIEVO_CHECK(check_cancelled(progress));
-  const Result<MembraneTuning> tuning =
-      tune_membrane({surface, parts.layers, parts.correction, parts.system, parts.jump_lift}, progress);
-  if (!tuning) return std::unexpected(tuning.error());
-  if (resolve_mode(mode, surface) == Mode::exact)
-    return ReliefModel(std::unique_ptr<const State>(new State{
-        std::move(surface), std::move(parts.layers), std::move(parts.steps), std::move(parts.jump_lift),
-        std::move(parts.correction), *tuning, std::move(parts.system)}));
-  Result<SubspaceModel> subspace = prepare_subspace(surface, parts.layers, std::move(parts.system), progress);
-  if (!subspace) return std::unexpected(subspace.error());
-  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface),
-                                                            {},
-                                                            std::move(parts.steps),
-                                                            std::move(parts.jump_lift),
-                                                            std::move(parts.correction),
-                                                            *tuning,
-                                                            std::move(*subspace)}));
+  auto& system = std::get<HeightSystem>(parts.solver);
+  RELIEVO_TRY(const MembraneTuning tuning,
+              tune_membrane({surface, parts.layers, parts.correction, system, parts.jump_lift}, progress));
+  if (resolve_mode(mode, surface) == Mode::subspace) {
+    RELIEVO_TRY(parts.solver, prepare_subspace(surface, parts.layers, std::move(system), progress));
+    parts.layers = std::vector<PointLayers>();
+  }
+  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
 }
 
 Result<ReliefModel> ReliefModel::prepare_like(const ReliefModel* other, Surface surface, Progress* progress) {
-  RELIEVO_TRY(Parts parts, prepare_parts(surface, progress));
+  RELIEVO_TRY(State::Parts parts, State::prepare_parts(surface, progress));
   const MembraneTuning tuning = other ? other->state_->tuning : MembraneTuning();
-  return ReliefModel(std::unique_ptr<const State>(
-      new State{std::move(surface), std::move(parts.layers), std::move(parts.steps),
-                std::move(parts.jump_lift), std::move(parts.correction), tuning, std::move(parts.system)}));
+  return ReliefModel(std::unique_ptr<const State>(new State{std::move(surface), std::move(parts), tuning}));
 }
 
 std::size_t ReliefModel::memory() const {
-  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->solver);
+  const std::size_t solver = std::visit([](const auto& s) { return s.memory(); }, state_->parts.solver);
   return solver + surface().memory() + layers().size_bytes() + correction().memory() +
          steps().z.size() * sizeof(float) + jump_lift().memory();
 }
@@ -165,12 +149,12 @@ std::vector<double> subspace_heights(const SubspaceModel& model, const Shape& sh
 }  // namespace
 
 std::vector<double> ReliefModel::State::solve(const Shape& shape, const SlopeInput& input) const {
-  if (const auto* model = std::get_if<SubspaceModel>(&solver))
+  if (const auto* model = std::get_if<SubspaceModel>(&parts.solver))
     return subspace_heights(*model, shape, input.boundary_weight);
   std::vector<Vec2> slopes(surface.points.size());
   find_slopes(input, shape, slopes);
   std::vector<double> heights(slopes.size());
-  std::get<HeightSystem>(solver).solve(slopes, heights);
+  std::get<HeightSystem>(parts.solver).solve(slopes, heights);
   return heights;
 }
 

@@ -51,9 +51,8 @@ Result<Cloud> make_sample(std::string_view name, const SampleOptions& options) {
   const auto known = std::ranges::find(entries, name, [](const Entry& entry) { return entry.info.name; });
   if (known == entries.end()) return std::unexpected(unknown(name));
   const std::size_t fewest = 1000, most = 100000000;
-  if (const auto ok = check_range("points", options.points, fewest, most); !ok)
-    return std::unexpected(ok.error());
-  if (const auto ok = check_range("noise", options.noise, 0.0, 5.0); !ok) return std::unexpected(ok.error());
+  RELIEVO_CHECK(check_range("points", options.points, fewest, most));
+  RELIEVO_CHECK(check_range("noise", options.noise, 0.0, 5.0));
   const auto seed = static_cast<std::uint64_t>(known - entries.begin());
   return field::scatter(known->solid(), {options.points, options.noise, seed});
 }

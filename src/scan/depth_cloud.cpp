@@ -88,8 +88,8 @@ Cloud points_of(const DepthGrid& grid, const std::vector<float>& z,
 }  // namespace
 
 Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& options, Progress* progress) {
-  if (auto ok = check(options); !ok) return std::unexpected(ok.error());
-  if (auto go = begin_stage(progress, "depths", 0); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(check(options));
+  RELIEVO_CHECK(begin_stage(progress, "depths", 0));
   DepthGrid grid = make_grid(image, options);
   DepthCloud out;
   out.reduction = grid.reduction;
@@ -102,7 +102,7 @@ Result<DepthCloud> depth_cloud(const DepthImage& image, const DepthOptions& opti
   out.cut = cut_ramps(grid);
   const auto known = std::ranges::count(grid.bounds.is_known, 1);
   if (known < 16) return geometry_error(cat("expected at least 16 pixels with a depth, found ", known));
-  if (auto go = begin_stage(progress, "smooth depths", 0); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "smooth depths", 0));
   std::vector<float> z = smoothest(grid.bounds);
   const std::vector<std::uint8_t> is_hole = enclosed_holes(grid.bounds);
   fill(grid.bounds, is_hole, z);

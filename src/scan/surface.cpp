@@ -107,7 +107,7 @@ bool all_look_away(const Cloud& viewed) {
 
 // Stages 3 and 4: sets the surface's points, normals and colours.
 Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress* progress) {
-  if (auto go = begin_stage(progress, "visible points", .3); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "visible points", .3));
   Cloud& cloud = viewed.cloud;
   const Spacing& spacing = viewed.spacing();
   auto [visible, removed] = find_visible(cloud, spacing);
@@ -133,7 +133,7 @@ Result<PointMeasures> find_points(ViewCloud& viewed, Surface& surface, Progress*
   // Flat, as nothing is known of the front there.
   for (const Index i : hole_fill) cloud.normals[i] = Vec3f::UnitZ();
 
-  if (auto go = begin_stage(progress, "curvature", .4); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "curvature", .4));
   std::vector<double> k(cloud.size(), 0.0);
   scatter(curvature_of(viewed, visible, progress), visible, k);
   RELIEVO_CHECK(check_cancelled(progress));
@@ -189,9 +189,9 @@ Result<Surface> find_surface(const MeasuredCloud& measured, const View& view, Pr
   ViewCloud viewed = look_at(measured, surface);
   RELIEVO_TRY(PointMeasures measures, find_points(viewed, surface, progress));
 
-  if (auto go = begin_stage(progress, "triangulation", .6); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "triangulation", .6));
   RELIEVO_CHECK(triangulate(surface, measures, progress));
-  if (auto go = begin_stage(progress, "boundary", .65); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "boundary", .65));
   if (drop_small_patches(surface, measures)) RELIEVO_CHECK(triangulate(surface, measures, progress));
   put_points_on_outlines(surface, measures, viewed.cloud.outlines);
   RELIEVO_CHECK(check_cancelled(progress));

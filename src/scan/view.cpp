@@ -71,9 +71,8 @@ Result<View> parse_view(std::string_view text, std::string_view up) {
     wanted.towards_viewer = *direction;
   }
   if (!up.empty()) {
-    const Result<Vec3> parsed = parse_direction("up", up);
-    if (!parsed) return std::unexpected(parsed.error());
-    wanted.up = *parsed;
+    RELIEVO_TRY(const Vec3 parsed, parse_direction("up", up));
+    wanted.up = parsed;
     const Vec3 across = wanted.up.stableNormalized().cross(wanted.towards_viewer.stableNormalized());
     if (across.norm() < 1e-6 && wanted.up != Vec3::Zero())
       return option_error("up", cat("expected another direction than that of the view, found '", up, "'"));

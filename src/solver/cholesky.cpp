@@ -5,6 +5,7 @@
 
 #include "core/memory.h"
 #include "geometry/plane_order.h"
+#include "relievo/core/text.h"
 #include "solver/cholesky_factor.h"
 #include "solver/dissection.h"
 
@@ -79,7 +80,7 @@ Result<Cholesky> Cholesky::factor(const Eigen::SparseMatrix<double>& A, std::spa
   if (A.rows() != A.cols()) return std::unexpected(not_positive_definite("found one that is not square"));
   if (!is_finite(A)) return std::unexpected(not_positive_definite("found an entry that is not finite"));
   if (!positions.empty() && positions.size() != static_cast<std::size_t>(A.cols()))
-    return option_error("positions", "expected one per unknown, found " + std::to_string(positions.size()));
+    return option_error("positions", cat("expected one per unknown, found ", positions.size()));
   // Vertices are numbered along a space-filling curve, so that all later steps walk through memory in order.
   std::vector<Eigen::Vector2f> places = in_unit_square(positions);
   places.resize(static_cast<std::size_t>(A.cols()), Eigen::Vector2f::Zero());

@@ -173,7 +173,7 @@ class Simplifier {
 
   Result<SimplifiedMesh> run(Progress* progress) {
     for (int round = 0;; ++round) {
-      if (auto go = begin_stage(progress, "simplify", .95); !go) return std::unexpected(go.error());
+      RELIEVO_CHECK(begin_stage(progress, "simplify", .95));
       const Approximation now(chosen_);
       if (now.mesh().triangles.empty()) break;
       // Where almost all points are needed, those on edges come on top: the front itself is simpler then.
@@ -187,8 +187,7 @@ class Simplifier {
       for (const Candidate& c : worst) choose(c);
       if (chosen_.size() == before) break;
     }
-    return std::unexpected(
-        Error{ErrorKind::geometry, "front", {}, "expected triangles that cover their hull, found others"});
+    return geometry_error("front", "expected triangles that cover their hull, found others");
   }
 
  private:
@@ -373,8 +372,7 @@ Result<SimplifiedMesh> simplify(const HeightFieldMesh& front, const SimplifyOpti
   if (!(options.tolerance_mm > 0))
     return option_error("tolerance", cat("expected a positive length, found ", options.tolerance_mm));
   if (front.triangles.empty() || front.hull.size() < 3)
-    return std::unexpected(
-        Error{ErrorKind::geometry, "front", {}, "expected triangles and a hull around them, found none"});
+    return geometry_error("front", "expected triangles and a hull around them, found none");
   return Simplifier(front, options).run(progress);
 }
 

@@ -80,25 +80,24 @@ Result<SubspaceModel> SubspaceModel::prepare(const Surface& surface, const Subsp
   std::span<const double> reference = known.reference;
   std::vector<double> solved;
   if (reference.empty()) {
-    if (auto go = begin_stage(progress, "reference heights", .75); !go) return std::unexpected(go.error());
-    const auto all = HeightSystem::build(points, surface.triangulation, surface.boundary, weights);
-    if (!all) return std::unexpected(all.error());
-    reference = solved = reference_heights(surface, *all, options.max_slope);
+    RELIEVO_CHECK(begin_stage(progress, "reference heights", .75));
+    RELIEVO_TRY(const auto all,
+                HeightSystem::build(points, surface.triangulation, surface.boundary, weights));
+    reference = solved = reference_heights(surface, all, options.max_slope);
   }
 
-  if (auto go = begin_stage(progress, "control points", .85); !go) return std::unexpected(go.error());
+  RELIEVO_CHECK(begin_stage(progress, "control points", .85));
   ControlPoints control = grow_control_points(points, surface.boundary.distance, options.control);
   const ControlMesh mesh = mesh_control_points(surface, control);
-  Result<HeightSystem> system =
-      HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary, pick(weights, control.points));
-  if (!system) return std::unexpected(system.error());
+  RELIEVO_TRY(HeightSystem system, HeightSystem::build(mesh.points, mesh.triangulation, mesh.boundary,
+                                                       pick(weights, control.points)));
   const std::vector<Index> samples = sample_regions(surface, control, options.normals_per_point);
   std::vector<PointLayers> own_layers;
   if (known.layers.empty()) own_layers = normal_layers(surface.points, surface.normals);
   const std::span<const PointLayers> layers = known.layers.empty() ? own_layers : known.layers;
 
   SubspaceModel model(
-      std::move(*system),
+      std::move(system),
       {pick(surface.normals, samples), pick(surface.curvature.k, samples), pick(layers, samples), samples},
       surface.curvature.delta);
   model.control_ = std::move(control);
