@@ -219,8 +219,7 @@ Result<DepthImage> read_depth_tiff(const Source& source, const PictureChannels& 
   if (!file.handle()) return no_directory(source, file);
   Layout layout = layout_of(file.handle());
   const std::size_t pixels = std::size_t{layout.width} * layout.height;
-  if (pixels > most_pixels)
-    return source.error({}, "expected at most 134217728 pixels, found " + std::to_string(pixels));
+  if (pixels > most_pixels) return source.error({}, cat("expected at most 134217728 pixels, found ", pixels));
   if (pixels / best_packing > source.bytes.size())
     return source.error({}, cat("expected more data for ", pixels, " pixels, found ", source.bytes.size(),
                                 " bytes; the file is cut, get it anew"));

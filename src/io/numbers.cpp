@@ -1,38 +1,16 @@
 #include "io/numbers.h"
 
+#include <algorithm>
 #include <array>
-#include <bit>
+#include <cmath>
 
 namespace relievo::io {
 namespace {
 
-template <std::size_t bytes>
-struct BitsOf;
-template <>
-struct BitsOf<1> {
-  using type = std::uint8_t;
-};
-template <>
-struct BitsOf<2> {
-  using type = std::uint16_t;
-};
-template <>
-struct BitsOf<4> {
-  using type = std::uint32_t;
-};
-template <>
-struct BitsOf<8> {
-  using type = std::uint64_t;
-};
-
 template <typename T, bool is_swapped>
 void decode(const char* first, std::size_t stride, std::size_t rows, double* values) {
-  for (std::size_t i = 0; i < rows; ++i) {
-    typename BitsOf<sizeof(T)>::type bits;
-    std::memcpy(&bits, first + i * stride, sizeof(T));
-    if constexpr (is_swapped) bits = std::byteswap(bits);
-    values[i] = static_cast<double>(std::bit_cast<T>(bits));
-  }
+  for (std::size_t i = 0; i < rows; ++i)
+    values[i] = static_cast<double>(number_at<T, is_swapped>(first + i * stride));
 }
 
 template <bool is_swapped>
@@ -49,6 +27,10 @@ Decode decoder(NumberType type) {
 std::size_t size_in_bytes(NumberType type) {
   constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
   return sizes[static_cast<std::size_t>(type)];
+}
+
+std::uint8_t as_byte(double value) {
+  return value > 0 ? static_cast<std::uint8_t>(std::min(255.0, std::round(value))) : std::uint8_t{0};
 }
 
 Decode decoder(NumberType type, bool is_big_endian) {

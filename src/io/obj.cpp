@@ -4,7 +4,7 @@
 
 #include "io/formats.h"
 #include "io/polygon.h"
-#include "io/text.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -16,23 +16,17 @@ struct Corner {
 
 class ObjReader {
  public:
-  explicit ObjReader(const Source& source)
-      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+  explicit ObjReader(const Source& source) : lines_(source) {}
 
   Result<RawCloud> read() {
     while (next_line()) {
       Words words(before_comment(line_));
       const std::string_view keyword = words.next();
-      Result<void> taken;
-      if (keyword == "v") taken = take_vector(words, points_);
-      if (keyword == "vn") taken = take_vector(words, normals_);
-      if (keyword == "f" || keyword == "fo") taken = take_face(words);  // fo: an old name of f
-      if (!taken) return std::unexpected(taken.error());
+      if (keyword == "v") RELIEVO_CHECK(take_vector(words, points_));
+      if (keyword == "vn") RELIEVO_CHECK(take_vector(words, normals_));
+      if (keyword == "f" || keyword == "fo") RELIEVO_CHECK(take_face(words));  // fo: an old name of f
     }
-    if (points_.empty()) {
-      return source_.error_in_line(lines_.number() + 1,
-                                   "expected lines 'v x y z', found the end of the file");
-    }
+    if (points_.empty()) return lines_.fail_at_end("lines 'v x y z'");
     RELIEVO_CHECK(check_vertices());
     forget_missing_normals();
     std::vector<Vec3f> normals = point_normals();
@@ -99,9 +93,9 @@ class ObjReader {
   // This comes last because faces may precede their vertices.
   Result<void> check_vertices() const {
     if (corners_.empty() || highest_vertex_ < points_.size()) return {};
-    return source_.error_in_line(highest_line_, "expected an index up to " + std::to_string(points_.size()) +
-                                                    ", the number of vertices, found " +
-                                                    std::to_string(highest_vertex_ + std::size_t{1}));
+    return lines_.source().error_in_line(
+        highest_line_, cat("expected an index up to ", points_.size(), ", the number of vertices, found ",
+                           highest_vertex_ + std::size_t{1}));
   }
 
   // Some programs number normals that they do not write. The geometry is whole without them.
@@ -155,11 +149,10 @@ class ObjReader {
   }
 
   Result<void> fail(std::string expected) const {
-    return source_.error_in_line(first_line_, std::move(expected));
+    return lines_.source().error_in_line(first_line_, std::move(expected));
   }
 
-  const Source& source_;
-  Lines lines_;
+  SourceLines lines_;
   std::string_view line_;
   std::string joined_;
   std::size_t first_line_ = 0;  // where line_ begins

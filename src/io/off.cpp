@@ -30,23 +30,20 @@ std::optional<Kind> parse_keyword(std::string_view word) {
 
 class OffReader {
  public:
-  explicit OffReader(const Source& source)
-      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+  explicit OffReader(const Source& source) : lines_(source) {}
 
   Result<RawCloud> read() {
     Words words = next_row();
     const std::string_view keyword = Words(words).next();
     const auto kind = parse_keyword(keyword);
     if (!kind && !parse_integer(keyword))
-      return fail("expected OFF, COFF or NOFF, found " + in_quotes(keyword));
+      return lines_.fail("expected OFF, COFF or NOFF, found " + in_quotes(keyword));
     kind_ = kind.value_or(Kind{});
     if (kind) words.next();
-    if (const auto counted = take_counts(words); !counted) return std::unexpected(counted.error());
-    for (std::int64_t i = 0; i < vertices_; ++i)
-      if (const auto taken = take_vertex(i); !taken) return std::unexpected(taken.error());
+    RELIEVO_CHECK(take_counts(words));
+    for (std::int64_t i = 0; i < vertices_; ++i) RELIEVO_CHECK(take_vertex(i));
     std::vector<Triangle> triangles;
-    for (std::int64_t i = 0; i < faces_; ++i)
-      if (const auto taken = take_face(i, triangles); !taken) return std::unexpected(taken.error());
+    for (std::int64_t i = 0; i < faces_; ++i) RELIEVO_CHECK(take_face(i, triangles));
     RawCloud raw{std::move(cloud_), "OFF"};
     raw.mesh = mesh_over(raw.cloud, std::move(triangles));
     return raw;
@@ -79,7 +76,8 @@ class OffReader {
   Result<void> end_row(Words words) {
     const std::string_view word = words.next();
     const bool is_bad = std::exchange(is_wrapped_, false) && !word.empty();
-    return is_bad ? fail("expected the end of a row that began in a line before, found " + in_quotes(word))
+    return is_bad ? lines_.fail("expected the end of a row that began in a line before, found " +
+                                in_quotes(word))
                   : Result<void>{};
   }
 
@@ -93,7 +91,7 @@ class OffReader {
     for (std::int64_t* count : {&vertices_, &faces_}) {
       const auto number = parse_integer(word);
       if (!number || *number < 0 || *number >= std::int64_t{no_index})
-        return fail("expected the numbers of vertices and faces, found " + in_quotes(word));
+        return lines_.fail("expected the numbers of vertices and faces, found " + in_quotes(word));
       *count = *number;
       word = words.next();
     }
@@ -104,7 +102,7 @@ class OffReader {
     for (double& value : to) {
       const std::string_view word = next_word(words);
       const auto number = parse_number(word);
-      if (!number) return fail("expected a number, found " + shown(word));
+      if (!number) return lines_.fail("expected a number, found " + shown(word));
       value = *number;
     }
     return {};
@@ -114,14 +112,13 @@ class OffReader {
     Words words = next_row();
     if (is_at_end_) return fail_at_end("vertices", vertices_, i);
     Vec3 point, normal;
-    if (const auto taken = take_numbers(words, point); !taken) return taken;
+    RELIEVO_CHECK(take_numbers(words, point));
     cloud_.points.push_back(point);
     if (kind_.has_normals) {
-      if (const auto taken = take_numbers(words, normal); !taken) return taken;
+      RELIEVO_CHECK(take_numbers(words, normal));
       cloud_.normals.push_back(unit_normal(normal));
     }
-    if (kind_.has_colours)
-      if (const auto taken = take_colour(words); !taken) return taken;
+    if (kind_.has_colours) RELIEVO_CHECK(take_colour(words));
     return end_row(words);
   }
 
@@ -131,7 +128,7 @@ class OffReader {
     for (std::uint8_t& value : colour) {
       const std::string_view word = next_word(words);
       const auto number = parse_number(word);
-      if (!number) return fail("expected three numbers for the colour, found " + in_quotes(word));
+      if (!number) return lines_.fail("expected three numbers for the colour, found " + in_quotes(word));
       const double scale = word.find('.') == std::string_view::npos ? 1 : 255;
       const double byte = scale * *number;
       value = byte > 0 ? static_cast<std::uint8_t>(std::min(255.0, byte + .5)) : std::uint8_t{0};
@@ -145,19 +142,19 @@ class OffReader {
     if (is_at_end_) return fail_at_end("faces", faces_, i);
     const std::string_view first = words.next();
     const auto length = parse_integer(first);
-    if (!length || *length < 0) return fail("expected the number of corners, found " + in_quotes(first));
+    if (!length || *length < 0)
+      return lines_.fail("expected the number of corners, found " + in_quotes(first));
     corners_.clear();
     for (std::int64_t c = 0; c < *length; ++c) {
       const std::string_view word = next_word(words);
       const auto corner = parse_integer(word);
-      if (!corner)
-        return fail("expected " + std::to_string(*length) + " numbers of vertices, found " + shown(word));
+      if (!corner) return lines_.fail(cat("expected ", *length, " numbers of vertices, found ", shown(word)));
       corners_.push_back(*corner);
     }
-    if (const auto ended = end_row(words); !ended) return ended;
+    RELIEVO_CHECK(end_row(words));
     has_two_in_line_ = has_two_in_line_ || is_face(words);
     if (add_face(corners_, FaceKind::polygon, cloud_.points, triangles)) return {};
-    return fail(expected_corners(corners_, cloud_.points));
+    return lines_.fail(expected_corners(corners_, cloud_.points));
   }
 
   // Returns whether words behind a face may be another one. Its colour has other numbers, as a rule.
@@ -169,16 +166,12 @@ class OffReader {
   }
 
   Result<void> fail_at_end(std::string_view what, std::int64_t promised, std::int64_t found) const {
-    return source_.error_in_line(
-        lines_.number() + 1, cat("expected ", promised, " ", what, ", found the end of the file after ",
-                                 found, has_two_in_line_ ? "; each has to begin on a line of its own" : ""));
-  }
-  std::unexpected<Error> fail(std::string expected) const {
-    return source_.error_in_line(lines_.number(), std::move(expected));
+    return lines_.fail_at_end(
+        cat(promised, " ", what),
+        cat(" after ", found, has_two_in_line_ ? "; each has to begin on a line of its own" : ""));
   }
 
-  const Source& source_;
-  Lines lines_;
+  SourceLines lines_;
   Kind kind_;
   bool is_at_end_ = false, is_wrapped_ = false, has_two_in_line_ = false;
   std::int64_t vertices_ = 0, faces_ = 0;

@@ -24,18 +24,17 @@ struct Field {
 
 class PcdHeaderReader {
  public:
-  explicit PcdHeaderReader(const Source& source)
-      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+  explicit PcdHeaderReader(const Source& source) : lines_(source) {}
 
   Result<PcdHeader> read() {
     while (const auto line = lines_.next()) {
       Words words(*line);
       const std::string_view keyword = words.next();
       if (keyword.empty() || keyword.starts_with('#')) continue;
-      if (const auto taken = take(keyword, words); !taken) return std::unexpected(taken.error());
+      RELIEVO_CHECK(take(keyword, words));
       if (keyword == "DATA") return finish();
     }
-    return source_.error_in_line(lines_.number() + 1, "expected a line DATA, found the end of the file");
+    return lines_.fail_at_end("a line DATA");
   }
 
  private:
@@ -57,13 +56,13 @@ class PcdHeaderReader {
     if (keyword == "HEIGHT") return take_count(words, height_);
     if (keyword == "POINTS") return take_count(words, points_);
     if (keyword == "DATA") return take_data(words.next());
-    return fail("expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found " +
-                in_quotes(keyword));
+    return lines_.fail("expected FIELDS, SIZE, TYPE, COUNT, WIDTH, HEIGHT, POINTS or DATA, found " +
+                       in_quotes(keyword));
   }
 
   Result<void> take_fields(Words& words) {
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) fields_.push_back({word});
-    return fields_.empty() ? fail("expected the names of the fields, found none") : Result<void>{};
+    return fields_.empty() ? lines_.fail("expected the names of the fields, found none") : Result<void>{};
   }
 
   template <typename Set>
@@ -72,8 +71,8 @@ class PcdHeaderReader {
       const std::string_view word = words.next();
       const auto number = parse_integer(word);
       if (!number || !set(field, *number))
-        return fail("expected a size of 1, 2, 4 or 8 or a count for field " + printable(field.name) +
-                    ", found " + in_quotes(word));
+        return lines_.fail("expected a size of 1, 2, 4 or 8 or a count for field " + printable(field.name) +
+                           ", found " + in_quotes(word));
     }
     return {};
   }
@@ -82,8 +81,8 @@ class PcdHeaderReader {
     for (Field& field : fields_) {
       const std::string_view word = words.next();
       if (word != "F" && word != "I" && word != "U")
-        return fail("expected type F, I or U for field " + printable(field.name) + ", found " +
-                    in_quotes(word));
+        return lines_.fail("expected type F, I or U for field " + printable(field.name) + ", found " +
+                           in_quotes(word));
       field.type = word[0];
     }
     return {};
@@ -93,7 +92,7 @@ class PcdHeaderReader {
     const std::string_view word = words.next();
     const auto number = parse_integer(word);
     if (!number || *number < 0 || *number >= std::int64_t{no_index})
-      return fail("expected a number of points, found " + in_quotes(word));
+      return lines_.fail("expected a number of points, found " + in_quotes(word));
     to = *number;
     return {};
   }
@@ -102,7 +101,7 @@ class PcdHeaderReader {
     constexpr std::array<std::string_view, 3> names = {"ascii", "binary", "binary_compressed"};
     const auto found = std::ranges::find(names, word);
     if (found == names.end())
-      return fail("expected ascii, binary or binary_compressed, found " + in_quotes(word));
+      return lines_.fail("expected ascii, binary or binary_compressed, found " + in_quotes(word));
     header_.data = static_cast<PcdData>(found - names.begin());
     return {};
   }
@@ -111,10 +110,10 @@ class PcdHeaderReader {
     const bool fits = height_ == 0 || width_ <= std::int64_t{no_index} / height_;  // their product would, too
     if (points_ < 0 && fits) points_ = width_ * height_;
     if (points_ < 0 || points_ >= std::int64_t{no_index})
-      return fail(cat("expected the number of points before DATA, up to 4294967294, found ",
-                      points_ >= 0  ? std::to_string(points_)
-                      : width_ >= 0 ? cat("WIDTH ", width_, " and HEIGHT ", height_)
-                                    : "none"));
+      return lines_.fail(cat("expected the number of points before DATA, up to 4294967294, found ",
+                             points_ >= 0  ? std::to_string(points_)
+                             : width_ >= 0 ? cat("WIDTH ", width_, " and HEIGHT ", height_)
+                                           : "none"));
     Records& records = header_.records;
     records.count = static_cast<std::uint64_t>(points_);
     records.offset = lines_.offset();
@@ -127,8 +126,8 @@ class PcdHeaderReader {
     }
     const std::size_t widest = 1 << 20;
     if (records.stride > widest)
-      return fail("expected at most 1048576 bytes per point, found " + std::to_string(records.stride));
-    if (const auto placed = place_columns(); !placed) return std::unexpected(placed.error());
+      return lines_.fail(cat("expected at most 1048576 bytes per point, found ", records.stride));
+    RELIEVO_CHECK(place_columns());
     return std::move(header_);
   }
 
@@ -176,7 +175,7 @@ class PcdHeaderReader {
   Result<void> place_columns() {
     Records& records = header_.records;
     if (!place({"x", "y", "z"}, records.position, header_.position_columns))
-      return fail("expected fields x, y and z of a numeric type, found " + names());
+      return lines_.fail("expected fields x, y and z of a numeric type, found " + names());
     std::array<RecordColumn, 3> columns;
     std::array<std::size_t, 3> ascii;
     if (place({"normal_x", "normal_y", "normal_z"}, columns, ascii) ||
@@ -194,19 +193,14 @@ class PcdHeaderReader {
     return {};
   }
 
-  std::unexpected<Error> fail(std::string expected) const {
-    return source_.error_in_line(lines_.number(), std::move(expected));
-  }
-
-  const Source& source_;
-  Lines lines_;
+  SourceLines lines_;
   std::vector<Field> fields_;
   std::int64_t width_ = -1, height_ = 1, points_ = -1;
   PcdHeader header_;
 };
 
 Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
-  Lines lines(source.bytes, header.records.offset, header.lines);
+  SourceLines lines(source, header.records.offset, header.lines);
   Cloud cloud;
   std::vector<double> values(header.columns);
   std::string spaced;  // a line without the commas that some programs put between its numbers
@@ -215,10 +209,7 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
   };
   while (cloud.size() < header.records.count) {
     const auto line = lines.next();
-    if (!line)
-      return source.error_in_line(lines.number() + 1, "expected " + std::to_string(header.records.count) +
-                                                          " points, found the end of the file after " +
-                                                          std::to_string(cloud.size()));
+    if (!line) return lines.fail_at_end(cat(header.records.count, " points"), cat(" after ", cloud.size()));
     if (trim(*line).empty()) continue;
     if (line->contains(',')) {
       spaced = *line;
@@ -228,9 +219,7 @@ Result<Cloud> read_ascii(const Source& source, const PcdHeader& header) {
     for (double& value : values) {
       const std::string_view word = words.next();
       const auto number = parse_number(word);
-      if (!number)
-        return source.error_in_line(lines.number(), "expected " + std::to_string(values.size()) +
-                                                        " numbers, found " + in_quotes(word));
+      if (!number) return lines.fail(cat("expected ", values.size(), " numbers, found ", in_quotes(word)));
       value = *number;
     }
     cloud.points.push_back(vector(header.position_columns));
@@ -265,14 +254,12 @@ Result<Cloud> read_compressed(const Source& source, const PcdHeader& header) {
   const std::size_t packed = little<std::uint32_t>(data.data()),
                     size = little<std::uint32_t>(data.data() + 4);
   if (packed > data.size() - 8)
-    return source.error_at_byte(
-        records.offset,
-        "expected " + std::to_string(packed) + " compressed bytes, found " + std::to_string(data.size() - 8));
+    return source.error_at_byte(records.offset,
+                                cat("expected ", packed, " compressed bytes, found ", data.size() - 8));
   const std::size_t most_growth = 264;  // no compressed byte can stand for more
   if (size != records.count * records.stride || size / most_growth > packed)
-    return source.error_at_byte(records.offset + 4, "expected " +
-                                                        std::to_string(records.count * records.stride) +
-                                                        " bytes of points, found " + std::to_string(size));
+    return source.error_at_byte(records.offset + 4, cat("expected ", records.count * records.stride,
+                                                        " bytes of points, found ", size));
   std::vector<char> fields(size), rows(size);
   if (!unpack_lzf(data.substr(8, packed), fields))
     return source.error_at_byte(records.offset + 8, cat("expected LZF-compressed points of ", size,
@@ -290,9 +277,8 @@ Result<Cloud> read_binary(const Source& source, const PcdHeader& header) {
   const Records& records = header.records;
   const std::size_t room = (source.bytes.size() - records.offset) / records.stride;
   if (records.count > room)
-    return source.error_at_byte(records.offset, "expected " + std::to_string(records.count) + " points of " +
-                                                    std::to_string(records.stride) +
-                                                    " bytes, found room for " + std::to_string(room));
+    return source.error_at_byte(records.offset, cat("expected ", records.count, " points of ", records.stride,
+                                                    " bytes, found room for ", room));
   return decode_all(records, source.bytes.data() + records.offset);
 }
 
@@ -309,22 +295,19 @@ Result<PcdHeader> read_pcd_header(const Source& source) {
 }
 
 Result<StreamRecords> find_pcd_rows(const Source& head) {
-  const auto header = read_pcd_header(head);
-  if (!header) return std::unexpected(header.error());
-  if (header->data != PcdData::binary)
+  RELIEVO_TRY(const auto header, read_pcd_header(head));
+  if (header.data != PcdData::binary)
     return head.error({}, "expected binary points, to be read piece by piece");
-  return StreamRecords{header->records, "PCD binary"};
+  return StreamRecords{header.records, "PCD binary"};
 }
 
 Result<RawCloud> read_pcd(const Source& source) {
-  const auto header = read_pcd_header(source);
-  if (!header) return std::unexpected(header.error());
+  RELIEVO_TRY(const auto header, read_pcd_header(source));
   constexpr std::array readers = {read_ascii, read_binary, read_compressed};
   constexpr std::array<std::string_view, 3> names = {"PCD ascii", "PCD binary", "PCD binary compressed"};
-  const auto kind = static_cast<std::size_t>(header->data);
-  auto cloud = readers[kind](source, *header);
-  if (!cloud) return std::unexpected(std::move(cloud.error()));
-  return RawCloud{std::move(*cloud), std::string(names[kind])};
+  const auto kind = static_cast<std::size_t>(header.data);
+  RELIEVO_TRY(auto cloud, readers[kind](source, header));
+  return RawCloud{std::move(cloud), std::string(names[kind])};
 }
 
 }  // namespace relievo::io

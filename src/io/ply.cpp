@@ -124,51 +124,42 @@ std::optional<FaceList> find_face_list(const PlyElement& element) {
 }
 
 Result<RawCloud> read_ply(const Source& source) {
-  const auto header = read_ply_header(source);
-  if (!header) return std::unexpected(header.error());
-  const auto& elements = header->elements;
-  const auto found = find_vertex(source, *header);
-  if (!found) return std::unexpected(found.error());
-  const auto vertex = *found;
-  if (vertex->count >= no_index) {
-    return source.error_in_line(
-        vertex->line, "expected fewer than 4294967295 vertices, found " + std::to_string(vertex->count));
-  }
-  const auto columns = find_columns(source, *vertex);
-  if (!columns) return std::unexpected(columns.error());
-  const PlyBody body{source,  *header, {elements.begin(), vertex}, *vertex, {vertex + 1, elements.end()},
-                     *columns};
-  auto content = header->format == PlyFormat::ascii ? read_ascii_body(body) : read_binary_body(body);
-  if (!content) return std::unexpected(std::move(content.error()));
-  Mesh mesh = mesh_over(content->cloud, std::move(content->triangles));
-  return RawCloud{std::move(content->cloud), to_string(header->format), std::move(mesh)};
+  RELIEVO_TRY(const auto header, read_ply_header(source));
+  const auto& elements = header.elements;
+  RELIEVO_TRY(const auto vertex, find_vertex(source, header));
+  if (vertex->count >= no_index)
+    return source.error_in_line(vertex->line,
+                                cat("expected fewer than 4294967295 vertices, found ", vertex->count));
+  RELIEVO_TRY(const auto columns, find_columns(source, *vertex));
+  const PlyBody body{source, header, {elements.begin(), vertex}, *vertex, {vertex + 1, elements.end()},
+                     columns};
+  RELIEVO_TRY(auto content,
+              header.format == PlyFormat::ascii ? read_ascii_body(body) : read_binary_body(body));
+  Mesh mesh = mesh_over(content.cloud, std::move(content.triangles));
+  return RawCloud{std::move(content.cloud), to_string(header.format), std::move(mesh)};
 }
 
 Result<StreamRecords> find_ply_rows(const Source& head) {
-  const auto header = read_ply_header(head);
-  if (!header) return std::unexpected(header.error());
-  const auto& elements = header->elements;
-  const auto found = find_vertex(head, *header);
-  if (!found) return std::unexpected(found.error());
-  const auto vertex = *found;
-  if (header->format == PlyFormat::ascii || std::any_of(elements.begin(), vertex + 1, has_lists))
+  RELIEVO_TRY(const auto header, read_ply_header(head));
+  const auto& elements = header.elements;
+  RELIEVO_TRY(const auto vertex, find_vertex(head, header));
+  if (header.format == PlyFormat::ascii || std::any_of(elements.begin(), vertex + 1, has_lists))
     return head.error_in_line(vertex->line,
                               "expected binary vertices without lists, to be read piece by piece");
-  const auto columns = find_columns(head, *vertex);
-  if (!columns) return std::unexpected(columns.error());
-  Records records = vertex_records(*header, *vertex, *columns);
-  records.offset = header->data_offset;
+  RELIEVO_TRY(const auto columns, find_columns(head, *vertex));
+  Records records = vertex_records(header, *vertex, columns);
+  records.offset = header.data_offset;
   for (auto element = elements.begin(); element != vertex; ++element) {
     const std::uint64_t size = least_row_size(*element);
     if (size > 0 && element->count > (std::uint64_t{1} << 60) / size)
-      return head.error_in_line(element->line, "expected a number of rows that fits the file, found " +
-                                                   std::to_string(element->count));
+      return head.error_in_line(element->line,
+                                cat("expected a number of rows that fits the file, found ", element->count));
     records.offset += size * element->count;
   }
   std::uint64_t faces = 0;
   for (const PlyElement& element : elements)
     if (find_face_list(element)) faces += element.count;
-  return StreamRecords{records, to_string(header->format), faces};
+  return StreamRecords{records, to_string(header.format), faces};
 }
 
 }  // namespace relievo::io

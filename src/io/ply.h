@@ -5,10 +5,13 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "io/faces.h"
 #include "io/ply_header.h"
 #include "io/records.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 
@@ -59,5 +62,38 @@ struct FaceList {
 };
 // Returns that property; nothing if the element has none.
 std::optional<FaceList> find_face_list(const PlyElement& element);
+
+template <typename Rows>
+Result<void> read_faces(const PlyElement& element, const FaceList& list, Rows& rows, PlyContent& content) {
+  RELIEVO_CHECK(rows.begin(element));
+  std::vector<std::int64_t> corners;
+  for (std::uint64_t row = 0; row < element.count; ++row) {
+    corners.clear();
+    RELIEVO_CHECK(rows.read_face(element, list, corners));
+    if (!add_face(corners, list.kind, content.cloud.points, content.triangles))
+      return rows.fail(cat(expected_corners(corners, content.cloud.points), " in row ", row, " of element ",
+                           printable(element.name)));
+  }
+  return {};
+}
+
+// Reads a body by its rows, ascii or binary. Faces before the vertices are read after them.
+template <typename Rows>
+Result<PlyContent> read_elements(const PlyBody& body, Rows rows) {
+  std::vector<std::pair<const PlyElement*, Rows>> early_faces;
+  for (const PlyElement& element : body.before) {
+    if (find_face_list(element)) early_faces.emplace_back(&element, rows);
+    RELIEVO_CHECK(rows.skip(element));
+  }
+  PlyContent content;
+  RELIEVO_CHECK(read_vertices(body, rows, content.cloud));
+  for (auto& [element, at] : early_faces)
+    RELIEVO_CHECK(read_faces(*element, *find_face_list(*element), at, content));
+  for (const PlyElement& element : body.after) {
+    const auto list = find_face_list(element);
+    RELIEVO_CHECK(list ? read_faces(element, *list, rows, content) : rows.skip(element));
+  }
+  return content;
+}
 
 }  // namespace relievo::io

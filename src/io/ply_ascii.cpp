@@ -1,9 +1,6 @@
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "io/ply.h"
-#include "io/text.h"
 
 namespace relievo::io {
 namespace {
@@ -12,7 +9,7 @@ namespace {
 class AsciiRows {
  public:
   AsciiRows(const Source& source, const PlyHeader& header)
-      : source_(source), lines_(source.bytes, header.data_offset, header.lines) {}
+      : lines_(source, header.data_offset, header.lines) {}
 
   // Calls use(property number, word) for each single value of the next row and use_item(property number,
   // word) for each value of its lists; they return false to refuse a word.
@@ -24,7 +21,7 @@ class AsciiRows {
       if (word.empty()) return fail_at_end(element);
       if (property.is_list()) {
         const auto use_word = [&](std::string_view item) { return use_item(i, item); };
-        if (const auto read = read_list(element, property, word, use_word); !read) return read;
+        RELIEVO_CHECK(read_list(element, property, word, use_word));
       } else if (!use(i, word)) {
         return fail("expected a number for " + printable(property.name) + ", found " + in_quotes(word));
       }
@@ -43,19 +40,31 @@ class AsciiRows {
     if (element.properties.empty()) return {};
     for (std::uint64_t row = 0; row < element.count; ++row) {
       const auto ignore = [](auto...) { return true; };
-      if (const auto read = read_row(element, ignore, ignore); !read) return read;
+      RELIEVO_CHECK(read_row(element, ignore, ignore));
     }
     rows_ = 0;
     return {};
   }
 
   // Begins the rows of the next element.
-  void begin_element() { rows_ = 0; }
+  Result<void> begin(const PlyElement&) {
+    rows_ = 0;
+    return {};
+  }
+
+  // Appends the corners of the face in the next row.
+  Result<void> read_face(const PlyElement& element, const FaceList& list,
+                         std::vector<std::int64_t>& corners) {
+    const auto ignore = [](auto...) { return true; };
+    return read_row(element, ignore, [&](std::size_t property, std::string_view word) {
+      const auto corner = parse_integer(word);
+      if (property == list.property && corner) corners.push_back(*corner);
+      return property != list.property || corner.has_value();
+    });
+  }
 
   // Returns an error at the line that was read last.
-  Result<void> fail(std::string expected) const {
-    return source_.error_in_line(lines_.number(), std::move(expected));
-  }
+  Result<void> fail(std::string expected) const { return lines_.fail(std::move(expected)); }
 
  private:
   // Returns the next word, on this line or a later one; empty at the end of the file.
@@ -86,8 +95,8 @@ class AsciiRows {
   }
 
   Result<void> fail_at_end(const PlyElement& element) const {
-    return fail("expected " + std::to_string(element.count) + " rows of element " + printable(element.name) +
-                ", found the end of the file after " + std::to_string(rows_));
+    return fail(cat("expected ", element.count, " rows of element ", printable(element.name),
+                    ", found the end of the file after ", rows_));
   }
 
   Result<void> fail_in_long_row(const PlyElement& element, std::string_view word) const {
@@ -99,8 +108,7 @@ class AsciiRows {
     return fail("expected whole numbers in the list " + printable(list.name) + ", found " + in_quotes(word));
   }
 
-  const Source& source_;
-  Lines lines_;
+  SourceLines lines_;
   Words words_;
   std::uint64_t rows_ = 0;  // the complete rows of the element being read
 };
@@ -111,7 +119,10 @@ bool can_hold(std::size_t bytes, const PlyElement& element) {
   return element.count <= (bytes + 1) / (2 * element.properties.size());
 }
 
+// If the header promises more vertices than the bytes can contain, an error follows: no memory is taken then.
 Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
+  const std::size_t left = body.source.bytes.size() - body.header.data_offset;
+  cloud = sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns);
   std::vector<std::size_t> column_of(body.vertex.properties.size(), VertexColumns::most);
   for (std::size_t c = 0; c < VertexColumns::most; ++c)
     if (body.columns.is_there[c]) column_of[body.columns.property[c]] = c;
@@ -137,50 +148,10 @@ Result<void> read_vertices(const PlyBody& body, AsciiRows& rows, Cloud& cloud) {
   return {};
 }
 
-Result<void> read_faces(const PlyElement& element, const FaceList& list, AsciiRows& rows,
-                        PlyContent& content) {
-  std::vector<std::int64_t> corners;
-  rows.begin_element();
-  const auto take = [&](std::size_t property, std::string_view word) {
-    const auto corner = parse_integer(word);
-    if (property == list.property && corner) corners.push_back(*corner);
-    return property != list.property || corner.has_value();
-  };
-  for (std::uint64_t row = 0; row < element.count; ++row) {
-    corners.clear();
-    if (const auto read = rows.read_row(
-            element, [](auto...) { return true; }, take);
-        !read)
-      return read;
-    if (!add_face(corners, list.kind, content.cloud.points, content.triangles))
-      return rows.fail(expected_corners(corners, content.cloud.points) + " in row " + std::to_string(row) +
-                       " of element " + printable(element.name));
-  }
-  return {};
-}
-
 }  // namespace
 
 Result<PlyContent> read_ascii_body(const PlyBody& body) {
-  AsciiRows rows(body.source, body.header);
-  std::vector<std::pair<const PlyElement*, AsciiRows>> early_faces;
-  for (const PlyElement& element : body.before) {
-    if (find_face_list(element)) early_faces.emplace_back(&element, rows);
-    RELIEVO_CHECK(rows.skip(element));
-  }
-  const std::size_t left = body.source.bytes.size() - body.header.data_offset;
-  // If the header promises more vertices than the bytes can contain, an error follows below; this saves the
-  // memory.
-  PlyContent content{sized_cloud(can_hold(left, body.vertex) ? body.vertex.count : 0, body.columns), {}};
-  RELIEVO_CHECK(read_vertices(body, rows, content.cloud));
-  for (auto& [element, at] : early_faces)
-    RELIEVO_CHECK(read_faces(*element, *find_face_list(*element), at, content));
-  for (const PlyElement& element : body.after) {
-    const auto list = find_face_list(element);
-    const auto read = list ? read_faces(element, *list, rows, content) : rows.skip(element);
-    if (!read) return std::unexpected(read.error());
-  }
-  return content;
+  return read_elements(body, AsciiRows(body.source, body.header));
 }
 
 }  // namespace relievo::io

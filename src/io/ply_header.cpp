@@ -9,43 +9,24 @@
 namespace relievo::io {
 namespace {
 
-using enum NumberType;
+// The names of each type in the order of NumberType, in twos.
+constexpr std::array<std::string_view, 16> type_names = {
+    "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
+    "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
+constexpr std::array<std::string_view, 3> format_names = {"ascii", "binary_little_endian",
+                                                          "binary_big_endian"};
 
-constexpr std::array<std::pair<std::string_view, NumberType>, 17> type_names = {{{"char", int8},
-                                                                                 {"int8", int8},
-                                                                                 {"uchar", uint8},
-                                                                                 {"uint8", uint8},
-                                                                                 {"short", int16},
-                                                                                 {"int16", int16},
-                                                                                 {"ushort", uint16},
-                                                                                 {"uint16", uint16},
-                                                                                 {"int", int32},
-                                                                                 {"int32", int32},
-                                                                                 {"uint", uint32},
-                                                                                 {"uint32", uint32},
-                                                                                 {"float", float32},
-                                                                                 {"float32", float32},
-                                                                                 {"double", float64},
-                                                                                 {"float64", float64},
-                                                                                 {"bool", uint8}}};
-
-constexpr std::array<std::pair<std::string_view, PlyFormat>, 3> format_names = {
-    {{"ascii", PlyFormat::ascii},
-     {"binary_little_endian", PlyFormat::little_endian},
-     {"binary_big_endian", PlyFormat::big_endian}}};
-
-template <typename Table>
-auto find_by_name(const Table& table, std::string_view name) {
-  const auto found =
-      std::find_if(table.begin(), table.end(), [&](const auto& entry) { return entry.first == name; });
-  return found == table.end() ? std::nullopt : std::optional(found->second);
+std::optional<NumberType> type_named(std::string_view name) {
+  if (name == "bool") return NumberType::uint8;
+  const auto found = std::ranges::find(type_names, name) - type_names.begin();
+  if (found == std::ssize(type_names)) return std::nullopt;
+  return static_cast<NumberType>(found / 2);
 }
 
 // One pass over the lines; each step gets the words after the line's keyword.
 class PlyHeaderReader {
  public:
-  explicit PlyHeaderReader(const Source& source)
-      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+  explicit PlyHeaderReader(const Source& source) : lines_(source) {}
 
   Result<PlyHeader> read() {
     lines_.next();  // "ply", which the caller has seen
@@ -53,9 +34,9 @@ class PlyHeaderReader {
       Words words(*line);
       const std::string_view keyword = words.next();
       if (keyword == "end_header") return finish();
-      if (const auto taken = take(keyword, words); !taken) return std::unexpected(taken.error());
+      RELIEVO_CHECK(take(keyword, words));
     }
-    return source_.error_in_line(lines_.number() + 1, "expected end_header, found the end of the file");
+    return lines_.fail_at_end("end_header");
   }
 
  private:
@@ -66,71 +47,68 @@ class PlyHeaderReader {
     if (keyword == "property") return take_property(words);
     // Old versions of Blender wrote their comment without the word.
     if (header_.elements.empty()) return {};
-    return fail("expected format, element, property, comment, obj_info or end_header, found " +
-                in_quotes(keyword));
+    return lines_.fail("expected format, element, property, comment, obj_info or end_header, found " +
+                       in_quotes(keyword));
   }
 
   Result<void> take_format(Words& words) {
     const std::string_view name = words.next();
-    const auto format = find_by_name(format_names, name);
-    if (!format)
-      return fail("expected ascii, binary_little_endian or binary_big_endian, found " + in_quotes(name));
+    const auto format = std::ranges::find(format_names, name);
+    if (format == format_names.end())
+      return lines_.fail("expected ascii, binary_little_endian or binary_big_endian, found " +
+                         in_quotes(name));
     const std::string_view version = words.next();
-    if (version != "1.0") return fail("expected version 1.0 of PLY, found " + in_quotes(version));
-    if (std::exchange(has_format_, true)) return fail("expected one format line, found a second");
-    header_.format = *format;
+    if (version != "1.0") return lines_.fail("expected version 1.0 of PLY, found " + in_quotes(version));
+    if (std::exchange(has_format_, true)) return lines_.fail("expected one format line, found a second");
+    header_.format = static_cast<PlyFormat>(format - format_names.begin());
     return {};
   }
 
   Result<void> take_element(Words& words) {
     const std::string_view name = words.next();
-    if (name.empty()) return fail("expected 'element <name> <count>', found no name");
+    if (name.empty()) return lines_.fail("expected 'element <name> <count>', found no name");
     const std::string_view word = words.next();
     const auto count = parse_integer(word);
-    if (!count || *count < 0) return fail("expected the number of elements, found " + in_quotes(word));
+    if (!count || *count < 0) return lines_.fail("expected the number of elements, found " + in_quotes(word));
     header_.elements.push_back({name, static_cast<std::uint64_t>(*count), {}, lines_.number()});
     return {};
   }
 
   Result<void> take_property(Words& words) {
-    if (header_.elements.empty()) return fail("expected an element before its first property, found none");
+    if (header_.elements.empty())
+      return lines_.fail("expected an element before its first property, found none");
     std::string_view word = words.next();
     std::optional<NumberType> count_type;
     if (word == "list") {
       word = words.next();
-      count_type = find_by_name(type_names, word);
-      if (!count_type || *count_type >= float32) {
-        return fail("expected an integer type for the length of the list, found " + in_quotes(word));
+      count_type = type_named(word);
+      if (!count_type || *count_type >= NumberType::float32) {
+        return lines_.fail("expected an integer type for the length of the list, found " + in_quotes(word));
       }
       word = words.next();
     }
-    const auto type = find_by_name(type_names, word);
-    if (!type) return fail("expected a type such as float, uchar or int32, found " + in_quotes(word));
+    const auto type = type_named(word);
+    if (!type) return lines_.fail("expected a type such as float, uchar or int32, found " + in_quotes(word));
     const std::string_view name = words.next();
-    if (name.empty()) return fail("expected the name of the property, found the end of the line");
+    if (name.empty()) return lines_.fail("expected the name of the property, found the end of the line");
     header_.elements.back().properties.push_back({name, *type, count_type});
     return {};
   }
 
   Result<PlyHeader> finish() {
-    if (!has_format_) return fail("expected a line 'format ...' before end_header, found none");
+    if (!has_format_) return lines_.fail("expected a line 'format ...' before end_header, found none");
     header_.lines = lines_.number();
     header_.data_offset = lines_.offset();
     // Where CR alone ends the lines, an LF after it is the first byte of the data.
-    const std::size_t first_end = source_.bytes.find_first_of("\r\n");
-    const bool ends_with_cr_alone =
-        source_.bytes.substr(first_end, 2) != "\r\n" && source_.bytes[first_end] == '\r';
-    const bool has_skipped_lf = source_.bytes.substr(header_.data_offset - 2, 2) == "\r\n";
+    const std::string_view bytes = lines_.source().bytes;
+    const std::size_t first_end = bytes.find_first_of("\r\n");
+    const bool ends_with_cr_alone = bytes.substr(first_end, 2) != "\r\n" && bytes[first_end] == '\r';
+    const bool has_skipped_lf = bytes.substr(header_.data_offset - 2, 2) == "\r\n";
     if (ends_with_cr_alone && has_skipped_lf) --header_.data_offset;
     return std::move(header_);
   }
 
-  std::unexpected<Error> fail(std::string expected) const {
-    return source_.error_in_line(lines_.number(), std::move(expected));
-  }
-
-  const Source& source_;
-  Lines lines_;
+  SourceLines lines_;
   PlyHeader header_;
   bool has_format_ = false;
 };

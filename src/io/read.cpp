@@ -1,4 +1,5 @@
 #include "relievo/io/read.h"
+#include "core/keep_where.h"
 #include "io/formats.h"
 #include "io/text.h"
 #include "relievo/core/parallel.h"
@@ -26,22 +27,6 @@ std::size_t count_points(std::size_t n, const IsBad& is_bad) {
     return bad;
   };
   return parallel_reduce(n, std::size_t{0}, count, std::plus<>());
-}
-
-// Removes the bad points and keeps the order of the others.
-template <typename IsBad>
-void remove_points(Cloud& cloud, const IsBad& is_bad) {
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < cloud.size(); ++i) {
-    if (is_bad(i)) continue;
-    cloud.points[kept] = cloud.points[i];
-    if (cloud.has_normals()) cloud.normals[kept] = cloud.normals[i];
-    if (cloud.has_colours()) cloud.colours[kept] = cloud.colours[i];
-    ++kept;
-  }
-  cloud.points.resize(kept);
-  if (cloud.has_normals()) cloud.normals.resize(kept);
-  if (cloud.has_colours()) cloud.colours.resize(kept);
 }
 
 // Depth cameras write 0, 0, 0 where they have not measured anything. Fewer such points may be a corner of the model.
@@ -74,7 +59,12 @@ void drop_unusable(CloudFile& file) {
   const std::size_t no_places = file.dropped_points + file.unmeasured_points;
   if (file.dropped_normals > (cloud.size() - no_places) / 2) cloud.normals.clear();
   if (no_places + file.dropped_normals == 0) return;
-  remove_points(cloud, [&](std::size_t i) { return !is_place(i) || !has_normal(i); });
+  std::vector<std::uint8_t> is_usable(cloud.size());
+  parallel_for(is_usable.size(), [&](std::size_t i) { is_usable[i] = is_place(i) && has_normal(i); });
+  const auto is_kept = [&](std::size_t i) { return is_usable[i] != 0; };
+  keep_where(cloud.points, is_kept);
+  keep_where(cloud.normals, is_kept);
+  keep_where(cloud.colours, is_kept);
 }
 
 }  // namespace
@@ -83,12 +73,11 @@ Result<CloudFile> read_cloud(std::span<const std::byte> bytes, std::string_view 
                              const FilesBeside& beside) {
   const io::Source source{
       {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, name, beside ? &beside : nullptr};
-  auto raw = read_by_format(source);
-  if (!raw) return std::unexpected(std::move(raw.error()));
-  CloudFile file{.cloud = std::move(raw->cloud),
-                 .format = std::move(raw->format),
-                 .missing_points = raw->missing_points,
-                 .mesh = std::move(raw->mesh)};
+  RELIEVO_TRY(auto raw, read_by_format(source));
+  CloudFile file{.cloud = std::move(raw.cloud),
+                 .format = std::move(raw.format),
+                 .missing_points = raw.missing_points,
+                 .mesh = std::move(raw.mesh)};
   const std::size_t points = file.cloud.size();
   drop_unusable(file);
   if (file.cloud.points.empty()) {

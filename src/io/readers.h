@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "io/text.h"
 #include "relievo/io/read.h"
 #include "relievo/scan/normals.h"
 
@@ -25,6 +26,31 @@ struct Source {
   std::unexpected<Error> error_at_byte(std::size_t byte, std::string expected) const {
     return error("byte " + std::to_string(byte), std::move(expected));
   }
+};
+
+// The lines of a text file, and errors that name them.
+class SourceLines : public Lines {
+ public:
+  // Begins with the file's first line, or behind its header.
+  explicit SourceLines(const Source& source)
+      : Lines(source.bytes, byte_order_mark_size(source.bytes)), source_(source) {}
+  SourceLines(const Source& source, std::size_t offset, std::size_t lines_before)
+      : Lines(source.bytes, offset, lines_before), source_(source) {}
+
+  const Source& source() const { return source_; }
+
+  // Returns an error in the line last returned.
+  std::unexpected<Error> fail(std::string expected) const {
+    return source_.error_in_line(number(), std::move(expected));
+  }
+  // Returns an error behind the last line, in which the file was to go on with something.
+  std::unexpected<Error> fail_at_end(const std::string& expected, const std::string& after = {}) const {
+    return source_.error_in_line(number() + 1,
+                                 "expected " + expected + ", found the end of the file" + after);
+  }
+
+ private:
+  const Source& source_;
 };
 
 // The content of a file before unusable points are removed.

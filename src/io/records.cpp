@@ -23,10 +23,6 @@ void decode_columns(const Records& records, const std::array<RecordColumn, 3>& c
   }
 }
 
-std::uint8_t as_byte(double value) {
-  return value > 0 ? static_cast<std::uint8_t>(std::min(255.0, std::round(value))) : std::uint8_t{0};
-}
-
 void decode_block(const Records& records, const char* first, std::size_t rows, Cloud& cloud,
                   std::size_t begin) {
   Values v;

@@ -68,12 +68,12 @@ class Corners {
 Result<RawCloud> read_binary(const Source& source) {
   if (source.bytes.size() < header_size)
     return source.error_at_byte(
-        0, "expected the 84 bytes of a binary STL header, found " + std::to_string(source.bytes.size()));
+        0, cat("expected the 84 bytes of a binary STL header, found ", source.bytes.size()));
   const std::uint64_t promised = little<std::uint32_t>(source.bytes.data() + 80);
   const std::size_t room = (source.bytes.size() - header_size) / triangle_size;
   if (promised > room)
-    return source.error_at_byte(80, "expected the number of triangles, found " + std::to_string(promised) +
-                                        ", and there is room for " + std::to_string(room));
+    return source.error_at_byte(
+        80, cat("expected the number of triangles, found ", promised, ", and there is room for ", room));
   if (promised == 0) return source.error_at_byte(80, "expected at least one triangle, found 0");
   Corners corners(promised);
   const char* first = source.bytes.data() + header_size + 12;
@@ -86,8 +86,7 @@ Result<RawCloud> read_binary(const Source& source) {
 
 class AsciiReader {
  public:
-  explicit AsciiReader(const Source& source)
-      : source_(source), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+  explicit AsciiReader(const Source& source) : lines_(source) {}
 
   Result<RawCloud> read() {
     while (const auto line = lines_.next()) {
@@ -95,11 +94,9 @@ class AsciiReader {
       for (auto keyword = words.next(); !keyword.empty(); keyword = words.next())
         RELIEVO_CHECK(take(keyword, words));
     }
-    if (!has_end_ || corners_.count() % 3 != 0)
-      return source_.error_in_line(lines_.number() + 1, "expected endsolid, found the end of the file");
+    if (!has_end_ || corners_.count() % 3 != 0) return lines_.fail_at_end("endsolid");
     if (corners_.count() == 0)
-      return source_.error_in_line(lines_.number(),
-                                   "expected at least one facet with three vertices, found none");
+      return lines_.fail("expected at least one facet with three vertices, found none");
     return corners_.take("STL ascii");
   }
 
@@ -130,7 +127,7 @@ class AsciiReader {
     for (double& value : corner) {
       const std::string_view word = words.next();
       const auto number = parse_number(word);
-      if (!number) return fail("expected 3 numbers after vertex, found " + in_quotes(word));
+      if (!number) return lines_.fail("expected 3 numbers after vertex, found " + in_quotes(word));
       value = *number;
     }
     corners_.add(1, [&](std::size_t) { return corner; });
@@ -139,15 +136,10 @@ class AsciiReader {
 
   Result<void> end_facet() const {
     if (corners_.count() % 3 == 0) return {};
-    return fail(cat("expected 3 vertices in the facet, found ", corners_.count() % 3));
+    return lines_.fail(cat("expected 3 vertices in the facet, found ", corners_.count() % 3));
   }
 
-  Result<void> fail(std::string expected) const {
-    return source_.error_in_line(lines_.number(), std::move(expected));
-  }
-
-  const Source& source_;
-  Lines lines_;
+  SourceLines lines_;
   Corners corners_{0};
   bool has_end_ = false;
 };

@@ -45,9 +45,9 @@ class Rows {
     Cloud piece;
     for (std::uint64_t row = 0; row < records_.count; row += most) {
       const double done = static_cast<double>(row) / static_cast<double>(records_.count);
-      if (auto go = begin_stage(progress, stage, from + done * (to - from)); !go) return go;
+      RELIEVO_CHECK(begin_stage(progress, stage, from + done * (to - from)));
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(most, records_.count - row));
-      if (const auto got = read(row, count, piece); !got) return got;
+      RELIEVO_CHECK(read(row, count, piece));
       f(piece);
     }
     return {};
@@ -70,7 +70,7 @@ Result<Cloud> take_sample(Rows& rows) {
     const std::uint64_t first = count / runs * i;
     const auto length =
         static_cast<std::size_t>(std::min<std::uint64_t>(runs == 1 ? count : sample_run, count - first));
-    if (const auto got = rows.read(first, length, run); !got) return std::unexpected(got.error());
+    RELIEVO_CHECK(rows.read(first, length, run));
     for (std::size_t k = 0; k < run.size(); ++k) {
       if (!run.points[k].allFinite() || (run.has_normals() && run.normals[k].isZero(0))) continue;
       sample.points.push_back(run.points[k]);
@@ -248,7 +248,7 @@ Result<io::StreamRecords> find_rows(const io::Source& head) {
 
 Result<io::StreamRecords> open_records(ByteSource& source, std::string_view name) {
   std::vector<std::byte> head(std::min<std::uint64_t>(head_size, source.size()));
-  if (const auto got = source.read(0, head); !got) return std::unexpected(got.error());
+  RELIEVO_CHECK(source.read(0, head));
   const io::Source beginning{{reinterpret_cast<const char*>(head.data()), head.size()}, name};
   auto found = find_rows(beginning);
   if (!found) return found;
@@ -274,31 +274,24 @@ Result<StreamedCloud> stream_front(ByteSource& source, std::string_view name, co
                                    Progress* progress) {
   if (!(points >= 1000 && points <= 1e7))
     return option_error("points", cat("expected a number from 1000 to 1e+07, found ", points));
-  const auto found = open_records(source, name);
-  if (!found) return std::unexpected(found.error());
-  Rows rows(source, found->records);
-  if (auto go = begin_stage(progress, "first look", 0); !go) return std::unexpected(go.error());
-  const Result<Cloud> sample = take_sample(rows);
-  if (!sample) return std::unexpected(sample.error());
-  if (sample->size() < 4)
+  RELIEVO_TRY(const auto found, open_records(source, name));
+  Rows rows(source, found.records);
+  RELIEVO_CHECK(begin_stage(progress, "first look", 0));
+  RELIEVO_TRY(const Cloud sample, take_sample(rows));
+  if (sample.size() < 4)
     return input_error(std::string(name), {}, "expected points, found none with finite coordinates");
-  const Scout scouted = scout(*sample);
-  ViewGrid front(view, scouted, found->records.normal.has_value(), found->records.colour.has_value());
+  const Scout scouted = scout(sample);
+  ViewGrid front(view, scouted, found.records.normal.has_value(), found.records.colour.has_value());
 
-  if (auto done = rows.each("extent", 0, .2, progress, [&](const Cloud& piece) { front.look(piece); }); !done)
-    return std::unexpected(done.error());
+  RELIEVO_CHECK(rows.each("extent", 0, .2, progress, [&](const Cloud& piece) { front.look(piece); }));
   if (front.points() == 0)
     return geometry_error("expected points that face the viewer, found none; try another view");
-  if (!front.lay_grid(*sample, points))
+  if (!front.lay_grid(sample, points))
     return geometry_error(
         cat("expected points that cover an area in the view, found an extent of ", front.extent()));
-  if (auto done = rows.each("front", .2, .4, progress, [&](const Cloud& piece) { front.raise(piece); });
-      !done)
-    return std::unexpected(done.error());
-  if (auto done = rows.each("means", .4, .6, progress, [&](const Cloud& piece) { front.gather(piece); });
-      !done)
-    return std::unexpected(done.error());
-  return StreamedCloud{front.means(), found->format, found->records.count, found->faces, found->missing_rows};
+  RELIEVO_CHECK(rows.each("front", .2, .4, progress, [&](const Cloud& piece) { front.raise(piece); }));
+  RELIEVO_CHECK(rows.each("means", .4, .6, progress, [&](const Cloud& piece) { front.gather(piece); }));
+  return StreamedCloud{front.means(), found.format, found.records.count, found.faces, found.missing_rows};
 }
 
 }  // namespace relievo

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/formats.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -27,9 +28,8 @@ std::vector<Colour> in_bytes(const std::vector<Vec3f>& values) {
 class XyzReader {
  public:
   XyzReader(const Source& source, const XyzLayout& layout)
-      : source_(source),
-        layout_(layout),
-        lines_(source.bytes, layout.data_offset, layout.first_line - 1),
+      : layout_(layout),
+        lines_(source, layout.data_offset, layout.first_line - 1),
         slots_(layout.columns, XyzLayout::most_wanted) {
     const auto take_slots = [&](std::size_t first) {
       for (std::size_t i = first; i < first + 3; ++i) slots_[layout.wanted[i]] = i;
@@ -43,15 +43,13 @@ class XyzReader {
     while (const auto raw = lines_.next()) {
       const std::string_view line = without_comment(*raw);
       if (line.empty()) continue;
-      if (cloud_.points.empty()) make_room(source_.bytes.size() / (line.size() + 1));
-      if (const auto taken = take(line); !taken) return std::unexpected(taken.error());
+      if (cloud_.points.empty()) make_room(lines_.source().bytes.size() / (line.size() + 1));
+      RELIEVO_CHECK(take(line));
     }
-    if (layout_.promised_points.value_or(0) > static_cast<std::int64_t>(cloud_.size())) {
-      return source_.error_in_line(
-          lines_.number() + 1, "expected " + std::to_string(*layout_.promised_points) + " points as line " +
-                                   std::to_string(layout_.promising_line) +
-                                   " says, found the end of the file after " + std::to_string(cloud_.size()));
-    }
+    if (layout_.promised_points.value_or(0) > static_cast<std::int64_t>(cloud_.size()))
+      return lines_.fail_at_end(
+          cat(*layout_.promised_points, " points as line ", layout_.promising_line, " says"),
+          cat(" after ", cloud_.size()));
     if (layout_.has_colours) cloud_.colours = in_bytes(colours_);
     return std::move(cloud_);
   }
@@ -72,27 +70,20 @@ class XyzReader {
       const auto value = parse_field(*field, layout_);
       const bool is_colour = slot >= XyzLayout::first_colour;  // a point without colour is black
       if (!value && !is_colour)
-        return fail("expected a number in column " + std::to_string(column + 1) + ", found " +
-                    in_quotes(*field));
+        return lines_.fail(cat("expected a number in column ", column + 1, ", found ", in_quotes(*field)));
       values_[slot] = value.value_or(0);
     }
-    if (column != layout_.columns) {
-      return fail("expected " + std::to_string(layout_.columns) + " columns as in line " +
-                  std::to_string(layout_.first_line) + ", found " + std::to_string(column));
-    }
+    if (column != layout_.columns)
+      return lines_.fail(
+          cat("expected ", layout_.columns, " columns as in line ", layout_.first_line, ", found ", column));
     cloud_.points.emplace_back(values_[0], values_[1], values_[2]);
     if (layout_.has_normals) cloud_.normals.push_back(unit_normal(Vec3(values_[3], values_[4], values_[5])));
     if (layout_.has_colours) colours_.push_back(Vec3(values_[6], values_[7], values_[8]).cast<float>());
     return {};
   }
 
-  Result<void> fail(std::string expected) const {
-    return source_.error_in_line(lines_.number(), std::move(expected));
-  }
-
-  const Source& source_;
   const XyzLayout& layout_;
-  Lines lines_;
+  SourceLines lines_;
   std::vector<std::size_t> slots_;  // where the value of each column goes; most_wanted if it is not read
   std::array<double, XyzLayout::most_wanted> values_ = {};
   Cloud cloud_;
@@ -115,11 +106,9 @@ bool is_text(const Source& source) {
 }
 
 Result<RawCloud> read_text(const Source& source) {
-  const auto layout = find_layout(source);
-  if (!layout) return std::unexpected(layout.error());
-  auto cloud = XyzReader(source, *layout).read();
-  if (!cloud) return std::unexpected(std::move(cloud.error()));
-  return RawCloud{std::move(*cloud), to_string(*layout)};
+  RELIEVO_TRY(const auto layout, find_layout(source));
+  RELIEVO_TRY(auto cloud, XyzReader(source, layout).read());
+  return RawCloud{std::move(cloud), to_string(layout)};
 }
 
 }  // namespace relievo::io

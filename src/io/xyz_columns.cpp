@@ -10,34 +10,21 @@ namespace {
 
 using Row = std::vector<double>;
 
-// Names of the coordinates in files of other programs, most usual first: those of a plane, and the height above it.
-constexpr std::array<std::array<std::string_view, 2>, 9> plane_names = {{{"x", "y"},
-                                                                         {"easting", "northing"},
-                                                                         {"east", "north"},
-                                                                         {"e", "n"},
-                                                                         {"point_x", "point_y"},
-                                                                         {"x_coord", "y_coord"},
-                                                                         {"coord_x", "coord_y"},
-                                                                         {"xcoord", "ycoord"},
-                                                                         {"rechtswert", "hochwert"}}};
-constexpr std::array<std::array<std::string_view, 1>, 12> height_names = {{{"z"},
-                                                                           {"elevation"},
-                                                                           {"height"},
-                                                                           {"altitude"},
-                                                                           {"elev"},
-                                                                           {"h"},
-                                                                           {"point_z"},
-                                                                           {"z_coord"},
-                                                                           {"coord_z"},
-                                                                           {"zcoord"},
-                                                                           {"h\xC3\xB6he"},
-                                                                           {"hoehe"}}};
+using Names = std::span<const std::string_view>;
 
-constexpr std::array<std::array<std::string_view, 3>, 1> normal_names = {{{"nx", "ny", "nz"}}};
+// Names of the coordinates in files of other programs, most usual first: those of a plane in twos, and the height above it.
+constexpr std::array<std::string_view, 18> plane_names = {
+    "x",       "y",       "easting", "northing", "east",    "north",  "e",      "n",          "point_x",
+    "point_y", "x_coord", "y_coord", "coord_x",  "coord_y", "xcoord", "ycoord", "rechtswert", "hochwert"};
+constexpr std::array<std::string_view, 12> height_names = {"z",       "elevation", "height",      "altitude",
+                                                           "elev",    "h",         "point_z",     "z_coord",
+                                                           "coord_z", "zcoord",    "h\xC3\xB6he", "hoehe"};
 
-// Names of red, green and blue in files of other programs.
-constexpr std::array<std::array<std::string_view, 3>, 3> colour_names = {
-    {{"r", "g", "b"}, {"red", "green", "blue"}, {"rf", "gf", "bf"}}};
+constexpr std::array<std::string_view, 3> normal_names = {"nx", "ny", "nz"};
+
+// Names of red, green and blue in files of other programs, in threes.
+constexpr std::array<std::string_view, 9> colour_names = {"r",    "g",  "b",  "red", "green",
+                                                          "blue", "rf", "gf", "bf"};
 
 // Classes of points in LAS go up to 31. Whole numbers that are no larger are rather these, or numbers of echoes.
 constexpr double largest_class = 31;
@@ -48,13 +35,13 @@ std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-// Sets the columns of the first names of which the file has all, beginning with number `first` of those wanted; returns
-// false if there are none.
-bool take_named(const ColumnNames& names, const auto& spellings, std::size_t first, XyzLayout& layout) {
-  return std::ranges::any_of(spellings, [&](const auto& wanted) {
-    for (std::size_t i = 0; i < wanted.size(); ++i) layout.wanted[first + i] = find_name(names, wanted[i]);
-    return std::ranges::all_of(wanted, [&](auto name) { return find_name(names, name) < names.size(); });
-  });
+// Sets as many columns as are given to those of the first names of which the file has all; returns false if there are none.
+bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t> columns) {
+  for (; !spellings.empty(); spellings = spellings.subspan(columns.size())) {
+    for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = find_name(names, spellings[i]);
+    if (std::ranges::all_of(columns, [&](std::size_t column) { return column < names.size(); })) return true;
+  }
+  return false;
 }
 
 // Returns the line around a byte, or the part of it within 1,000 bytes: without that limit, a file of one
@@ -122,8 +109,9 @@ bool find_triple(const std::vector<Row>& rows, IsTriple is_triple, std::span<con
 }  // namespace
 
 bool has_coordinates(const ColumnNames& names) {
-  XyzLayout layout;
-  return take_named(names, plane_names, 0, layout) && take_named(names, height_names, 2, layout);
+  std::array<std::size_t, 3> columns;
+  return take_named(names, plane_names, std::span(columns).first(2)) &&
+         take_named(names, height_names, std::span(columns).last(1));
 }
 
 bool has_degrees(const ColumnNames& names) {
@@ -132,10 +120,11 @@ bool has_degrees(const ColumnNames& names) {
 }
 
 void take_columns(const ColumnNames& names, XyzLayout& layout) {
-  take_named(names, plane_names, 0, layout);
-  take_named(names, height_names, 2, layout);
-  layout.has_normals = take_named(names, normal_names, XyzLayout::first_normal, layout);
-  layout.has_colours = take_named(names, colour_names, XyzLayout::first_colour, layout);
+  const std::span wanted(layout.wanted);
+  take_named(names, plane_names, wanted.first(2));
+  take_named(names, height_names, wanted.subspan(2, 1));
+  layout.has_normals = take_named(names, normal_names, wanted.subspan(XyzLayout::first_normal, 3));
+  layout.has_colours = take_named(names, colour_names, wanted.subspan(XyzLayout::first_colour, 3));
 }
 
 void find_columns(const Source& source, bool has_name, XyzLayout& layout) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "io/xyz.h"
+#include "relievo/core/text.h"
 
 namespace relievo::io {
 namespace {
@@ -146,8 +147,7 @@ bool begins_with_name(std::string_view line) {
 // Reads the lines before the first line of data.
 class Preamble {
  public:
-  Preamble(const Source& source, XyzLayout& layout)
-      : source_(source), layout_(layout), lines_(source.bytes, byte_order_mark_size(source.bytes)) {}
+  Preamble(const Source& source, XyzLayout& layout) : layout_(layout), lines_(source) {}
 
   // Returns the first line of data.
   Result<std::string_view> read() {
@@ -155,13 +155,11 @@ class Preamble {
     while (const auto raw = lines_.next()) {
       const std::string_view line = trim(*raw);
       if (is_comment(line)) commented_names_ = split_names(line);
-      const auto is_data = take(without_comment(line));
-      if (!is_data) return std::unexpected(is_data.error());
-      if (*is_data) return without_comment(line);
+      RELIEVO_TRY(const auto is_data, take(without_comment(line)));
+      if (is_data) return without_comment(line);
       layout_.data_offset = lines_.offset();
     }
-    return source_.error_in_line(lines_.number() + 1,
-                                 "expected a line of numbers, found the end of the file");
+    return lines_.fail_at_end("a line of numbers");
   }
 
   std::size_t line() const { return lines_.number(); }
@@ -172,11 +170,9 @@ class Preamble {
     if (names_.empty() && commented_names_.size() == layout_.columns && has_coordinates(commented_names_)) {
       names_ = commented_names_;
     }
-    if (!names_.empty() && names_.size() != layout_.columns) {
-      return source_.error_in_line(line(), "expected " + std::to_string(names_.size()) +
-                                               " columns as named in line " + std::to_string(names_line_) +
-                                               ", found " + std::to_string(layout_.columns));
-    }
+    if (!names_.empty() && names_.size() != layout_.columns)
+      return lines_.fail(cat("expected ", names_.size(), " columns as named in line ", names_line_,
+                             ", found ", layout_.columns));
     return {};
   }
 
@@ -198,21 +194,18 @@ class Preamble {
     if (names_.empty() && begins_with_name(line)) return true;
     const ColumnNames names = split_names(line);
     if (names_.empty() && has_degrees(names))
-      return source_.error_in_line(lines_.number(),
-                                   "expected coordinates that are lengths, found degrees of longitude and "
-                                   "latitude; a program for maps, such as QGIS, projects them to metres");
-    if (!names_.empty() || !has_coordinates(names)) {
-      return source_.error_in_line(
-          lines_.number(), "expected numbers, or names of columns with x, y and z, found " + in_quotes(line));
-    }
+      return lines_.fail(
+          "expected coordinates that are lengths, found degrees of longitude and "
+          "latitude; a program for maps, such as QGIS, projects them to metres");
+    if (!names_.empty() || !has_coordinates(names))
+      return lines_.fail("expected numbers, or names of columns with x, y and z, found " + in_quotes(line));
     names_ = names;
     names_line_ = lines_.number();
     return false;
   }
 
-  const Source& source_;
   XyzLayout& layout_;
-  Lines lines_;
+  SourceLines lines_;
   ColumnNames names_, commented_names_;
   std::size_t names_line_ = 0;
 };
@@ -259,23 +252,21 @@ std::string_view without_comment(std::string_view line) {
 Result<XyzLayout> find_layout(const Source& source) {
   XyzLayout layout;
   Preamble preamble(source, layout);
-  const auto line = preamble.read();
-  if (!line) return std::unexpected(line.error());
+  RELIEVO_TRY(const auto line, preamble.read());
   layout.first_line = preamble.line();
-  const auto separator = find_separator(source, *line, layout.first_line);
-  if (!separator) return std::unexpected(separator.error());
-  layout.separator = *separator;
+  RELIEVO_TRY(const auto separator, find_separator(source, line, layout.first_line));
+  layout.separator = separator;
   // Between semicolons or tabs a comma is no separator. A later line may be the first that has one.
   const bool has_other_separators =
-      layout.separator == ';' || (layout.separator == ' ' && line->contains('\t'));
-  layout.has_decimal_commas = has_other_separators && !line->contains('.');
-  layout.columns = count_fields(*line, layout.separator);
+      layout.separator == ';' || (layout.separator == ' ' && line.contains('\t'));
+  layout.has_decimal_commas = has_other_separators && !line.contains('.');
+  layout.columns = count_fields(line, layout.separator);
   if (layout.columns < 3) {
-    return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(*line));
+    return source.error_in_line(layout.first_line, "expected at least 3 numbers, found " + in_quotes(line));
   }
-  if (const auto named = preamble.name_columns(); !named) return std::unexpected(named.error());
+  RELIEVO_CHECK(preamble.name_columns());
   if (preamble.names().empty())
-    find_columns(source, begins_with_name(*line), layout);
+    find_columns(source, begins_with_name(line), layout);
   else
     take_columns(preamble.names(), layout);
   return layout;

@@ -25,7 +25,7 @@ Vec3 position_at(const E57Scan& scan, std::size_t row) {
 std::uint8_t as_byte(const PackedColumn& column, std::size_t row) {
   double value = column.value(row);
   if (column.kind != PackedColumn::Kind::integer) value = column.scale * value + column.shift;
-  return value > 0 ? static_cast<std::uint8_t>(std::min(255.0, std::round(value))) : std::uint8_t{0};
+  return io::as_byte(value);
 }
 
 void decode_rows(const E57Scan& scan, std::size_t begin, std::size_t end, Cloud& cloud, std::size_t first) {

@@ -50,15 +50,13 @@ Result<void> GltfFile::split_glb(std::string_view& text) {
   if (bytes.size() < 20)
     return source_->error_at_byte(bytes.size(), "expected a GLB header, found the end of the file");
   const auto number = [&](std::size_t at) { return std::size_t{little<std::uint32_t>(bytes.data() + at)}; };
-  if (number(4) != 2)
-    return source_->error_at_byte(4, "expected version 2 of glTF, found " + std::to_string(number(4)));
+  if (number(4) != 2) return source_->error_at_byte(4, cat("expected version 2 of glTF, found ", number(4)));
   if (number(8) > bytes.size())
-    return source_->error_at_byte(
-        8, "expected " + std::to_string(number(8)) + " bytes, found " + std::to_string(bytes.size()));
+    return source_->error_at_byte(8, cat("expected ", number(8), " bytes, found ", bytes.size()));
   for (std::size_t at = 12; at + 8 <= number(8); at += 8 + number(at)) {
     if (number(at) > number(8) - at - 8)
-      return source_->error_at_byte(at, "expected a chunk of " + std::to_string(number(at)) +
-                                            " bytes, found " + std::to_string(number(8) - at - 8));
+      return source_->error_at_byte(
+          at, cat("expected a chunk of ", number(at), " bytes, found ", number(8) - at - 8));
     if (number(at + 4) == json_chunk && text.empty()) text = bytes.substr(at + 8, number(at));
     if (number(at + 4) == binary_chunk && binary_.empty()) binary_ = bytes.substr(at + 8, number(at));
   }

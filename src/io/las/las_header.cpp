@@ -25,10 +25,10 @@ class LasHeaderReader {
     if (bytes_.size() < least_header)
       return source_.error_at_byte(bytes_.size(),
                                    "expected a header of at least 227 bytes, found the end of the file");
-    if (const auto checked = check_version(); !checked) return std::unexpected(checked.error());
-    if (const auto taken = take_layout(); !taken) return std::unexpected(taken.error());
-    if (const auto taken = take_count(); !taken) return std::unexpected(taken.error());
-    if (const auto taken = take_position(); !taken) return std::unexpected(taken.error());
+    RELIEVO_CHECK(check_version());
+    RELIEVO_CHECK(take_layout());
+    RELIEVO_CHECK(take_count());
+    RELIEVO_CHECK(take_position());
     take_colours();
     header_.minor = at<std::uint8_t>(25);
     header_.variable_records = at<std::uint32_t>(100);
@@ -44,32 +44,28 @@ class LasHeaderReader {
   Result<void> check_version() const {
     const int major = at<std::uint8_t>(24), minor = at<std::uint8_t>(25);
     if (major == 1 && minor <= 5) return {};
-    return source_.error_at_byte(
-        24, "expected LAS 1.0 to 1.5, found " + std::to_string(major) + "." + std::to_string(minor));
+    return source_.error_at_byte(24, cat("expected LAS 1.0 to 1.5, found ", major, ".", minor));
   }
 
   Result<void> take_layout() {
     const std::size_t header = at<std::uint16_t>(94);
     if (header < least_header)
-      return source_.error_at_byte(94,
-                                   "expected a header size of at least 227, found " + std::to_string(header));
+      return source_.error_at_byte(94, cat("expected a header size of at least 227, found ", header));
     records_.offset = at<std::uint32_t>(96);
     if (records_.offset < header)
       return source_.error_at_byte(
-          96, "expected points after the header, found them at byte " + std::to_string(records_.offset));
+          96, cat("expected points after the header, found them at byte ", records_.offset));
     format_ = at<std::uint8_t>(104);
     header_.is_compressed = format_ >= 128;
     if (header_.is_compressed) format_ -= 128;
     header_.format = format_;
     header_.header_size = header;
     if (format_ >= least_record_sizes.size())
-      return source_.error_at_byte(104,
-                                   "expected a point format from 0 to 10, found " + std::to_string(format_));
+      return source_.error_at_byte(104, cat("expected a point format from 0 to 10, found ", format_));
     records_.stride = at<std::uint16_t>(105);
     if (records_.stride < least_record_sizes[format_])
-      return source_.error_at_byte(105, "expected records of at least " +
-                                            std::to_string(least_record_sizes[format_]) + " bytes, found " +
-                                            std::to_string(records_.stride));
+      return source_.error_at_byte(105, cat("expected records of at least ", least_record_sizes[format_],
+                                            " bytes, found ", records_.stride));
     return {};
   }
 
@@ -81,8 +77,8 @@ class LasHeaderReader {
                                    "expected a header of 375 bytes, found the end of the file");
     if (has_long_count && at<std::uint64_t>(247) > 0) records_.count = at<std::uint64_t>(247);
     if (records_.count < no_index) return {};
-    return source_.error_at_byte(has_long_count ? 247 : 107, "expected fewer than 4294967295 points, found " +
-                                                                 std::to_string(records_.count));
+    return source_.error_at_byte(has_long_count ? 247 : 107,
+                                 cat("expected fewer than 4294967295 points, found ", records_.count));
   }
 
   Result<void> take_position() {

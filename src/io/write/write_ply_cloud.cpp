@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <bit>
-#include <cstring>
 
+#include "io/write/mesh_bytes.h"
+#include "relievo/core/text.h"
 #include "relievo/io/read.h"
 #include "relievo/io/write.h"
 
@@ -23,25 +23,17 @@ std::string make_header(const Cloud& cloud, std::string_view comment, bool is_do
       line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
   std::string header = "ply\nformat binary_little_endian 1.0\n";
   if (!line.empty()) header += "comment " + line + "\n";
-  header += "element vertex " + std::to_string(cloud.size()) + "\n";
-  for (const char* name : {"x", "y", "z"}) {
-    header += std::string("property ") + (is_double ? "double " : "float ") + name + "\n";
-  }
-  for (const char* name : {"nx", "ny", "nz"}) {
-    if (cloud.has_normals()) header += std::string("property float ") + name + "\n";
-  }
+  header += cat("element vertex ", cloud.size(), "\n");
+  for (const char* name : {"x", "y", "z"})
+    header += cat("property ", is_double ? "double " : "float ", name, "\n");
+  for (const char* name : {"nx", "ny", "nz"})
+    if (cloud.has_normals()) header += cat("property float ", name, "\n");
   return header + "end_header\n";
 }
 
-// Writes three values in little-endian order; returns what follows them.
-template <typename Bits, typename Vector>
-std::byte* put(std::byte* to, const Vector& vector) {
-  for (const auto value : vector) {
-    auto bits = std::bit_cast<Bits>(value);
-    if constexpr (std::endian::native == std::endian::big) bits = std::byteswap(bits);
-    std::memcpy(to, &bits, sizeof(bits));
-    to += sizeof(bits);
-  }
+template <typename Vector>
+std::byte* put_vector(std::byte* to, const Vector& vector) {
+  for (const auto value : vector) to = detail::put(to, value);
   return to;
 }
 
@@ -52,12 +44,10 @@ std::vector<std::byte> write_ply(const Cloud& cloud, std::string_view comment) {
   const std::string header = make_header(cloud, comment, is_double);
   const std::size_t row = (is_double ? 24 : 12) + (cloud.has_normals() ? 12 : 0);
   std::vector<std::byte> bytes(header.size() + row * cloud.size());
-  std::memcpy(bytes.data(), header.data(), header.size());
-  std::byte* to = bytes.data() + header.size();
+  std::byte* to = detail::put_text(bytes.data(), header);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
-    to = is_double ? put<std::uint64_t>(to, cloud.points[i])
-                   : put<std::uint32_t>(to, Vec3f(cloud.points[i].cast<float>()));
-    if (cloud.has_normals()) to = put<std::uint32_t>(to, cloud.normals[i]);
+    to = is_double ? put_vector(to, cloud.points[i]) : put_vector(to, Vec3f(cloud.points[i].cast<float>()));
+    if (cloud.has_normals()) to = put_vector(to, cloud.normals[i]);
   }
   return bytes;
 }
