@@ -129,8 +129,8 @@ RELIEVO_INLINE void take_row(const Framed& from, const Profile& profile, WindowR
   for (int dx = -width; dx <= width; ++dx) take(sums, middle + dx, profile.at(std::abs(dx), row.away));
 }
 
-// The block of samples whose first is at x, y of the framed grid. From the middle outwards: soon nothing that
-// is farther away can be the largest.
+// Computes the block of samples that begins at x, y of the framed grid. It looks from the middle outwards, so that soon
+// nothing farther away can be the largest.
 RELIEVO_INLINE void envelope(const Framed& from, const Profile& profile, int x, int y, float* to) {
   Sums sums;
   for (Float8& v : sums.v) v = Float8{} + least;

@@ -104,7 +104,7 @@ class ObjReader {
       if (c.normal != no_index && c.normal >= normals_.size()) c.normal = no_index;
   }
 
-  // Returns one normal per point, or none at all: the mean of those that faces name for a vertex.
+  // Returns one normal per point, the mean of the normals that faces name for it; none at all if no face names any.
   std::vector<Vec3f> point_normals() const {
     const bool has_named =
         std::ranges::any_of(corners_, [](const Corner& c) { return c.normal != no_index; });
@@ -165,7 +165,7 @@ class ObjReader {
 
 }  // namespace
 
-// Recognises text whose first word is one with which lines of OBJ begin.
+// Recognises a text by its first word: lines of OBJ begin with few different ones.
 bool is_obj(const Source& source) {
   if (!foreign_format(source).empty()) return false;
   if (has_ending(source.name, ".obj")) return true;

@@ -1,4 +1,5 @@
-// OFF: a keyword whose prefixes state the properties of a vertex, three counts, vertices, faces. The keyword may be missing.
+// OFF: a keyword, three counts, vertices and faces. Prefixes of the keyword state the properties of a vertex. The
+// keyword may be missing.
 #include <algorithm>
 #include <utility>
 

@@ -26,7 +26,7 @@ struct VertexColumns {
   bool has_colours() const { return is_there[6]; }
 };
 
-// A file whose header has been read. Faces are read, be they before or after the vertices.
+// A file after its header has been read. Faces are read, whether they stand before or behind the vertices.
 struct PlyBody {
   const Source& source;
   const PlyHeader& header;

@@ -1,4 +1,4 @@
-// STL, binary and ascii: single triangles, of which coincident corners are merged.
+// STL, binary and ascii: single triangles. Their coincident corners are merged.
 #include <algorithm>
 
 #include "geometry/weld.h"
@@ -23,7 +23,7 @@ bool is_binary(const Source& source) {
   return bytes.size() == header_size + promised * triangle_size || has_control_bytes(bytes);
 }
 
-// Collects the corners of single triangles, and merges those that coincide.
+// Collects the corners of single triangles and merges coincident ones.
 class Corners {
  public:
   explicit Corners(std::size_t triangles)

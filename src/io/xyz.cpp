@@ -10,7 +10,7 @@
 namespace relievo::io {
 namespace {
 
-// Returns colours whose largest value tells their range: 1, 255 or 65535. None if it is beyond all of these.
+// Returns colours as bytes. The largest value tells their range: up to 1, 255 or 65535. Returns none if it is larger.
 std::vector<Colour> in_bytes(const std::vector<Vec3f>& values) {
   float largest = 0;
   for (const Vec3f& value : values) largest = std::max(largest, value.maxCoeff());

@@ -35,7 +35,8 @@ std::size_t find_name(const ColumnNames& names, std::string_view wanted) {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-// Sets as many columns as are given to those of the first names of which the file has all; returns false if there are none.
+// Looks for the names of a group of columns in the file's names. `spellings` has one group of names after the
+// other; the first that the file has as a whole sets the columns. Returns false if the file has none.
 bool take_named(const ColumnNames& names, Names spellings, std::span<std::size_t> columns) {
   for (; !spellings.empty(); spellings = spellings.subspan(columns.size())) {
     for (std::size_t i = 0; i < columns.size(); ++i) columns[i] = find_name(names, spellings[i]);
@@ -70,7 +71,7 @@ std::vector<Row> sample_rows(std::string_view data, const XyzLayout& layout) {
 }
 
 // Returns true if nearly all rows have a unit vector in three columns. The tolerance of 0.02 admits vectors
-// that were written with two decimals, whose length is uncertain by 0.01.
+// that were written with two decimals: then their length is uncertain by 0.01.
 bool are_unit_vectors(const std::vector<Row>& rows, std::size_t column) {
   const auto is_unit = [&](const Row& row) {
     return std::abs(std::hypot(row[column], row[column + 1], row[column + 2]) - 1) < 0.02;

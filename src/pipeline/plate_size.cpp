@@ -1,4 +1,4 @@
-// The width of a relief in a plate whose size is given.
+// The width of a relief in a plate of a given size.
 #include <algorithm>
 #include <limits>
 #include <vector>
@@ -12,7 +12,7 @@
 namespace relievo {
 namespace {
 
-// Returns the hull of a relief whose longer side is 1.
+// Returns the hull of a relief, scaled to a longer side of 1.
 std::vector<Vec2> unit_hull(const Surface& surface) {
   const double longer_side = surface.longer_side();
   std::vector<Vec2> hull;

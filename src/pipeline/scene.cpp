@@ -44,7 +44,8 @@ Cloud some_of(const Cloud& cloud, std::size_t count) {
   return some;
 }
 
-// Calls f for each point that counts: of a mesh those in triangles, of a cloud those that are no outliers.
+// Calls f for each point that counts: for the corners of a mesh's triangles, or for the points of a cloud that are no
+// outliers.
 template <typename F>
 void each_point(const CloudFile& file, F&& f) {
   for (const Triangle& triangle : file.mesh.triangles)

@@ -39,7 +39,7 @@ bool is_fine_within(const Deformation& deformation, std::span<const Vec2> polygo
   return true;
 }
 
-// A lattice of points in staggered rows, whose triangles are equilateral.
+// A lattice of points in staggered rows: neighbours form equilateral triangles.
 class StaggeredLattice {
  public:
   StaggeredLattice(std::span<const Vec2> polygon, double spacing)

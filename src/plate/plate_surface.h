@@ -11,7 +11,7 @@
 
 namespace relievo {
 
-// An open surface whose z is not yet that of the plate.
+// An open surface. Its z is not yet that of the plate.
 struct PlateSurface {
   Solid solid;                                               // without walls and bottom
   IndexPolygon outline;                                      // empty if the plate has no ground

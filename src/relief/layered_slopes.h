@@ -23,8 +23,8 @@ RELIEVO_INLINE Vec2f weighted_sum(const PointLayers& layers, const LayerWeights&
          Vec2f((kept[0] + kept[2]) + (kept[4] + kept[6]), (kept[1] + kept[3]) + (kept[5] + kept[7]));
 }
 
-// What make_slopes() computes with: one number, or eight. GCC forgets that a Float8 needs no alignment where it is itself
-// the argument of a template.
+// make_slopes() computes with one number or with eight. A Float8 is not a template argument itself, because GCC
+// then forgets that it needs no alignment.
 template <typename Real>
 struct OneNumber {
   using Values = Real;

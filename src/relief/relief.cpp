@@ -26,7 +26,7 @@ Mode resolve_mode(Mode mode, const Surface& surface) {
 }
 
 struct ReliefModel::State {
-  // What the surface alone decides. The system of all points may be exchanged for that of control points.
+  // The parts that the surface alone decides. The system of control points may replace that of all points.
   struct Parts {
     std::vector<PointLayers> layers;
     StepHeights steps;

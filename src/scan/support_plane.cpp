@@ -102,8 +102,8 @@ SideCounts sides_of(const Plane& plane, const Sample& sample, double tolerance) 
   return sides;
 }
 
-// Returns the plane with most points of those that have nearly all others before them: random sample consensus, after
-// Fischler and Bolles 1981, with normals as in Schnabel, Wahl and Klein 2007.
+// Tries planes that have nearly all other points before them, and returns the one with most points: random sample
+// consensus, after Fischler and Bolles 1981, with normals as in Schnabel, Wahl and Klein 2007.
 std::optional<Plane> best_plane(const Sample& sample, double tolerance) {
   struct Best {
     std::size_t on = 0;

@@ -128,7 +128,7 @@ class Visibility {
   std::vector<std::uint8_t> is_fragment_;
 };
 
-// Returns a subset of points of which no two are nearer to each other than `distance` in the view plane.
+// Returns some of the points, no two of them nearer to each other than `distance` in the view plane.
 std::vector<Index> with_least_distance(const Cloud& cloud, std::vector<Index> points, double distance) {
   const auto at = [&](Index i) -> Vec2 { return cloud.points[i].head<2>(); };
   std::ranges::sort(points, {}, [&](Index i) { return std::pair(at(i).x(), i); });

@@ -269,8 +269,8 @@ class Simplifier {
     return is_limited ? std::min(steep_tolerance_mm, options_.tolerance_mm) : options_.tolerance_mm;
   }
 
-  // Returns the first of two triangles that share a place whose tolerance this error exceeds; no_index if
-  // none does.
+  // Two triangles share a place where there is this error. Returns the first whose tolerance is smaller; no_index
+  // if none is.
   Index triangle_beyond(const std::array<Index, 2>& sides, double error) const {
     for (const Index t : sides) {
       if (t == no_index) continue;

@@ -85,11 +85,6 @@ class Flipper {
         waiting_.push_back(beside);
   }
 
-  // Returns whether the front ends at the edge.
-  bool is_edge_of_front(Index from, Index to) const {
-    return fans_->left_of(from, to) == no_index || fans_->left_of(to, from) == no_index;
-  }
-
   // Returns the triangles around a corner, from the one on one side of the edge between it and `other` to the last before
   // the front ends, or before the first would come again.
   std::vector<Index> side_of(Index corner, Index other, bool is_left) const {
@@ -103,8 +98,8 @@ class Flipper {
     return side;
   }
 
-  // Returns whether the front would hang together by the corner c alone without the triangle abc, at whose edge ab it ends.
-  // It would not if all triangles on one side of c are thin, too: they are removed after this one.
+  // The front ends at the edge ab of the triangle abc. Returns whether, without that triangle, its parts would hang
+  // together by the corner c alone. They do not if all triangles on one side of c are thin: these are removed next.
   bool would_pinch(const Triangle& abc) const {
     const auto [a, b, c] = abc;
     const auto are_thin = [&](const std::vector<Index>& side) {

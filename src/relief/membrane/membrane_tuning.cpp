@@ -32,7 +32,7 @@ constexpr Scores margin{.0003, .002};
 constexpr double growth = .25;
 // The largest sampling distance, of the longer side, at which the coarsest detail of the metrics is sampled.
 constexpr double coarsest_rho = static_cast<double>(detail_scales_px.back()) / ReliefMetrics::longer_side_px;
-// Between the extremes of the range: where the search starts, and what stays where nothing can be measured.
+// The search starts here, between the extremes of the range, and ends here where nothing can be measured.
 constexpr MembraneParams initial{.5};
 // From one knot to the next the compressed height grows by this factor at least.
 constexpr double least_height_growth = 1.1;

@@ -10,8 +10,8 @@ namespace relievo {
 namespace {
 
 constexpr int lanes = 8;
-// Radius of the discs whose normals are averaged, in spacings. Discs of 1.5 leave a thousandth of the places between
-// scattered points uncovered.
+// Radius, in spacings, of the discs by which normals are averaged. Discs of 1.5 leave a thousandth of the places
+// between scattered points uncovered.
 constexpr float mean_radius = 1.5F;
 constexpr float least_mean_radius = .8F;  // in cells
 constexpr float depth_tolerance{ScanLimits::depth_tolerance};
@@ -28,8 +28,8 @@ RELIEVO_INLINE Steps steps_from(const FrontDisc& disc, int x, float dy) {
   return {dx * dx + dy * dy, disc.slope.x() * dx + disc.slope.y() * dy};
 }
 
-// Calls f(x, row, dy) for runs of eight cells of a band that contain those whose centres lie within a distance of the
-// disc's centre in the plane. `dy` is the row's distance from that centre.
+// Calls f(x, row, dy) for runs of eight cells of a band, until they contain all cells with centres within the
+// radius of the disc's centre in the plane. `dy` is the row's distance from that centre.
 template <typename F>
 RELIEVO_INLINE void each_run(const DiscBand& band, const FrontDisc& disc, float radius, F&& f) {
   const float y = disc.place.y() - static_cast<float>(band.first_row());
