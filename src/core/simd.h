@@ -32,7 +32,7 @@ RELIEVO_AVX2 decltype(auto) call_with_avx2(F&& f) {
   return f();
 }
 
-// Evaluates a call of a function marked RELIEVO_INLINE, which is compiled twice: to AVX2, and to what every processor has.
+// Evaluates a call of a function marked RELIEVO_INLINE. It is compiled twice, to AVX2 and to what every processor has.
 #define RELIEVO_WIDE(...) \
   (uses_avx2() ? call_with_avx2([&]() __attribute__((always_inline)) { return __VA_ARGS__; }) : (__VA_ARGS__))
 

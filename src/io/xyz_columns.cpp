@@ -12,7 +12,7 @@ using Row = std::vector<double>;
 
 using Names = std::span<const std::string_view>;
 
-// Names of the coordinates in files of other programs, most usual first: those of a plane in twos, and the height above it.
+// Names of the coordinates in files of other programs, most usual first: those of a plane in twos, and the height.
 constexpr std::array<std::string_view, 18> plane_names = {
     "x",       "y",       "easting", "northing", "east",    "north",  "e",      "n",          "point_x",
     "point_y", "x_coord", "y_coord", "coord_x",  "coord_y", "xcoord", "ycoord", "rechtswert", "hochwert"};
