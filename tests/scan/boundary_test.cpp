@@ -7,6 +7,7 @@
 
 #include "relievo/scan/spacing.h"
 #include "support/shapes.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
@@ -24,25 +25,8 @@ struct FlatCase {
     boundary = find_boundary(points, mesh, rho);
   }
 
-  double inside_area() const {
-    double area = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      if (!boundary.is_inside[t]) continue;
-      const auto [a, b, c] = mesh.triangles[t];
-      const Vec2 u = points[b] - points[a], v = points[c] - points[a];
-      area += .5 * (u.x() * v.y() - u.y() * v.x());
-    }
-    return area;
-  }
+  double inside_area() const { return test::inside_area(points, mesh, boundary); }
 };
-
-template <typename IsKept>
-Cloud sheet_where(IsKept is_kept, std::size_t n = 40000, double z = 0) {
-  Cloud kept;
-  for (const Vec3& p : test::sheet(n, 1, z).points)
-    if (is_kept(p)) test::add(kept, p, Vec3::UnitZ());
-  return kept;
-}
 
 TEST(Boundary, OfASquareIsItsRimOnePointThick) {
   const FlatCase square(test::sheet(40000, 1, 0));
@@ -59,7 +43,7 @@ TEST(Boundary, OfASquareIsItsRimOnePointThick) {
 
 TEST(Boundary, OfARingHasTheInnerHole) {
   const auto is_ring = [](const Vec3& p) { return p.head<2>().norm() < 1 && p.head<2>().norm() > .4; };
-  const FlatCase ring(sheet_where(is_ring));
+  const FlatCase ring(test::where(test::sheet(40000, 1, 0), is_ring));
   EXPECT_NEAR(ring.inside_area(), 3.14159 * (1 - .16), .06);
   std::size_t inner = 0;
   for (std::size_t i = 0; i < ring.points.size(); ++i)
@@ -71,7 +55,7 @@ TEST(Boundary, ClosesPinHolesOfSampling) {
   const Cloud whole = test::sheet(40000, 1, 0);
   const double rho = measure_spacing(whole).rho;
   const FlatCase pinholes(
-      sheet_where([&](const Vec3& p) { return (p - Vec3(.3, .3, 0)).norm() > 3.5 * rho; }));
+      test::where(whole, [&](const Vec3& p) { return (p - Vec3(.3, .3, 0)).norm() > 3.5 * rho; }));
   for (std::size_t i = 0; i < pinholes.points.size(); ++i) {
     const bool is_inner = pinholes.points[i].cwiseAbs().maxCoeff() < .9;
     ASSERT_FALSE(is_inner && pinholes.boundary.is_boundary[i]);

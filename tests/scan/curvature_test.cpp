@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "support/results.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -45,10 +46,8 @@ TEST(Curvature, OfASphereIsOneOverItsRadius) {
 }
 
 TEST(Curvature, OfASphereSeenFromInsideIsNegative) {
-  Cloud cloud = test::sphere(20000, 1);
-  for (Vec3f& n : cloud.normals) n = -n;
   const Statistics e = errors(
-      cloud, [](const Vec3&) { return -1.0; }, everywhere, usual);
+      test::inside_out(test::sphere(20000, 1)), [](const Vec3&) { return -1.0; }, everywhere, usual);
   EXPECT_NEAR(e.mean, 0, .01);
 }
 
@@ -135,8 +134,7 @@ TEST(Curvature, TakesAllNeighboursOfALargeScale) {
 
 TEST(Curvature, OfTheOtherSideOfAThinWallDoesNotCount) {
   const Cloud front = test::sphere(20000, 1);
-  Cloud back = test::sphere(20000, .99, 8);
-  for (Vec3f& n : back.normals) n = -n;
+  const Cloud back = test::inside_out(test::sphere(20000, .99, 8));
   std::vector<Index> queries(front.size());
   std::iota(queries.begin(), queries.end(), Index{0});
   const Cloud both = test::joined(front, back);
@@ -155,8 +153,7 @@ TEST(Curvature, IsZeroWhereThereIsNothingToFit) {
 TEST(Curvature, EndsEarlyWhenCancelled) {
   const Cloud cloud = test::torus(5000, 1, .4);
   const std::vector<Index> queries{0, 1, 2};
-  Progress progress;
-  progress.cancel();
+  Cancelled progress;
   EXPECT_EQ(mean_curvature(cloud, measure_spacing(cloud), queries, usual, &progress),
             (std::vector<double>{0, 0, 0}));
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "relievo/make_relief.h"
+#include "support/results.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -29,6 +30,12 @@ double hills(double c, double r) {
     return std::exp(-((c - x) * (c - x) + (r - y) * (r - y)) / (2 * radius * radius));
   };
   return .75 * hill(90, 80, 50) + .25 * hill(170, 120, 18) + .12 * hill(60, 130, 9);
+}
+
+double highest_hill() {
+  double high = 0;
+  for (int i = 0; i < width * height; ++i) high = std::max(high, hills(i % width, i / width));
+  return high;
 }
 
 // The surface's normal where a picture width of range 1 is `range` deep.
@@ -79,17 +86,15 @@ DepthOptions as_heights() {
 }
 
 TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
-  double high = 0;
-  for (int i = 0; i < width * height; ++i) high = std::max(high, hills(i % width, i / width));
+  const double high = highest_hill();
   const DepthImage image = image_of([&](int c, int r) { return std::round(255 * hills(c, r) / high); }, 1);
-  const auto made = depth_cloud(image, as_heights());
-  ASSERT_TRUE(made) << made.error().message();
-  ASSERT_EQ(made->cloud.size(), image.values.size());
+  const auto made = value_of(depth_cloud(image, as_heights()));
+  ASSERT_EQ(made.cloud.size(), image.values.size());
   const double scale = .5 * width / high, step = .5 * width / 255;  // in pixels
-  const Errors smooth = errors_of(made->cloud, scale);
+  const Errors smooth = errors_of(made.cloud, scale);
 
   // Without smoothing, the same formula for normals gives those of the steps.
-  Cloud raw = made->cloud;
+  Cloud raw = made.cloud;
   const auto value = [&](int c, int r) {
     c = std::clamp(c, 0, width - 1), r = std::clamp(r, 0, height - 1);
     return step * double{image.values[static_cast<std::size_t>(r * width + c)]};
@@ -114,20 +119,16 @@ TEST(DepthCloud, EightBitsComeBackCloserThanTheirSteps) {
 
 TEST(DepthCloud, StaysWithinTheStepEverywhere) {
   const DepthImage image = image_of([&](int c, int r) { return std::round(100 * hills(c, r)); }, 1);
-  const auto made = depth_cloud(image, as_heights());
-  ASSERT_TRUE(made);
+  const auto made = value_of(depth_cloud(image, as_heights()));
   const auto [low, high] = std::ranges::minmax(image.values.pixels);
   const double step = .5 * width / double{high - low};
-  for (const Vec3& p : made->cloud.points)
-    EXPECT_NEAR(p.z() / step, double{image.values[pixel_of(p)]}, .5001);
+  for (const Vec3& p : made.cloud.points) EXPECT_NEAR(p.z() / step, double{image.values[pixel_of(p)]}, .5001);
 }
 
 TEST(DepthCloud, FloatsWithoutNoiseStayAsTheyAre) {
-  const auto made = depth_cloud(image_of(hills, 0), as_heights());
-  ASSERT_TRUE(made);
-  double high = 0;
-  for (int i = 0; i < width * height; ++i) high = std::max(high, hills(i % width, i / width));
-  const Errors errors = errors_of(made->cloud, .5 * width / high);
+  const auto made = value_of(depth_cloud(image_of(hills, 0), as_heights()));
+  const double high = highest_hill();
+  const Errors errors = errors_of(made.cloud, .5 * width / high);
   EXPECT_LT(errors.height, .06);
   EXPECT_LT(errors.angle_deg, .2);
 }
@@ -138,8 +139,7 @@ TEST(DepthCloud, NoiseIsMeasuredAndTakenAway) {
   const auto made = depth_cloud(
       image_of([&](int c, int r) { return hills(c, r) + sigma * random.gaussian(); }, 0), as_heights());
   ASSERT_TRUE(made);
-  double high = 0;
-  for (int i = 0; i < width * height; ++i) high = std::max(high, hills(i % width, i / width));
+  const double high = highest_hill();
   const double scale = .5 * width / (high + 2 * 3.5 * sigma);  // the range holds the noise's ends, too
   EXPECT_NEAR(made->noise, 2 * sigma * scale, .3 * sigma * scale);
   EXPECT_LT(errors_of(made->cloud, scale).angle_deg, 4.5);  // of 26 degrees without smoothing
@@ -197,19 +197,18 @@ DepthImage blurred_disc(double blur) {
 
 TEST(DepthCloud, RampsOfABlurredOutlineAreCut) {
   for (const double blur : {1.0, 2.5, 4.0}) {
-    const auto made = depth_cloud(blurred_disc(blur), as_heights());
-    ASSERT_TRUE(made);
-    EXPECT_GT(made->cut, 200U) << blur;
-    const auto [low, high] = std::ranges::minmax(made->cloud.points, {}, [](const Vec3& p) { return p.z(); });
+    const auto made = value_of(depth_cloud(blurred_disc(blur), as_heights()));
+    EXPECT_GT(made.cut, 200U) << blur;
+    const auto [low, high] = std::ranges::minmax(made.cloud.points, {}, [](const Vec3& p) { return p.z(); });
     std::size_t between = 0;
-    for (const Vec3& p : made->cloud.points) {
+    for (const Vec3& p : made.cloud.points) {
       const double share = (p.z() - low.z()) / (high.z() - low.z());
       between += share > .15 && share < .85;
     }
     EXPECT_LT(between, 40U) << blur;
     // The remaining points are flat: the normals show nothing of the ramp.
     std::size_t steep = 0;
-    for (const Vec3f& n : made->cloud.normals) steep += n.z() < .7F;
+    for (const Vec3f& n : made.cloud.normals) steep += n.z() < .7F;
     EXPECT_LT(steep, 60U) << blur;
   }
 }
@@ -217,11 +216,10 @@ TEST(DepthCloud, RampsOfABlurredOutlineAreCut) {
 TEST(DepthCloud, BackgroundIsTakenOutWhereThereIsOne) {
   DepthOptions options;
   options.values = DepthValues::height;
-  const auto made = depth_cloud(blurred_disc(2), options);
-  ASSERT_TRUE(made);
+  const auto made = value_of(depth_cloud(blurred_disc(2), options));
   const double disc = std::numbers::pi * 50 * 50;
-  EXPECT_NEAR(static_cast<double>(made->background), width * height - disc, .03 * disc);
-  EXPECT_NEAR(static_cast<double>(made->cloud.size()), disc, .1 * disc);
+  EXPECT_NEAR(static_cast<double>(made.background), width * height - disc, .03 * disc);
+  EXPECT_NEAR(static_cast<double>(made.cloud.size()), disc, .1 * disc);
   EXPECT_EQ(depth_cloud(image_of(hills, 0), as_heights())->background, 0U);
   // A slope that fills the picture has no background, however far it goes.
   EXPECT_EQ(depth_cloud(image_of([](int c, int) { return c + 1; }, 1), options)->background, 0U);
@@ -234,14 +232,13 @@ TEST(DepthCloud, HolesInsideBecomeFlatPointsAndOpenOnesNone) {
   };
   DepthOptions options;
   options.background = Background::keep;
-  const auto made = depth_cloud(image_of(value, 1), options);
-  ASSERT_TRUE(made);
-  EXPECT_EQ(made->cloud.size(), 201U * height);
+  const auto made = value_of(depth_cloud(image_of(value, 1), options));
+  EXPECT_EQ(made.cloud.size(), 201U * height);
   std::size_t flat = 0;
-  for (std::size_t k = 0; k < made->cloud.size(); ++k) {
-    const auto i = static_cast<int>(pixel_of(made->cloud.points[k]));
+  for (std::size_t k = 0; k < made.cloud.size(); ++k) {
+    const auto i = static_cast<int>(pixel_of(made.cloud.points[k]));
     EXPECT_LE(i % width, 200);
-    flat += made->cloud.normals[k] == Vec3f::UnitZ();
+    flat += made.cloud.normals[k] == Vec3f::UnitZ();
   }
   EXPECT_GE(flat, 300U);
 }
@@ -249,10 +246,9 @@ TEST(DepthCloud, HolesInsideBecomeFlatPointsAndOpenOnesNone) {
 TEST(DepthCloud, LargeImagesAreReduced) {
   DepthOptions options = as_heights();
   options.points = 5000;
-  const auto made = depth_cloud(image_of(hills, 0), options);
-  ASSERT_TRUE(made);
-  EXPECT_EQ(made->reduction, 3);
-  EXPECT_EQ(made->cloud.size(), 80U * 60);
+  const auto made = value_of(depth_cloud(image_of(hills, 0), options));
+  EXPECT_EQ(made.reduction, 3);
+  EXPECT_EQ(made.cloud.size(), 80U * 60);
 }
 
 TEST(DepthCloud, RefusesWhatItCannotUse) {
@@ -260,8 +256,7 @@ TEST(DepthCloud, RefusesWhatItCannotUse) {
   options.range = 0;
   EXPECT_EQ(depth_cloud(image_of(hills, 0), options).error().input, "depth-range");
   EXPECT_EQ(depth_cloud(image_of([](int, int) { return 0; }, 1), {}).error().kind, ErrorKind::geometry);
-  Progress progress;
-  progress.cancel();
+  Cancelled progress;
   EXPECT_EQ(depth_cloud(image_of(hills, 0), {}, &progress).error().kind, ErrorKind::cancelled);
 }
 
@@ -271,20 +266,18 @@ TEST(DepthCloud, OfAHollowBecomesARelief) {
   ASSERT_TRUE(hollow);
   ReliefOptions options;
   options.height_mm = 2;
-  const auto made = make_relief(hollow->cloud, options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_EQ(check_solid(made->solid), "");
-  EXPECT_GT(made->report.visible_points, .95 * width * height);
+  const auto made = value_of(make_relief(hollow->cloud, options));
+  EXPECT_EQ(check_solid(made.solid), "");
+  EXPECT_GT(made.report.visible_points, .95 * width * height);
 }
 
 TEST(ParseCamera, TakesFourOrNineNumbers) {
   EXPECT_EQ(parse_camera("585,584,320,240")->fy, 584);
-  const auto matrix = parse_camera(" 5.85e+02\t 0.0 \t3.2e+02\n 0 5.84e+02 2.4e+02\r\n 0 0 1\n");
-  ASSERT_TRUE(matrix) << matrix.error().message();
-  EXPECT_EQ(matrix->fx, 585);
-  EXPECT_EQ(matrix->fy, 584);
-  EXPECT_EQ(matrix->cx, 320);
-  EXPECT_EQ(matrix->cy, 240);
+  const auto matrix = value_of(parse_camera(" 5.85e+02\t 0.0 \t3.2e+02\n 0 5.84e+02 2.4e+02\r\n 0 0 1\n"));
+  EXPECT_EQ(matrix.fx, 585);
+  EXPECT_EQ(matrix.fy, 584);
+  EXPECT_EQ(matrix.cx, 320);
+  EXPECT_EQ(matrix.cy, 240);
   for (const char* text :
        {"", "1,2,3", "1,2,3,x", "0,1,2,3", "1,-1,2,3", "1 2 3 4 5", "1 2 3 4 5 6 7 8 9 10", "nan,1,2,3"})
     EXPECT_EQ(parse_camera(text).error().input, "camera") << text;

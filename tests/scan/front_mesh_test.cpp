@@ -2,28 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <numbers>
 
 #include "support/shapes.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
 
-double area_in_plane(const Mesh& mesh) {
-  double area = 0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Vec3 p = mesh.points[b] - mesh.points[a], q = mesh.points[c] - mesh.points[a];
-    area += .5 * p.cross(q).z();
-  }
-  return area;
-}
-
 TEST(FrontMesh, CoversWhatIsSeen) {
   const Cloud ball = test::sphere(10000, 1);
   const Mesh mesh = front_mesh(ball, measure_spacing(ball));
-  EXPECT_NEAR(area_in_plane(mesh), std::numbers::pi, .02 * std::numbers::pi);
+  EXPECT_NEAR(test::area_of(mesh.points, mesh.triangles), std::numbers::pi, .02 * std::numbers::pi);
   ASSERT_EQ(mesh.corner_normals.size(), mesh.triangles.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
@@ -36,7 +27,7 @@ TEST(FrontMesh, CoversWhatIsSeen) {
 TEST(FrontMesh, LeavesNoGapAndNoWallWhereTheDepthJumps) {
   const Cloud scene = test::joined(test::sheet(16000, 1, 0), test::sheet(4000, .5, 2, 8));
   const Mesh mesh = front_mesh(scene, measure_spacing(scene));
-  EXPECT_NEAR(area_in_plane(mesh), 4, .1);
+  EXPECT_NEAR(test::area_of(mesh.points, mesh.triangles), 4, .1);
   for (const Vec3& p : mesh.points) EXPECT_LT(std::min(std::abs(p.z()), std::abs(p.z() - 2)), 1e-9);
   // Triangles of both sheets, over gaps too wide to be shared out, stand at the edge of the nearer one alone.
   const double rho = measure_spacing(scene).rho;
@@ -54,10 +45,7 @@ TEST(FrontMesh, LeavesNoGapAndNoWallWhereTheDepthJumps) {
 Cloud broken_slope(double half_gap, double depth) {
   const Cloud slope = test::height_field(
       10000, 1, [](double x, double) { return x; }, [](double, double) { return Vec2(1, 0); });
-  std::vector<Index> in_gap;
-  for (Index i = 0; i < slope.size(); ++i)
-    if (std::abs(slope.points[i].x()) < half_gap) in_gap.push_back(i);
-  Cloud broken = erase_points(slope, in_gap);
+  Cloud broken = test::where(slope, [&](const Vec3& p) { return std::abs(p.x()) >= half_gap; });
   for (Vec3& p : broken.points)
     if (p.x() > 0) p.z() -= depth;
   return broken;
@@ -66,7 +54,7 @@ Cloud broken_slope(double half_gap, double depth) {
 TEST(FrontMesh, AGapInOneSurfaceTakesItsSlope) {
   const Cloud broken = broken_slope(.02, 0);
   const Mesh mesh = front_mesh(broken, measure_spacing(broken));
-  EXPECT_NEAR(area_in_plane(mesh), 4, .1);
+  EXPECT_NEAR(test::area_of(mesh.points, mesh.triangles), 4, .1);
   for (const auto& normals : mesh.corner_normals) EXPECT_LT(normals[0].z(), .71F);
 }
 
@@ -74,7 +62,7 @@ TEST(FrontMesh, AGapBetweenTwoSurfacesShowsNothing) {
   const double half_gap = .035;
   const Cloud broken = broken_slope(half_gap, 3);
   const Mesh mesh = front_mesh(broken, measure_spacing(broken));
-  EXPECT_NEAR(area_in_plane(mesh), 4, .1);
+  EXPECT_NEAR(test::area_of(mesh.points, mesh.triangles), 4, .1);
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     double x = 0;
     for (const Index corner : mesh.triangles[t]) x += mesh.points[corner].x() / 3;
@@ -93,8 +81,7 @@ TEST(FrontMesh, KeepsColours) {
 }
 
 TEST(FrontMesh, OfWhatTurnsAwayIsEmpty) {
-  Cloud sheet = test::sheet(1000, 1, 0);
-  for (Vec3f& n : sheet.normals) n = -n;
+  const Cloud sheet = test::inside_out(test::sheet(1000, 1, 0));
   EXPECT_TRUE(front_mesh(sheet, measure_spacing(sheet)).empty());
 }
 

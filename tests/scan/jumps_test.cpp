@@ -9,7 +9,8 @@
 #include "relievo/relief/heights.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/differences.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 // A level square of side .8 before one of side 2: the depth jumps at |x| or |y| = .4.
 Surface sheets(double apart = 3) {
   const Cloud cloud = test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, apart, 9));
-  return find_surface(cloud, {}).value();
+  return test::surface_of(cloud);
 }
 
 double distance_to_jump(const Vec3& p) {
@@ -80,9 +81,7 @@ TEST(Jumps, AreWhatModelsHeightsAndMembranesYieldAt) {
         .solve(slopes, z);
     std::vector<double> own(n);
     model.system()->solve(slopes, own);
-    double most = 0;
-    for (std::size_t i = 0; i < n; ++i) most = std::max(most, std::abs(z[i] - own[i]));
-    return most;
+    return test::largest_difference(z, own);
   };
   EXPECT_EQ(heights(jump_weights(surface)), 0);
   EXPECT_GT(heights({}), 1e-3);

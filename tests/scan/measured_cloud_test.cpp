@@ -56,8 +56,8 @@ TEST(MeasuredCloud, RefusesCoordinatesThatRoundingHasSpoilt) {
   const auto refused = MeasuredCloud::measure(rounded, {});
   ASSERT_FALSE(refused);
   const std::string text = refused.error().message();
-  EXPECT_NE(text.find("expected coordinates with more digits, found points "), std::string::npos) << text;
-  EXPECT_NE(text.find("in steps of 0.5"), std::string::npos) << text;
+  EXPECT_TRUE(text.contains("expected coordinates with more digits, found points ")) << text;
+  EXPECT_TRUE(text.contains("in steps of 0.5")) << text;
 }
 
 TEST(MeasuredCloud, KeepsTheCurvatureOfASphere) {

@@ -10,6 +10,8 @@
 #include "relievo/scan/mesh.h"
 #include "relievo/scan/surface.h"
 #include "support/mesh_shapes.h"
+#include "support/shapes.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
@@ -85,20 +87,11 @@ TEST_P(MeshOutlines, OfButtonsAreCirclesWithAnEvenWall) {
   EXPECT_GT(count[1], .95 * all);
 }
 
-// Returns the distance of a place from the ellipse with those half axes along x and y.
-double distance_from_ellipse(const Vec2& place, double a, double b) {
-  double t = std::atan2(place.y() / b, place.x() / a);
-  for (int step = 0; step < 20; ++step) {  // Newton's method for the foot of the perpendicular
-    const Vec2 p(a * std::cos(t), b * std::sin(t)), tangent(-a * std::sin(t), b * std::cos(t));
-    t -= (p - place).dot(tangent) / (tangent.squaredNorm() - (p - place).dot(p));
-  }
-  return (place - Vec2(a * std::cos(t), b * std::sin(t))).norm();
-}
-
 TEST_P(MeshOutlines, OfATorusAreAtTheTubesRadiusFromAnEllipse) {
   const MeshSurface torus(test::torus_mesh(2, .5, 720), *view_towards({0, -1, 1}), GetParam());
-  EXPECT_LT(torus.farthest([](const Vec2& p) { return distance_from_ellipse(p, 2, std::sqrt(2.)) - .5; }),
-            .1);
+  EXPECT_LT(
+      torus.farthest([](const Vec2& p) { return test::distance_from_ellipse(p, 2, std::sqrt(2.)) - .5; }),
+      .1);
 }
 
 constexpr int teeth = 12;
@@ -139,13 +132,8 @@ TEST_P(MeshOutlines, LeaveNotchesOpen) {
   const double gap = 3 * std::sqrt(4 / GetParam());
   const Mesh mesh = test::joined(sheet(-1, -.2), sheet(-.2 + gap, 1));
   const MeshSurface sheets(mesh, View{}, GetParam());
-  double area = 0;
-  for (std::size_t t = 0; t < sheets.surface.triangulation.triangles.size(); ++t) {
-    if (!sheets.surface.boundary.is_inside[t]) continue;
-    const auto& [a, b, c] = sheets.surface.triangulation.triangles[t];
-    const Vec2 u = sheets.place(b) - sheets.place(a), v = sheets.place(c) - sheets.place(a);
-    area += (u.x() * v.y() - u.y() * v.x()) / 2;
-  }
+  const double area =
+      test::inside_area(sheets.surface.points, sheets.surface.triangulation, sheets.surface.boundary);
   EXPECT_NEAR(area, 4 - 2 * gap, .05 * gap);
 }
 

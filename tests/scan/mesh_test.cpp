@@ -7,29 +7,11 @@
 #include <numbers>
 
 #include "relievo/make_relief.h"
-#include "support/shapes.h"
+#include "support/mesh_shapes.h"
+#include "support/results.h"
 
 namespace relievo {
 namespace {
-
-// A sphere of radius 1 in `rings` bands of latitude, closed and looking outwards.
-Mesh sphere_mesh(int rings) {
-  Mesh mesh;
-  const int sides = 2 * rings;
-  const auto at = [&](int ring, int side) { return static_cast<Index>(ring * sides + side % sides); };
-  for (int ring = 0; ring <= rings; ++ring)
-    for (int side = 0; side < sides; ++side) {
-      const double polar = std::numbers::pi * ring / rings, around = 2 * std::numbers::pi * side / sides;
-      mesh.points.emplace_back(std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around),
-                               std::cos(polar));
-    }
-  for (int ring = 0; ring < rings; ++ring)
-    for (int side = 0; side < sides; ++side) {
-      mesh.triangles.push_back({at(ring, side), at(ring + 1, side), at(ring + 1, side + 1)});
-      mesh.triangles.push_back({at(ring, side), at(ring + 1, side + 1), at(ring, side + 1)});
-    }
-  return mesh;
-}
 
 Mesh square(double z, bool looks_away = false) {
   Mesh mesh{{{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}, {{0, 1, 2}, {0, 2, 3}}};
@@ -42,25 +24,23 @@ const View front = *parse_view("front");
 
 TEST(SampleMesh, GivesAboutTheNumberAskedForOnTheVisibleSide) {
   for (const double wanted : {2000.0, 50000.0}) {
-    const auto cloud = sample_mesh(sphere_mesh(60), front, {wanted});
-    ASSERT_TRUE(cloud) << cloud.error().message();
-    EXPECT_NEAR(static_cast<double>(cloud->size()), wanted, .15 * wanted);
-    for (std::size_t i = 0; i < cloud->size(); ++i) {
-      EXPECT_GT(cloud->points[i].z(), -.05);
-      EXPECT_NEAR(cloud->points[i].norm(), 1, 2e-3);
-      EXPECT_GT(cloud->normals[i].z(), 0);
+    const auto cloud = value_of(sample_mesh(test::sphere_mesh(1, 120), front, {wanted}));
+    EXPECT_NEAR(static_cast<double>(cloud.size()), wanted, .15 * wanted);
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      EXPECT_GT(cloud.points[i].z(), -.05);
+      EXPECT_NEAR(cloud.points[i].norm(), 1, 2e-3);
+      EXPECT_GT(cloud.normals[i].z(), 0);
     }
   }
 }
 
 TEST(SampleMesh, NormalsAreThoseOfTheSmoothShape) {
-  const auto cloud = sample_mesh(sphere_mesh(40), front, {20000});
-  ASSERT_TRUE(cloud);
+  const auto cloud = value_of(sample_mesh(test::sphere_mesh(1, 80), front, {20000}));
   double sum = 0, worst = 0;
   std::size_t inner = 0;
-  for (std::size_t i = 0; i < cloud->size(); ++i) {
-    if (cloud->points[i].z() < .2) continue;
-    const double sine = cloud->normals[i].cast<double>().cross(cloud->points[i].normalized()).norm();
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    if (cloud.points[i].z() < .2) continue;
+    const double sine = cloud.normals[i].cast<double>().cross(cloud.points[i].normalized()).norm();
     sum += std::asin(std::min(1.0, sine)) * 180 / std::numbers::pi;
     worst = std::max(worst, sine);
     ++inner;
@@ -71,42 +51,37 @@ TEST(SampleMesh, NormalsAreThoseOfTheSmoothShape) {
 
 TEST(SampleMesh, ThePointsLieOnTheMeshInAnyView) {
   const View view = *view_towards(Vec3(1, -2, .5), Vec3(0, 0, 1));
-  const auto cloud = sample_mesh(square(3), view, {10000});
-  ASSERT_TRUE(cloud);
-  for (std::size_t i = 0; i < cloud->size(); ++i) {
-    EXPECT_NEAR(cloud->points[i].z(), 3, 1e-6);
-    EXPECT_LE(cloud->points[i].head<2>().cwiseAbs().maxCoeff(), 1 + 1e-3);
-    EXPECT_LT((cloud->normals[i] - Vec3f::UnitZ()).norm(), 1e-5F);
+  const auto cloud = value_of(sample_mesh(square(3), view, {10000}));
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    EXPECT_NEAR(cloud.points[i].z(), 3, 1e-6);
+    EXPECT_LE(cloud.points[i].head<2>().cwiseAbs().maxCoeff(), 1 + 1e-3);
+    EXPECT_LT((cloud.normals[i] - Vec3f::UnitZ()).norm(), 1e-5F);
   }
 }
 
 TEST(SampleMesh, TheNearerSurfaceHidesTheOther) {
-  Mesh both = square(0);
-  const Mesh nearer = square(1, true);  // seen from behind: hides all the same
-  for (const Vec3& p : nearer.points) both.points.push_back(p.cwiseProduct(Vec3(.5, .5, 1)));
-  for (const auto& [a, b, c] : nearer.triangles) both.triangles.push_back({a + 4, b + 4, c + 4});
-  const auto cloud = sample_mesh(both, front, {10000});
-  ASSERT_TRUE(cloud);
+  Mesh nearer = square(1, true);  // seen from behind: hides all the same
+  for (Vec3& p : nearer.points) p.head<2>() *= .5;
+  const auto cloud = value_of(sample_mesh(test::joined(square(0), nearer), front, {10000}));
   std::size_t near = 0;
-  for (std::size_t i = 0; i < cloud->size(); ++i) {
-    const bool is_inside = cloud->points[i].head<2>().cwiseAbs().maxCoeff() < .499;
-    const bool is_outside = cloud->points[i].head<2>().cwiseAbs().maxCoeff() > .501;
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    const bool is_inside = cloud.points[i].head<2>().cwiseAbs().maxCoeff() < .499;
+    const bool is_outside = cloud.points[i].head<2>().cwiseAbs().maxCoeff() > .501;
     if (is_inside || is_outside) {
-      EXPECT_NEAR(cloud->points[i].z(), is_inside ? 1 : 0, 1e-6);
+      EXPECT_NEAR(cloud.points[i].z(), is_inside ? 1 : 0, 1e-6);
     }
     near += is_inside;
-    EXPECT_GT(cloud->normals[i].z(), .99F);
+    EXPECT_GT(cloud.normals[i].z(), .99F);
   }
-  EXPECT_NEAR(static_cast<double>(near) / static_cast<double>(cloud->size()), .25, .02);
+  EXPECT_NEAR(static_cast<double>(near) / static_cast<double>(cloud.size()), .25, .02);
 }
 
 TEST(SampleMesh, TheOutlineIsFinerThanTheGrid) {
-  const auto cloud = sample_mesh(sphere_mesh(200), front, {3000});
-  ASSERT_TRUE(cloud);
+  const auto cloud = value_of(sample_mesh(test::sphere_mesh(1, 400), front, {3000}));
   const double pixel = std::sqrt(std::numbers::pi / 3000);
   // Largest radius seen in each of 90 directions: on the grid alone it would fall short by up to a pixel.
   std::vector<double> reach(90, 0);
-  for (const Vec3& p : cloud->points) {
+  for (const Vec3& p : cloud.points) {
     const double angle = std::atan2(p.y(), p.x()) + std::numbers::pi;
     double& r =
         reach[std::min<std::size_t>(89, static_cast<std::size_t>(angle / (2 * std::numbers::pi) * 90))];
@@ -118,36 +93,30 @@ TEST(SampleMesh, TheOutlineIsFinerThanTheGrid) {
 TEST(SampleMesh, FindsAWireThatIsAThousandTimesLongerThanWide) {
   Mesh mesh = square(0);
   for (Vec3& p : mesh.points) p.x() *= 2e-4;
-  const auto cloud = sample_mesh(mesh, front, {5000});
-  ASSERT_TRUE(cloud) << cloud.error().message();
-  EXPECT_GT(cloud->size(), 1000U);
+  EXPECT_GT(value_of(sample_mesh(mesh, front, {5000})).size(), 1000U);
 }
 
 TEST(SampleMesh, ColoursAreInterpolated) {
   Mesh mesh = square(0);
   mesh.colours = {{0, 0, 0}, {200, 0, 0}, {200, 100, 0}, {0, 100, 0}};
-  const auto cloud = sample_mesh(mesh, front, {1000});
-  ASSERT_TRUE(cloud);
-  ASSERT_EQ(cloud->colours.size(), cloud->size());
-  for (std::size_t i = 0; i < cloud->size(); ++i) {
-    EXPECT_NEAR(cloud->colours[i][0], 100 * (cloud->points[i].x() + 1), 1.5);
-    EXPECT_NEAR(cloud->colours[i][1], 50 * (cloud->points[i].y() + 1), 1.5);
+  const auto cloud = value_of(sample_mesh(mesh, front, {1000}));
+  ASSERT_EQ(cloud.colours.size(), cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i) {
+    EXPECT_NEAR(cloud.colours[i][0], 100 * (cloud.points[i].x() + 1), 1.5);
+    EXPECT_NEAR(cloud.colours[i][1], 50 * (cloud.points[i].y() + 1), 1.5);
   }
 }
 
 TEST(SampleMesh, NothingToSeeIsAnError) {
-  const auto edge_on = sample_mesh(square(0), *parse_view("right"), {1000});
-  ASSERT_FALSE(edge_on);
-  EXPECT_EQ(edge_on.error().kind, ErrorKind::geometry);
+  expect_error(sample_mesh(square(0), *parse_view("right"), {1000}), ErrorKind::geometry);
   EXPECT_EQ(sample_mesh({}, front).error().kind, ErrorKind::geometry);
   EXPECT_EQ(sample_mesh(square(0), front, {5}).error().kind, ErrorKind::option);
-  Progress progress;
-  progress.cancel();
+  Cancelled progress;
   EXPECT_EQ(sample_mesh(square(0), front, {1000}, &progress).error().kind, ErrorKind::cancelled);
 }
 
 TEST(Scatter, IsEvenByAreaOnAllSides) {
-  const Cloud cloud = scatter(sphere_mesh(40), 20000);
+  const Cloud cloud = scatter(test::sphere_mesh(1, 80), 20000);
   EXPECT_EQ(cloud.size(), 20000U);
   std::array<int, 8> octants = {};
   for (std::size_t i = 0; i < cloud.size(); ++i) {
@@ -184,16 +153,15 @@ TEST(SmoothNormals, StopAtCreases) {
 
 TEST(MakeRelief, OfAMeshIsThatOfItsDenseCloud) {
   CloudFile file;
-  file.mesh = sphere_mesh(12);  // 0.26 between its points: as a cloud they would make a poor relief
+  file.mesh = test::sphere_mesh(1, 24);  // 0.26 between its points: as a cloud they would make a poor relief
   file.cloud.points = file.mesh.points;
   ReliefOptions options;
   options.height_mm = 5;
   options.points = 20000;
-  const auto made = make_relief(file, options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_EQ(check_solid(made->solid), "");
-  EXPECT_NEAR(made->report.height_mm, 5, .01);
-  EXPECT_NEAR(static_cast<double>(made->report.visible_points), 20000, 3000);
+  const auto made = value_of(make_relief(file, options));
+  EXPECT_EQ(check_solid(made.solid), "");
+  EXPECT_NEAR(made.report.height_mm, 5, .01);
+  EXPECT_NEAR(static_cast<double>(made.report.visible_points), 20000, 3000);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/angle.h"
 #include "relievo/scan/normals.h"
 #include "relievo/scan/surface.h"
+#include "support/results.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -33,20 +34,6 @@ NoisyCloud with_noise(Cloud cloud, double noise) {
   return noisy;
 }
 
-// Returns the points of the faces of a cube of side 2, without noise.
-Cloud cube(std::size_t n) {
-  test::Random random(5);
-  Cloud cloud;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto axis = static_cast<int>(i % 3);
-    const double side = i % 6 < 3 ? 1 : -1;
-    Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)), normal = Vec3::Zero();
-    p[axis] = normal[axis] = side;
-    test::add(cloud, p, normal);
-  }
-  return cloud;
-}
-
 double mean_error_deg(const Cloud& cloud, const std::vector<Vec3f>& truth) {
   double sum = 0;
   for (std::size_t i = 0; i < truth.size(); ++i)
@@ -65,7 +52,7 @@ Cloud without_noise(const NoisyCloud& noisy) {
 }
 
 TEST(MeasureNoise, IsZeroOnCleanShapes) {
-  for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), cube(20000)}) {
+  for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), test::cube(20000)}) {
     EXPECT_EQ(measured(clean), 0);
     Cloud estimated = clean;
     estimate_normals(estimated);
@@ -76,7 +63,7 @@ TEST(MeasureNoise, IsZeroOnCleanShapes) {
 TEST(MeasureNoise, FindsTheDeviationThatWasAdded) {
   // In sampling distances of the noisy cloud, which lie further apart than those of the clean one, the more so the
   // more noise there is.
-  for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), cube(20000)})
+  for (const Cloud& clean : {test::sphere(20000, 1), test::torus(20000, 2, .5), test::cube(20000)})
     for (const double noise : {.15, .3, .5}) {
       const NoisyCloud noisy = with_noise(clean, noise);
       const double added = noise * measure_spacing(clean).rho / measure_spacing(noisy.cloud).rho;
@@ -94,9 +81,7 @@ TEST(MeasureNoise, DoesNotDependOnScaleAndPlace) {
 TEST(MeasureNoise, IsZeroForFewPointsAndWithoutNormals) {
   EXPECT_EQ(measured({}), 0);
   EXPECT_EQ(measured(with_noise(test::sphere(80, 1), .5).cloud), 0);
-  Cloud bare = with_noise(test::sphere(2000, 1), .5).cloud;
-  bare.normals.clear();
-  EXPECT_EQ(measured(bare), 0);
+  EXPECT_EQ(measured(test::without_normals(with_noise(test::sphere(2000, 1), .5).cloud)), 0);
 }
 
 TEST(RemoveNoise, LessensTheErrorsOfNormalsAndPointsOnASphere) {
@@ -123,7 +108,7 @@ TEST(RemoveNoise, KeepsTheRadiusOfASphereWithoutNoise) {
 }
 
 TEST(RemoveNoise, KeepsTheCreasesOfACube) {
-  const NoisyCloud noisy = with_noise(cube(30000), .3);
+  const NoisyCloud noisy = with_noise(test::cube(30000), .3);
   const Cloud clean = without_noise(noisy);
   const double rho = measure_spacing(noisy.cloud).rho;
   double before = 0, after = 0;
@@ -152,18 +137,16 @@ TEST(RemoveNoise, IsNotMisledByOutliers) {
 }
 
 TEST(RemoveNoise, LeavesTheCloudAsItWasWhenItIsCancelled) {
-  const NoisyCloud noisy = with_noise(cube(3000), .3);
+  const NoisyCloud noisy = with_noise(test::cube(3000), .3);
   Cloud cloud = noisy.cloud;
-  Progress progress;
-  progress.cancel();
+  Cancelled progress;
   remove_noise(cloud, measure_spacing(cloud), .3, &progress);
   EXPECT_EQ(cloud.points, noisy.cloud.points);
   EXPECT_EQ(cloud.normals, noisy.cloud.normals);
 }
 
 TEST(RemoveNoise, DoesNothingWithoutNormals) {
-  Cloud bare = test::sphere(500, 1);
-  bare.normals.clear();
+  Cloud bare = test::without_normals(test::sphere(500, 1));
   const std::vector<Vec3> before = bare.points;
   remove_noise(bare, measure_spacing(bare), .5);
   EXPECT_EQ(bare.points, before);

@@ -48,16 +48,6 @@ Deviation deviation(const SeenOutline& outline, Offset offset) {
   return result;
 }
 
-// Returns the distance of a place from the ellipse with those half axes along x and y.
-double distance_from_ellipse(const Vec2& place, double a, double b) {
-  double t = std::atan2(place.y() / b, place.x() / a);
-  for (int step = 0; step < 20; ++step) {  // Newton's method for the foot of the perpendicular
-    const Vec2 p(a * std::cos(t), b * std::sin(t)), tangent(-a * std::sin(t), b * std::cos(t));
-    t -= (p - place).dot(tangent) / (tangent.squaredNorm() - (p - place).dot(p));
-  }
-  return (place - Vec2(a * std::cos(t), b * std::sin(t))).norm();
-}
-
 // Scans of shapes: so many points, clean or with a scanner's noise along the normals, in rho, and without normals.
 struct ScanKind {
   std::size_t points = 0;
@@ -68,9 +58,7 @@ class OutlinesOfShapes : public testing::TestWithParam<ScanKind> {
  protected:
   static Cloud scan(Cloud cloud) {
     if (GetParam().noise == 0) return cloud;
-    cloud = test::noisy(cloud, GetParam().noise * measure_spacing(cloud).rho, 0);
-    cloud.normals.clear();
-    return cloud;
+    return test::without_normals(test::noisy(cloud, GetParam().noise * measure_spacing(cloud).rho, 0));
   }
 };
 
@@ -82,7 +70,7 @@ TEST_P(OutlinesOfShapes, BothOfATorusAreAtTheTubesRadiusFromAnEllipse) {
       outline.places, [](const Vec2& p) { return Vec2(p.x() / 2, p.y() / std::sqrt(2.)).norm() < 1; });
   EXPECT_GT(static_cast<std::size_t>(inner), outline.places.size() / 4);
   const Deviation off =
-      deviation(outline, [](const Vec2& p) { return distance_from_ellipse(p, 2, std::sqrt(2.)) - .5; });
+      deviation(outline, [](const Vec2& p) { return test::distance_from_ellipse(p, 2, std::sqrt(2.)) - .5; });
   const bool is_clean = GetParam().noise == 0;
   EXPECT_LT(off.farthest, is_clean ? .15 : .3);
   EXPECT_LT(off.scatter, is_clean ? .02 : .07);
@@ -132,8 +120,7 @@ TEST(NoisyOutlines, AreTooWideUnlessNoiseIsRemoved) {
   // The outermost of noisy points lie outside the true silhouette.
   const Cloud clean = test::button(50000, 1, .15);
   const double rho = measure_spacing(clean).rho;
-  Cloud noisy = test::noisy(clean, .5 * rho, 0);
-  noisy.normals.clear();
+  const Cloud noisy = test::without_normals(test::noisy(clean, .5 * rho, 0));
   const auto off_the_circle = [](const Vec2& p) { return p.norm() - 1.15; };
   View kept;
   kept.denoise = 0;

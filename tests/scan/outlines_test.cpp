@@ -6,26 +6,16 @@
 #include <numbers>
 
 #include "scan/outlines/outline_points.h"
-#include "support/shapes.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
 
-const View from_front = {};
+using test::surface_of;
 
 // A button of radius 1.15 with another of half its size before it.
 Cloud two_buttons(std::size_t n) {
-  Cloud cloud = test::button(n, 1, .15);
-  const Cloud front = test::button(n / 4, .5, .075, .6);
-  cloud.points.insert(cloud.points.end(), front.points.begin(), front.points.end());
-  cloud.normals.insert(cloud.normals.end(), front.normals.begin(), front.normals.end());
-  return cloud;
-}
-
-Surface surface_of(const Cloud& cloud) {
-  Result<Surface> surface = find_surface(cloud, from_front);
-  EXPECT_TRUE(surface) << (surface ? "" : surface.error().message());
-  return std::move(*surface);
+  return test::joined(test::button(n, 1, .15), test::button(n / 4, .5, .075, .6));
 }
 
 // The radii of the points of a surface that satisfy a condition, about the z axis of the model.
@@ -142,14 +132,11 @@ TEST(Outlines, OfASphereHaveNoJump) {
 }
 
 TEST(Outlines, LeaveNoGapInside) {
-  Cloud cloud = test::button(60000, 1, .15);
+  const Cloud cloud = test::button(60000, 1, .15);
   const double rho = surface_of(cloud).rho;
   // A hole that is narrow enough to be closed.
-  Cloud holed;
-  for (std::size_t i = 0; i < cloud.size(); ++i)
-    if ((cloud.points[i].head<2>() - Vec2(.3, .2)).norm() > 4.5 * rho)
-      test::add(holed, cloud.points[i], cloud.normals[i].cast<double>());
-  EXPECT_LT(longest_side(surface_of(holed)), 3.5);
+  const auto is_beside = [&](const Vec3& p) { return (p.head<2>() - Vec2(.3, .2)).norm() > 4.5 * rho; };
+  EXPECT_LT(longest_side(surface_of(test::where(cloud, is_beside))), 3.5);
 }
 
 TEST(Outlines, OfASliverHaveNoGap) {
@@ -166,11 +153,10 @@ TEST(Outlines, OfASliverHaveNoGap) {
 }
 
 TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
-  Cloud cloud = test::button(40000, 1, .15);
-  const double rho = surface_of(cloud).rho;
+  const Cloud button = test::button(40000, 1, .15);
+  const double rho = surface_of(button).rho;
   const Cloud crumb = test::sphere(200, .03);  // 0.07 % of the button, and 13 rho^2 or more
-  for (std::size_t i = 0; i < crumb.size(); ++i)
-    test::add(cloud, crumb.points[i] + Vec3(1.6, 0, 0), crumb.normals[i].cast<double>());
+  const Cloud cloud = test::joined(button, test::moved(crumb, {1.6, 0, 0}));
   const auto width = [](const Surface& surface) {
     Box box;
     for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t)
@@ -179,23 +165,20 @@ TEST(Outlines, LeaveOutCrumbsUnlessTheViewHasThem) {
     return box.size().x();
   };
   View view;
-  const Result<Surface> without = find_surface(cloud, view);
   view.has_crumbs = true;
-  const Result<Surface> with = find_surface(cloud, view);
-  ASSERT_TRUE(without && with);
-  EXPECT_EQ(without->crumbs, 1U);
-  EXPECT_EQ(with->crumbs, 0U);
-  EXPECT_NEAR(width(*without), 2.3, rho);
-  EXPECT_NEAR(width(*with), 1.15 + 1.63, rho);
+  const Surface without = surface_of(cloud), with = surface_of(cloud, view);
+  EXPECT_EQ(without.crumbs, 1U);
+  EXPECT_EQ(with.crumbs, 0U);
+  EXPECT_NEAR(width(without), 2.3, rho);
+  EXPECT_NEAR(width(with), 1.15 + 1.63, rho);
 }
 
 TEST(Outlines, OfACroppedScanAreItsCut) {
   View view;
   view.crop = {{0, 0}, {.5, 1}};
-  const Result<Surface> surface = find_surface(test::button(40000, 1, .15), view);
-  ASSERT_TRUE(surface);
-  EXPECT_NEAR(Box::of(surface->points).size().x(), 1.15, surface->rho);
-  EXPECT_NEAR(Box::of(surface->points).size().y(), 2.3, surface->rho);
+  const Surface surface = surface_of(test::button(40000, 1, .15), view);
+  EXPECT_NEAR(Box::of(surface.points).size().x(), 1.15, surface.rho);
+  EXPECT_NEAR(Box::of(surface.points).size().y(), 2.3, surface.rho);
   view.crop = {{.9, .9}, {.91, .91}};
   EXPECT_EQ(find_surface(test::button(40000, 1, .15), view).error().input, "crop");
 }

@@ -7,10 +7,12 @@
 
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
+
+using test::surface_of;
 
 constexpr double size = 2.8;  // of the torus
 const Cloud& single() {
@@ -60,10 +62,6 @@ double farthest_apart(const Surface& a, const Surface& b) {
   return farthest;
 }
 
-Surface surface_of(const Cloud& cloud) {
-  return find_surface(cloud, {}).value();
-}
-
 TEST(RepeatedPoints, ExactOnesGiveTheSurfaceOfTheSinglePoints) {
   const Surface alone = surface_of(single());
   for (const std::size_t copies : {2U, 3U, 5U, 20U}) {
@@ -94,9 +92,8 @@ TEST(RepeatedPoints, OfAPartGiveTheSurfaceOfTheSinglePoints) {
 }
 
 TEST(RepeatedPoints, AreFoundWithoutNormals) {
-  Cloud bare = single(), all = repeated(single(), {5, 1e-6});
-  bare.normals.clear();
-  all.normals.clear();
+  const Cloud bare = test::without_normals(single()),
+              all = test::without_normals(repeated(single(), {5, 1e-6}));
   EXPECT_NEAR(surface_of(all).rho / surface_of(bare).rho, 1, .01);
   EXPECT_NEAR(static_cast<double>(surface_of(all).points.size()),
               static_cast<double>(surface_of(bare).points.size()), .02 * 1e4);
@@ -155,12 +152,8 @@ TEST(LostFigure, IsRefused) {
   for (int row = 0; row < 300; ++row)
     for (int column = 0; column < 300; ++column)
       if (row % 10 < 6 && column % 9 < 5) test::add(shreds, Vec3(column, row, 0), Vec3(0, 0, 1));
-  const Result<Surface> surface = find_surface(shreds, {});
-  ASSERT_FALSE(surface);
-  EXPECT_EQ(surface.error().kind, ErrorKind::geometry);
-  EXPECT_NE(surface.error().message().find("expected points that lie close together, found "),
-            std::string::npos)
-      << surface.error().message();
+  expect_error(find_surface(shreds, {}), ErrorKind::geometry,
+               "expected points that lie close together, found ");
 }
 
 }  // namespace

@@ -27,20 +27,13 @@ std::size_t points_at(const Surface& surface, double z) {
   return static_cast<std::size_t>(std::ranges::count_if(surface.points, is_there));
 }
 
-TEST(SmallPatches, BehindOthersAreLeftOut) {
-  const Surface surface = *find_surface(window(.035, -.5), View{});  // about 49 points
-  EXPECT_EQ(points_at(surface, -.5), 0U);
-}
-
-TEST(SmallPatches, LargerOnesStay) {
-  const Surface surface = *find_surface(window(.1, -.5), View{});
-  EXPECT_GT(points_at(surface, -.5), 200U);
-}
-
-TEST(SmallPatches, InFrontStay) {
-  // A stud before a wall shows as much of its form as it has.
-  const Surface surface = *find_surface(window(.035, .5), View{});
-  EXPECT_GT(points_at(surface, .5), 20U);
+TEST(SmallPatches, BehindOthersAreLeftOutButLargerOnesAndThoseInFrontStay) {
+  const auto seen = [](double half_width, double z) {
+    return points_at(*find_surface(window(half_width, z), View{}), z);
+  };
+  EXPECT_EQ(seen(.035, -.5), 0U);  // of about 49
+  EXPECT_GT(seen(.1, -.5), 200U);
+  EXPECT_GT(seen(.035, .5), 20U);  // a stud before a wall shows as much of its form as it has
 }
 
 // A patch beside a wall, behind its edge: the gap of 3.5 spacings between them hides that they are apart, because the

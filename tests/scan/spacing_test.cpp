@@ -16,18 +16,11 @@ TEST(Spacing, OfRandomPointsIsTheSquareRootOfTheAreaPerPoint) {
   EXPECT_NEAR(measure_spacing(test::sphere(n, 1)).rho / truth, 1, .03);
 }
 
-TEST(Spacing, ScalesWithTheCloud) {
-  Cloud cloud = test::sphere(2000, 1);
+TEST(Spacing, ScalesWithTheCloudAndDoesNotDependOnTheOrder) {
+  const Cloud cloud = test::sphere(2000, 1);
   const double rho = measure_spacing(cloud).rho;
-  for (Vec3& p : cloud.points) p *= 8;
-  EXPECT_DOUBLE_EQ(measure_spacing(cloud).rho, 8 * rho);
-}
-
-TEST(Spacing, DoesNotDependOnTheOrder) {
-  Cloud cloud = test::sphere(2000, 1);
-  const double rho = measure_spacing(cloud).rho;
-  std::reverse(cloud.points.begin(), cloud.points.end());
-  EXPECT_EQ(measure_spacing(cloud).rho, rho);
+  EXPECT_DOUBLE_EQ(measure_spacing(test::scaled(cloud, 8)).rho, 8 * rho);
+  EXPECT_EQ(measure_spacing(test::reversed(cloud)).rho, rho);
 }
 
 // Searches that read all points of the place would take minutes together, longer than a test may run.

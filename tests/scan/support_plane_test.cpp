@@ -6,10 +6,10 @@
 #include <numeric>
 
 #include "core/angle.h"
-#include "relievo/core/parallel.h"
 #include "relievo/scan/surface.h"
 #include "scan/measured_cloud.h"
 #include "scan/turning/turned_surface.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -29,10 +29,7 @@ void add_plane(Cloud& cloud, std::size_t points, const Vec3& normal, double half
 
 // Returns a sphere of radius 1 that touches the plane through the origin with that normal, and 4 x 4 of the plane.
 Cloud sphere_before(const Vec3& normal) {
-  const Cloud sphere = test::sphere(20000, 1);
-  Cloud cloud;
-  for (std::size_t i = 0; i < sphere.size(); ++i)
-    test::add(cloud, sphere.points[i] + normal.normalized(), sphere.normals[i].cast<double>());
+  Cloud cloud = test::moved(test::sphere(20000, 1), normal.normalized());
   add_plane(cloud, 20000, normal, 2);
   return cloud;
 }
@@ -125,18 +122,11 @@ TEST(SupportPlane, LeavesThePointsOfTheFigureThatStandOnIt) {
   EXPECT_TRUE(plane.takes({0, -.2, 0}, Vec3f(0, 0, 1)));
 }
 
-// Returns the six faces of a cube of side 2, turned.
+// Returns a cube of side 2, turned.
 Cloud cube(const Eigen::AngleAxisd& turn) {
-  test::Random random(3);
-  Cloud cloud;
-  for (int i = 0; i < 40000; ++i) {
-    const int axis = i % 3;
-    const double side = i % 2 ? 1 : -1;
-    Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)), n = Vec3::Zero();
-    p[axis] = side;
-    n[axis] = side;
-    test::add(cloud, turn * p, turn * n);
-  }
+  Cloud cloud = test::cube(40000, 3);
+  for (Vec3& p : cloud.points) p = turn * p;
+  for (Vec3f& n : cloud.normals) n = turn.cast<float>() * n;
   return cloud;
 }
 
@@ -170,22 +160,12 @@ TEST(SupportPlane, IsNoPlaquesGround) {
 TEST(SupportPlane, DependsOnNeitherThreadsNorOrderNorScale) {
   const Cloud cloud = sphere_before(tilted(40));
   const SupportPlane plane = *surface_of(cloud).plane;
-  const auto is_same = [&](const SupportPlane& other) {
-    return other.normal == plane.normal && other.offset == plane.offset && other.share == plane.share &&
-           other.tolerance == plane.tolerance;
+  const auto parts = [](const SupportPlane& it) {
+    return std::tuple(it.normal, it.offset, it.share, it.tolerance);
   };
-  for (const int threads : {1, 3, 5}) {
-    set_thread_count(threads);
-    EXPECT_TRUE(is_same(*surface_of(cloud).plane)) << threads;
-  }
-  set_thread_count(0);
-  Cloud reversed = cloud;
-  std::ranges::reverse(reversed.points);
-  std::ranges::reverse(reversed.normals);
-  EXPECT_TRUE(is_same(*surface_of(reversed).plane));
-  Cloud larger = cloud;
-  for (Vec3& p : larger.points) p *= 1024;
-  const SupportPlane scaled = *surface_of(larger).plane;
+  test::expect_same_for_any_threads([&] { return parts(*surface_of(cloud).plane); });
+  EXPECT_EQ(parts(*surface_of(test::reversed(cloud)).plane), parts(plane));
+  const SupportPlane scaled = *surface_of(test::scaled(cloud, 1024)).plane;
   EXPECT_EQ(scaled.share, plane.share);
   EXPECT_NEAR(scaled.tolerance, 1024 * plane.tolerance, 1e-6 * scaled.tolerance);
 }

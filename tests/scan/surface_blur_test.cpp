@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "relievo/core/parallel.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -67,15 +67,12 @@ TEST(SurfaceBlur, TakesAnyWidthAndExtent) {
 
 TEST(SurfaceBlur, HasTheSameBitsForAnyNumberOfThreads) {
   const Cloud sphere = test::sphere(30000, 1);
-  const auto blurred = [&](int threads) {
-    set_thread_count(threads);
+  test::expect_same_for_any_threads([&] {
     std::vector<Vec2f> values(sphere.size());
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = sphere.normals[i].head<2>();
     SurfaceBlur(sphere.points, .05).apply(values);
     return values;
-  };
-  EXPECT_EQ(blurred(1), blurred(3));
-  set_thread_count(0);
+  });
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 
 #include <limits>
 
-#include "support/shapes.h"
+#include "support/surfaces.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
@@ -18,69 +19,54 @@ std::string failure(const Cloud& cloud) {
 
 TEST(Surface, RefusesWhatIsNone) {
   const Cloud line{{Vec3(0, 0, 0), Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, 3), Vec3(7, 7, 7)}, {}};
-  EXPECT_NE(failure({}).find("at least 4 points"), std::string::npos);
+  EXPECT_TRUE(failure({}).contains("at least 4 points"));
   EXPECT_NE(failure({std::vector<Vec3>(3, Vec3::Zero()), {}}).find("found 3"), std::string::npos);
   EXPECT_NE(failure({std::vector<Vec3>(100, Vec3(1, 2, 3)), {}}).find("equal"), std::string::npos);
-  EXPECT_NE(failure(line).find("line"), std::string::npos);
+  EXPECT_TRUE(failure(line).contains("line"));
 }
 
 TEST(Surface, RefusesNumbersThatAreNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   Cloud cloud = test::sphere(1000, 1);
   cloud.points[7].y() = nan;
-  EXPECT_NE(failure(cloud).find("point 7"), std::string::npos);
+  EXPECT_TRUE(failure(cloud).contains("point 7"));
   cloud = test::sphere(1000, 1);
   cloud.normals[8].x() = static_cast<float>(nan);
-  EXPECT_NE(failure(cloud).find("point 8"), std::string::npos);
+  EXPECT_TRUE(failure(cloud).contains("point 8"));
   cloud.normals.pop_back();
-  EXPECT_NE(failure(cloud).find("found 999"), std::string::npos);
+  EXPECT_TRUE(failure(cloud).contains("found 999"));
 }
 
 // The sheet's area of 4 is covered but for its edge, though most points crowd in a hundredth of it.
 TEST(Surface, CoversSparsePartsToo) {
-  const auto surface =
-      find_surface(test::joined(test::sheet(50000, .1, 0, 11), test::sheet(3000, 1, 0, 12)), {});
-  ASSERT_TRUE(surface) << surface.error().message();
-  double area = 0;
-  for (std::size_t t = 0; t < surface->triangulation.triangles.size(); ++t) {
-    if (!surface->boundary.is_inside[t]) continue;
-    const auto& [a, b, c] = surface->triangulation.triangles[t];
-    const Vec3 u = surface->points[b] - surface->points[a], v = surface->points[c] - surface->points[a];
-    area += (u.x() * v.y() - u.y() * v.x()) / 2;
-  }
-  EXPECT_GT(area, .95 * 4);
+  const Surface surface =
+      test::surface_of(test::joined(test::sheet(50000, .1, 0, 11), test::sheet(3000, 1, 0, 12)));
+  EXPECT_GT(test::inside_area(surface.points, surface.triangulation, surface.boundary), .95 * 4);
 }
 
 TEST(Surface, RefusesACloudThatFacesAway) {
   Cloud away = test::height_field(
       5000, 1, [](double x, double y) { return .3 * x * x + .2 * y; },
       [](double x, double) { return Vec2(.6 * x, .2); });
-  for (Vec3f& n : away.normals) n = -n;
   for (Vec3& p : away.points) p.z() = -p.z();
-  EXPECT_NE(failure(away).find("face the viewer"), std::string::npos);
+  EXPECT_NE(failure(test::inside_out(away)).find("face the viewer"), std::string::npos);
 }
 
 TEST(Surface, EstimatesNormalsAndSaysSo) {
-  Cloud sphere = test::sphere(20000, 1);
-  sphere.normals.clear();
-  const auto surface = find_surface(sphere, {});
-  ASSERT_TRUE(surface);
-  EXPECT_TRUE(surface->has_estimated_normals);
-  for (std::size_t i = 0; i < surface->points.size(); ++i) {
-    EXPECT_GT(surface->normals[i].z(), 0);
-    EXPECT_GT(surface->points[i].z(), -.2);  // the back does not shine through
+  const Surface surface = test::surface_of(test::without_normals(test::sphere(20000, 1)));
+  EXPECT_TRUE(surface.has_estimated_normals);
+  for (std::size_t i = 0; i < surface.points.size(); ++i) {
+    EXPECT_GT(surface.normals[i].z(), 0);
+    EXPECT_GT(surface.points[i].z(), -.2);  // the back does not shine through
   }
 }
 
 TEST(Surface, TurnsNormalsThatPointInwardsAndSaysSo) {
-  Cloud sphere = test::sphere(20000, 1);
-  const auto truth = find_surface(sphere, {});
-  for (Vec3f& n : sphere.normals) n = -n;
-  const auto surface = find_surface(sphere, {});
-  ASSERT_TRUE(surface);
-  EXPECT_FALSE(truth->has_flipped_normals);
-  EXPECT_TRUE(surface->has_flipped_normals);
-  EXPECT_EQ(surface->points.size(), truth->points.size());
+  const Cloud sphere = test::sphere(20000, 1);
+  const Surface truth = test::surface_of(sphere), surface = test::surface_of(test::inside_out(sphere));
+  EXPECT_FALSE(truth.has_flipped_normals);
+  EXPECT_TRUE(surface.has_flipped_normals);
+  EXPECT_EQ(surface.points.size(), truth.points.size());
 }
 
 TEST(Surface, RunsItsStagesInOrderAndCanBeCancelled) {
@@ -95,9 +81,7 @@ TEST(Surface, RunsItsStagesInOrderAndCanBeCancelled) {
     if (stage == "curvature") self->cancel();
   });
   self = &cancelled;
-  const auto surface = find_surface(cloud, {}, &cancelled);
-  ASSERT_FALSE(surface);
-  EXPECT_EQ(surface.error().kind, ErrorKind::cancelled);
+  expect_error(find_surface(cloud, {}, &cancelled), ErrorKind::cancelled);
 }
 
 }  // namespace

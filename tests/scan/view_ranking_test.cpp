@@ -13,23 +13,18 @@ namespace {
 
 // A slab with one carved face: that face is the best view.
 TEST(ViewRanking, RanksTheCarvedSideFirst) {
-  Cloud slab = test::height_field(
+  const Cloud slab = test::height_field(
       20000, 1, [](double x, double y) { return .1 * std::sin(9 * x) * std::sin(9 * y); },
       [](double x, double y) {
         return Vec2(.9 * std::cos(9 * x) * std::sin(9 * y), .9 * std::sin(9 * x) * std::cos(9 * y));
       });
-  Cloud back = test::sheet(20000, 1, -.3);
-  for (Vec3f& n : back.normals) n = -n;
+  const Cloud back = test::inside_out(test::sheet(20000, 1, -.3));
   EXPECT_EQ(rank_views(test::joined(slab, back))[0].name, "front");
 }
 
 // Half a sphere as scanned from +Z: there is nothing behind it.
 Cloud dome() {
-  Cloud dome;
-  const Cloud whole = test::sphere(40000, 1);
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole.points[i].z() > .3) test::add(dome, whole.points[i], whole.normals[i].cast<double>());
-  return dome;
+  return test::where(test::sphere(40000, 1), [](const Vec3& p) { return p.z() > .3; });
 }
 
 // Maps every point and normal, which may lose its normals.
@@ -64,13 +59,9 @@ TEST(ViewRanking, PrefersTheScannedSideToItsHollowBack) {
 }
 
 TEST(ViewRanking, DoesNotMindNormalsThatPointInwards) {
-  Cloud inward = dome();
-  const Cloud low = test::sphere(20000, 1, 2);
-  for (std::size_t i = 0; i < low.size(); ++i)
-    if (low.points[i].z() <= .3) test::add(inward, low.points[i], low.normals[i].cast<double>());
-  const auto outward_first = rank_views(inward);
-  for (Vec3f& n : inward.normals) n = -n;
-  const auto inward_first = rank_views(inward);
+  const Cloud low = test::where(test::sphere(20000, 1, 2), [](const Vec3& p) { return p.z() <= .3; });
+  const Cloud outward = test::joined(dome(), low);
+  const auto outward_first = rank_views(outward), inward_first = rank_views(test::inside_out(outward));
   for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(inward_first[i].name, outward_first[i].name);
 }
 

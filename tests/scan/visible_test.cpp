@@ -46,11 +46,9 @@ TEST(Visible, OfASphereAlmostAllThatFacesTheViewer) {
 
 // A front sheet ten times sparser on its right half still hides what is behind.
 TEST(Visible, UnevenDensityLeavesNoHoles) {
-  Cloud front = test::sheet(60000, 1, .5, 21);
   test::Random random(22);
-  Cloud uneven;
-  for (std::size_t i = 0; i < front.size(); ++i)
-    if (front.points[i].x() < 0 || random.uniform() < .1) test::add(uneven, front.points[i], Vec3::UnitZ());
+  const Cloud uneven = test::where(test::sheet(60000, 1, .5, 21),
+                                   [&](const Vec3& p) { return p.x() < 0 || random.uniform() < .1; });
   const std::size_t n = 60000;
   const std::vector<Index> found = visible(test::joined(test::sheet(n, .98, 0, 23), uneven));
   EXPECT_LT(share(found, 0, n), 1e-4);
@@ -99,11 +97,9 @@ TEST(Visible, OfVeryUnevenDensityAlmostAllToo) {
 }
 
 TEST(Visible, IsTheSameForAnyOrder) {
-  Cloud cloud = test::torus(20000, 1, .4);
+  const Cloud cloud = test::torus(20000, 1, .4);
   const std::vector<Index> found = visible(cloud);
-  std::reverse(cloud.points.begin(), cloud.points.end());
-  std::reverse(cloud.normals.begin(), cloud.normals.end());
-  std::vector<Index> reversed = visible(cloud);
+  std::vector<Index> reversed = visible(test::reversed(cloud));
   for (Index& i : reversed) i = static_cast<Index>(cloud.size()) - 1 - i;
   std::sort(reversed.begin(), reversed.end());
   EXPECT_EQ(found, reversed);
@@ -124,12 +120,9 @@ TEST(Visible, OfAHeightFieldIsAll) {
 
 // A box whose front has a hole: through it one sees the inside of its back, which faces away.
 TEST(HoleFillPoints, StandInWhereOnlyTheOtherSideWasScanned) {
-  Cloud front;
-  for (const Vec3& p : test::sheet(40000, 1, 0).points)
-    if (p.head<2>().norm() > .2) test::add(front, p, Vec3::UnitZ());
-  Cloud back = test::sheet(40000, 1, -.5, 15);
-  for (Vec3f& n : back.normals) n = -n;
-  const Cloud box = test::joined(front, back);
+  const Cloud front =
+      test::where(test::sheet(40000, 1, 0), [](const Vec3& p) { return p.head<2>().norm() > .2; });
+  const Cloud box = test::joined(front, test::inside_out(test::sheet(40000, 1, -.5, 15)));
   const Spacing spacing = measure_spacing(box);
   const std::vector<Index> seen = visible_points(box, spacing);
   const std::vector<Index> hole_fill = hole_fill_points(box, spacing, seen);
@@ -154,9 +147,7 @@ TEST(Visible, OfNothingIsNothing) {
   EXPECT_TRUE(visible(no_normals).empty());
   EXPECT_TRUE(hole_fill_points(no_normals, measure_spacing(no_normals), std::vector<Index>{0}).empty());
   EXPECT_TRUE(visible({}).empty());
-  Cloud away = test::sheet(1000, 1, 0);
-  for (Vec3f& n : away.normals) n = -n;
-  EXPECT_TRUE(visible(away).empty());
+  EXPECT_TRUE(visible(test::inside_out(test::sheet(1000, 1, 0))).empty());
   EXPECT_TRUE(visible({std::vector<Vec3>(10, Vec3::Zero()), std::vector<Vec3f>(10, Vec3f::UnitZ())}).empty());
 }
 

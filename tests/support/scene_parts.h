@@ -6,6 +6,7 @@
 #include "relievo/scan/scan_file.h"
 #include "relievo/scene.h"
 #include "support/results.h"
+#include "support/shapes.h"
 
 namespace relievo::test {
 
@@ -28,11 +29,6 @@ inline Pose at(double x, double y, double z, const Vec3& rotate_deg = Vec3::Zero
 // Returns a wedge that no rotation or reflection maps onto itself, so that each of them can be told from the others.
 inline Mesh wedge() {
   return {{{0, 0, 0}, {3, 0, 0}, {0, 2, 0}, {0, 0, 1}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
-}
-
-inline Cloud moved(Cloud cloud, const Vec3& by) {
-  for (Vec3& p : cloud.points) p += by;
-  return cloud;
 }
 
 inline std::vector<PlacedModel> placed(const Scene& scene, const View& view = front) {

@@ -1,6 +1,7 @@
 // Scatters points at random over shapes that have closed forms, from a generator that is the same on all machines.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -85,10 +86,59 @@ inline Cloud sheet(std::size_t n, double half, double z, std::uint64_t seed = 5)
       n, half, [z](double, double) { return z; }, [](double, double) { return Vec2(0, 0); }, seed);
 }
 
+inline Cloud moved(Cloud cloud, const Vec3& by) {
+  for (Vec3& p : cloud.points) p += by;
+  return cloud;
+}
+
+inline Cloud scaled(Cloud cloud, double factor) {
+  for (Vec3& p : cloud.points) p *= factor;
+  return cloud;
+}
+
+inline Cloud inside_out(Cloud cloud) {
+  for (Vec3f& n : cloud.normals) n = -n;
+  return cloud;
+}
+
+inline Cloud without_normals(Cloud cloud) {
+  cloud.normals.clear();
+  return cloud;
+}
+
+// Returns the same points in the opposite order.
+inline Cloud reversed(Cloud cloud) {
+  std::ranges::reverse(cloud.points);
+  std::ranges::reverse(cloud.normals);
+  return cloud;
+}
+
+// Returns the points for whose places that holds.
+template <typename IsKept>
+Cloud where(const Cloud& cloud, IsKept is_kept) {
+  Cloud kept;
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    if (is_kept(cloud.points[i])) add(kept, cloud.points[i], cloud.normals[i].cast<double>());
+  return kept;
+}
+
 inline Cloud joined(Cloud a, const Cloud& b) {
   a.points.insert(a.points.end(), b.points.begin(), b.points.end());
   a.normals.insert(a.normals.end(), b.normals.begin(), b.normals.end());
   return a;
+}
+
+// Returns points distributed uniformly on a cube from -1 to 1.
+inline Cloud cube(std::size_t n, std::uint64_t seed = 5) {
+  Random random(seed);
+  Cloud cloud;
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto axis = static_cast<int>(i % 3);
+    Vec3 p(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)), normal = Vec3::Zero();
+    p[axis] = normal[axis] = i % 2 ? 1 : -1;
+    add(cloud, p, normal);
+  }
+  return cloud;
 }
 
 // Moves every point along its normal and turns every normal, by Gaussian noise.
@@ -123,6 +173,16 @@ inline Cloud button(std::size_t n, double radius, double edge, double z = 0, std
     add(cloud, radius * outwards + z * Vec3::UnitZ() + edge * normal, normal);
   }
   return cloud;
+}
+
+// Returns the distance of a place from the ellipse with those half axes along x and y.
+inline double distance_from_ellipse(const Vec2& place, double a, double b) {
+  double t = std::atan2(place.y() / b, place.x() / a);
+  for (int step = 0; step < 20; ++step) {  // Newton's method for the foot of the perpendicular
+    const Vec2 p(a * std::cos(t), b * std::sin(t)), tangent(-a * std::sin(t), b * std::cos(t));
+    t -= (p - place).dot(tangent) / (tangent.squaredNorm() - (p - place).dot(p));
+  }
+  return (place - Vec2(a * std::cos(t), b * std::sin(t))).norm();
 }
 
 }  // namespace relievo::test

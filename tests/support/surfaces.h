@@ -1,0 +1,30 @@
+// Makes surfaces and models of reliefs from clouds; the test ends where there is none.
+#pragma once
+
+#include "relievo/relief/relief.h"
+#include "relievo/scan/surface.h"
+#include "support/results.h"
+#include "support/shapes.h"
+
+namespace relievo::test {
+
+inline Surface surface_of(const Cloud& cloud, const View& view = {}) {
+  return value_of(find_surface(cloud, view));
+}
+
+inline ReliefModel prepared(const Cloud& cloud, Mode mode = Mode::exact) {
+  return value_of(ReliefModel::prepare(surface_of(cloud), nullptr, mode));
+}
+
+// Returns bumps with an occluding ring before them: curvature of both signs, a depth jump, an inner hole. Both have that
+// many points.
+inline Cloud bumps_behind_a_ring(std::size_t n = 30000) {
+  const Cloud bumps = height_field(
+      n, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },
+      [](double x, double y) {
+        return Vec2(std::cos(5 * x) * std::cos(4 * y), -.8 * std::sin(5 * x) * std::sin(4 * y));
+      });
+  return joined(bumps, torus(n, 1.5, .4));
+}
+
+}  // namespace relievo::test
