@@ -40,12 +40,6 @@ double nearest(const Vec2& p, std::span<const Vec2> points, std::span<const Inde
   return least;
 }
 
-TEST(ControlPoints, AreWithinTheRadiusOfEveryPoint) {
-  const Figure figure = ring(10000);
-  const ControlPoints control = grow_control_points(figure.points, figure.distance, {500});
-  for (const Vec2& p : figure.points) ASSERT_LE(nearest(p, figure.points, control.points), control.radius);
-}
-
 TEST(ControlPoints, KeepTheirDistanceWhichShrinksTowardsTheBoundary) {
   const Figure figure = ring(10000);
   const ControlPoints control = grow_control_points(figure.points, figure.distance, {500});

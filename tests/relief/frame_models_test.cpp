@@ -7,8 +7,9 @@
 #include "relievo/io/read.h"
 #include "relievo/relief/frame.h"
 #include "relievo/samples/sample.h"
-#include "relievo/scan/surface.h"
+#include "support/differences.h"
 #include "support/shared_scans.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
@@ -41,7 +42,7 @@ class FrameOfModel : public testing::TestWithParam<std::string> {
 
 // Single precision against double.
 TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
-  const ReliefModel model = ReliefModel::prepare(find_surface(cloud_, {}).value()).value();
+  const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);
   Frame frame;
   for (const Shape& shape : {Shape{{.05, 0}, .04}, Shape{Compression::from_alpha(4, .01), .02}}) {
@@ -49,16 +50,13 @@ TEST_P(FrameOfModel, AgreesWithTheExactReliefToAPartInAHundredThousand) {
     options.shape = shape;
     maker.make(options, frame);
     const Relief exact = model.make(shape);
-    double worst = 0;
-    for (std::size_t i = 0; i < exact.heights.size(); ++i)
-      worst = std::max(worst, std::abs(static_cast<double>(frame.heights[i]) - exact.heights[i]));
-    EXPECT_LT(worst, 1e-5 * exact.height);
+    EXPECT_LT(test::largest_difference(frame.heights, exact.heights), 1e-5 * exact.height);
   }
 }
 
 // Heights in shares of L_d by saturations, as a slider goes through them. Heights out of reach are told.
 TEST_P(FrameOfModel, KeepsALockedHeight) {
-  const ReliefModel model = ReliefModel::prepare(find_surface(cloud_, {}).value()).value();
+  const ReliefModel model = test::prepared(cloud_);
   FrameMaker maker(model);
   Frame frame;
   FrameOptions options;

@@ -2,26 +2,26 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/core/parallel.h"
-#include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/differences.h"
+#include "support/same_bits.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
 
+using test::largest_difference;
+
 const ReliefModel& model() {
-  static const ReliefModel made = [] {
-    const Cloud bumps = test::height_field(
-        30000, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },
-        [](double x, double y) {
-          return Vec2(std::cos(5 * x) * std::cos(4 * y), -.8 * std::sin(5 * x) * std::sin(4 * y));
-        });
-    return ReliefModel::prepare(find_surface(test::joined(bumps, test::torus(30000, 1.5, .4)), {}).value())
-        .value();
-  }();
+  static const ReliefModel made = test::prepared(test::bumps_behind_a_ring());
+  return made;
+}
+
+const ReliefModel& subspace_model() {
+  static const ReliefModel made = ReliefModel::prepare(model().surface(), nullptr, Mode::subspace).value();
   return made;
 }
 
@@ -32,18 +32,19 @@ Frame frame_of(const FrameOptions& options) {
   return frame;
 }
 
-TEST(Frame, AgreesWithTheExactReliefToAPartInAHundredThousand) {
-  for (const double beta : {0.0, .01, 1.0, 2.0}) {
-    FrameOptions options;
-    options.shape = {{.7, beta}, .04};
-    const Relief exact = model().make(options.shape);
-    const Frame frame = frame_of(options);
-    double worst = 0;
-    for (std::size_t i = 0; i < exact.heights.size(); ++i)
-      worst = std::max(worst, std::abs(static_cast<double>(frame.heights[i]) - exact.heights[i]));
-    EXPECT_LT(worst, 1e-5 * exact.height) << beta;
-    EXPECT_NEAR(frame.height / exact.height, 1, 1e-5) << beta;
-  }
+TEST(Frame, AgreesWithTheExactRelief) {
+  for (const auto& [style, tolerance] : {std::pair(Style::paper, 1e-5), {Style::layered, 1e-4}})
+    for (const double beta : {0.0, .01, 1.0, 2.0})
+      for (const double u : {.3, .7, 2.0}) {
+        FrameOptions options;
+        options.shape = {{u, beta}, .04};
+        options.shape.style = style;
+        const Relief exact = model().make(options.shape);
+        const Frame frame = frame_of(options);
+        EXPECT_LT(largest_difference(frame.heights, exact.heights), tolerance * exact.height)
+            << u << ' ' << beta;
+        EXPECT_NEAR(frame.height / exact.height, 1, tolerance) << u << ' ' << beta;
+      }
 }
 
 // The stencil against the cross products themselves.
@@ -57,10 +58,7 @@ TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
   for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
     if (!surface.boundary.is_inside[t]) continue;
     const auto [a, b, c] = surface.triangulation.triangles[t];
-    const Vec3 u = at(b) - at(a), v = at(c) - at(a);
-    const Vec3 cross(u.y() * v.z() - u.z() * v.y(), u.z() * v.x() - u.x() * v.z(),
-                     u.x() * v.y() - u.y() * v.x());
-    for (const Index corner : {a, b, c}) sums[corner] += cross;
+    for (const Index corner : {a, b, c}) sums[corner] += (at(b) - at(a)).cross(at(c) - at(a));
   }
   const std::vector<Vec3f> normals = vertex_normals(surface, frame.heights);
   for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -68,21 +66,6 @@ TEST(Frame, NormalsAreTheMeanOfTheTrianglesAround) {
     ASSERT_LT((frame.normals[i].cast<double>() - normal).norm(), 2e-4);
     ASSERT_LT((frame.normals[i] - normals[i]).norm(), 1e-5F);
   }
-}
-
-TEST(Frame, AgreesWithTheExactReliefInLayersToo) {
-  for (const double beta : {0.0, 1.0})
-    for (const double u : {.3, 2.0}) {
-      FrameOptions options;
-      options.shape = {{u, beta}, .04};
-      options.shape.style = Style::layered;
-      const Relief exact = model().make(options.shape);
-      const Frame frame = frame_of(options);
-      double worst = 0;
-      for (std::size_t i = 0; i < exact.heights.size(); ++i)
-        worst = std::max(worst, std::abs(static_cast<double>(frame.heights[i]) - exact.heights[i]));
-      EXPECT_LT(worst, 1e-4 * exact.height) << beta;
-    }
 }
 
 TEST(Frame, AreCompressedAsTheirShapeSays) {
@@ -96,41 +79,32 @@ TEST(Frame, AreCompressedAsTheirShapeSays) {
     maker.make(options, frame);
     EXPECT_EQ(frame.options.shape.membrane, membrane.value_or(model().membrane_at(1)));
     const Relief exact = model().make(options.shape);
-    for (std::size_t i = 0; i < exact.heights.size(); ++i)
-      ASSERT_NEAR(static_cast<double>(frame.heights[i]), exact.heights[i], 1e-4 * exact.height);
+    EXPECT_LE(largest_difference(frame.heights, exact.heights), 1e-4 * exact.height);
   }
 }
 
-TEST(Frame, KeepsALockedHeightInLayers) {
-  FrameMaker maker(model());
+// Expects that frames have heights of those shares of the diagonal while the other sliders move.
+void expect_locked_heights(const ReliefModel& m, Style style, std::span<const double> shares) {
+  FrameMaker maker(m);
   Frame frame;
   FrameOptions options;
-  for (const double share : {.05, .0125, .09}) {
-    options.height = share * model().surface().diagonal;
-    for (const double gamma : {0.0, .02, .04, .08}) {
-      options.shape = {{1, 0}, gamma};
-      options.shape.style = Style::layered;
-      maker.make(options, frame);
-      ASSERT_TRUE(frame.is_height_met) << share << ' ' << gamma;
-      ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << share << ' ' << gamma;
-    }
-  }
-}
-
-TEST(Frame, KeepsALockedHeightWhileOthersMove) {
-  FrameMaker maker(model());
-  Frame frame;
-  FrameOptions options;
-  for (const double share : {.05, .0125, .1}) {
-    options.height = share * model().surface().diagonal;
-    for (const double beta : {0.0, .01, .5, 5.0, .2})
+  for (const double share : shares) {
+    options.height = share * m.surface().diagonal;
+    for (const double beta : style == Style::layered ? std::vector{0.} : std::vector{0., .01, .5, 5., .2})
       for (const double gamma : {0.0, .04, .1}) {
         options.shape = {{1, beta}, gamma};
+        options.shape.style = style;
         maker.make(options, frame);
         ASSERT_TRUE(frame.is_height_met) << share << ' ' << beta << ' ' << gamma;
         ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << share << ' ' << beta << ' ' << gamma;
       }
   }
+}
+
+TEST(Frame, KeepsALockedHeightWhileOthersMove) {
+  expect_locked_heights(model(), Style::layered, std::array{.05, .0125, .09});
+  expect_locked_heights(model(), Style::paper, std::array{.05, .0125, .1});
+  expect_locked_heights(subspace_model(), Style::paper, std::array{.05});
 }
 
 TEST(Frame, FollowsASliderInTwoSolves) {
@@ -167,8 +141,7 @@ TEST(Frame, FollowsASliderInOneSolveWhereHeightsMayDiffer) {
 }
 
 TEST(Frame, TellsThatAHeightIsOutOfReach) {
-  const ReliefModel smooth =
-      ReliefModel::prepare(find_surface(test::sphere(30000, 1), {}).value()).value();  // without depth jumps
+  const ReliefModel smooth = test::prepared(test::sphere(30000, 1));  // without depth jumps
   FrameMaker maker(smooth);
   Frame frame;
   FrameOptions options;
@@ -230,11 +203,6 @@ TEST(Frame, ABaseIsAddedToTheHeights) {
   for (std::size_t i = 0; i < base->size(); ++i) ASSERT_EQ(curved.heights[i], plane.heights[i] + (*base)[i]);
 }
 
-const ReliefModel& subspace_model() {
-  static const ReliefModel made = ReliefModel::prepare(model().surface(), nullptr, Mode::subspace).value();
-  return made;
-}
-
 TEST(Frame, OfASubspaceIsItsRelief) {
   FrameOptions options;
   options.shape = {{.7, .5}, .04};
@@ -243,32 +211,14 @@ TEST(Frame, OfASubspaceIsItsRelief) {
   Frame frame;
   maker.make(options, frame);
   const Relief relief = subspace_model().make(options.shape);
-  for (std::size_t i = 0; i < relief.heights.size(); ++i)
-    ASSERT_NEAR(static_cast<double>(frame.heights[i]), relief.heights[i], 1e-5 * relief.height);
-}
-
-TEST(Frame, OfASubspaceKeepsALockedHeight) {
-  FrameMaker maker(subspace_model());
-  Frame frame;
-  FrameOptions options;
-  options.height = .05 * model().surface().diagonal;
-  for (const double beta : {0.0, .01, .5}) {
-    options.shape = {{1, beta}, .04};
-    maker.make(options, frame);
-    ASSERT_NEAR(frame.height / *options.height, 1, 1e-3) << beta;
-  }
+  EXPECT_LE(largest_difference(frame.heights, relief.heights), 1e-5 * relief.height);
 }
 
 TEST(Frame, HasTheSameBitsForAnyNumberOfThreads) {
-  set_thread_count(1);
-  const Frame one = frame_of({});
-  for (const int threads : {2, 4}) {
-    set_thread_count(threads);
-    const Frame many = frame_of({});
-    EXPECT_EQ(one.heights, many.heights);
-    EXPECT_EQ(one.normals, many.normals);
-  }
-  set_thread_count(0);
+  test::expect_same_for_any_threads([] {
+    const Frame frame = frame_of({});
+    return std::pair(frame.heights, frame.normals);
+  });
 }
 
 }  // namespace

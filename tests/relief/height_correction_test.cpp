@@ -6,17 +6,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
 #include "scan/jumps.h"
-#include "support/shapes.h"
+#include "support/differences.h"
+#include "support/same_bits.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
 
-Surface surface_of(const Cloud& cloud) {
-  return find_surface(cloud, {}).value();
-}
+using test::surface_of;
 
 // Level, and longer in y: far from its ends only x matters.
 Surface strip(double half_width) {
@@ -191,19 +190,6 @@ TEST(HeightCorrection, KeepsFineDetail) {
   EXPECT_NEAR(product / square, 1, .03);
 }
 
-// The nearer of two equal sheets, one behind the other, comes to lie higher.
-TEST(HeightCorrection, PullsToTheFrontWhatIsInFront) {
-  const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
-  const std::vector<double> z = corrected(sheets, std::vector<double>(sheets.points.size(), .05), .1);
-  double near = 0, far = 0, near_points = 0, far_points = 0;
-  for (std::size_t i = 0; i < z.size(); ++i) {
-    const double away = sheets.points[i].head<2>().cwiseAbs().maxCoeff();
-    if (away < .3) near += z[i], ++near_points;
-    if (away > .5 && away < .8) far += z[i], ++far_points;
-  }
-  EXPECT_GT(near / near_points, far / far_points + .03);
-}
-
 // The shorter the pull length, the nearer heights come to their ranks: .1 in front, 0 behind.
 TEST(HeightCorrection, PullsHarderWithAShorterLength) {
   const Surface sheets = surface_of(test::joined(test::sheet(40000, 1, 0), test::sheet(10000, .4, 3, 9)));
@@ -253,7 +239,7 @@ TEST(HeightCorrection, IsTheSameInSinglePrecision) {
   const Surface surface = bumpy();
   const std::vector<double> z = depths(surface), exact = corrected(surface, z, .1);
   const std::vector<float> single = corrected(surface, std::vector<float>(z.begin(), z.end()), .1);
-  for (std::size_t i = 0; i < z.size(); ++i) ASSERT_NEAR(static_cast<double>(single[i]), exact[i], 2e-6);
+  EXPECT_LE(test::largest_difference(single, exact), 2e-6);
 }
 
 // Rims end as w_b says, and the height is just the one asked for.
@@ -289,11 +275,8 @@ TEST(HeightCorrection, LeavesWhatHasNoHeight) {
 
 TEST(HeightCorrection, HasTheSameBitsForAnyNumberOfThreads) {
   const Surface surface = bumpy();
-  set_thread_count(1);
-  const std::vector<float> one = corrected(surface, std::vector<float>(surface.points.size(), .3F), .1);
-  set_thread_count(3);
-  EXPECT_EQ(corrected(surface, std::vector<float>(surface.points.size(), .3F), .1), one);
-  set_thread_count(0);
+  const std::vector<float> level(surface.points.size(), .3F);
+  test::expect_same_for_any_threads([&] { return corrected(surface, level, .1); });
 }
 
 }  // namespace

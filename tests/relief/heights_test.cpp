@@ -9,7 +9,9 @@
 #include <numbers>
 
 #include "relief/vertex_normals.h"
-#include "relievo/core/parallel.h"
+#include "support/differences.h"
+#include "support/results.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -84,26 +86,8 @@ TEST(Heights, InSinglePrecisionAgreeWithDouble) {
   HeightSystem::Workspace workspace = system.make_workspace();
   system.solve(single, z, workspace);
   const std::vector<double> truth = heights_of(system, slopes);
-  const auto [lowest, highest] = std::minmax_element(truth.begin(), truth.end());
-  for (std::size_t i = 0; i < z.size(); ++i)
-    ASSERT_NEAR(static_cast<double>(z[i]), truth[i], 1e-5 * (*highest - *lowest));
-}
-
-TEST(Heights, OfNoSlopesAreZero) {
-  const DiscCase disc(500);
-  for (const double z : heights_of(disc.system(), std::vector<Vec2>(disc.points.size(), Vec2(0, 0))))
-    EXPECT_EQ(z, 0);
-}
-
-TEST(Heights, AreLinearInTheSlopes) {
-  const DiscCase disc(1000);
-  const HeightSystem system = disc.system();
-  const auto a = slopes_of(disc.points, [](const Vec2& p) { return Vec2(std::sin(5 * p.y()), p.x()); });
-  const auto b = slopes_of(disc.points, [](const Vec2& p) { return Vec2(-2 * p); });
-  std::vector<Vec2> both(a.size());
-  for (std::size_t i = 0; i < a.size(); ++i) both[i] = 3 * a[i] - b[i];
-  const auto za = heights_of(system, a), zb = heights_of(system, b), zc = heights_of(system, both);
-  for (std::size_t i = 0; i < zc.size(); ++i) ASSERT_NEAR(zc[i], 3 * za[i] - zb[i], 1e-10);
+  const auto [lowest, highest] = std::ranges::minmax(truth);
+  EXPECT_LE(test::largest_difference(z, truth), 1e-5 * (highest - lowest));
 }
 
 // Against the dense least-squares problem, assembled from equation (9) edge by edge.
@@ -147,21 +131,13 @@ void expect_least_squares(const std::vector<float>& weights) {
 
 TEST(Heights, MinimiseEquationNine) {
   expect_least_squares({});
-}
-
-TEST(Heights, MinimiseItWithWeights) {
   expect_least_squares(DiscCase(40, 20).uneven());
 }
 
 TEST(Heights, HaveTheSameBitsForAnyNumberOfThreads) {
   const DiscCase disc(20000);
   const auto slopes = slopes_of(disc.points, [](const Vec2& p) { return Vec2(std::sin(9 * p.x()), p.y()); });
-  set_thread_count(1);
-  const std::vector<double> one = heights_of(disc.system(), slopes);
-  set_thread_count(3);
-  const std::vector<double> three = heights_of(disc.system(), slopes);
-  set_thread_count(0);
-  EXPECT_EQ(one, three);
+  test::expect_same_for_any_threads([&] { return heights_of(disc.system(), slopes); });
 }
 
 // A second disc beside the first: their triangulation with the triangles between them left out.
@@ -204,9 +180,7 @@ TEST(Heights, OfAFragmentApartAreExactToo) {
 
 TEST(Heights, OfAFragmentThatNothingHoldsAreAnError) {
   const TwoDiscs discs(false);
-  const auto system = HeightSystem::build(discs.points, discs.mesh, discs.boundary);
-  ASSERT_FALSE(system);
-  EXPECT_EQ(system.error().kind, ErrorKind::geometry);
+  expect_error(HeightSystem::build(discs.points, discs.mesh, discs.boundary), ErrorKind::geometry);
 }
 
 TEST(Heights, OfBoundaryAloneAreZero) {

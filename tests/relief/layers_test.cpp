@@ -7,19 +7,16 @@
 #include <numbers>
 
 #include "relief/layered_slopes.h"
-#include "relievo/core/parallel.h"
 #include "relievo/relief/weights.h"
-#include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/same_bits.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Surface surface_of(const Cloud& cloud) {
-  return find_surface(cloud, {}).value();
-}
+using test::surface_of;
 
 // A wave of that length along x, of slope 0.2, on a square of side 2.
 Surface wavy(double length) {
@@ -115,15 +112,12 @@ TEST(Layers, ContainWhatTheirSizeSays) {
 }
 
 TEST(Layers, HaveTheSameBitsForAnyNumberOfThreads) {
-  const auto layers = [](int threads) {
-    set_thread_count(threads);
+  test::expect_same_for_any_threads([] {
     std::vector<Vec2f> all;
     for (const PointLayers& l : layers_of(surface_of(test::torus(20000, 1, .4))))
       all.insert(all.end(), {Vec2f(l.fine), Vec2f(l.middle), Vec2f(l.coarse), Vec2f(l.broad)});
     return all;
-  };
-  EXPECT_EQ(layers(1), layers(3));
-  set_thread_count(0);
+  });
 }
 
 TEST(LayerWeights, AreEquationSixPerLayerTimesTwoMinusTheShare) {

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "relievo/core/parallel.h"
 #include "relievo/quality/measures.h"
 #include "relievo/relief/baselines.h"
 #include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
-#include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/same_bits.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
@@ -23,12 +22,8 @@ Cloud figure() {
   return make_sample("shell", {60000}).value();
 }
 
-ReliefModel model_of(const Cloud& cloud, Mode mode = Mode::exact) {
-  return ReliefModel::prepare(find_surface(cloud, {}).value(), nullptr, mode).value();
-}
-
 const ReliefModel& model() {
-  static const ReliefModel it = model_of(figure());
+  static const ReliefModel it = test::prepared(figure());
   return it;
 }
 
@@ -57,7 +52,7 @@ TEST(MembraneTuning, KeepsDetailAndOrderOfGradientDomainCompression) {
 
 // The green man needs weak compression and a strong pull to keep its order; the shell does not.
 TEST(MembraneTuning, CompressesWeaklyAndPullsHardWhereOrderNeedsIt) {
-  const ReliefModel mask = model_of(make_sample("green_man", {60000}).value());
+  const ReliefModel mask = test::prepared(make_sample("green_man", {60000}).value());
   EXPECT_GT(mask.membrane_at(.25).height_share, 1.1 * model().membrane_at(.25).height_share);
   EXPECT_LT(mask.membrane_at(1).pull_length, .5 * model().membrane_at(1).pull_length);
   expect_to_keep_what_compression_keeps(mask);
@@ -131,7 +126,7 @@ TEST(MembraneTuning, IsNotForThePapersStyle) {
 TEST(MembraneTuning, DoesNotDependOnScale) {
   Cloud cloud = figure();
   for (Vec3& p : cloud.points) p *= 1024;
-  const ReliefModel large = model_of(cloud);
+  const ReliefModel large = test::prepared(cloud);
   for (const double u : {.3, 1.0, 3.0}) {
     EXPECT_NEAR(large.membrane_at(u).height_share, model().membrane_at(u).height_share, 1e-3);
     EXPECT_NEAR(large.membrane_at(u).pull_length, model().membrane_at(u).pull_length, 1e-3);
@@ -139,7 +134,7 @@ TEST(MembraneTuning, DoesNotDependOnScale) {
 }
 
 TEST(MembraneTuning, IsTheSameInTheSubspace) {
-  const ReliefModel subspace = model_of(figure(), Mode::subspace);
+  const ReliefModel subspace = test::prepared(figure(), Mode::subspace);
   for (const double u : {.3, 1.0, 3.0}) EXPECT_EQ(subspace.membrane_at(u), model().membrane_at(u)) << u;
 }
 
@@ -148,7 +143,7 @@ TEST(MembraneTuning, ComesNearestWhereItCannotKeepAll) {
   const auto dome = [](double x, double y) {
     return .8 - .4 * (x * x + y * y) + .06 * std::sin(14 * x) * std::sin(11 * y);
   };
-  const ReliefModel m = model_of(test::height_field(60000, 1, dome, [&](double x, double y) -> Vec2 {
+  const ReliefModel m = test::prepared(test::height_field(60000, 1, dome, [&](double x, double y) -> Vec2 {
     constexpr double d = 1e-5;
     return Vec2(dome(x + d, y) - dome(x - d, y), dome(x, y + d) - dome(x, y - d)) / (2 * d);
   }));
@@ -177,9 +172,8 @@ TEST(MembraneTuning, CanBeCancelled) {
       if (stage == "tuning") self->cancel();
     });
     self = &progress;
-    const auto m = ReliefModel::prepare(find_surface(figure(), {}).value(), &progress, mode);
-    ASSERT_FALSE(m);
-    EXPECT_EQ(m.error().kind, ErrorKind::cancelled);
+    expect_error(ReliefModel::prepare(find_surface(figure(), {}).value(), &progress, mode),
+                 ErrorKind::cancelled);
   }
 }
 
@@ -189,7 +183,7 @@ TEST(MembraneTuning, HasItsDefaultWhereNothingCanBeMeasured) {
   for (Vec3& p : strip.points) p.x() *= .005;
   const MembraneTuning initial;
   for (const Cloud& cloud : {strip, test::sheet(3000, 1, 0), test::sheet(60000, 1, 0)}) {
-    const ReliefModel m = model_of(cloud);
+    const ReliefModel m = test::prepared(cloud);
     for (const double u : {0.0, .25, 1.0, 10.0}) EXPECT_EQ(m.membrane_at(u), initial.at(u)) << u;
   }
   EXPECT_NE(model().membrane_at(.25), initial.at(.25));
@@ -202,16 +196,12 @@ TEST(MembraneTuning, HasItsDefaultWhereNothingCanBeMeasured) {
 }
 
 TEST(MembraneTuning, HasTheSameBitsForAnyNumberOfThreads) {
-  const auto params = [](int threads) {
-    set_thread_count(threads);
-    const ReliefModel m = model_of(test::torus(60000, 1, .4));
+  test::expect_same_for_any_threads([] {
+    const ReliefModel m = test::prepared(test::torus(60000, 1, .4));
     std::vector<MembraneParams> all;
     for (const double u : {.1, .4, 1.0, 5.0}) all.push_back(m.membrane_at(u));
     return all;
-  };
-  const std::vector<MembraneParams> one = params(1);
-  EXPECT_EQ(one, params(3));
-  set_thread_count(0);
+  });
 }
 
 }  // namespace

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/simd.h"
-#include "relievo/core/parallel.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -42,29 +41,23 @@ struct Linked {
 
 class PointLinksOf : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(PointLinksOf, GiveTheDivergence) {
-  const Linked linked(GetParam());
-  const std::vector<float> sums = linked.divergence();
+template <typename Real>
+void expect_divergence(const Linked& linked, Real tolerance) {
+  std::vector<Eigen::Vector2<Real>> slopes;
+  for (const Vec2f& s : linked.slopes) slopes.push_back(s.cast<Real>());
+  std::vector<Real> sums(slopes.size(), Real{-1});
+  SlicedEllMatrix(linked.links).divergence(slopes, sums);
   for (std::size_t i = 0; i < sums.size(); ++i) {
-    float expected = 0;
+    Real expected = 0;
     for (const MatrixEntry& link : linked.links[i])
-      expected += (linked.slopes[i] + linked.slopes[link.other]).dot(link.coefficient);
-    ASSERT_NEAR(sums[i], expected, 1e-5F);
+      expected += (slopes[i] + slopes[link.other]).dot(link.coefficient.cast<Real>());
+    ASSERT_NEAR(sums[i], expected, tolerance);
   }
 }
 
-TEST_P(PointLinksOf, GiveTheSameDivergenceInDouble) {
-  const Linked linked(GetParam());
-  std::vector<Vec2> slopes;
-  for (const Vec2f& s : linked.slopes) slopes.push_back(s.cast<double>());
-  std::vector<double> sums(slopes.size(), -1);
-  SlicedEllMatrix(linked.links).divergence(slopes, sums);
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    double expected = 0;
-    for (const MatrixEntry& link : linked.links[i])
-      expected += (slopes[i] + slopes[link.other]).dot(link.coefficient.cast<double>());
-    ASSERT_NEAR(sums[i], expected, 1e-14);
-  }
+TEST_P(PointLinksOf, GiveTheDivergenceInBothPrecisions) {
+  expect_divergence<float>(Linked(GetParam()), 1e-5F);
+  expect_divergence<double>(Linked(GetParam()), 1e-14);
 }
 
 TEST_P(PointLinksOf, GiveNormals) {
@@ -81,15 +74,8 @@ TEST_P(PointLinksOf, GiveNormals) {
 TEST_P(PointLinksOf, GiveTheSameBitsForAnyThreadsAndInstructions) {
   const Linked linked(GetParam());
   const auto all = [&] { return std::pair(linked.divergence(), linked.normals()); };
-  set_thread_count(1);
-  const auto expected = all();
-  set_thread_count(3);
-  EXPECT_EQ(all(), expected);
-  set_thread_count(0);
-  const bool could = uses_avx2();
-  allow_avx2(false);
-  EXPECT_EQ(all(), expected);
-  allow_avx2(could);
+  test::expect_same_for_any_threads(all);
+  test::expect_same_without_avx2(all);
 }
 
 INSTANTIATE_TEST_SUITE_P(Sizes, PointLinksOf, testing::Values(0, 1, 7, 8, 9, 257, 5000),

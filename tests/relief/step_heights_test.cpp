@@ -8,8 +8,8 @@
 
 #include "relievo/relief/frame.h"
 #include "relievo/relief/relief.h"
-#include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/differences.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
@@ -29,10 +29,6 @@ Cloud terraces(std::size_t n, double bulge = 0) {
       [=](double x, double y) { return Vec2(-2 * bulge * x, -2 * bulge * y); });
   for (Vec3& p : cloud.points) p.z() += depths[terrace_of(p)];
   return cloud;
-}
-
-ReliefModel model_of(const Cloud& cloud) {
-  return ReliefModel::prepare(find_surface(cloud, {}).value()).value();
 }
 
 Shape plain(double steps = 0) {
@@ -56,7 +52,7 @@ double largest_error(const ReliefModel& model, std::span<const double> heights, 
 
 // The differences that are asked for are those of the terraces' depths, so no least squares are left over.
 TEST(StepHeights, OfTerracesAreTheirDepths) {
-  const ReliefModel model = model_of(terraces(20000));
+  const ReliefModel model = test::prepared(terraces(20000));
   const StepHeights& steps = model.steps();
   ASSERT_FALSE(steps.empty());
   EXPECT_NEAR(steps.span, .7, 1e-6);
@@ -64,24 +60,21 @@ TEST(StepHeights, OfTerracesAreTheirDepths) {
 }
 
 TEST(StepHeights, ThereAreNoneWithoutAJump) {
-  EXPECT_TRUE(model_of(test::sphere(20000, 1)).steps().empty());
+  EXPECT_TRUE(test::prepared(test::sphere(20000, 1)).steps().empty());
 }
 
 TEST(Steps, ReachAHeightThatSlopesDoNot) {
-  const ReliefModel model = model_of(terraces(20000));
+  const ReliefModel model = test::prepared(terraces(20000));
   for (const double height : {.01, .2, .699}) {
-    const Result<Relief> relief = model.make_at_height(height, plain(), 1);
-    ASSERT_TRUE(relief) << relief.error().message();
-    EXPECT_LT(largest_error(model, relief->heights, height / .7), 1e-5 * height);
-    EXPECT_NEAR(relief->shape.steps, 1, 1e-4);
+    const auto relief = value_of(model.make_at_height(height, plain(), 1));
+    EXPECT_LT(largest_error(model, relief.heights, height / .7), 1e-5 * height);
+    EXPECT_NEAR(relief.shape.steps, 1, 1e-4);
   }
 }
 
 TEST(Steps, AreNoDeeperThanInTheModel) {
-  const ReliefModel model = model_of(terraces(20000));
-  const Result<Relief> relief = model.make_at_height(.71, plain(), 10);
-  ASSERT_FALSE(relief);
-  EXPECT_NE(relief.error().message().find("at most 7"), std::string::npos) << relief.error().message();
+  const ReliefModel model = test::prepared(terraces(20000));
+  expect_error(model.make_at_height(.71, plain(), 10), "at most 7");
   FrameMaker maker(model);
   Frame frame;
   maker.make({plain(), .71, nullptr}, frame);
@@ -90,16 +83,15 @@ TEST(Steps, AreNoDeeperThanInTheModel) {
 }
 
 TEST(Steps, TakeNothingWhereSlopesReachTheHeight) {
-  const ReliefModel model = model_of(terraces(20000, .3));
-  const Result<Relief> relief = model.make_at_height(.1, plain(), 1);
-  ASSERT_TRUE(relief) << relief.error().message();
-  EXPECT_EQ(relief->shape.steps, 0);
-  EXPECT_NEAR(relief->heights[0], model.make(relief->shape).heights[0], 1e-6);
+  const ReliefModel model = test::prepared(terraces(20000, .3));
+  const auto relief = value_of(model.make_at_height(.1, plain(), 1));
+  EXPECT_EQ(relief.shape.steps, 0);
+  EXPECT_NEAR(relief.heights[0], model.make(relief.shape).heights[0], 1e-6);
 }
 
 // With a share S of the height h the relief is that of its slopes and the terraces' depths times S h / span.
 TEST(Steps, TakeTheShareAskedFor) {
-  const ReliefModel model = model_of(terraces(20000, .3));
+  const ReliefModel model = test::prepared(terraces(20000, .3));
   const double height = .1, share = .4;
   const Relief relief = model.make_at_height(height, plain(share), 1).value();
   EXPECT_EQ(relief.shape.steps, share);
@@ -113,7 +105,7 @@ TEST(Steps, TakeTheShareAskedFor) {
 }
 
 TEST(Steps, TakeTheShareOfAFreeHeightToo) {
-  const ReliefModel model = model_of(terraces(20000, .3));
+  const ReliefModel model = test::prepared(terraces(20000, .3));
   const Relief slopes = model.make(plain()), relief = model.make(plain(.4));
   // Slopes and steps are both highest in the middle.
   EXPECT_NEAR(relief.height, slopes.height / .6, .02 * relief.height);
@@ -121,7 +113,7 @@ TEST(Steps, TakeTheShareOfAFreeHeightToo) {
 
 TEST(Steps, FramesAreTheRelief) {
   for (const double bulge : {0., .3}) {
-    const ReliefModel model = model_of(terraces(20000, bulge));
+    const ReliefModel model = test::prepared(terraces(20000, bulge));
     FrameMaker maker(model);
     Frame frame;
     for (const double share : {0., .4}) {
@@ -130,17 +122,15 @@ TEST(Steps, FramesAreTheRelief) {
         maker.make({plain(share), height, nullptr}, frame);
         EXPECT_TRUE(frame.is_height_met);
         EXPECT_NEAR(frame.height, height, 1e-3 * height);
-        double worst = 0;
-        for (std::size_t i = 0; i < frame.heights.size(); ++i)
-          worst = std::max(worst, std::abs(static_cast<double>(frame.heights[i]) - relief.heights[i]));
-        EXPECT_LT(worst, 2e-3 * height) << bulge << " " << share << " " << height;
+        EXPECT_LT(test::largest_difference(frame.heights, relief.heights), 2e-3 * height)
+            << bulge << " " << share << " " << height;
       }
     }
   }
 }
 
 TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
-  const ReliefModel model = model_of(terraces(20000));
+  const ReliefModel model = test::prepared(terraces(20000));
   const Relief relief = model.make_at_height(.2, layered_shape(), 1).value();
   EXPECT_NEAR(relief.height, .2, 1e-9);
   EXPECT_LT(largest_error(model, relief.heights, .2 / .7), 1e-5 * .2);
@@ -148,7 +138,7 @@ TEST(Steps, LevelPartsOfLayeredReliefsStayLevel) {
 
 // A share that is asked for leaves the correction at work, which keeps the order.
 TEST(Steps, OfLayeredReliefsKeepTheOrderOfDepths) {
-  const ReliefModel model = model_of(terraces(20000, .3));
+  const ReliefModel model = test::prepared(terraces(20000, .3));
   Shape shape = layered_shape();
   shape.steps = .8;
   const Relief relief = model.make_at_height(.2, shape, 1).value();

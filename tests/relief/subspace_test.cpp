@@ -4,29 +4,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 #include <numbers>
 
 #include "relief/subspace/control_mesh.h"
 #include "relief/subspace/region_samples.h"
-#include "relievo/core/parallel.h"
 #include "relievo/io/read.h"
 #include "relievo/relief/relief.h"
 #include "relievo/samples/sample.h"
-#include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/differences.h"
+#include "support/same_bits.h"
+#include "support/shared_scans.h"
+#include "support/surfaces.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
 
-const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
+using test::bumps_behind_a_ring, test::surface_of;
 
-Surface surface_of(const Cloud& cloud) {
-  return find_surface(cloud, {}).value();
-}
+const Compression keep_all{std::numeric_limits<double>::infinity(), 0};
 
 SubspaceModel subspace_of(const Surface& surface, std::size_t control_points = 2000) {
   SubspaceOptions options;
@@ -48,25 +45,6 @@ float span_of(const std::vector<float>& heights) {
   return *high - *low;
 }
 
-// Bumps with an occluding ring before them: curvature of both signs, a depth jump, an inner hole.
-Cloud figure() {
-  const Cloud bumps = test::height_field(
-      30000, 1.2, [](double x, double y) { return .2 * std::sin(5 * x) * std::cos(4 * y) - 1; },
-      [](double x, double y) {
-        return Vec2(std::cos(5 * x) * std::cos(4 * y), -.8 * std::sin(5 * x) * std::sin(4 * y));
-      });
-  return test::joined(bumps, test::torus(30000, 1.5, .4));
-}
-
-double rms(const std::vector<float>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double difference = static_cast<double>(a[i]) - b[i];
-    sum += difference * difference;
-  }
-  return std::sqrt(sum / static_cast<double>(a.size()));
-}
-
 // The largest root mean square error over reliefs from high to very low, even and not, in shares of the
 // height.
 double worst_error(const Surface& surface, const SubspaceModel& subspace) {
@@ -76,7 +54,8 @@ double worst_error(const Surface& surface, const SubspaceModel& subspace) {
     for (const double u : {1.0, .2, .05}) {
       const Shape shape{{u, beta}};
       const Relief relief = exact.make(shape);
-      worst = std::max(worst, rms(heights_of(surface, subspace, shape), relief.heights) / relief.height);
+      worst = std::max(worst, test::root_mean_square(heights_of(surface, subspace, shape), relief.heights) /
+                                  relief.height);
     }
   }
   return worst;
@@ -96,15 +75,14 @@ TEST(Subspace, IsFlatWhereNothingIsKept) {
 }
 
 TEST(Subspace, KeptInFullIsTheReference) {
-  const Surface surface = surface_of(figure());
+  const Surface surface = surface_of(bumps_behind_a_ring());
   const Relief exact = ReliefModel::prepare(surface)->make({keep_all});
   const std::vector<float> heights = heights_of(surface, subspace_of(surface), {keep_all});
-  for (std::size_t i = 0; i < heights.size(); ++i)
-    ASSERT_NEAR(static_cast<double>(heights[i]), exact.heights[i], 1e-5 * exact.height);
+  EXPECT_LE(test::largest_difference(heights, exact.heights), 1e-5 * exact.height);
 }
 
 TEST(Subspace, TakesReferenceHeightsThatAreKnown) {
-  const Surface surface = surface_of(figure());
+  const Surface surface = surface_of(bumps_behind_a_ring());
   const std::vector<double> z0 = ReliefModel::prepare(surface)->make({keep_all, 0}).heights;
   const Shape shape{{.3, .5}, .02};
   EXPECT_EQ(heights_of(surface, *SubspaceModel::prepare(surface, {}, {z0, {}}), shape),
@@ -112,7 +90,7 @@ TEST(Subspace, TakesReferenceHeightsThatAreKnown) {
 }
 
 TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
-  const Surface surface = surface_of(figure());
+  const Surface surface = surface_of(bumps_behind_a_ring());
   const std::vector<float> heights = heights_of(surface, subspace_of(surface), {{.5, 1}});
   for (std::size_t i = 0; i < heights.size(); ++i)
     ASSERT_TRUE(!surface.boundary.is_boundary[i] || heights[i] == 0);
@@ -120,7 +98,7 @@ TEST(Subspace, StandsOnTheBaseAtItsBoundary) {
 
 // The first is 1.02 % with rows of points beside outlines, and was below 1 % with scattered points alone.
 TEST(Subspace, IsCloseToTheExactReliefOfAFigure) {
-  const Surface surface = surface_of(figure());
+  const Surface surface = surface_of(bumps_behind_a_ring());
   EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .012);
   EXPECT_LT(worst_error(surface, subspace_of(surface, 2000)), .02);
 }
@@ -152,17 +130,15 @@ INSTANTIATE_TEST_SUITE_P(All, SubspaceSample, testing::Values("still_life", "gre
 
 TEST(Subspace, IsCloseToTheExactReliefOfCleanScans) {
   for (const char* name : {"armadillo", "igea", "horse", "nefertiti", "falcon", "gutenberg"}) {
-    const auto path = std::filesystem::path(RELIEVO_SHARED_DATA) / (std::string(name) + ".ply");
-    std::ifstream file(path, std::ios::binary);
-    if (!file) GTEST_SKIP() << "no scans in " RELIEVO_SHARED_DATA;
-    const std::string text{std::istreambuf_iterator<char>(file), {}};
-    const Surface surface = surface_of(read_cloud(std::as_bytes(std::span(text)), name)->cloud);
+    const std::string file = std::string(name) + ".ply";
+    if (!test::has_shared(file)) GTEST_SKIP() << test::missing_scan(file);
+    const Surface surface = surface_of(value_of(read_cloud(test::shared_bytes(file), name)).cloud);
     EXPECT_LT(worst_error(surface, subspace_of(surface, 8000)), .02) << name;
   }
 }
 
 TEST(Subspace, ScalesWithTheCloud) {
-  Cloud cloud = figure();
+  Cloud cloud = bumps_behind_a_ring();
   const auto heights = [&cloud] {
     const Surface surface = surface_of(cloud);
     return heights_of(surface, subspace_of(surface), {{.3, .5}});
@@ -175,7 +151,7 @@ TEST(Subspace, ScalesWithTheCloud) {
 }
 
 TEST(Subspace, RemembersNothingOfTheReliefBefore) {
-  const Surface surface = surface_of(figure());
+  const Surface surface = surface_of(bumps_behind_a_ring());
   const SubspaceModel model = subspace_of(surface);
   const std::vector<float> weight = boundary_weights(surface.boundary.distance, surface.rho);
   SubspaceModel::Workspace used = model.make_workspace();
@@ -188,54 +164,40 @@ TEST(Subspace, RemembersNothingOfTheReliefBefore) {
 }
 
 TEST(Subspace, HasTheSameBitsForAnyNumberOfThreads) {
-  const Surface surface = surface_of(figure());
-  const auto heights = [&](int threads) {
-    set_thread_count(threads);
-    return heights_of(surface, subspace_of(surface), {{.3, .01}});
-  };
-  const std::vector<float> one = heights(1);
-  EXPECT_EQ(one, heights(2));
-  EXPECT_EQ(one, heights(4));
-  set_thread_count(0);
+  const Surface surface = surface_of(bumps_behind_a_ring());
+  test::expect_same_for_any_threads([&] { return heights_of(surface, subspace_of(surface), {{.3, .01}}); });
 }
 
 TEST(Subspace, CanBeCancelled) {
-  Progress progress;
-  progress.cancel();
-  const auto model = SubspaceModel::prepare(surface_of(test::sheet(3000, 1, 0)), {}, {}, &progress);
-  ASSERT_FALSE(model);
-  EXPECT_EQ(model.error().kind, ErrorKind::cancelled);
+  Cancelled progress;
+  expect_error(SubspaceModel::prepare(surface_of(test::sheet(3000, 1, 0)), {}, {}, &progress),
+               ErrorKind::cancelled);
+}
+
+// Returns a mesh of so many control points over a torus.
+std::pair<ControlPoints, ControlMesh> control_mesh(const Surface& surface, std::size_t count) {
+  const ControlPoints control =
+      grow_control_points(in_plane(surface.points), surface.boundary.distance, {count});
+  return {control, mesh_control_points(surface, control)};
 }
 
 // The hole of a torus stays outside, and the triangles inside cover the rest.
 TEST(ControlMesh, LeavesHolesOut) {
   const Surface surface = surface_of(test::torus(60000, 1.5, .5));
-  std::vector<Vec2> points;
-  for (const Vec3& p : surface.points) points.push_back(p.head<2>());
-  const ControlPoints control = grow_control_points(points, surface.boundary.distance, {1000});
-  const ControlMesh mesh = mesh_control_points(surface, control);
-  double area = 0;
+  const auto [control, mesh] = control_mesh(surface, 1000);
   for (std::size_t t = 0; t < mesh.triangulation.triangles.size(); ++t) {
-    if (!mesh.boundary.is_inside[t]) continue;
     const auto [a, b, c] = mesh.triangulation.triangles[t];
-    const Vec2 u = mesh.points[b] - mesh.points[a], v = mesh.points[c] - mesh.points[a];
-    area += (u.x() * v.y() - u.y() * v.x()) / 2;
+    if (!mesh.boundary.is_inside[t]) continue;
     ASSERT_GT(((mesh.points[a] + mesh.points[b] + mesh.points[c]) / 3).norm(), .9);
   }
+  const double area = test::inside_area(mesh.points, mesh.triangulation, mesh.boundary);
   EXPECT_NEAR(area, std::numbers::pi * (2 * 2 - 1 * 1), .02 * area);
 }
 
 TEST(ControlMesh, HoldsItsPointsOnTheSurfacesBoundary) {
   const Surface surface = surface_of(test::torus(20000, 1.5, .5));
-  std::vector<Vec2> points;
-  for (const Vec3& p : surface.points) points.push_back(p.head<2>());
-  const ControlPoints control = grow_control_points(points, surface.boundary.distance, {500});
-  const ControlMesh mesh = mesh_control_points(surface, control);
-  for (std::size_t c = 0; c < control.points.size(); ++c) {
-    if (c < control.boundary_points) {
-      ASSERT_TRUE(mesh.boundary.is_boundary[c]);
-    }
-  }
+  const auto [control, mesh] = control_mesh(surface, 500);
+  for (std::size_t c = 0; c < control.boundary_points; ++c) ASSERT_TRUE(mesh.boundary.is_boundary[c]);
 }
 
 // The mean over the samples is the mean over the area of the plane, however points crowd.

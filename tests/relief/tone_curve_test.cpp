@@ -59,10 +59,10 @@ TEST(ToneCurve, StaysBetweenNeighbouringPoints) {
 TEST(ToneCurve, WrongTextsAreNamed) {
   for (const char* text :
        {"1", "a,b", "0;0", "0,0,0", "0,1.5", "-1,0", "0,nan", "0.5,0;0.5,1", "1,0;0,1", ""})
-    EXPECT_NE(complaint(text).find("tone: expected"), std::string::npos) << text;
+    EXPECT_TRUE(complaint(text).contains("tone: expected")) << text;
   std::string many;
   for (int i = 0; i < 17; ++i) many += cat(i > 0 ? ";" : "", i / 20.0, ",0");
-  EXPECT_NE(complaint(many).find("1 to 16 points"), std::string::npos);
+  EXPECT_TRUE(complaint(many).contains("1 to 16 points"));
 }
 
 // The paper's weight is one of the curves: drawn at u = 1, it gives (6) at every u.
