@@ -104,7 +104,7 @@ Result<batch::Workshop> workshop_of(const BatchArguments& arguments) {
 Result<BatchOrder> order_of(const BatchArguments& arguments, const CLI::App& command) {
   if (arguments.input.empty()) return option_error("input", "expected a folder or a table, found none");
   // Values for all scans are checked at once; those of a row fail with their scan.
-  RELIEVO_CHECK(parse_options(arguments.relief));
+  RELIEVO_CHECK(parse_options(arguments.order.values));
   RELIEVO_CHECK(parse_unit(arguments.units));
   BatchOrder order;
   RELIEVO_TRY(order.workshop, workshop_of(arguments));

@@ -84,19 +84,17 @@ std::string points_text(const CloudFile& file) {
 
 // Prints where each model of a scene stands, seen from the front.
 Result<void> scene_info(const std::vector<std::string>& inputs) {
-  const Result<SceneInput> input = read_scene(inputs, {}, {}, nullptr);
-  if (!input) return std::unexpected(input.error());
-  const auto places = place_models(input->scene, View{});
-  if (!places) return std::unexpected(places.error());
-  print_line("models", cat(places->size()));
-  for (std::size_t i = 0; i < places->size(); ++i) {
-    const CloudFile& file = *input->scene.models[i].file;
-    const Box box = box_of(file, (*places)[i]);
-    std::printf("\n%s\n", on_one_line(input->scene.models[i].name).c_str());
+  RELIEVO_TRY(const Scene scene, read_scene(inputs, {}, {}, nullptr));
+  RELIEVO_TRY(const std::vector<PlacedModel> places, place_models(scene, View{}));
+  print_line("models", cat(places.size()));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const CloudFile& file = *scene.models[i].file;
+    const Box box = box_of(file, places[i]);
+    std::printf("\n%s\n", on_one_line(scene.models[i].name).c_str());
     print_line("format", file.format);
     print_line("points", points_text(file));
     if (!file.mesh.empty()) print_line("triangles", cat(file.mesh.triangles.size()));
-    print_line("scale", cat((*places)[i].scale));
+    print_line("scale", cat(places[i].scale));
     print_line("from", vector_text(box.min));
     print_line("to", vector_text(box.max));
   }

@@ -36,9 +36,9 @@ Result<SampledView> read_sample(const SceneArguments& arguments, Progress* progr
   RELIEVO_TRY(const InputArguments in, parse_input_texts(arguments.in));
   RELIEVO_TRY(const ReliefOptions options, parse_options(arguments.view));
   const PointsWanted wanted{options.view};
-  RELIEVO_TRY(const SceneInput input, read_scene(arguments.paths, in, wanted, progress));
-  const View chosen = chosen_view(input.scene, options.view);
-  RELIEVO_TRY(ViewSample sample, sample_for_view(input.scene, chosen, {}, progress));
+  RELIEVO_TRY(const Scene scene, read_scene(arguments.paths, in, wanted, progress));
+  const View chosen = chosen_view(scene, options.view);
+  RELIEVO_TRY(ViewSample sample, sample_for_view(scene, chosen, {}, progress));
   return SampledView{std::move(sample), chosen};
 }
 

@@ -17,29 +17,19 @@ namespace relievo::app::cli {
 namespace {
 
 struct MakeArguments : MakeOptions {
-  std::vector<std::string> inputs;
-  ReliefFiles outputs;
-  std::string scan;
   int threads = 0;
   bool is_quiet = false;
 };
 
-// Gives the outputs their unit and sizes, and returns the order.
+// Gives the files their unit, and returns the order.
 Result<CheckedOrder> order_of(MakeArguments& arguments) {
-  ReliefFiles& outputs = arguments.outputs;
-  RELIEVO_TRY(outputs.unit, parse_unit(arguments.units));
-  outputs.heightmap_px = arguments.heightmap_px;
-  outputs.preview_px = arguments.preview_px;
-  MakeOrder order;
-  order.values = arguments.relief;
-  order.inputs = arguments.inputs;
-  order.base_image_path = arguments.base_image;
-  order.scan_path = arguments.scan;
+  MakeOrder& order = arguments.order;
+  RELIEVO_TRY(arguments.files.unit, parse_unit(arguments.units));
   RELIEVO_TRY(order.in, parse_input_texts(arguments.in));
   RELIEVO_TRY(CheckedOrder known, check_order(std::move(order)));
-  if (outputs.solid.empty())
+  if (arguments.files.solid.empty())
     return option_error("output", cat("expected a file ending in ", either(solid_endings())));
-  RELIEVO_CHECK(check_outputs(outputs, known.paths(), known.options.tool.has_value()));
+  RELIEVO_CHECK(check_outputs(arguments.files, known.paths(), known.options.tool.has_value()));
   return known;
 }
 
@@ -63,11 +53,11 @@ struct Finished {
 };
 
 Result<Finished> run(CheckedOrder order, const ReliefFiles& outputs, Progress& progress) {
-  RELIEVO_TRY(LoadedOrder loaded, load(std::move(order), progress));
-  if (const auto& side = loaded.side)
-    loaded.input.remarks.push_back(
-        cat("view ", side->name, side->up.empty() ? "" : cat(" with up ", side->up)));
+  RELIEVO_TRY(const LoadedOrder loaded, load(std::move(order), progress));
   RELIEVO_TRY(FinishedRelief relief, app::make(loaded, progress));
+  if (const auto& side = loaded.side)
+    relief.inputs.remarks.push_back(
+        cat("view ", side->name, side->up.empty() ? "" : cat(" with up ", side->up)));
   (void)progress.stage("files", .97);
   RELIEVO_TRY(std::vector<OutputFile> files, relief_files(outputs, relief.made, relief.draft_deg));
   relief.end(progress);
@@ -77,11 +67,11 @@ Result<Finished> run(CheckedOrder order, const ReliefFiles& outputs, Progress& p
   return finished;
 }
 
-Result<void> make(MakeArguments arguments) {
+Result<void> make(MakeArguments& arguments) {
   RELIEVO_TRY(CheckedOrder order, order_of(arguments));
   set_thread_count(arguments.threads);
   Progress progress(progress_bar(arguments.is_quiet));
-  const Result<Finished> finished = run(std::move(order), arguments.outputs, progress);
+  const Result<Finished> finished = run(std::move(order), arguments.files, progress);
   progress.finish();  // erases the bar, also before an error
   if (!finished) return std::unexpected(finished.error());
   RELIEVO_CHECK(write_files(finished->files));
@@ -107,19 +97,19 @@ constexpr TextFlag outputs[] = {
 void add_input(CLI::App& command, MakeArguments& arguments) {
   command
       .add_option(
-          "input", arguments.inputs,
+          "input", arguments.order.inputs,
           cat(readable_formats(), "; several of them side by side; a scene (JSON) or a studio's project"))
       ->required()
       ->type_name("INPUT");
 }
 
 void add_files(CLI::App& command, MakeArguments& arguments) {
-  command.add_option("-o,--output", arguments.outputs.solid, cat("the solid: ", either(solid_endings())))
+  command.add_option("-o,--output", arguments.files.solid, cat("the solid: ", either(solid_endings())))
       ->required()
       ->type_name("OUT");
   for (const TextFlag& flag : outputs)
-    command.add_option(flag.name, arguments.outputs.*flag.value, flag.help)->type_name(flag.type);
-  command.add_option("--scan", arguments.scan, "the scan of a project, where it is not found")
+    command.add_option(flag.name, arguments.files.*flag.value, flag.help)->type_name(flag.type);
+  command.add_option("--scan", arguments.order.scan_path, "the scan of a project, where it is not found")
       ->type_name("S.ply");
 }
 

@@ -5,17 +5,17 @@
 #include <string>
 
 #include "cli/input_flags.h"
-#include "relievo/option_table.h"
+#include "common/make_order.h"
+#include "common/relief_files.h"
 
 namespace relievo::app::cli {
 
 // The options of a relief and of its files, as the user types them.
 struct MakeOptions {
-  OptionValues relief;
+  MakeOrder order;
   InputTexts in;
-  std::string base_image;
+  ReliefFiles files;
   std::string units = "mm";
-  int heightmap_px = 1024, preview_px = 1200;
 };
 
 void add_make_options(CLI::App& command, MakeOptions& options);

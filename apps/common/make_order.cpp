@@ -44,23 +44,22 @@ Result<LoadedOrder> load(CheckedOrder order, Progress& progress) {
   LoadedOrder loaded{std::move(order), {}, {}};
   if (loaded.project) {
     RELIEVO_CHECK(progress.stage("read", 0));
-    RELIEVO_TRY(Scene scene, load_project_scan(*loaded.project, [&] { return progress.is_cancelled(); }));
-    loaded.input = with_remarks(std::move(scene));
+    RELIEVO_TRY(loaded.scene, load_project_scan(*loaded.project, [&] { return progress.is_cancelled(); }));
   } else {
     const PointsWanted wanted{loaded.options.view, loaded.options.points.value_or(PointsWanted{}.points)};
     if (!loaded.read && loaded.inputs.empty()) return option_error("inputs", "expected at least one file");
-    RELIEVO_TRY(loaded.input, loaded.read ? loaded.read(loaded.in, wanted, &progress)
+    RELIEVO_TRY(loaded.scene, loaded.read ? loaded.read(loaded.in, wanted, &progress)
                                           : read_scene(loaded.inputs, loaded.in, wanted, &progress));
   }
   if (!loaded.options.view.is_best) return loaded;
-  loaded.side = best_side(loaded.input.scene);
+  loaded.side = best_side(loaded.scene);
   loaded.options.view = on_side(loaded.options.view, *loaded.side);
   return loaded;
 }
 
 InputFacts facts_of(const LoadedOrder& loaded) {
-  return {loaded.name, loaded.paths(), loaded.input.remarks,
-          models_report(loaded.input.scene, loaded.options.view)};
+  return {loaded.name, loaded.paths(), remarks_of(loaded.scene),
+          models_report(loaded.scene, loaded.options.view)};
 }
 
 void FinishedRelief::end(Progress& progress) {
@@ -74,13 +73,8 @@ std::vector<std::string> FinishedRelief::remarks() const {
   return lines;
 }
 
-nlohmann::json FinishedRelief::report(LengthUnit unit) const {
-  return make_report({made, inputs.models, unit, times});
-}
-
 Result<FinishedRelief> make(const LoadedOrder& loaded, Progress& progress) {
-  RELIEVO_TRY(MadeRelief made,
-              naming(loaded.name, make_relief(loaded.input.scene, loaded.options, &progress)));
+  RELIEVO_TRY(MadeRelief made, naming(loaded.name, make_relief(loaded.scene, loaded.options, &progress)));
   return FinishedRelief{std::move(made), facts_of(loaded), loaded.options.draft_deg};
 }
 

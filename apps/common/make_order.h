@@ -27,7 +27,7 @@ struct MakeOrder {
   std::string scan_path = {};  // of a project
   std::shared_ptr<const Image<float>> base_image = nullptr;
   // Reads the inputs where not all of them are files; `name` is then that of all inputs.
-  std::function<Result<SceneInput>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
+  std::function<Result<Scene>(const InputArguments&, const PointsWanted&, Progress*)> read = {};
   std::string name = {};
 };
 
@@ -48,7 +48,7 @@ Result<CheckedOrder> check_order(MakeOrder order);
 
 // An order whose inputs were read, and whose view is chosen.
 struct LoadedOrder : CheckedOrder {
-  SceneInput input;
+  Scene scene;
   std::optional<ViewGuess> side;  // that was chosen, if the order left the choice
 };
 
@@ -77,7 +77,7 @@ struct FinishedRelief {
   // Returns the remarks on the inputs and on the relief.
   std::vector<std::string> remarks() const;
 
-  // Returns the report on a file in that unit.
+  // Returns the report, with numbers in millimetres, on a file in that unit.
   nlohmann::json report(LengthUnit unit = LengthUnit::mm) const;
 };
 

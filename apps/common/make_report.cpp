@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "common/export_file.h"
+#include "common/make_order.h"
 #include "common/wording.h"
 #include "relievo/core/parallel.h"
 #include "relievo/core/version.h"
@@ -90,9 +90,7 @@ nlohmann::json report_json(const ReliefReport& report, std::span<const StageTime
 }  // namespace
 
 Vec3 size_mm(const Solid& solid) {
-  Box box;
-  for (const Vec3& p : solid.points) box.extend(p);
-  return box.size();
+  return Box::of(solid.points).size();
 }
 
 nlohmann::json models_report(const Scene& scene, const View& view) {
@@ -113,11 +111,11 @@ nlohmann::json models_report(const Scene& scene, const View& view) {
   return models;
 }
 
-nlohmann::json make_report(const MakeOutcome& outcome) {
-  nlohmann::json report = report_json(outcome.made.report, outcome.times);
-  report["size_mm"] = as_list(size_mm(outcome.made.solid));
-  report["units"] = name_of(outcome.unit);
-  report["models"] = outcome.models;
+nlohmann::json FinishedRelief::report(LengthUnit unit) const {
+  nlohmann::json report = report_json(made.report, times);
+  report["size_mm"] = as_list(size_mm(made.solid));
+  report["units"] = name_of(unit);
+  report["models"] = inputs.models;
   return report;
 }
 

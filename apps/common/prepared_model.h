@@ -3,13 +3,11 @@
 
 #include <memory>
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "common/make_order.h"
 #include "relievo/core/parallel.h"
-#include "relievo/picture/render.h"
-#include "relievo/relief/frame.h"
-#include "relievo/relief/relief.h"
+#include "relievo/job.h"
 
 namespace relievo::app {
 
@@ -19,22 +17,14 @@ struct FrameInMm {
   double mm_per_unit = 1;
 };
 
-// A picture of a frame, as users ask for it.
-struct PictureOrder {
-  int width, height;
-  double yaw_deg, pitch_deg, zoom;
-  std::string material;
-  bool is_fine;
-};
-
 // Every method may be called from any thread.
 class PreparedModel {
  public:
-  // Reads the inputs of an order and prepares their model. Errors: those of check_order(), load(), sample_for_view() and
-  // prepare(), naming the inputs.
+  // Reads the inputs of an order and prepares their model. Errors: those of check_order(), load() and
+  // prepare(), which name the inputs.
   static Result<std::shared_ptr<PreparedModel>> prepare(MakeOrder order, Progress& progress);
 
-  const ReliefModel& model() const { return *model_; }
+  const ReliefModel& model() const { return live_.model(); }
 
   // Errors: those of options_of() and make_relief().
   Result<std::shared_ptr<FinishedRelief>> make(const MakeOrder& order, Progress& progress) const;
@@ -42,22 +32,16 @@ class PreparedModel {
   // Errors: those of options_of(); kind option for a method that has no frames.
   Result<std::shared_ptr<FrameInMm>> frame(const MakeOrder& order);
 
-  // Draws a frame of this model. Errors: kind input for a frame of another model, kind option.
-  Result<Picture> picture(const FrameInMm& shown, const PictureOrder& order);
+  // Draws a frame of this model in that material. Errors: kind input for a frame of another model, kind option.
+  Result<Picture> picture(const FrameInMm& shown, RenderOptions options, std::string_view material);
 
  private:
-  PreparedModel(const LoadedOrder& loaded, std::vector<SampleNote> notes,
-                std::shared_ptr<const ReliefModel> model);
+  PreparedModel(const LoadedOrder& loaded, LiveModel live);
 
   InputFacts facts_;
   std::optional<StoredProject> project_;
-  std::vector<SampleNote> notes_;
-  std::shared_ptr<const ReliefModel> model_;
-  double longer_side_;  // of the surface
-
-  Mutex mutex_;  // guards what follows, which is not for concurrent use
-  FrameMaker frames_;
-  FrameRenderer renderer_;
+  Mutex mutex_;  // guards the frames and pictures of what follows
+  LiveModel live_;
 };
 
 }  // namespace relievo::app

@@ -187,14 +187,6 @@ Result<std::string> hash_of_file(const std::string& path) {
   }
 }
 
-namespace {
-
-Scene scene_of(const std::string& name, LoadedFile read) {
-  return {{{name, std::make_shared<const CloudFile>(std::move(read.file)), {}, std::move(read.remarks)}}};
-}
-
-}  // namespace
-
 Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, const std::string& path,
                         const std::function<bool()>& is_unwanted) {
   const std::string hash = hash_of(text_in(bytes));
@@ -202,22 +194,17 @@ Result<Scene> load_scan(ScanSource& input, std::span<const std::byte> bytes, con
     return fail(path, {}, cat("expected the file as it was, ", input.hash, ", found ", hash));
   input.hash = hash;
   if (is_unwanted && is_unwanted()) return cancelled_error();
-  if (is_scene_file(path)) {
-    Result<SceneInput> read = read_scene({path}, {}, {}, nullptr);
-    if (!read) return std::unexpected(read.error());
-    return std::move(read->scene);
-  }
-  Result<LoadedFile> read = parse_input(bytes, path, {}, PointsWanted{}.points, nullptr);
-  if (!read) return std::unexpected(read.error());
-  return scene_of(input.name, std::move(*read));
+  if (is_scene_file(path)) return read_scene({path}, {}, {}, nullptr);
+  RELIEVO_TRY(SceneModel model, parse_input(bytes, path, {}, PointsWanted{}.points, nullptr));
+  model.name = input.name;
+  return Scene{{std::move(model)}};
 }
 
 Result<Scene> load_input(ScanSource& input, const std::string& folder,
                          const std::function<bool()>& is_unwanted) {
   if (!input.sample.empty()) {
-    Result<Cloud> sample = make_sample(input.sample);
-    if (!sample) return std::unexpected(sample.error());
-    return scene_of(input.sample, {{std::move(*sample), "sample"}, {}});
+    RELIEVO_TRY(Cloud sample, make_sample(input.sample));
+    return Scene{{{input.sample, std::make_shared<const CloudFile>(std::move(sample), "sample")}}};
   }
   const std::string path = (std::filesystem::path(folder) / input.path).string();
   const Result<std::vector<std::byte>> bytes = read_file(path);

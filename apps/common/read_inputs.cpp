@@ -64,7 +64,7 @@ std::string remark_on(const DepthImage& image, const DepthCloud& made) {
   return line + cat(", smoothed within ", std::round(100 * made.noise) / 100, " pixels");
 }
 
-Result<LoadedFile> read_depths(std::span<const std::byte> bytes, const std::string& path,
+Result<SceneModel> read_depths(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress) {
   const PictureChannels channels{arguments.depth.values == DepthValues::luminance, arguments.depth.channel};
   RELIEVO_TRY(const DepthImage image, read_depth_image(bytes, path, channels));
@@ -102,7 +102,7 @@ std::optional<std::uint64_t> large_size(const std::string& path, const InputArgu
 }
 
 // Reads a large file piece by piece; nothing for small ones, and for formats that cannot be read so.
-Result<std::optional<LoadedFile>> read_large(const std::string& path, const InputArguments& arguments,
+Result<std::optional<SceneModel>> read_large(const std::string& path, const InputArguments& arguments,
                                              const PointsWanted& seen, Progress* progress) {
   const std::optional<std::uint64_t> size = large_size(path, arguments);
   if (!size) return std::nullopt;
@@ -111,7 +111,7 @@ Result<std::optional<LoadedFile>> read_large(const std::string& path, const Inpu
   if (!source.read(0, head) || !can_stream(head, path)) return std::nullopt;
   auto streamed = stream_front(source, path, seen.view, seen.points, progress);
   if (!streamed) return std::unexpected(streamed.error());
-  LoadedFile input;
+  SceneModel input{path, nullptr};
   input.remarks.push_back(
       cat(path, ": ", streamed->cloud.size(), " points for the ", streamed->input_points, " of the file"));
   if (streamed->missing_points > 0)
@@ -120,13 +120,12 @@ Result<std::optional<LoadedFile>> read_large(const std::string& path, const Inpu
     input.remarks.push_back(
         cat(path, ": left out the ", streamed->ignored_faces,
             " faces of the mesh, as it is read piece by piece; stream-above sets from which size"));
-  input.file.cloud = std::move(streamed->cloud);
-  input.file.format = streamed->format;
+  input.file = std::make_shared<const CloudFile>(std::move(streamed->cloud), streamed->format);
   return input;
 }
 
 // Reads the file of that path.
-Result<LoadedFile> read_input(const std::string& path, const InputArguments& arguments,
+Result<SceneModel> read_input(const std::string& path, const InputArguments& arguments,
                               const PointsWanted& seen, Progress* progress) {
   if (auto go = begin_stage(progress, "read", 0); !go) return std::unexpected(go.error());
   auto large = read_large(path, arguments, seen, progress);
@@ -181,54 +180,51 @@ Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::str
   });
 }
 
-Result<LoadedFile> take_depths(const DepthImage& image, const std::string& name,
+Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress) {
   DepthOptions options = arguments.depth;
   options.points = points;
   RELIEVO_TRY(options.camera, read_camera(arguments.camera));
   RELIEVO_TRY(DepthCloud made, naming(name, depth_cloud(image, options, progress)));
-  LoadedFile input;
-  input.remarks.push_back(cat(name, ": ", remark_on(image, made)));
-  input.file.cloud = std::move(made.cloud);
-  input.file.format = image.format;
-  return input;
+  const std::string remark = cat(name, ": ", remark_on(image, made));
+  return SceneModel{
+      name, std::make_shared<const CloudFile>(std::move(made.cloud), image.format), {}, {remark}};
 }
 
-Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::string& path,
+Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress) {
   if (is_picture(bytes)) return read_depths(bytes, path, arguments, points, progress);
   auto file = read_cloud_at(bytes, path);
   if (!file) return std::unexpected(file.error());
   std::vector<std::string> remarks = remarks_on(*file, path);
-  return LoadedFile{std::move(*file), std::move(remarks)};
+  return SceneModel{path, std::make_shared<const CloudFile>(*std::move(file)), {}, std::move(remarks)};
 }
 
-SceneInput with_remarks(Scene scene) {
-  SceneInput made{std::move(scene), {}};
-  for (const SceneModel& model : made.scene.models)
-    made.remarks.insert(made.remarks.end(), model.remarks.begin(), model.remarks.end());
-  return made;
+std::vector<std::string> remarks_of(const Scene& scene) {
+  std::vector<std::string> all;
+  for (const SceneModel& model : scene.models)
+    all.insert(all.end(), model.remarks.begin(), model.remarks.end());
+  return all;
 }
 
-Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
-                              const PointsWanted& wanted, Progress* progress) {
-  const Result<std::vector<SceneEntry>> entries = entries_of(paths);
-  if (!entries) return std::unexpected(entries.error());
+Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
+                         const PointsWanted& wanted, Progress* progress) {
+  RELIEVO_TRY(const std::vector<SceneEntry> entries, entries_of(paths));
   Scene made;
   std::map<std::string, std::shared_ptr<const CloudFile>> known;  // the same for every pose
-  for (const SceneEntry& entry : *entries) {
+  for (const SceneEntry& entry : entries) {
     if (known.contains(entry.path)) {
       made.models.push_back({entry.path, known[entry.path], entry.pose});
       continue;
     }
-    Result<LoadedFile> read =
-        read_input(entry.path, arguments, {seen_by_model(wanted.view, entry.pose), wanted.points}, progress);
-    if (!read) return std::unexpected(read.error());
-    const auto file = std::make_shared<const CloudFile>(std::move(read->file));
-    if (!large_size(entry.path, arguments)) known[entry.path] = file;
-    made.models.push_back({entry.path, file, entry.pose, read->remarks});
+    RELIEVO_TRY(
+        SceneModel model,
+        read_input(entry.path, arguments, {seen_by_model(wanted.view, entry.pose), wanted.points}, progress));
+    if (!large_size(entry.path, arguments)) known[entry.path] = model.file;
+    model.pose = entry.pose;
+    made.models.push_back(std::move(model));
   }
-  return with_remarks(std::move(made));
+  return made;
 }
 
 Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base) {

@@ -20,12 +20,6 @@ struct InputArguments {
   bool are_pipes_fine = false;   // whether inputs may be pipes, as on a command line
 };
 
-// A file that was read, and a line for each thing that the user should know of it.
-struct LoadedFile {
-  CloudFile file;
-  std::vector<std::string> remarks;
-};
-
 // The view and the number of points to take from a file that holds more than is needed.
 struct PointsWanted {
   View view;  // of the scene
@@ -38,21 +32,15 @@ Result<CloudFile> read_cloud_at(std::span<const std::byte> bytes, const std::str
 
 // Returns the points of a depth image, called `name` in errors and remarks. Errors: those of parse_camera() and
 // depth_cloud().
-Result<LoadedFile> take_depths(const DepthImage& image, const std::string& name,
+Result<SceneModel> take_depths(const DepthImage& image, const std::string& name,
                                const InputArguments& arguments, double points, Progress* progress);
 
 // Makes of a file's bytes what read_input() makes of the file.
-Result<LoadedFile> parse_input(std::span<const std::byte> bytes, const std::string& path,
+Result<SceneModel> parse_input(std::span<const std::byte> bytes, const std::string& path,
                                const InputArguments& arguments, double points, Progress* progress);
 
-// Models to make one relief of, and what the user should know of their files, in a line for each.
-struct SceneInput {
-  Scene scene;
-  std::vector<std::string> remarks;
-};
-
-// Returns the scene with the remarks of its models.
-SceneInput with_remarks(Scene scene);
+// Returns the remarks of all models.
+std::vector<std::string> remarks_of(const Scene& scene);
 
 // Returns whether the path is that of a scene file, which ends in .json.
 bool is_scene_file(const std::string& path);
@@ -61,8 +49,8 @@ bool is_scene_file(const std::string& path);
 // large files what is `wanted`. Errors: those of read_file(),
 // read_cloud(), stream_front(), parse_camera(), depth_cloud(), read_scene_file(); kind option for a scene
 // file among others.
-Result<SceneInput> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
-                              const PointsWanted& wanted, Progress* progress);
+Result<Scene> read_scene(const std::vector<std::string>& paths, const InputArguments& arguments,
+                         const PointsWanted& wanted, Progress* progress);
 
 // Gives a base of kind image its height map, which is null for others. Errors: kind option if they do not fit together.
 Result<void> take_base_image(std::shared_ptr<const Image<float>> image, BaseOptions& base);

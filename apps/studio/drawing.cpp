@@ -7,7 +7,6 @@
 #include "common/make_report.h"
 #include "common/wording.h"
 #include "relievo/core/text.h"
-#include "relievo/make_relief.h"
 #include "relievo/scan/surface.h"
 
 namespace relievo::app::studio {
@@ -54,93 +53,21 @@ bool is_level(const ReliefOptions& options) {
 
 }  // namespace
 
-Shape SharedToneCurve::shape_of(const ReliefOptions& options) {
-  Shape shape = relievo::shape_of(options);
-  if (!options.tone) return shape;
-  if (!curve_ || curve_->points() != options.tone->points()) curve_ = shape.compression.curve;
-  shape.compression.curve = curve_;
-  return shape;
-}
-
-Result<ReliefOptions> PlateWidth::with_width(const Surface& surface, const ReliefOptions& options) {
-  ReliefOptions sized = options;
-  if (!options.diameter_mm && !options.plate_mm) {
-    most_mm_.reset();
-    return sized;
-  }
-  const Vec2 plate = options.plate_mm.value_or(Vec2::Constant(options.diameter_mm.value_or(0)));
-  const std::vector<double> sizes{plate.x(),
-                                  plate.y(),
-                                  options.effective_margin_mm(),
-                                  options.rim_mm.value_or(0),
-                                  options.corner_mm,
-                                  static_cast<double>(options.outline),
-                                  options.shift_mm.x(),
-                                  options.shift_mm.y()};
-  if (sizes != sizes_ || !most_mm_) {
-    sized.width_mm.reset();
-    const auto largest = relievo::with_width(surface, sized);
-    if (!largest)
-      return relievo::with_width(surface, options);  // whose error names the width that was asked for
-    sizes_ = sizes;
-    most_mm_ = largest->width_mm;
-  }
-  sized.width_mm = options.width_mm.value_or(*most_mm_);
-  if (*sized.width_mm > *most_mm_)
-    return relievo::with_width(surface, sized);  // which says why it is refused
-  return sized;
-}
-
 Drawing::Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks)
-    : model_(std::move(shown.model)),
-      detail_(std::move(shown.detail)),
-      spacing_ratio_(shown.spacing_ratio),
-      facts_(facts_of(model_->surface(), outliers, std::move(remarks))),
-      renderer_(model_),
-      frames_(*model_, detail_ != nullptr),
-      piece_(model_) {}
+    : facts_(facts_of(shown.model->surface(), outliers, std::move(remarks))),
+      piece_(shown.model),
+      live_(std::move(shown)) {}
 
-Shown Drawing::shown(const CachedFrame& cached) const {
-  const Frame& frame = *cached.frame;
-  return {frame.heights, frame.normals, static_cast<float>(cached.stretch), {{frame.lowest, frame.highest}},
-          detail_.get(), cached.gains};
-}
-
-// The same as relievo::mm_per_unit(), without its walk over all points.
-double Drawing::mm_per_unit(const ReliefOptions& options) const {
-  return options.effective_width_mm() / facts_.size.maxCoeff();
-}
-
-RenderOptions Drawing::render_options(const PictureRequest& request) const {
-  RenderOptions render = request.render;
-  render.mm_per_unit = mm_per_unit(request.options);
-  render.margin_mm = request.options.effective_margin_mm();
-  render.thickness_mm = request.options.effective_thickness_mm();
-  return render;
-}
-
-FrameOptions Drawing::frame_options(const PictureRequest& request) {
-  FrameOptions options;
-  options.shape = tone_curve_.shape_of(request.options);
-  options.shape.boundary_width *= spacing_ratio_;
-  if (request.u)
-    options.shape.compression.u = *request.u;
-  else if (request.options.height_mm)
-    options.height = *request.options.height_mm / mm_per_unit(request.options);
-  return options;
-}
-
-CachedFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
-  const FrameOptions wanted = frame_options(request);
-  if (is_frozen_ && frames_.last().frame) return frames_.last();
-  return is_exact ? frames_.exact(wanted) : frames_.quick(wanted);
+LiveFrame Drawing::frame(const PictureRequest& request, bool is_exact) {
+  if (is_frozen_ && live_.last_frame().frame) return live_.last_frame();
+  return live_.make_frame(request.options, {request.u, !is_exact});
 }
 
 // Returns the corners of the relief's box from the middle of the piece.
 std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
                                                       const ReliefOptions& options) const {
   if (options.wrap.kind != WrapKind::none) return std::nullopt;
-  const double scale = mm_per_unit(options);
+  const double scale = live_.mm_per_unit(options);
   Vec2 corner = facts_.corner * scale;
   const Vec2 size = facts_.size * scale;
   if (options.form == Form::mirror || options.form == Form::die) corner.x() = -corner.x() - size.x();
@@ -151,9 +78,9 @@ std::optional<std::array<Vec2, 2>> Drawing::relief_in(const Solid& solid,
 
 // Returns the height that files have: the one that was asked for, where the frame's relief and walls under a draft angle
 // allow it, otherwise the largest that they allow. A lithophane has any height.
-PieceHeight Drawing::height_of(const PictureRequest& request, const CachedFrame& cached) const {
-  const Frame& frame = *cached.frame;
-  const double height = frame.height * cached.stretch * mm_per_unit(request.options);
+PieceHeight Drawing::height_of(const PictureRequest& request, const LiveFrame& made) const {
+  const Frame& frame = *made.frame;
+  const double height = frame.height * made.stretch * live_.mm_per_unit(request.options);
   const double highest = std::min(height, request.draft_limit_mm.value_or(height));
   const double asked = request.options.height_mm.value_or(height);
   if (request.options.form == Form::lithophane) return {asked, true};
@@ -163,9 +90,9 @@ PieceHeight Drawing::height_of(const PictureRequest& request, const CachedFrame&
 }
 
 // A piece has the height that is met or the largest that can be reached.
-PieceOrder Drawing::order_of(const PictureRequest& request, const CachedFrame& cached) const {
+PieceOrder Drawing::order_of(const PictureRequest& request, const LiveFrame& made) const {
   PieceOrder order{request.options, request.key};
-  const PieceHeight height = height_of(request, cached);
+  const PieceHeight height = height_of(request, made);
   if (!request.u && height.is_met) return order;
   order.options.height_mm = height.mm;
   order.key = cat(request.key, " ", *order.options.height_mm);
@@ -173,22 +100,22 @@ PieceOrder Drawing::order_of(const PictureRequest& request, const CachedFrame& c
 }
 
 Result<std::optional<PieceOrder>> Drawing::missing_piece(PictureRequest request) {
-  RELIEVO_TRY(request.options, plate_width_.with_width(model_->surface(), request.options));
+  RELIEVO_TRY(request.options, live_.with_width(request.options));
   PieceOrder order = order_of(request, frame(request, true));
   if (piece_.is_finished(order.key)) return std::nullopt;
   return order;
 }
 
-Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& render,
-                           const CachedFrame& cached, PictureAnswer& answer) {
+Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
+                           PictureAnswer& answer) {
   const auto start = std::chrono::steady_clock::now();
-  const PieceOrder order = order_of(request, cached);
+  const PieceOrder order = order_of(request, made);
   answer.is_plain = is_plain(request.options);
   answer.is_finished = (!answer.is_plain || request.is_finished) && piece_.is_finished(order.key);
   answer.is_size_exact = answer.is_finished || is_level(request.options);
   answer.relief_height_mm = answer.height_mm;
   if (answer.is_plain && !answer.is_finished) {
-    renderer_.render(shown(cached), render, answer.picture, request.progress.get());
+    live_.renderer().render(live_.shown(made), render, answer.picture, request.progress.get());
     const Vec2 plate = facts_.size * render.mm_per_unit + Vec2::Constant(2 * render.margin_mm);
     answer.size_mm = {plate.x(), plate.y(), render.thickness_mm + answer.height_mm};
     const Vec2 half = facts_.size * render.mm_per_unit / 2;
@@ -208,51 +135,48 @@ Result<void> Drawing::draw(const PictureRequest& request, const RenderOptions& r
 }
 
 Result<PictureAnswer> Drawing::picture(PictureRequest request) {
-  RELIEVO_TRY(request.options, plate_width_.with_width(model_->surface(), request.options));
-  RenderOptions options = render_options(request);
+  RELIEVO_TRY(request.options, live_.with_width(request.options));
+  RenderOptions options = live_.with_lengths(request.render, request.options);
   PictureAnswer answer;
   answer.width_mm = request.options.effective_width_mm();
-  answer.most_width_mm = plate_width_.most_mm();
+  answer.most_width_mm = live_.most_width_mm();
   if (request.is_original) {
     options.has_shadows = false;           // the model's own depth would bury the ground in them
     options.material = Material::plaster;  // whatever the piece is made of
-    renderer_.render(renderer_.original(), options, answer.picture, request.progress.get());
+    live_.renderer().render(live_.renderer().original(), options, answer.picture, request.progress.get());
     RELIEVO_CHECK(check_cancelled(request.progress.get()));
     answer.is_finished = true;
     return answer;
   }
   // A piece is made for the height of the frame, which must be met or the largest.
-  const CachedFrame cached = this->frame(request, options.is_fine || !is_plain(request.options));
-  const Frame& frame = *cached.frame;
+  const LiveFrame made = this->frame(request, options.is_fine || !is_plain(request.options));
+  const Frame& frame = *made.frame;
   answer.compression = frame.options.shape.compression;
-  const PieceHeight height = height_of(request, cached);
+  const PieceHeight height = height_of(request, made);
   answer.height_mm = height.mm;
   answer.is_height_met = height.is_met;
   answer.curve = sample_curve(frame.options.shape, facts_.delta);
-  if (cached.is_new) answer.times = frame.times;
-  RELIEVO_CHECK(draw(request, options, cached, answer));
+  if (made.is_new) answer.times = frame.times;
+  RELIEVO_CHECK(draw(request, options, made, answer));
   return answer;
 }
 
 Result<double> Drawing::reachable_height(const ReliefOptions& asked) {
-  RELIEVO_TRY(const ReliefOptions options, plate_width_.with_width(model_->surface(), asked));
-  PictureRequest request;
-  request.options = options;
-  return frames_.highest(frame_options(request)) * mm_per_unit(options);
+  RELIEVO_TRY(const ReliefOptions options, live_.with_width(asked));
+  return live_.highest_mm(options);
 }
 
 Result<std::vector<float>> Drawing::profile(PictureRequest request, const SectionLine& line) {
-  RELIEVO_TRY(request.options, plate_width_.with_width(model_->surface(), request.options));
-  const RenderOptions options = render_options(request);
+  RELIEVO_TRY(request.options, live_.with_width(request.options));
+  const RenderOptions options = live_.with_lengths(request.render, request.options);
   const auto along = [&](const Shown& shown) {
-    return renderer_.profile(shown, options, line.from, line.to, line.samples);
+    return live_.renderer().profile(shown, options, line.from, line.to, line.samples);
   };
-  if (request.is_original) return along(renderer_.original());
-  const CachedFrame cached = frame(request, true);
-  if (is_plain(request.options)) return along(shown(cached));
-  const PieceOrder order = order_of(request, cached);
-  RELIEVO_CHECK(
-      check_rim(order.options, height_of(request, cached).mm));  // coarse pieces have no draft angle
+  if (request.is_original) return along(live_.renderer().original());
+  const LiveFrame made = frame(request, true);
+  if (is_plain(request.options)) return along(live_.shown(made));
+  const PieceOrder order = order_of(request, made);
+  RELIEVO_CHECK(check_rim(order.options, height_of(request, made).mm));  // coarse pieces have no draft angle
   RELIEVO_TRY(const DrawnPiece* const piece, piece_.drawn(order));
   return section_of(*piece->solid, line);
 }

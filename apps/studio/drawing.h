@@ -7,13 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "common/wording.h"
-#include "relievo/make_relief.h"
-#include "relievo/options.h"
-#include "relievo/picture/render.h"
-#include "relievo/turning.h"
+#include "relievo/job.h"
 #include "studio/curve_samples.h"
-#include "studio/frame_cache.h"
 #include "studio/piece.h"
 #include "studio/solid_section.h"
 
@@ -79,31 +74,7 @@ struct PieceHeight {
   bool is_met = true;
 };
 
-// Knows the width that a plate of a given size leaves for a relief, which is the same while neither changes.
-class PlateWidth {
- public:
-  // Returns the options with their width, see relievo::with_width().
-  Result<ReliefOptions> with_width(const Surface& surface, const ReliefOptions& options);
-
-  // Returns the largest width that fits into the plate of the last call; nothing if it had no size.
-  std::optional<double> most_mm() const { return most_mm_; }
-
- private:
-  std::vector<double> sizes_;  // on which the largest width depends
-  std::optional<double> most_mm_;
-};
-
-// Keeps a tone curve as long as its points do, so that frames with the same curve are known to be the same.
-class SharedToneCurve {
- public:
-  // Returns the shape, see relievo::shape_of().
-  Shape shape_of(const ReliefOptions& options);
-
- private:
-  std::shared_ptr<const ToneCurve> curve_;  // null before the first
-};
-
-// Everything that needs a walk over all points is computed once, here. Not for concurrent use.
+// Not for concurrent use.
 class Drawing {
  public:
   // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `outliers` is the
@@ -127,7 +98,7 @@ class Drawing {
     piece_.take(std::move(made), order);
   }
 
-  // Returns the height in mm of the highest relief that the options allow, see FrameCache::highest().
+  // Returns the height in mm of the highest relief that the options allow, see LiveModel::highest_mm().
   // Errors: those of with_width().
   Result<double> reachable_height(const ReliefOptions& options);
 
@@ -136,26 +107,16 @@ class Drawing {
   Result<std::vector<float>> profile(PictureRequest request, const SectionLine& line);
 
  private:
-  Shown shown(const CachedFrame& cached) const;
-  RenderOptions render_options(const PictureRequest& request) const;
-  double mm_per_unit(const ReliefOptions& options) const;
-  PieceHeight height_of(const PictureRequest& request, const CachedFrame& cached) const;
-  FrameOptions frame_options(const PictureRequest& request);
-  CachedFrame frame(const PictureRequest& request, bool is_exact);
+  PieceHeight height_of(const PictureRequest& request, const LiveFrame& made) const;
+  LiveFrame frame(const PictureRequest& request, bool is_exact);
   std::optional<std::array<Vec2, 2>> relief_in(const Solid& solid, const ReliefOptions& options) const;
-  PieceOrder order_of(const PictureRequest& request, const CachedFrame& cached) const;
-  Result<void> draw(const PictureRequest& request, const RenderOptions& render, const CachedFrame& cached,
+  PieceOrder order_of(const PictureRequest& request, const LiveFrame& made) const;
+  Result<void> draw(const PictureRequest& request, const RenderOptions& render, const LiveFrame& made,
                     PictureAnswer& answer);
 
-  std::shared_ptr<const ReliefModel> model_;
-  std::shared_ptr<const SurfaceDetail> detail_;  // null where the model has all points
-  double spacing_ratio_;                         // see TurnedRelief
   ModelFacts facts_;
-  FrameRenderer renderer_;
-  FrameCache frames_;
   Piece piece_;
-  SharedToneCurve tone_curve_;
-  PlateWidth plate_width_;
+  LiveModel live_;
   bool is_frozen_ = false;
 };
 

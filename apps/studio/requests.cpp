@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/stage_names.h"
+#include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 
 namespace relievo::app::studio {
@@ -14,12 +15,9 @@ namespace {
 
 using Json = nlohmann::json;
 
-struct MaterialName {
-  std::string_view id, name;
-};
-constexpr std::array materials{MaterialName{"plaster", "Plaster"}, MaterialName{"silver", "Struck silver"},
-                               MaterialName{"bronze", "Bronze"}, MaterialName{"walnut", "Walnut"},
-                               MaterialName{"porcelain", "Porcelain, lit from behind"}};  // as in Material
+// The materials for people, in the order of material_choices.
+constexpr std::array<std::string_view, material_choices.size()> material_names{
+    "Plaster", "Struck silver", "Bronze", "Walnut", "Porcelain, lit from behind"};
 constexpr double most_pixels = 8e6, most_fine_pixels = 2.5e6;
 
 std::unexpected<Error> wrong(std::string field, std::string expected) {
@@ -62,21 +60,21 @@ std::optional<Vec3> direction(const Json& json, const char* key) {
 
 Result<Camera> camera_from(const Json& json) {
   if (!json.is_object()) return wrong("camera", "expected an object");
-  const auto yaw = number(json, "yaw", {-360, 360, 0}), pitch = number(json, "pitch", {-90, 90, 0});
-  const auto zoom = number(json, "zoom", {.05, 100, 1});
-  const auto x = number(json, "x", {-1e6, 1e6, 0}), y = number(json, "y", {-1e6, 1e6, 0});
-  if (!yaw || !pitch || !zoom || !x || !y)
-    return wrong("camera", "expected yaw, pitch, zoom, x and y in range");
-  return Camera{*yaw, *pitch, *zoom, {*x, *y}};
+  Camera camera;
+  for (const auto& [key, value] :
+       {std::pair("yaw", &camera.yaw_deg), std::pair("pitch", &camera.pitch_deg),
+        std::pair("zoom", &camera.zoom), std::pair("x", &camera.pan.x()), std::pair("y", &camera.pan.y())}) {
+    const Json number = json.value(key, Json(*value));
+    if (!number.is_number()) return wrong(key, "expected a number");
+    *value = number.get<double>();
+  }
+  return camera;
 }
 
 Result<Material> material_from(const Json& json) {
   const Json material = json.value("material", Json("plaster"));
   const std::string name = material.is_string() ? material.get<std::string>() : "";
-  const auto known = std::ranges::find(materials, std::string_view(name), &MaterialName::id);
-  if (known == materials.end())
-    return wrong("material", cat("expected a known material, found '", name, "'"));
-  return static_cast<Material>(known - materials.begin());
+  return parse_choice("material", name, material_choices);
 }
 
 Result<RenderOptions> render_from(const Json& json) {
@@ -91,9 +89,8 @@ Result<RenderOptions> render_from(const Json& json) {
   if (!light && json.contains("light")) return wrong("light", "expected three numbers, not all of them 0");
   if (light) render.light = light->cast<float>();
   RELIEVO_TRY(render.material, material_from(json));
-  const Result<Camera> camera = camera_from(json.value("camera", Json::object()));
-  if (!camera) return std::unexpected(camera.error());
-  render.camera = *camera;
+  RELIEVO_TRY(render.camera, camera_from(json.value("camera", Json::object())));
+  RELIEVO_CHECK(check(render));
   return render;
 }
 
@@ -281,7 +278,8 @@ Json view_list() {
 
 Json material_list() {
   Json list = Json::array();
-  for (const auto& [id, name] : materials) list.push_back({{"id", id}, {"name", name}});
+  for (std::size_t i = 0; i < material_choices.size(); ++i)
+    list.push_back({{"id", material_choices[i].name}, {"name", material_names[i]}});
   return list;
 }
 

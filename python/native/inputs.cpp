@@ -64,37 +64,28 @@ struct NameOf {
   std::string operator()(const ArrayModel& model) const { return model.name; }
 };
 
-void append(app::SceneInput& to, app::SceneInput from) {
-  std::ranges::move(from.scene.models, std::back_inserter(to.scene.models));
-  std::ranges::move(from.remarks, std::back_inserter(to.remarks));
-}
-
-app::SceneInput scene_of(const std::string& name, app::LoadedFile loaded) {
-  return {{{{name, std::make_shared<const CloudFile>(std::move(loaded.file))}}}, std::move(loaded.remarks)};
-}
-
 struct SourceReader {
   const app::InputArguments& arguments;
   const app::PointsWanted& wanted;
   Progress* progress;
   bool is_alone;
 
-  Result<app::SceneInput> operator()(const std::string& path) const {
+  Result<Scene> operator()(const std::string& path) const {
     if (app::is_scene_file(path) && !is_alone)
       return option_error(path, "expected a scene file alone, or models without one");
     return app::read_scene({path}, arguments, wanted, progress);
   }
-  Result<app::SceneInput> operator()(const FileBytes& file) const {
+  Result<Scene> operator()(const FileBytes& file) const {
     RELIEVO_CHECK(begin_stage(progress, "read", 0));
-    RELIEVO_TRY(app::LoadedFile loaded,
+    RELIEVO_TRY(SceneModel model,
                 app::parse_input(file.bytes, file.name, arguments, wanted.points, progress));
-    return scene_of(file.name, std::move(loaded));
+    return Scene{{std::move(model)}};
   }
-  Result<app::SceneInput> operator()(const ArrayModel& model) const {
-    if (model.file) return app::SceneInput{{{{model.name, model.file}}}, {}};
-    RELIEVO_TRY(app::LoadedFile loaded,
+  Result<Scene> operator()(const ArrayModel& model) const {
+    if (model.file) return Scene{{{model.name, model.file}}};
+    RELIEVO_TRY(SceneModel read,
                 app::take_depths(*model.depths, model.name, arguments, wanted.points, progress));
-    return scene_of(model.name, std::move(loaded));
+    return Scene{{std::move(read)}};
   }
 };
 
@@ -155,12 +146,12 @@ void take_sources(const py::list& list, app::MakeOrder& order) {
   if (order.inputs.size() == sources->size()) return;
   order.name = app::joined(names);
   order.read = [sources](const app::InputArguments& arguments, const app::PointsWanted& wanted,
-                         Progress* progress) -> Result<app::SceneInput> {
-    app::SceneInput all;
+                         Progress* progress) -> Result<Scene> {
+    Scene all;
     for (const Source& source : *sources) {
-      RELIEVO_TRY(app::SceneInput one,
+      RELIEVO_TRY(Scene one,
                   std::visit(SourceReader{arguments, wanted, progress, sources->size() == 1}, source));
-      append(all, std::move(one));
+      std::ranges::move(one.models, std::back_inserter(all.models));
     }
     return all;
   };

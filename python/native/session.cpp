@@ -10,7 +10,7 @@
 namespace relievo::python {
 namespace {
 
-using app::FrameInMm, app::PreparedModel, app::PictureOrder;
+using app::FrameInMm, app::PreparedModel;
 using SharedModel = std::shared_ptr<PreparedModel>;
 using SharedFrame = std::shared_ptr<FrameInMm>;
 
@@ -29,8 +29,15 @@ SharedFrame frame(const SharedModel& prepared, const py::dict& keywords) {
   return value_or_raise(unlocked([&] { return prepared->frame(order); }));
 }
 
-py::array picture(const SharedModel& prepared, const SharedFrame& shown, const PictureOrder& order) {
-  return array_of(value_or_raise(unlocked([&] { return prepared->picture(*shown, order); })).image);
+py::array picture(const SharedModel& prepared, const SharedFrame& shown, int width, int height,
+                  double yaw_deg, double pitch_deg, double zoom, const std::string& material, bool is_fine) {
+  RenderOptions options;
+  options.width = width;
+  options.height = height;
+  options.camera = {yaw_deg, pitch_deg, zoom};
+  options.is_fine = is_fine;
+  return array_of(
+      value_or_raise(unlocked([&] { return prepared->picture(*shown, options, material); })).image);
 }
 
 py::array surface_points(const SharedModel& prepared) {
@@ -64,11 +71,7 @@ void add_session(py::module_& module) {
   py::class_<PreparedModel, SharedModel>(module, "Session")
       .def("make", &make)
       .def("frame", &frame)
-      .def("picture",
-           [](const SharedModel& model, const SharedFrame& shown, int width, int height, double yaw_deg,
-              double pitch_deg, double zoom, const std::string& material, bool is_fine) {
-             return picture(model, shown, {width, height, yaw_deg, pitch_deg, zoom, material, is_fine});
-           })
+      .def("picture", &picture)
       .def("points", &surface_points)
       .def("triangles", &surface_triangles)
       .def("is_inside", &inside);

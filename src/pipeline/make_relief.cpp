@@ -10,6 +10,7 @@
 #include "pipeline/formed_body.h"
 #include "pipeline/report.h"
 #include "relievo/core/within_memory.h"
+#include "relievo/job.h"
 #include "relievo/relief/draft.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/scan_file.h"
@@ -145,15 +146,9 @@ Result<MadeRelief> make_relief(const ReliefModel& model, const ReliefOptions& op
 }
 
 Result<MadeRelief> make_relief(const Scene& scene, const ReliefOptions& options, Progress* progress) {
-  return within_memory([&]() -> Result<MadeRelief> {
-    RELIEVO_CHECK(check(options));
-    const View view = chosen_view(scene, options.view);
-    RELIEVO_TRY(const ViewSample sample, sample_for_view(scene, view, options.points, progress));
-    RELIEVO_TRY(const ReliefModel model, prepare(*sample.cloud, view, options.mode, progress));
-    RELIEVO_TRY(MadeRelief made, make_relief(model, options, progress));
-    made.report.sample = sample.notes;
-    return made;
-  });
+  RELIEVO_CHECK(check(options));
+  RELIEVO_TRY(const LiveModel model, prepare(Job{scene, options}, progress));
+  return model.relief(options, progress);
 }
 
 Result<MadeRelief> make_relief(CloudFile file, const ReliefOptions& options, Progress* progress) {

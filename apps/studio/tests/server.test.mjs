@@ -129,10 +129,11 @@ test("refuses malformed requests and says what was expected", async () => {
 
 test("says what it expected in each field", async () => {
   const camera = {zoom: 0}, far = [1e9, 0], wrong = [
-    ["frame", {camera}, "camera: expected yaw, pitch, zoom, x and y in range"],
+    ["frame", {camera}, "zoom: expected 0.05 to 100"], ["frame", {camera: {x: "far"}}, "x: expected a number"],
+    ["frame", {camera: {y: 1e7}}, "x: expected x and y within a million mm"],
     ["frame", {width: 8192, height: 8192}, "width: expected a picture of at most eight million pixels"],
     ["frame", {light: [0, 0, 0]}, "light: expected three numbers, not all of them 0"],
-    ["frame", {material: "cheese"}, "material: expected a known material, found 'cheese'"],
+    ["frame", {material: "cheese"}, "material: expected one of plaster, silver, bronze, walnut or porcelain, found 'cheese'"],
     ["frame", {u: -1}, "u: expected a number that is not negative"],
     ["profile", {from: 3}, "from: expected two numbers"],
     ["profile", {from: far, to: far}, "from: expected a place on the plate"],
@@ -407,8 +408,8 @@ test("exports a picture in the material that is shown", async () => {
   assert.ok(plaster.equals(readFileSync(made)));
   assert.ok(!bronze.equals(plaster));
   const wrong = await export_({material: "lead"});
-  assert.equal(wrong.status, 400);
-  assert.match(String(wrong.body), /expected a known material, found 'lead'/);
+  assert.equal(wrong.status, 422);
+  assert.match(String(wrong.body), /expected one of plaster, silver, bronze, walnut or porcelain, found 'lead'/);
 });
 
 test("opens a mesh and looks at it from where the view is", async () => {

@@ -202,11 +202,12 @@ Result<CallAnswer> surface_triangles(const Json& json) {
 Result<CallAnswer> picture(const Json& json) {
   RELIEVO_TRY(const auto model, find<PreparedModel>(json, "session"));
   RELIEVO_TRY(const auto shown, find<FrameInMm>(json, "frame"));
-  const PictureOrder order{integer(json, "width", 800),     integer(json, "height", 600),
-                           number(json, "yaw_deg", 0),      number(json, "pitch_deg", 0),
-                           number(json, "zoom", 1),         text(json, "material", "plaster"),
-                           integer(json, "is_fine", 0) != 0};
-  RELIEVO_TRY(const Picture made, model->picture(*shown, order));
+  RenderOptions options;
+  options.width = integer(json, "width", options.width);
+  options.height = integer(json, "height", options.height);
+  options.camera = {number(json, "yaw_deg", 0), number(json, "pitch_deg", 0), number(json, "zoom", 1)};
+  options.is_fine = integer(json, "is_fine", 0) != 0;
+  RELIEVO_TRY(const Picture made, model->picture(*shown, options, text(json, "material", "plaster")));
   return CallAnswer{
       {{"width", made.image.width}, {"height", made.image.height}, {"channels", made.image.channels}},
       bytes_of_all(made.image.pixels)};

@@ -1,0 +1,229 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "relievo/core/text.h"
+#include "relievo/core/within_memory.h"
+#include "relievo/io/read.h"
+#include "relievo/job.h"
+#include "relievo/scan/scan_file.h"
+#include "relievo/scan/surface.h"
+
+namespace relievo {
+namespace {
+
+// From here on weights are 1 to the last bit.
+constexpr double uncompressed_u = 1e12;
+
+// Stretching by less than this is not seen while things move.
+constexpr double moving_tolerance = .03;
+
+// The sizes on which the largest width of a relief in a plate of given size depends.
+std::vector<double> plate_sizes(const ReliefOptions& options) {
+  const Vec2 plate = options.plate_mm.value_or(Vec2::Constant(options.diameter_mm.value_or(0)));
+  return {plate.x(),
+          plate.y(),
+          options.effective_margin_mm(),
+          options.rim_mm.value_or(0),
+          options.corner_mm,
+          static_cast<double>(options.outline),
+          options.shift_mm.x(),
+          options.shift_mm.y()};
+}
+
+}  // namespace
+
+struct LiveModel::State {
+  State(TurnedRelief turned, std::vector<SampleNote> sampled)
+      : shown(std::move(turned)),
+        notes(std::move(sampled)),
+        longer_side(Box::of(shown.model->surface().points).longer_side()) {}
+
+  TurnedRelief shown;
+  std::vector<SampleNote> notes;
+  double longer_side;  // of the surface
+
+  std::optional<FrameMaker> maker;        // none before the first frame
+  std::optional<FrameRenderer> renderer;  // none before the first picture
+  std::vector<float> gains;               // of the frame
+  Frame frame, highest;
+  std::optional<FrameOptions> made;  // options of the frame; none before the first
+  LiveFrame last;
+
+  std::shared_ptr<const ToneCurve> curve;  // of the last frame that had one
+  std::vector<double> sizes;               // of the plate for which the largest width is known
+  std::optional<double> most_width_mm;
+
+  FrameMaker& frames() {
+    if (!maker) maker.emplace(*shown.model);
+    return *maker;
+  }
+
+  // A tone curve is kept as long as its points are, so that frames with the same curve are known to be the same.
+  FrameOptions frame_options(const ReliefOptions& options) {
+    FrameOptions wanted{shape_of(options), std::nullopt, nullptr};
+    wanted.shape.boundary_width *= shown.spacing_ratio;
+    if (!options.tone) return wanted;
+    if (!curve || curve->points() != options.tone->points()) curve = wanted.shape.compression.curve;
+    wanted.shape.compression.curve = curve;
+    return wanted;
+  }
+
+  LiveFrame make(const FrameOptions& wanted, double mm_per_unit) {
+    const bool is_known = made == wanted;
+    if (!is_known) {
+      made.reset();  // so that nobody takes a frame for it that was only begun when memory ran out
+      last = {};
+      frames().make(wanted, frame);
+      if (shown.detail) frames().write_gains(gains);
+      made = wanted;
+    }
+    return last = {&frame, gains, 1, mm_per_unit, !is_known};
+  }
+};
+
+LiveModel::LiveModel(TurnedRelief shown, std::vector<SampleNote> notes)
+    : state_(std::make_unique<State>(std::move(shown), std::move(notes))) {}
+LiveModel::LiveModel(LiveModel&&) noexcept = default;
+LiveModel::~LiveModel() = default;
+
+const ReliefModel& LiveModel::model() const {
+  return *state_->shown.model;
+}
+
+Result<MadeRelief> LiveModel::relief(const ReliefOptions& options, Progress* progress) const {
+  RELIEVO_TRY(MadeRelief made, make_relief(model(), options, progress));
+  made.report.sample = state_->notes;
+  return made;
+}
+
+Result<LiveFrame> LiveModel::frame(const ReliefOptions& options) {
+  return within_memory({.points = model().surface().points.size()}, [&]() -> Result<LiveFrame> {
+    const Method method = options.effective_method();
+    if (!has_shape(method))
+      return option_error("method", cat("expected layered or paper for frames, found ", name_of(method)));
+    RELIEVO_TRY(ReliefOptions sized, with_width(options));
+    sized.height_mm = options.effective_height_mm();
+    return make_frame(sized);
+  });
+}
+
+Result<Picture> LiveModel::picture(const ReliefOptions& options, RenderOptions render) {
+  return within_memory([&]() -> Result<Picture> {
+    RELIEVO_CHECK(check(render));
+    RELIEVO_TRY(const LiveFrame made, frame(options));
+    RELIEVO_TRY(const ReliefOptions sized, with_width(options));
+    Picture picture;
+    renderer().render(shown(made), with_lengths(render, sized), picture);
+    return picture;
+  });
+}
+
+Result<ReliefOptions> LiveModel::with_width(const ReliefOptions& options) {
+  std::optional<double>& most_mm = state_->most_width_mm;
+  ReliefOptions sized = options;
+  if (!options.diameter_mm && !options.plate_mm) {
+    most_mm.reset();
+    return sized;
+  }
+  std::vector<double> sizes = plate_sizes(options);
+  if (sizes != state_->sizes || !most_mm) {
+    sized.width_mm.reset();
+    const auto largest = relievo::with_width(model().surface(), sized);
+    if (!largest)
+      return relievo::with_width(model().surface(),
+                                 options);  // whose error names the width that was asked for
+    state_->sizes = std::move(sizes);
+    most_mm = largest->width_mm;
+  }
+  sized.width_mm = options.width_mm.value_or(*most_mm);
+  if (*sized.width_mm > *most_mm)
+    return relievo::with_width(model().surface(), sized);  // which says why it is refused
+  return sized;
+}
+
+std::optional<double> LiveModel::most_width_mm() const {
+  return state_->most_width_mm;
+}
+
+double LiveModel::mm_per_unit(const ReliefOptions& options) const {
+  return options.effective_width_mm() / state_->longer_side;
+}
+
+LiveFrame LiveModel::make_frame(const ReliefOptions& options, const FrameWish& wish) {
+  FrameOptions wanted = state_->frame_options(options);
+  const double scale = mm_per_unit(options);
+  if (wish.u)
+    wanted.shape.compression.u = *wish.u;
+  else if (options.height_mm)
+    wanted.height = *options.height_mm / scale;
+  if (!wish.is_quick || !wanted.height || state_->made == wanted) return state_->make(wanted, scale);
+  wanted.height_tolerance = moving_tolerance;
+  LiveFrame made = state_->make(wanted, scale);
+  if (made.frame->is_height_met) made.stretch = *wanted.height / made.frame->height;
+  return state_->last = made;
+}
+
+LiveFrame LiveModel::last_frame() const {
+  return state_->last;
+}
+
+double LiveModel::highest_mm(const ReliefOptions& options) {
+  FrameOptions wanted = state_->frame_options(options);
+  wanted.shape.compression.u = uncompressed_u;
+  state_->frames().make(wanted, state_->highest);
+  return state_->highest.height * mm_per_unit(options);
+}
+
+Shown LiveModel::shown(const LiveFrame& made) const {
+  const Frame& frame = *made.frame;
+  return {frame.heights,
+          frame.normals,
+          static_cast<float>(made.stretch),
+          {{frame.lowest, frame.highest}},
+          state_->shown.detail.get(),
+          made.gains};
+}
+
+RenderOptions LiveModel::with_lengths(RenderOptions render, const ReliefOptions& options) const {
+  render.mm_per_unit = mm_per_unit(options);
+  render.margin_mm = options.effective_margin_mm();
+  render.thickness_mm = options.effective_thickness_mm();
+  return render;
+}
+
+FrameRenderer& LiveModel::renderer() {
+  if (!state_->renderer) state_->renderer.emplace(state_->shown.model);
+  return *state_->renderer;
+}
+
+Result<void> check(const RenderOptions& options) {
+  const Camera& camera = options.camera;
+  const auto is_within = [](double x, double min, double max) { return x >= min && x <= max; };
+  if (!is_within(options.width, 1, 8192)) return option_error("width", "expected 1 to 8192 pixels");
+  if (!is_within(options.height, 1, 8192)) return option_error("height", "expected 1 to 8192 pixels");
+  if (!is_within(camera.yaw_deg, -360, 360)) return option_error("yaw_deg", "expected -360 to 360");
+  if (!is_within(camera.pitch_deg, -90, 90)) return option_error("pitch_deg", "expected -90 to 90");
+  if (!is_within(camera.zoom, .05, 100)) return option_error("zoom", "expected 0.05 to 100");
+  if (is_within(camera.pan.cwiseAbs().maxCoeff(), 0, 1e6)) return {};
+  return option_error("x", "expected x and y within a million mm");
+}
+
+Result<Job> load(std::span<const std::byte> file, std::string_view name) {
+  return within_memory([&]() -> Result<Job> {
+    RELIEVO_TRY(CloudFile scan, read_cloud(file, name));
+    return Job{{{{std::string(name), std::make_shared<const CloudFile>(std::move(scan))}}}};
+  });
+}
+
+Result<LiveModel> prepare(const Job& job, Progress* progress) {
+  return within_memory([&]() -> Result<LiveModel> {
+    const View view = chosen_view(job.inputs, job.options.view);
+    RELIEVO_TRY(ViewSample sample, sample_for_view(job.inputs, view, job.options.points, progress));
+    RELIEVO_TRY(ReliefModel model, prepare(*sample.cloud, view, job.options.mode, progress));
+    return LiveModel({std::make_shared<const ReliefModel>(std::move(model)), nullptr, 1},
+                     std::move(sample.notes));
+  });
+}
+
+}  // namespace relievo
