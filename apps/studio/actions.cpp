@@ -30,6 +30,14 @@ Result<void> check_place(const ScanSource& input) {
   return is_there(input) || !app::is_there(input.path) ? Result<void>{} : check_file(input.path);
 }
 
+Answer done() {
+  return answer_of(Json::object());
+}
+
+Answer not_open() {
+  return answer_of(Json{{"error", {{"kind", "closed"}, {"text", "expected a document that is open"}}}}, 409);
+}
+
 Result<ScanSource> input_in(const Json& json) {
   return input_from_json(json.value("input", Json()), "input");
 }
@@ -46,28 +54,22 @@ const std::map<std::string, Actions::Action, std::less<>> Actions::actions_{
     {"kept", &Actions::kept_amount},
     {"remove", &Actions::remove},
     {"save", &Actions::save},
-    {"view", &Actions::view},
-    {"cancel", &Actions::cancel},
-    {"facts", &Actions::facts},
-    {"views", &Actions::views},
     {"status", &Actions::status},
-    {"frame", &Actions::frame},
-    {"scan", &Actions::scan},
-    {"profile", &Actions::profile},
-    {"reach", &Actions::reach},
-    {"export", &Actions::make_file},
-    {"check", &Actions::check},
-    {"piece", &Actions::piece},
-    {"cancel_piece", &Actions::cancel_piece}};
+    {"check", &Actions::check}};
 
 Actions::Actions(OpenDocuments& documents, Store& store) : documents_(documents), store_(store) {}
 
 bool Actions::has(std::string_view name) const {
-  return actions_.contains(name);
+  return actions_.contains(name) || find_engine_action(name) != nullptr;
 }
 
-void Actions::run(std::string_view name, const Json& json, Answer& to) {
-  (this->*actions_.find(name)->second)(json, to);
+Answer Actions::run(std::string_view name, const Json& json) {
+  Result<Answer> made = [&]() -> Result<Answer> {
+    if (const auto found = actions_.find(name); found != actions_.end()) return (this->*found->second)(json);
+    const auto engine = documents_.find(json.value("document", ""));
+    return engine ? find_engine_action(name)(*engine, json) : not_open();
+  }();
+  return made ? *std::move(made) : answer_of(made.error());
 }
 
 // Returns a document as the page kept it; null if it did not.
@@ -103,68 +105,63 @@ Result<std::shared_ptr<Engine>> Actions::open_document(const ScanSource& input, 
 }
 
 // Tells the document of a scan, and all that is kept of it. A scan that is gone may be among those that were dropped.
-void Actions::document(const Json& json, Answer& to) {
-  Result<ScanSource> input = input_in(json);
-  if (!input) return answer(to, input.error());
+Result<Answer> Actions::document(const Json& json) {
+  RELIEVO_TRY(ScanSource input, input_in(json));
   const Lock lock(storing_);
-  if (!is_there(*input)) input = store_.find_scan(input->hash).value_or(*input);
-  if (const auto ok = check_place(*input); !ok) return answer(to, ok.error());
-  const std::string id = document_of(*input);
-  const Result<Json> kept = kept_state(id);
-  if (!kept) return answer(to, kept.error());
-  answer(to, {{"document", id}, {"input", to_json(*input)}, {"is_there", is_there(*input)}, {"kept", *kept}});
+  if (!is_there(input)) input = store_.find_scan(input.hash).value_or(input);
+  RELIEVO_CHECK(check_place(input));
+  const std::string id = document_of(input);
+  RELIEVO_TRY(const Json kept, kept_state(id));
+  return answer_of(
+      Json{{"document", id}, {"input", to_json(input)}, {"is_there", is_there(input)}, {"kept", kept}});
 }
 
-void Actions::open(const Json& json, Answer& to) {
-  const Result<ScanSource> input = input_in(json);
-  if (!input) return answer(to, input.error());
-  const std::string id = document_of(*input);
-  const auto engine = open_document(*input, json.value("tab", ""));
-  if (!engine) return answer(to, engine.error());
-  (*engine)->show(*input, view_values(json));
+Result<Answer> Actions::open(const Json& json) {
+  RELIEVO_TRY(const ScanSource input, input_in(json));
+  const std::string id = document_of(input);
+  RELIEVO_TRY(const auto engine, open_document(input, json.value("tab", "")));
+  engine->show(input, view_values(json));
   const Lock lock(storing_);
   store_.touch(id);
-  answer(to, {{"document", id}});
+  return answer_of(Json{{"document", id}});
 }
 
-void Actions::leave(const Json& json, Answer& to) {
+Result<Answer> Actions::leave(const Json& json) {
   documents_.leave(json.value("tab", ""));
-  answer(to, Json::object());
+  return done();
 }
 
 // The newer state of a document wins: who comes with an older one gets the newer.
-void Actions::keep(const Json& json, Answer& to) {
+Result<Answer> Actions::keep(const Json& json) {
   const std::string id = json.value("document", "");
   const Json state = json.value("state", Json());
-  if (!state.is_object()) return refuse(to, 400, "expected a state");
+  if (!state.is_object()) return refusal(400, "expected a state");
   const Lock lock(storing_);
-  const Result<double> newest = time_of_newest(id);
-  if (!newest) return answer(to, newest.error());
-  if (time_of(state) < *newest)
-    return answer(to, {{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
-  const auto ok = store_.keep_document(id, state.dump(), json.value("is_moving", false));
-  if (!ok) return answer(to, ok.error());
+  RELIEVO_TRY(const double newest, time_of_newest(id));
+  if (time_of(state) < newest)
+    return answer_of(Json{{"error", {{"kind", "older"}, {"text", "a newer state is kept"}}}}, 409);
+  RELIEVO_CHECK(store_.keep_document(id, state.dump(), json.value("is_moving", false)));
   opened_.with([&](std::map<std::string, Opened>& opened) {
     const auto found = opened.find(id);
     if (found == opened.end()) return;
     found->second.time_ms = time_of(state);
     found->second.tab = json.value("tab", "");
   });
-  answer(to, Json::object());
+  return done();
 }
 
-void Actions::keep_picture(const Json& json, Answer& to) {
+Result<Answer> Actions::keep_picture(const Json& json) {
   const std::string picture = json.value("picture", "");
   if (!picture.starts_with("data:image/jpeg;base64,") || picture.size() > most_picture)
-    return refuse(to, 400, "expected a small picture");
+    return refusal(400, "expected a small picture");
   const Lock lock(storing_);
-  const auto ok = store_.keep_picture(json.value("document", ""), picture);
-  ok ? answer(to, Json::object()) : answer(to, ok.error());
+  RELIEVO_CHECK(store_.keep_picture(json.value("document", ""), picture));
+  return done();
 }
 
-void Actions::recent(const Json&, Answer& to) {
+Result<Answer> Actions::recent(const Json&) {
   const Lock lock(storing_);
-  answer(to, {{"recent", recent_list()}});
+  return answer_of(Json{{"recent", recent_list()}});
 }
 
 // With `storing_` locked: the documents that are being opened come first, as they are not kept before their scan was read.
@@ -188,64 +185,60 @@ Json Actions::recent_list() {
   return list;
 }
 
-void Actions::kept_amount(const Json&, Answer& to) {
+Result<Answer> Actions::kept_amount(const Json&) {
   const Lock lock(storing_);
   const KeptAmount kept = store_.amount();
-  answer(to, {{"documents", kept.documents}, {"bytes", kept.bytes}});
+  return answer_of(Json{{"documents", kept.documents}, {"bytes", kept.bytes}});
 }
 
 // Removes a document for good, unless another tab shows it.
-void Actions::remove(const Json& json, Answer& to) {
+Result<Answer> Actions::remove(const Json& json) {
   const std::string id = json.value("document", "");
   if (!documents_.close(id, json.value("tab", "")))
-    return refuse(to, 409, "expected a document that no other tab shows");
+    return refusal(409, "expected a document that no other tab shows");
   const Lock lock(storing_);
   opened_.with([&](std::map<std::string, Opened>& opened) { opened.erase(id); });
-  const auto ok = store_.remove(id);
-  ok ? answer(to, Json::object()) : answer(to, ok.error());
+  RELIEVO_CHECK(store_.remove(id));
+  return done();
 }
 
 // Makes a project file that contains its scan.
-void Actions::save(const Json& json, Answer& to) {
+Result<Answer> Actions::save(const Json& json) {
   const Json project = json.value("project", Json());
-  const Result<ScanSource> input = input_in(project);
-  if (!input) return answer(to, input.error());
-  if (!input->sample.empty() || ending_of(input->path) == "json")
-    return refuse(to, 400, "expected a scan of one file");
-  Result<std::vector<std::byte>> scan = read_file(input->path);
-  if (!scan) return answer(to, scan.error());
+  RELIEVO_TRY(const ScanSource input, input_in(project));
+  if (!input.sample.empty() || ending_of(input.path) == "json")
+    return refusal(400, "expected a scan of one file");
+  RELIEVO_TRY(std::vector<std::byte> scan, read_file(input.path));
   const std::string image_path = base_image_path_in(project.value("options", Json()));
   PackedFile image{plain_name(image_path), {}};
   if (!image_path.empty()) {
-    Result<std::vector<std::byte>> bytes = read_file(image_path);
-    if (!bytes) return answer(to, bytes.error());
-    image.bytes = std::move(*bytes);
+    RELIEVO_TRY(image.bytes, read_file(image_path));
   }
-  const auto file = pack_project(project.dump(1) + "\n", {input->name, std::move(*scan)},
-                                 image_path.empty() ? nullptr : &image);
-  if (!file) return answer(to, file.error());
-  to = {200, "application/zip", std::string(text_in(*file))};
+  RELIEVO_TRY(const std::vector<std::byte> file,
+              pack_project(project.dump(1) + "\n", {input.name, std::move(scan)},
+                           image_path.empty() ? nullptr : &image));
+  return Answer{200, "application/zip", std::string(text_in(file))};
 }
 
-void Actions::take_scan(const std::string& name, const BodyReader& read, Answer& to) {
+Answer Actions::take_scan(const std::string& name, const BodyReader& read) {
   const std::unique_ptr<DroppedScan> scan = store_.begin_scan(name);
-  if (!read([&](std::string_view bytes) { return scan->append(bytes); })) return;
-  if (const auto ok = scan->finish(); !ok) return answer(to, ok.error());
+  if (!read([&](std::string_view bytes) { return scan->append(bytes); })) return {};
+  if (const auto ok = scan->finish(); !ok) return answer_of(ok.error());
   const Lock lock(storing_);
   const Result<ScanSource> input = store_.keep(*scan);
-  input ? answer(to, {{"input", to_json(*input)}}) : answer(to, input.error());
+  return input ? answer_of(Json{{"input", to_json(*input)}}) : answer_of(input.error());
 }
 
-void Actions::take_project(const std::string& name, const BodyReader& read, Answer& to) {
+Answer Actions::take_project(const std::string& name, const BodyReader& read) {
   std::vector<std::byte> body;
   const auto take = [&](std::string_view bytes) {
     const auto more = std::as_bytes(std::span(bytes));
     body.insert(body.end(), more.begin(), more.end());
     return Result<void>{};
   };
-  if (!read(take)) return;
+  if (!read(take)) return {};
   const Result<Json> project = project_in(body, name, {});
-  project ? answer(to, *project) : answer(to, project.error());
+  return project ? answer_of(*project) : answer_of(project.error());
 }
 
 // Keeps a file that was part of a project.
@@ -304,6 +297,12 @@ Result<void> Actions::begin_with(const std::string& path, const std::string& ful
     engine->open(input, first_view());
   }
   return {};
+}
+
+Result<Answer> Actions::status(const Json& json) {
+  const std::string id = json.value("document", "");
+  const auto engine = documents_.find(id);
+  return engine ? answer_of(status_of({id, engine})) : not_open();
 }
 
 Json Actions::status_of(const OpenDocuments::Entry& entry) {

@@ -21,6 +21,12 @@ constexpr std::uint64_t most_scan = std::uint64_t{4} << 30;  // bytes of a dropp
 // Reads the body of a request: passes it on piece by piece, and returns whether all of it came and was taken.
 using BodyReader = std::function<bool(const std::function<Result<void>(std::string_view)>& take)>;
 
+// Does an action on the engine of the document that the request names.
+using EngineAction = Result<Answer> (*)(Engine&, const nlohmann::json&);
+
+// Returns the action of that name; null if there is none.
+EngineAction find_engine_action(std::string_view name);
+
 // Every method may be called from any thread.
 class Actions {
  public:
@@ -29,12 +35,12 @@ class Actions {
   bool has(std::string_view name) const;
 
   // Does the action of that name, which has() knows.
-  void run(std::string_view name, const nlohmann::json& json, Answer& to);
+  Answer run(std::string_view name, const nlohmann::json& json);
 
   // Takes a file of the browser piece by piece: a scan, or a project with or without its scan. Where the body does not
-  // come whole, nothing is answered.
-  void take_scan(const std::string& name, const BodyReader& read, Answer& to);
-  void take_project(const std::string& name, const BodyReader& read, Answer& to);
+  // come whole, the answer is empty.
+  Answer take_scan(const std::string& name, const BodyReader& read);
+  Answer take_project(const std::string& name, const BodyReader& read);
 
   // Has the first page begin with a scan or a project; `full` is its path from the root. Errors: kind input if it cannot
   // be read.
@@ -47,7 +53,7 @@ class Actions {
   std::vector<nlohmann::json> statuses();
 
  private:
-  using Action = void (Actions::*)(const nlohmann::json&, Answer&);
+  using Action = Result<Answer> (Actions::*)(const nlohmann::json&);
 
   // A document that is open: its scan, when it was changed, in milliseconds since 1970, and by which tab.
   struct Opened {
@@ -56,30 +62,17 @@ class Actions {
     std::string tab;
   };
 
-  void document(const nlohmann::json& json, Answer& to);
-  void open(const nlohmann::json& json, Answer& to);
-  void leave(const nlohmann::json& json, Answer& to);
-  void keep(const nlohmann::json& json, Answer& to);
-  void keep_picture(const nlohmann::json& json, Answer& to);
-  void recent(const nlohmann::json& json, Answer& to);
-  void kept_amount(const nlohmann::json& json, Answer& to);
-  void remove(const nlohmann::json& json, Answer& to);
-  void save(const nlohmann::json& json, Answer& to);
-
-  std::shared_ptr<Engine> engine_of(const nlohmann::json& json, Answer& to);
-  void view(const nlohmann::json& json, Answer& to);
-  void cancel(const nlohmann::json& json, Answer& to);
-  void facts(const nlohmann::json& json, Answer& to);
-  void views(const nlohmann::json& json, Answer& to);
-  void status(const nlohmann::json& json, Answer& to);
-  void frame(const nlohmann::json& json, Answer& to);
-  void scan(const nlohmann::json& json, Answer& to);
-  void profile(const nlohmann::json& json, Answer& to);
-  void reach(const nlohmann::json& json, Answer& to);
-  void check(const nlohmann::json& json, Answer& to);
-  void piece(const nlohmann::json& json, Answer& to);
-  void cancel_piece(const nlohmann::json& json, Answer& to);
-  void make_file(const nlohmann::json& json, Answer& to);
+  Result<Answer> document(const nlohmann::json& json);
+  Result<Answer> open(const nlohmann::json& json);
+  Result<Answer> leave(const nlohmann::json& json);
+  Result<Answer> keep(const nlohmann::json& json);
+  Result<Answer> keep_picture(const nlohmann::json& json);
+  Result<Answer> recent(const nlohmann::json& json);
+  Result<Answer> kept_amount(const nlohmann::json& json);
+  Result<Answer> remove(const nlohmann::json& json);
+  Result<Answer> save(const nlohmann::json& json);
+  Result<Answer> status(const nlohmann::json& json);
+  Result<Answer> check(const nlohmann::json& json);
 
   Result<ScanSource> kept(const PackedFile& file);
   Result<nlohmann::json> project_in(std::span<const std::byte> bytes, const std::string& name,

@@ -28,26 +28,24 @@ int status_of(ErrorKind kind) {
 
 }  // namespace
 
-void answer(Answer& to, const Json& json, int status) {
-  to.status = status;
-  to.type = "application/json";
-  to.body = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+Answer answer_of(const Json& json, int status) {
+  return {status, "application/json", json.dump(-1, ' ', false, Json::error_handler_t::replace)};
 }
 
-void answer(Answer& to, const Error& error) {
-  answer(to, {{"error", error_json(error)}}, status_of(error.kind));
+Answer answer_of(const Error& error) {
+  return answer_of(Json{{"error", error_json(error)}}, status_of(error.kind));
 }
 
-void answer(Answer& to, const Picture& picture, const Json& about) {
+Answer answer_of(const Picture& picture, const Json& about) {
   const auto& pixels = picture.image.pixels;
-  to.status = 200;
-  to.headers.emplace_back("X-Relievo", about.dump());
-  to.type = "application/octet-stream";
-  to.body.assign(reinterpret_cast<const char*>(pixels.data()), pixels.size());
+  return {200,
+          "application/octet-stream",
+          {reinterpret_cast<const char*>(pixels.data()), pixels.size()},
+          {{"X-Relievo", about.dump()}}};
 }
 
-void refuse(Answer& to, int status, const std::string& text) {
-  answer(to, Json{{"error", {{"kind", "request"}, {"text", text}}}}, status);
+Answer refusal(int status, const std::string& text) {
+  return answer_of(Json{{"error", {{"kind", "request"}, {"text", text}}}}, status);
 }
 
 }  // namespace relievo::app::studio

@@ -18,16 +18,16 @@ struct Answer {
   std::vector<std::pair<std::string, std::string>> headers = {};
 };
 
-void answer(Answer& to, const nlohmann::json& json, int status = 200);
+Answer answer_of(const nlohmann::json& json, int status = 200);
 
 // The status says whose fault it is: 400 and 422 the request's, 409 that the engine has nothing to answer with, 500 the
 // disk's. What was cancelled is nobody's fault: 202, which browsers do not complain about.
-void answer(Answer& to, const Error& error);
+Answer answer_of(const Error& error);
 
 // The pixels are the body; what is said about them stands in the header X-Relievo.
-void answer(Answer& to, const Picture& picture, const nlohmann::json& about);
+Answer answer_of(const Picture& picture, const nlohmann::json& about);
 
-// Answers with an error that the page can show.
-void refuse(Answer& to, int status, const std::string& text);
+// Returns an error that the page can show.
+Answer refusal(int status, const std::string& text);
 
 }  // namespace relievo::app::studio

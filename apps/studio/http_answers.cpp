@@ -8,18 +8,8 @@
 #include "relievo/core/within_memory.h"
 
 namespace relievo::app::studio {
-namespace {
-
 using httplib::Request;
 using httplib::Response;
-
-Answer answer_of(const Error& error) {
-  Answer made;
-  answer(made, error);
-  return made;
-}
-
-}  // namespace
 
 void send(Answer answer, Response& response) {
   response.status = answer.status;
@@ -29,9 +19,7 @@ void send(Answer answer, Response& response) {
 }
 
 void refuse(Response& response, int status, const std::string& text) {
-  Answer made;
-  refuse(made, status, text);
-  send(std::move(made), response);
+  send(refusal(status, text), response);
   response.set_header("Connection", "close");
 }
 

@@ -1,4 +1,5 @@
 // The actions that concern the engine of a document, and what the page is told at its start.
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "common/export_file.h"
@@ -15,10 +16,12 @@
 
 namespace relievo::app::studio {
 
+namespace {
+
 using Json = nlohmann::json;
 
 // Returns the models of a scene file and how each stands, as such a file has them; none for other scans.
-static Json models_of(const ScanSource& input) {
+Json models_of(const ScanSource& input) {
   Json models = Json::array();
   if (!input.sample.empty() || ending_of(input.path) != "json") return models;
   const auto bytes = read_file(input.path);
@@ -35,141 +38,105 @@ static Json models_of(const ScanSource& input) {
   return models;
 }
 
-// Returns the engine of the document that the request names; otherwise answers that it is not open.
-std::shared_ptr<Engine> Actions::engine_of(const Json& json, Answer& to) {
-  auto engine = documents_.find(json.value("document", ""));
-  if (!engine)
-    answer(to, {{"error", {{"kind", "closed"}, {"text", "expected a document that is open"}}}}, 409);
-  return engine;
+Result<Answer> view(Engine& engine, const Json& json) {
+  RELIEVO_CHECK(engine.choose_view(view_values(json)));
+  return answer_of(Json::object());
 }
 
-void Actions::view(const Json& json, Answer& to) {
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const auto ok = engine->choose_view(view_values(json));
-  ok ? answer(to, Json::object()) : answer(to, ok.error());
+Result<Answer> cancel(Engine& engine, const Json&) {
+  engine.cancel();
+  return answer_of(Json::object());
 }
 
-void Actions::cancel(const Json& json, Answer& to) {
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  engine->cancel();
-  answer(to, Json::object());
+Result<Answer> facts(Engine& engine, const Json&) {
+  RELIEVO_TRY(const ModelFacts facts, engine.facts());
+  Json told = to_json(facts);
+  told["models"] = models_of(engine.status().input);
+  return answer_of(told);
 }
 
-void Actions::facts(const Json& json, Answer& to) {
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const Result<ModelFacts> facts = engine->facts();
-  if (!facts) return answer(to, facts.error());
-  Json told = to_json(*facts);
-  told["models"] = models_of(engine->status().input);
-  answer(to, told);
-}
-
-void Actions::views(const Json& json, Answer& to) {
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const auto views = engine->suggest_views();
-  if (!views) return answer(to, views.error());
+Result<Answer> views(Engine& engine, const Json&) {
+  RELIEVO_TRY(const std::vector<ViewGuess> views, engine.suggest_views());
   Json sides = Json::array();
-  for (const ViewGuess& side : *views) sides.push_back({{"view", side.name}, {"up", side.up}});
-  answer(to, {{"views", sides}});
+  for (const ViewGuess& side : views) sides.push_back({{"view", side.name}, {"up", side.up}});
+  return answer_of(Json{{"views", sides}});
 }
 
-void Actions::status(const Json& json, Answer& to) {
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  answer(to, status_of({json.value("document", ""), engine}));
+Result<Answer> frame(Engine& engine, const Json& json) {
+  RELIEVO_TRY(PictureRequest request, picture_request(json));
+  RELIEVO_TRY(const PictureAnswer made, engine.picture(std::move(request)));
+  return answer_of(made.picture, to_json(made));
 }
 
-void Actions::frame(const Json& json, Answer& to) {
-  const Result<PictureRequest> request = picture_request(json);
-  if (!request) return answer(to, request.error());
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const Result<PictureAnswer> made = engine->picture(*request);
-  if (!made) return answer(to, made.error());
-  answer(to, made->picture, to_json(*made));
+Result<Answer> scan(Engine& engine, const Json& json) {
+  RELIEVO_TRY(const View view, view_from(json));
+  RELIEVO_TRY(const PictureRequest size, picture_request(json));
+  RELIEVO_TRY(const Picture picture, engine.scan_picture(view, size.render.width, size.render.height));
+  return answer_of(picture, {{"width", picture.image.width}, {"height", picture.image.height}});
 }
 
-void Actions::scan(const Json& json, Answer& to) {
-  const Result<View> view = view_from(json);
-  const Result<PictureRequest> size = picture_request(json);
-  if (!view || !size) return answer(to, view ? size.error() : view.error());
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const Result<Picture> picture = engine->scan_picture(*view, size->render.width, size->render.height);
-  if (!picture) return answer(to, picture.error());
-  answer(to, *picture, {{"width", picture->image.width}, {"height", picture->image.height}});
+Result<Answer> profile(Engine& engine, const Json& json) {
+  RELIEVO_TRY(PictureRequest request, picture_request(json));
+  RELIEVO_TRY(const Vec2 from, place_from(json, "from"));
+  RELIEVO_TRY(const Vec2 until, place_from(json, "to"));
+  RELIEVO_TRY(const std::vector<float> heights, engine.profile(std::move(request), {from, until}));
+  return answer_of(Json{{"heights_mm", heights}});
 }
 
-void Actions::profile(const Json& json, Answer& to) {
-  const Result<PictureRequest> request = picture_request(json);
-  const Result<Vec2> from = place_from(json, "from"), until = place_from(json, "to");
-  if (!request) return answer(to, request.error());
-  if (!from || !until) return answer(to, from ? until.error() : from.error());
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const auto heights = engine->profile(*request, {*from, *until});
-  if (!heights) return answer(to, heights.error());
-  answer(to, {{"heights_mm", *heights}});
-}
-
-void Actions::reach(const Json& json, Answer& to) {
-  const Result<PictureRequest> request = picture_request(json);
-  if (!request) return answer(to, request.error());
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const Result<double> height = engine->reachable_height(*request);
-  height ? answer(to, {{"height_mm", *height}}) : answer(to, height.error());
-}
-
-// Tells whether options can be read and do not contradict each other.
-void Actions::check(const Json& json, Answer& to) {
-  const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), "options");
-  if (!options) return answer(to, options.error());
-  const Result<void> checked = relievo::check(*options);
-  checked ? answer(to, Json::object()) : answer(to, checked.error());
+Result<Answer> reach(Engine& engine, const Json& json) {
+  RELIEVO_TRY(PictureRequest request, picture_request(json));
+  RELIEVO_TRY(const double height_mm, engine.reachable_height(std::move(request)));
+  return answer_of(Json{{"height_mm", height_mm}});
 }
 
 // Makes the piece as export writes it, and tells how large it is.
-void Actions::piece(const Json& json, Answer& to) {
-  const Result<ReliefOptions> options = options_from_json(json.value("options", Json()), "options");
-  if (!options) return answer(to, options.error());
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  const auto made = engine->piece(*options, json["options"].dump());
-  if (!made) return answer(to, made.error());
-  const Solid& solid = (*made)->solid;
+Result<Answer> piece(Engine& engine, const Json& json) {
+  const Json texts = json.value("options", Json());
+  RELIEVO_TRY(const ReliefOptions options, options_from_json(texts, "options"));
+  RELIEVO_TRY(const auto made, engine.piece(options, texts.dump()));
+  const Solid& solid = made->solid;
   const Vec3 size = size_mm(solid);
-  answer(to, {{"triangles", solid.triangles.size()},
-              {"points", solid.points.size()},
-              {"size_mm", {size.x(), size.y(), size.z()}},
-              {"height_mm", relief_height_mm(**made, *options)}});
+  return answer_of(Json{{"triangles", solid.triangles.size()},
+                        {"points", solid.points.size()},
+                        {"size_mm", {size.x(), size.y(), size.z()}},
+                        {"height_mm", relief_height_mm(*made, options)}});
 }
 
-void Actions::cancel_piece(const Json& json, Answer& to) {
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  engine->cancel_making();
-  answer(to, Json::object());
+Result<Answer> cancel_piece(Engine& engine, const Json&) {
+  engine.cancel_making();
+  return answer_of(Json::object());
 }
 
-void Actions::make_file(const Json& json, Answer& to) {
-  const Result<ReliefOptions> wanted = options_from_json(json.value("options", Json()), "options");
-  if (!wanted) return answer(to, wanted.error());
-  const Result<ExportOrder> order = export_order_from(json);
-  if (!order) return answer(to, order.error());
-  const auto engine = engine_of(json, to);
-  if (!engine) return;
-  Result<ExportedFile> file =
-      engine->make_file({*wanted, json["options"].dump(), json.value("format", ""), *order});
-  if (!file) return answer(to, file.error());
-  to = {200, std::move(file->type), std::move(file->bytes)};
+Result<Answer> make_file(Engine& engine, const Json& json) {
+  const Json texts = json.value("options", Json());
+  RELIEVO_TRY(const ReliefOptions wanted, options_from_json(texts, "options"));
+  RELIEVO_TRY(const ExportOrder order, export_order_from(json));
+  RELIEVO_TRY(ExportedFile file, engine.make_file({wanted, texts.dump(), json.value("format", ""), order}));
+  return Answer{200, std::move(file.type), std::move(file.bytes)};
 }
 
-Json Actions::about() {
+}  // namespace
+
+EngineAction find_engine_action(std::string_view name) {
+  static constexpr std::pair<std::string_view, EngineAction> actions[] = {
+      {"view", view},       {"cancel", cancel},
+      {"facts", facts},     {"views", views},
+      {"frame", frame},     {"scan", scan},
+      {"profile", profile}, {"reach", reach},
+      {"piece", piece},     {"cancel_piece", cancel_piece},
+      {"export", make_file}};
+  const auto* const found =
+      std::ranges::find(actions, name, &std::pair<std::string_view, EngineAction>::first);
+  return found == std::end(actions) ? nullptr : found->second;
+}
+
+// Tells whether options can be read and do not contradict each other.
+Result<Answer> Actions::check(const nlohmann::json& json) {
+  RELIEVO_CHECK(options_from_json(json.value("options", Json()), "options"));
+  return answer_of(Json::object());
+}
+
+nlohmann::json Actions::about() {
   Json samples = Json::array();
   for (const SampleInfo& sample : relievo::samples())
     samples.push_back({{"name", sample.name}, {"description", sample.description}});

@@ -95,11 +95,7 @@ struct Server::State {
   // -------------------------------------------------------------------------------------------------- reads
 
   void get(const std::string& name, Response& response) {
-    if (name == "api/about") {
-      Answer about;
-      answer(about, actions.about());
-      return send(std::move(about), response);
-    }
+    if (name == "api/about") return send(answer_of(actions.about()), response);
     if (name == "api/events") return follow(response);
     send_file(name.empty() ? "index.html" : name, response);
   }
@@ -162,10 +158,8 @@ struct Server::State {
     if (!read_body(read, response, most_json, take)) return;
     const ScopedCount count(waiting);
     if (count.number() > most_waiting) return refuse(response, 503, "too much at once");
-    Answer made;
     const Result<Json> json = parse_body(body);
-    json ? actions.run(action, *json, made) : answer(made, json.error());
-    send(std::move(made), response);
+    send(json ? actions.run(action, *json) : answer_of(json.error()), response);
   }
 
   void take_file(const std::string& name, const Request& request, Response& response,
@@ -177,9 +171,8 @@ struct Server::State {
     const BodyReader body = [&](const auto& take) {
       return is_whole = read_body(read, response, most_scan, take);
     };
-    Answer made;
     const std::string file = request.get_param_value("name");
-    name == "api/upload" ? actions.take_scan(file, body, made) : actions.take_project(file, body, made);
+    Answer made = name == "api/upload" ? actions.take_scan(file, body) : actions.take_project(file, body);
     if (is_whole) send(std::move(made), response);
   }
 

@@ -39,8 +39,7 @@ struct Studio {
     const std::string scan = folder + "/scan.ply";
     const std::vector<std::byte> ply = write_ply(*make_sample("shell", {.points = 2000}));
     std::ofstream(scan, std::ios::binary).write(reinterpret_cast<const char*>(ply.data()), std::ssize(ply));
-    Answer opened;
-    actions.run("open", {{"input", {{"path", scan}}}, {"tab", "fuzz"}}, opened);
+    const Answer opened = actions.run("open", {{"input", {{"path", scan}}}, {"tab", "fuzz"}});
     document = Json::parse(opened.body)["document"];
     while (documents.find(document)->status().is_busy)
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -68,9 +67,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Result<Json> json = parse_body(body);
   Answer made;
   try {
-    json ? studio.actions.run(action_names[data[0] % std::size(action_names)], small(*json, studio.document),
-                              made)
-         : answer(made, json.error());
+    made = json ? studio.actions.run(action_names[data[0] % std::size(action_names)],
+                                     small(*json, studio.document))
+                : answer_of(json.error());
   } catch (const Json::exception&) {
     return 0;  // a field of another type, which the server answers with 400
   }

@@ -67,7 +67,7 @@ class Studio {
   Told ask(const std::string& action, const Json& json) {
     Answer answer;
     try {
-      actions_->run(action, json, answer);
+      answer = actions_->run(action, json);
     } catch (const std::bad_alloc&) {  // as the server does
       return out_of_memory;
     }

@@ -47,21 +47,15 @@ CallAnswer call_answer(const studio::Answer& from, Json about) {
 // Takes a project file that the page shows under a path. The bytes of each file in it follow by the call "unpacked".
 Result<CallAnswer> take_project(const Json& json) {
   RELIEVO_TRY(const std::vector<std::byte> bytes, read_file(json.value("path", "")));
-  studio::Answer answer;
   const studio::BodyReader whole = [&](const auto& take) { return take(text_in(bytes)).has_value(); };
-  the_studio().actions.take_project(json.value("name", ""), whole, answer);
-  return call_answer(answer, Json::object());
+  return call_answer(the_studio().actions.take_project(json.value("name", ""), whole), Json::object());
 }
 
 }  // namespace
 
 Result<CallAnswer> call(std::string_view name, const Json& json) {
   Studio& studio = the_studio();
-  studio::Answer to;
-  if (name == "about") {
-    answer(to, studio.actions.about());
-    return call_answer(to, Json::object());
-  }
+  if (name == "about") return call_answer(studio::answer_of(studio.actions.about()), Json::object());
   if (name == "hash") {
     RELIEVO_TRY(const std::string hash, hash_of_file(json.value("path", "")));
     return CallAnswer{{{"hash", hash}}};
@@ -74,9 +68,9 @@ Result<CallAnswer> call(std::string_view name, const Json& json) {
   }
   if (!studio.actions.has(name))
     return option_error("call", cat("expected the name of a function, found '", name, "'"));
-  studio.actions.run(name, json, to);
+  const studio::Answer made = studio.actions.run(name, json);
   if (name != "frame") tell_statuses();
-  return call_answer(to, Json::object());
+  return call_answer(made, Json::object());
 }
 
 }  // namespace relievo::app::web
