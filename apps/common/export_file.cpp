@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/files.h"
+#include "relievo/core/choice.h"
 #include "relievo/core/text.h"
 #include "relievo/core/version.h"
 #include "relievo/io/write.h"
@@ -35,14 +36,18 @@ std::span<const FileFormat> file_formats() {
   return formats;
 }
 
-const FileFormat* find_format(std::string_view name) {
-  const auto found = std::ranges::find(formats, name, &FileFormat::name);
-  return found == formats.end() ? nullptr : &*found;
+Result<const FileFormat*> find_format(std::string_view name) {
+  std::vector<std::string_view> names;
+  for (const FileFormat& format : file_formats()) {
+    if (format.name == name) return &format;
+    names.push_back(format.name);
+  }
+  return not_one_of("format", names, name);
 }
 
 const FileFormat* find_solid_format(std::string_view ending) {
-  const FileFormat* const format = find_format(ending);
-  return format && format->write_solid ? format : nullptr;
+  const Result<const FileFormat*> format = find_format(ending);
+  return format && (*format)->write_solid ? *format : nullptr;
 }
 
 std::vector<std::string_view> solid_endings() {

@@ -25,8 +25,8 @@ struct FileFormat {
 // Returns all formats.
 std::span<const FileFormat> file_formats();
 
-// Returns the format of that name; null if there is none.
-const FileFormat* find_format(std::string_view name);
+// Returns the format of that name, which is not null. Errors: kind option, naming all formats.
+Result<const FileFormat*> find_format(std::string_view name);
 
 // Returns the format of solids whose files end so, "stl"; null if there is none.
 const FileFormat* find_solid_format(std::string_view ending);
@@ -55,12 +55,12 @@ struct HeightMapOrder {
   LengthUnit unit = LengthUnit::mm;
 };
 
-// Returns the height map as a file, with its scale. Of what was bent around a wrap the flat plate is shown,
-// for machines that turn the stock.
-// Returns the picture of a relief: a lithophane in front of a lamp unless another material than plaster is asked for, and
-// what is bent to the inside unrolled and cut open.
+// Returns the picture of a relief: a lithophane in front of a lamp unless another material than plaster is asked for,
+// and what is bent to the inside unrolled and cut open.
 Image8 preview_of(const MadeRelief& made, PreviewOptions options);
 
+// Returns the height map as a file, with its scale. What was bent around a wrap is shown as the flat plate, for
+// machines that turn the stock.
 std::vector<std::byte> height_map_file(const MadeRelief& made, const HeightMapOrder& order);
 
 }  // namespace relievo::app

@@ -42,8 +42,8 @@ class Actions {
   Answer take_scan(const std::string& name, const BodyReader& read);
   Answer take_project(const std::string& name, const BodyReader& read);
 
-  // Has the first page begin with a scan or a project; `full` is its path from the root. Errors: kind input if it cannot
-  // be read.
+  // Has the first page begin with a scan or a project; `full` is its path from the root. Errors: kind input if it
+  // cannot be read.
   Result<void> begin_with(const std::string& path, const std::string& full);
 
   // Returns what the page needs to know before it can show anything.

@@ -77,8 +77,8 @@ struct PieceHeight {
 // Not for concurrent use.
 class Drawing {
  public:
-  // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `outliers` is the
-  // number of those that were left out of the scan, and `remarks` is what else is to be said of it.
+  // Shares the model. One of a few points comes with the detail that they leave out, others come alone. `outliers` is
+  // the number of those that were left out of the scan, and `remarks` is what else is to be said of it.
   Drawing(TurnedRelief shown, std::size_t outliers, std::vector<std::string> remarks = {});
 
   const ModelFacts& facts() const { return facts_; }
@@ -90,7 +90,8 @@ class Drawing {
   // rectangular plate, draws a piece, whose height is met, see Piece::drawn(). Errors: those of make_relief().
   Result<PictureAnswer> picture(PictureRequest request);
 
-  // Returns the order of the piece that the request would show; nothing if it is at hand. Errors: those of with_width().
+  // Returns the order of the piece that the request would show; nothing if it is at hand. Errors: those of
+  // with_width().
   Result<std::optional<PieceOrder>> missing_piece(PictureRequest request);
 
   // Takes the piece of such an order.

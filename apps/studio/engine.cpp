@@ -6,10 +6,8 @@
 #include <functional>
 #include <utility>
 
-#include "common/wording.h"
-#include "relievo/core/choice.h"
 #include "relievo/core/parallel.h"
-#include "relievo/core/text.h"
+#include "relievo/core/within_memory.h"
 #include "relievo/scan/surface.h"
 #include "relievo/session.h"
 #include "studio/loaded_scan.h"
@@ -183,6 +181,17 @@ struct Engine::State {
     drawing->freeze(is_preparing);
     return &*drawing;
   }
+
+  // Returns what f returns of that. Errors: kind geometry before the first model; kind memory.
+  template <typename F>
+  std::invoke_result_t<F, Drawing&> with_drawing(F&& f) {
+    return within_memory([&]() -> std::invoke_result_t<F, Drawing&> {
+      const Lock lock(drawing_mutex);
+      Drawing* const now = current_drawing();
+      if (!now) return nothing_open();
+      return f(*now);
+    });
+  }
 };
 
 Engine::Engine(const std::function<void()>& changed) : state_(std::make_unique<State>(changed)) {}
@@ -256,10 +265,7 @@ EngineStatus Engine::status() const {
 }
 
 Result<ModelFacts> Engine::facts() {
-  const Lock lock(state_->drawing_mutex);
-  const Drawing* const drawing = state_->current_drawing();
-  if (!drawing) return nothing_open();
-  return drawing->facts();
+  return state_->with_drawing([](Drawing& drawing) -> Result<ModelFacts> { return drawing.facts(); });
 }
 
 // Finds the height that the draft angle of the options allows, if they have one, while other pictures are drawn.
@@ -279,22 +285,18 @@ Result<void> Engine::finish(PictureRequest& request) {
   if (auto known = find_draft_limit(request, PieceUse::picture); !known)
     return unless_cancelled(known.error());
   RELIEVO_CHECK(check_cancelled(request.progress.get()));  // while it waited for another piece
-  std::optional<PieceOrder> order;
   std::uint64_t model = 0;
-  {
-    const Lock lock(state_->drawing_mutex);
-    Drawing* const drawing = state_->current_drawing();
-    if (!drawing) return nothing_open();
+  RELIEVO_TRY(const std::optional<PieceOrder> order, state_->with_drawing([&](Drawing& drawing) {
     model = state_->drawn_model;
-    RELIEVO_TRY(order, drawing->missing_piece(request));
-  }
+    return drawing.missing_piece(request);
+  }));
   if (!order) return {};
   auto made = piece(order->options, order->key, PieceUse::picture);
   if (!made) return unless_cancelled(made.error());
-  const Lock lock(state_->drawing_mutex);
-  Drawing* const drawing = state_->current_drawing();
-  if (drawing && state_->drawn_model == model) drawing->take(std::move(*made), *order);
-  return {};
+  return state_->with_drawing([&](Drawing& drawing) -> Result<void> {
+    if (state_->drawn_model == model) drawing.take(std::move(*made), *order);
+    return {};
+  });
 }
 
 Result<PictureAnswer> Engine::picture(PictureRequest request) {
@@ -313,31 +315,23 @@ Result<PictureAnswer> Engine::picture(PictureRequest request) {
       request.draft_limit_mm = state_->maker.known_draft_limit(shown, request.key_but_height);
   }
   if (request.turned) return state_->turned_picture(request);
-  const Lock lock(state_->drawing_mutex);
-  RELIEVO_CHECK(check_cancelled(request.progress.get()));
-  Drawing* const drawing = state_->current_drawing();
-  if (!drawing) return nothing_open();
-  return drawing->picture(request);
+  return state_->with_drawing([&](Drawing& drawing) -> Result<PictureAnswer> {
+    RELIEVO_CHECK(check_cancelled(request.progress.get()));
+    return drawing.picture(std::move(request));
+  });
 }
 
 Result<std::vector<float>> Engine::profile(PictureRequest request, const SectionLine& line) {
   if (request.options.rim_mm)  // whose bevel leans enough, or not, by the height that the draft angle allows
     if (auto known = find_draft_limit(request, PieceUse::entry); !known)
       RELIEVO_CHECK(unless_cancelled(known.error()));
-  const Lock lock(state_->drawing_mutex);
-  Drawing* const drawing = state_->current_drawing();
-  if (!drawing) return nothing_open();
-  return drawing->profile(request, line);
+  return state_->with_drawing([&](Drawing& drawing) { return drawing.profile(std::move(request), line); });
 }
 
 Result<double> Engine::reachable_height(PictureRequest request) {
-  double height_mm = 0;
-  {
-    const Lock lock(state_->drawing_mutex);
-    Drawing* const drawing = state_->current_drawing();
-    if (!drawing) return nothing_open();
-    RELIEVO_TRY(height_mm, drawing->reachable_height(request.options));
-  }
+  RELIEVO_TRY(const double height_mm, state_->with_drawing([&](Drawing& drawing) {
+    return drawing.reachable_height(request.options);
+  }));
   RELIEVO_CHECK(find_draft_limit(request, PieceUse::picture));
   return std::min(height_mm, request.draft_limit_mm.value_or(height_mm));
 }
@@ -365,12 +359,7 @@ Result<std::vector<ViewGuess>> Engine::suggest_views() {
 }
 
 Result<ExportedFile> Engine::make_file(const FileRequest& request) {
-  const FileFormat* const known = find_format(request.format);
-  if (!known) {
-    std::vector<std::string_view> names;
-    for (const FileFormat& each : file_formats()) names.push_back(each.name);
-    return not_one_of("format", names, request.format);
-  }
+  RELIEVO_TRY(const FileFormat* const known, find_format(request.format));
   RELIEVO_TRY(const auto made, piece(request.options, request.key));
   return export_file(*made, *known, request.order);
 }

@@ -22,7 +22,8 @@ struct Job {
   ReliefOptions options = {};
 };
 
-// Returns the job of one scan, whose file has these bytes and is called `name` in errors. Errors: those of read_cloud().
+// Returns the job of one scan, whose file has these bytes and is called `name` in errors. Errors: those of
+// read_cloud().
 Result<Job> load(std::span<const std::byte> file, std::string_view name);
 
 // A frame of a live model. It is valid until the model makes the next one.
@@ -34,18 +35,18 @@ struct LiveFrame {
   bool is_new = false;  // false if the frame before it was the same
 };
 
-// Refines which frame is wanted.
+// Tells which frame of the options is wanted. A quick one takes one or two solves: at most 3 % of a height that is
+// asked for is left to the stretch.
 struct FrameWish {
   std::optional<double> u;  // of the compression, in place of a height, which then follows the shape
-  bool is_quick =
-      false;  // a height that is asked for is met by at most 3 % of stretching, which takes one or two solves
+  bool is_quick = false;
 };
 
 // Checks the size of a picture and where its camera stands. Errors: kind option, naming the field.
 Result<void> check(const RenderOptions& options);
 
-// A prepared model, and all that shows it. What needs a walk over all points is computed once. Memory that runs out is an
-// error of kind memory in every call that returns a Result. Not for concurrent use.
+// A prepared model, and all that shows it. What needs a walk over all points is computed once. If memory runs out in
+// relief(), frame() or picture(), that is an error of kind memory. Not for concurrent use.
 class LiveModel {
  public:
   // Shares the model. `notes` tell how its points were sampled.
@@ -58,12 +59,12 @@ class LiveModel {
   // Returns the solid. It may be called concurrently. Errors: those of make_relief().
   Result<MadeRelief> relief(const ReliefOptions& options, Progress* progress = nullptr) const;
 
-  // Returns the frame of the relief that the options ask for. Errors: those of with_width(); kind option for a method that
-  // has no frames.
+  // Returns the frame of the relief that the options ask for. Errors: those of with_width(); kind option for a method
+  // that has no frames.
   Result<LiveFrame> frame(const ReliefOptions& options);
 
-  // Returns a picture of that frame on its plate; `render` has its lengths from the options. Errors: those of frame() and
-  // check().
+  // Returns a picture of that frame on its plate; `render` has its lengths from the options. Errors: those of frame()
+  // and check().
   Result<Picture> picture(const ReliefOptions& options, RenderOptions render = {});
 
   // The parts of these calls, for programs that show a relief while it is worked on. Options are to have a width.
@@ -71,7 +72,8 @@ class LiveModel {
   // Does what relievo::with_width() does, and searches the largest width anew only if it has changed.
   Result<ReliefOptions> with_width(const ReliefOptions& options);
 
-  // Returns the largest width that fits into the plate of the last options that with_width() took; nothing if it had no size.
+  // Returns the largest width that fits into the plate of the last options that with_width() took; nothing if it had no
+  // size.
   std::optional<double> most_width_mm() const;
 
   double mm_per_unit(const ReliefOptions& options) const;
@@ -82,8 +84,8 @@ class LiveModel {
   // Returns what make_frame() returned last; a null frame before the first.
   LiveFrame last_frame() const;
 
-  // Returns the height in mm of the highest relief of that shape: that without compression. Steps at depth jumps, which a
-  // height may add, are left out.
+  // Returns the height in mm of the highest relief of that shape: that without compression. Steps at depth jumps, which
+  // a height may add, are left out.
   double highest_mm(const ReliefOptions& options);
 
   Shown shown(const LiveFrame& made) const;
@@ -95,8 +97,8 @@ class LiveModel {
   std::unique_ptr<State> state_;
 };
 
-// Samples the points that show the view of a job, which is chosen first if need be, and prepares their model. Errors: those
-// of sample_for_view() and of prepare() for a cloud.
+// Samples the points that show the view of a job, which is chosen first if need be, and prepares their model. Errors:
+// those of sample_for_view() and of prepare() for a cloud.
 Result<LiveModel> prepare(const Job& job, Progress* progress = nullptr);
 
 }  // namespace relievo

@@ -7,8 +7,8 @@
 
 namespace relievo::python {
 
-// Gives the order its inputs: those of a list of paths, (bytes, name) tuples and models from arrays. Python's objects must
-// outlive it.
+// Gives the order the inputs of a list: paths, (bytes, name) tuples and models from arrays. The last copy of the order
+// must be destroyed by a thread that holds Python's lock.
 void take_sources(const pybind11::list& list, app::MakeOrder& order);
 
 void add_inputs(pybind11::module_& module);

@@ -70,12 +70,7 @@ void save(const SharedRelief& relief, const app::ReliefFiles& files) {
 }
 
 py::bytes to_bytes(const SharedRelief& relief, const std::string& format, int heightmap_px) {
-  const app::FileFormat* const known = app::find_format(format);
-  if (known == nullptr) {
-    std::vector<std::string_view> names;
-    for (const app::FileFormat& each : app::file_formats()) names.push_back(each.name);
-    raise(not_one_of("format", names, format).error());
-  }
+  const app::FileFormat* const known = value_or_raise(app::find_format(format));
   return bytes_of(
       unlocked([&] { return app::export_file(relief->made, *known, {.heightmap_px = heightmap_px}); }).bytes);
 }
