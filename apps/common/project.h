@@ -36,8 +36,8 @@ struct Project {
 // belongs to the studio. Errors: kind input.
 Result<Project> read_project(std::string_view text, std::string_view name);
 
-// Returns the options of a project, with those in place of its own that the user gave, too. A given alpha rules in place of
-// the project's height.
+// Returns the options of a project, in which those that the user gave replace its own. A given alpha replaces the height,
+// too.
 OptionValues with_given(OptionValues own, const OptionValues& given);
 
 // Returns the values of all options that have one, given or by default.

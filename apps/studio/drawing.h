@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/wording.h"
 #include "relievo/job.h"
 #include "studio/curve_samples.h"
 #include "studio/piece.h"

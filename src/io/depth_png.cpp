@@ -97,7 +97,7 @@ class Reader {
   }
 
   std::unexpected<Error> broken(int failure) const {
-    const std::string_view what = failure == SPNG_EOF ? "the end of the file" : spng_strerror(failure);
+    const std::string_view what = failure == SPNG_IO_EOF ? "the end of the file" : spng_strerror(failure);
     return source_.error_at_byte(chunks_.at(), cat("expected the data of a PNG picture, found ", what));
   }
 

@@ -2,6 +2,7 @@
 #include "batch/contact_sheet.h"
 #include "batch/index_page.h"
 #include "common/html.h"
+#include "relievo/core/text.h"
 #include "relievo/io/write.h"
 #include "support/cli_folder.h"
 
@@ -67,7 +68,7 @@ TEST(IndexPage, NamesWhatFailedAndLinksWhatIsMade) {
   const std::string page = index_page(jobs, records, workshop, {"contact-sheet.png"});
   for (const char* part :
        {"1 relief is made, 1 failed, 1 is not done yet", "<b>a &amp; b</b>", "href=\"a%20%26%20b.stl\"",
-        "2.5 MB", "height 4", "found '&lt;x>'", "contact-sheet.png"})
+        "2.5 MB", "height 4", "found '&lt;x&gt;'", "contact-sheet.png"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
 }
 

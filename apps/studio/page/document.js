@@ -171,7 +171,7 @@ export class Document {
   }
 }
 
-// The options that a lithophane has not, as it is printed: a document keeps them for its other kinds of work.
+// A lithophane is printed and has none of these options. A document keeps them for its other kinds of work.
 export const NOT_PRINTED = ["draft", "tool", "finish"];
 
 // Returns the options as the engine and `relievo make` take them: most rule by their absence, or go without saying.

@@ -22,7 +22,7 @@ const CHOICES = {round: "Round corners", subspace: "Nearly exact", auto: "Automa
 const PLACES = {triangles: "#making", view: "#preparing", model: "#preparing"}; // of other stages "#piece"
 const PLACEHOLDERS = {up: "automatic", points: "as needed", diameter: "as needed", plate: "as needed", shift: "0,0",
   "rim-height": "as the relief", "rim-bevel": "automatic"};
-// The uses of the rows of shapes, as tips; the help of their options tells how their texts are written.
+// These tips say why one would choose a shape; the help of the options tells how their texts are written.
 const TIPS = {base: "Surface under the relief", wrap: "Body around which the finished plate is bent",
   tool: "Milling tool; what it leaves standing is coloured on the piece"};
 const UNITS = {MM: "mm", DEG: "°"};
