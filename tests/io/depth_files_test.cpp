@@ -118,7 +118,7 @@ TEST(ReadDepthImage, BrokenPngFieldsAreNamed) {
   for (const auto& [text, part] : all) {
     const std::string message = message_of(text);
     EXPECT_TRUE(message.starts_with("d, byte ")) << message;
-    EXPECT_NE(message.find("expected the data of a PNG picture, found "), std::string::npos) << message;
+    EXPECT_TRUE(message.contains("expected the data of a PNG picture, found ")) << message;
   }
   EXPECT_EQ(message_of("GIF89a"), "d: expected a PNG or TIFF picture of depths, found another file");
   EXPECT_EQ(message_of(as_string(write_png(Image8{3, 4, 1, std::vector<std::uint8_t>(12)}))),

@@ -99,7 +99,7 @@ TEST(E57, MissingPartsOfAPoseAreZero) {
   EXPECT_LT((file.cloud.points[0] - Vec3(1, -3, 2)).norm(), 1e-14);
 }
 
-// Limits are stated for red alone; a colour without limits goes from the least to the most of its numbers, or from 0 to 1.
+// Limits are stated for red alone. Integers without limits are shares of their range, and fractions reach from 0 to 1.
 TEST(E57, ColoursAreScaledByTheirLimits) {
   E57TestScan whole = scan_of({0, 1}, {0, 1}, {0, 1},
                               "<colorLimits><colorRedMinimum>100</colorRedMinimum>"

@@ -63,10 +63,10 @@ std::size_t count(const std::string& text, const std::string& part) {
 
 TEST(Write3mf, AndTheOthersTellInches) {
   const Solid solid = in_unit(pyramid(), LengthUnit::inch);
-  EXPECT_NE(unzip(write_3mf(solid)).at("3D/3dmodel.model").find("<model unit=\"inch\""), std::string::npos);
+  EXPECT_TRUE(unzip(write_3mf(solid)).at("3D/3dmodel.model").contains("<model unit=\"inch\""));
   for (const auto& file : {write_stl(solid), write_ply(solid), write_obj(solid)}) {
     const std::string head(reinterpret_cast<const char*>(file.data()), 100);
-    EXPECT_NE(head.find("unit in"), std::string::npos) << head;
+    EXPECT_TRUE(head.contains("unit in")) << head;
   }
 }
 
@@ -77,12 +77,11 @@ TEST(Write3mf, HoldsTheSolidInMillimetres) {
   ASSERT_EQ(files.size(), 3U);
   ASSERT_TRUE(files.contains("[Content_Types].xml") && files.contains("_rels/.rels"));
   const std::string& model = files.at("3D/3dmodel.model");
-  EXPECT_NE(model.find("unit=\"millimeter\""), std::string::npos);
-  EXPECT_NE(model.find("<metadata name=\"Title\">A &lt;relief&gt; &amp; &quot;more&quot;</metadata>"),
-            std::string::npos);
+  EXPECT_TRUE(model.contains("unit=\"millimeter\""));
+  EXPECT_TRUE(model.contains("<metadata name=\"Title\">A &lt;relief&gt; &amp; &quot;more&quot;</metadata>"));
   EXPECT_EQ(count(model, "<vertex "), solid.points.size());
   EXPECT_EQ(count(model, "<triangle "), solid.triangles.size());
-  EXPECT_NE(model.find("<vertex x=\"10\" y=\"10\" z=\"5.5\"/>"), std::string::npos);  // the apex
+  EXPECT_TRUE(model.contains("<vertex x=\"10\" y=\"10\" z=\"5.5\"/>"));  // the apex
   const auto& [a, b, c] = solid.triangles[0];
   EXPECT_NE(model.find("<triangle v1=\"" + std::to_string(a) + "\" v2=\"" + std::to_string(b) + "\" v3=\"" +
                        std::to_string(c) + "\"/>"),
@@ -92,7 +91,7 @@ TEST(Write3mf, HoldsTheSolidInMillimetres) {
 TEST(Write3mf, MetadataCannotBreakTheXml) {
   const std::pair<std::string, std::string> metadata[] = {{"Title", std::string("a\0b\x01", 4)}};
   const std::string model = unzip(write_3mf(pyramid(), metadata)).at("3D/3dmodel.model");
-  EXPECT_NE(model.find(">a b <"), std::string::npos);
+  EXPECT_TRUE(model.contains(">a b <"));
 }
 
 TEST(WriteTiff, KeepsEveryHeight) {
@@ -105,7 +104,7 @@ TEST(WriteTiff, KeepsEveryHeight) {
   EXPECT_EQ(image.values.pixels, heights.image.pixels);
   EXPECT_NEAR(std::ranges::max(image.values.pixels), 2.5, .05);
   const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  EXPECT_NE(text.find("heights in mm, mm_per_pixel=0.1,"), std::string::npos);
+  EXPECT_TRUE(text.contains("heights in mm, mm_per_pixel=0.1,"));
 }
 
 TEST(WriteTiff, OfNothingIsEmpty) {

@@ -279,7 +279,7 @@ TEST(Draft, IsKeptInFiles) {
         EXPECT_NEAR(made.report.steepest_deg, found, 1e-9);
         EXPECT_NEAR(made.report.height_mm, 8, 1e-12);
         if (is_simple) {
-          EXPECT_LE(made.report.simplification_error_mm, .05);
+          EXPECT_LE(*made.report.simplification_error_mm, .05);
         }
       }
 }

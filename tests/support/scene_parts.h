@@ -32,8 +32,7 @@ inline Mesh wedge() {
 }
 
 inline std::vector<PlacedModel> placed(const Scene& scene, const View& view = front) {
-  const auto places = value_of(place_models(scene, view));
-  return places.value_or(std::vector<PlacedModel>(scene.models.size()));
+  return value_of(place_models(scene, view));
 }
 
 inline ViewSample seen(const Scene& scene, double points = 30000, const View& view = front) {
