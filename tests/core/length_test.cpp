@@ -6,6 +6,8 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "support/results.h"
+
 namespace relievo {
 namespace {
 
@@ -40,8 +42,7 @@ TEST(Length, IsWhatTheSharedCasesSay) {
       EXPECT_DOUBLE_EQ(*length, each[1].get<double>()) << text;
       continue;
     }
-    EXPECT_EQ(length.error().kind, ErrorKind::option);
-    EXPECT_NE(length.error().message().find("'" + text + "'"), std::string::npos);
+    expect_error(length, ErrorKind::option, "'" + text + "'");
   }
 }
 

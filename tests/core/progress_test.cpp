@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/results.h"
+
 namespace relievo {
 namespace {
 
@@ -29,11 +31,8 @@ TEST(Progress, RecordsTheTimeOfStagesThatHaveEnded) {
 }
 
 TEST(Progress, BeginsNoStageOnceCancelled) {
-  Progress progress;
-  progress.cancel();
-  const Result<void> begun = begin_stage(&progress, "first", 0);
-  ASSERT_FALSE(begun);
-  EXPECT_EQ(begun.error().kind, ErrorKind::cancelled);
+  Cancelled progress;
+  expect_error(begin_stage(&progress, "first", 0), ErrorKind::cancelled);
   EXPECT_TRUE(begin_stage(nullptr, "first", 0));
 }
 

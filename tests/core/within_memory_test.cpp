@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "relievo/core/parallel.h"
+#include "support/results.h"
 
 namespace relievo {
 namespace {
 
 TEST(WithinMemory, PassesOnWhatIsReturned) {
   EXPECT_EQ(within_memory([]() -> Result<int> { return 5; }), 5);
-  const auto refused = within_memory([]() -> Result<int> { return option_error("height", "expected 1"); });
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().message(), "height: expected 1");
+  const auto refuse = []() -> Result<int> { return option_error("height", "expected 1"); };
+  EXPECT_EQ(message_of(within_memory(refuse)), "height: expected 1");
 }
 
 TEST(WithinMemory, NamesWhatIsKnownOfTheNeed) {
@@ -30,8 +30,7 @@ TEST(WithinMemory, IsAnErrorOfTheInnermostCall) {
   const auto failed = within_memory({.points = 5}, [] {
     return within_memory({.points = 7}, []() -> Result<void> { throw std::bad_alloc(); });
   });
-  ASSERT_FALSE(failed);
-  EXPECT_EQ(failed.error().message(), memory_error({.points = 7}).message());
+  EXPECT_EQ(message_of(failed), memory_error({.points = 7}).message());
 }
 
 // A vector of more elements than there are addresses, and one of more bytes than there are.
@@ -46,8 +45,7 @@ TEST(WithinMemory, AnswersWhatNoMachineHas) {
         return all[6].capacity();
       });
       set_thread_count(0);
-      ASSERT_FALSE(failed);
-      EXPECT_EQ(failed.error().kind, ErrorKind::memory);
+      expect_error(failed, ErrorKind::memory);
     }
 }
 

@@ -5,12 +5,13 @@
 
 #include <cmath>
 
-#include "relievo/core/parallel.h"
-#include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/same_bits.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
+
+using test::surface_of;
 
 // Bumps of several sizes on a square of side 2.
 double bumps(double x, double y) {
@@ -19,10 +20,6 @@ double bumps(double x, double y) {
 Vec2 bumps_gradient(double x, double y) {
   return {.9 * std::cos(3 * x) * std::cos(2 * y) + .5 * std::cos(25 * x) * std::sin(20 * y),
           -.6 * std::sin(3 * x) * std::sin(2 * y) + .4 * std::sin(25 * x) * std::cos(20 * y)};
-}
-
-Surface surface_of(const Cloud& cloud) {
-  return find_surface(cloud, {}).value();
 }
 
 const Surface& bumpy() {
@@ -177,10 +174,8 @@ TEST(Measures, OfAFlatReliefAreZero) {
 }
 
 TEST(Measures, DoNotChangeWithTheUnit) {
-  Cloud cloud = test::height_field(20000, 1, bumps, bumps_gradient);
-  const Surface surface = surface_of(cloud);
-  for (Vec3& p : cloud.points) p *= 1024;
-  const Surface large = surface_of(cloud);
+  const Cloud cloud = test::height_field(20000, 1, bumps, bumps_gradient);
+  const Surface surface = surface_of(cloud), large = surface_of(test::scaled(cloud, 1024));
   const Measures a = ReliefMetrics(surface).measure(depths(surface, .2)),
                  b = ReliefMetrics(large).measure(depths(large, .2));
   EXPECT_NEAR(a.shading, b.shading, 1e-9);
@@ -189,14 +184,10 @@ TEST(Measures, DoNotChangeWithTheUnit) {
 }
 
 TEST(Measures, HaveTheSameBitsForAnyNumberOfThreads) {
-  set_thread_count(1);
-  const Measures one = ReliefMetrics(bumpy()).measure(depths(bumpy(), .1));
-  set_thread_count(3);
-  const Measures three = ReliefMetrics(bumpy()).measure(depths(bumpy(), .1));
-  set_thread_count(0);
-  EXPECT_EQ(one.shading, three.shading);
-  EXPECT_EQ(one.detail, three.detail);
-  EXPECT_EQ(one.order, three.order);
+  test::expect_same_for_any_threads([] {
+    const Measures m = ReliefMetrics(bumpy()).measure(depths(bumpy(), .1));
+    return std::tuple(m.shading, m.detail, m.order);
+  });
 }
 
 }  // namespace

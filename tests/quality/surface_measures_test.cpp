@@ -5,16 +5,14 @@
 #include <cmath>
 #include <numbers>
 
-#include "support/shapes.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using test::surface_of;
 
-Surface surface_of(const Cloud& cloud) {
-  return find_surface(cloud, {}).value();
-}
+constexpr double pi = std::numbers::pi;
 
 // A disc of radius 1 whose rim is a circle.
 const Surface& disc() {

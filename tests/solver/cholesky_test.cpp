@@ -10,9 +10,9 @@
 #include <limits>
 #include <new>
 
-#include "core/simd.h"
-#include "relievo/core/parallel.h"
 #include "support/planar_systems.h"
+#include "support/results.h"
+#include "support/same_bits.h"
 
 namespace {
 std::atomic<std::size_t> allocations = 0;
@@ -79,10 +79,9 @@ void expect_agreement(const Sparse& A, std::span<const Vec2> positions) {
   const Eigen::VectorXd b = random_vector(A.rows());
   const Eigen::SimplicialLDLT<Sparse> oracle(A);
   const Eigen::VectorXd truth = oracle.solve(b);
-  const auto factor = Cholesky::factor(A, positions);
-  ASSERT_TRUE(factor) << factor.error().message();
-  EXPECT_LT(relative_error(solved(*factor, b), truth), 1e-11);
-  EXPECT_LT(relative_error(solved_in_single(*factor, b).cast<double>(), truth), 1e-5);
+  const auto factor = value_of(Cholesky::factor(A, positions));
+  EXPECT_LT(relative_error(solved(factor, b), truth), 1e-11);
+  EXPECT_LT(relative_error(solved_in_single(factor, b).cast<double>(), truth), 1e-5);
 }
 
 TEST(Cholesky, AgreesWithDenseEigen) {
@@ -90,9 +89,7 @@ TEST(Cholesky, AgreesWithDenseEigen) {
     const Sparse A = random_spd(n, static_cast<std::uint64_t>(n));
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1, 2);
     const Eigen::VectorXd truth = Eigen::MatrixXd(A).llt().solve(b);
-    const auto factor = Cholesky::factor(A);
-    ASSERT_TRUE(factor);
-    EXPECT_LT((solved(*factor, b) - truth).norm(), 1e-10 * truth.norm());
+    EXPECT_LT((solved(value_of(Cholesky::factor(A)), b) - truth).norm(), 1e-10 * truth.norm());
   }
 }
 
@@ -231,25 +228,10 @@ std::pair<Eigen::VectorXd, Eigen::VectorXf> both(const PlanarSystem& system) {
   return {solved(*factor, b), solved_in_single(*factor, b)};
 }
 
-TEST(Cholesky, HasTheSameBitsForAnyNumberOfThreads) {
-  const PlanarSystem system = jittered_grid(170, 160);
-  set_thread_count(1);
-  const auto one = both(system);
-  for (const int threads : {2, 4}) {
-    set_thread_count(threads);
-    EXPECT_EQ(both(system), one);
-  }
-  set_thread_count(0);
-}
-
-TEST(Cholesky, HasTheSameBitsWithAndWithoutWideVectors) {
-  if (!uses_avx2()) GTEST_SKIP() << "this processor has no AVX2";
-  const PlanarSystem system = jittered_grid(90, 80);
-  const auto wide = both(system);
-  allow_avx2(false);
-  const auto narrow = both(system);
-  allow_avx2(true);
-  EXPECT_EQ(narrow, wide);
+TEST(Cholesky, HasTheSameBitsForAnyNumberOfThreadsAndInstructions) {
+  const PlanarSystem large = jittered_grid(170, 160), small = jittered_grid(90, 80);
+  test::expect_same_for_any_threads([&] { return both(large); });
+  test::expect_same_without_avx2([&] { return both(small); });
 }
 
 TEST(Cholesky, FindsItsUnknownsByTheirNumbers) {
@@ -274,10 +256,9 @@ TEST(Cholesky, TakesLittleMemory) {
 }
 
 TEST(Cholesky, OfNoUnknownsSolvesNothing) {
-  const auto factor = Cholesky::factor(Sparse(0, 0));
-  ASSERT_TRUE(factor);
-  EXPECT_EQ(factor->size(), 0U);
-  factor->solve(std::span<const double>(), std::span<double>());
+  const auto factor = value_of(Cholesky::factor(Sparse(0, 0)));
+  EXPECT_EQ(factor.size(), 0U);
+  factor.solve(std::span<const double>(), std::span<double>());
 }
 
 TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
@@ -295,9 +276,7 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
         floating.coeffRef(e.row(), e.row()) -= e.value();
       }
   for (const Sparse& A : {indefinite, singular, not_finite, floating, Sparse(2, 3)}) {
-    const auto factor = Cholesky::factor(A);
-    ASSERT_FALSE(factor);
-    EXPECT_EQ(factor.error().kind, ErrorKind::geometry);
+    expect_error(Cholesky::factor(A), ErrorKind::geometry);
   }
   EXPECT_EQ(
       Cholesky::factor(indefinite).error().message(),
@@ -305,9 +284,7 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
 }
 
 TEST(Cholesky, RefusesPositionsOfAnotherSystem) {
-  const auto factor = Cholesky::factor(random_spd(5, 1), std::vector<Vec2>(4, Vec2(0, 0)));
-  ASSERT_FALSE(factor);
-  EXPECT_EQ(factor.error().kind, ErrorKind::option);
+  expect_error(Cholesky::factor(random_spd(5, 1), std::vector<Vec2>(4, Vec2(0, 0))), ErrorKind::option);
 }
 
 }  // namespace

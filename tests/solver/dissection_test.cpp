@@ -9,9 +9,9 @@
 #include <numeric>
 
 #include "geometry/plane_order.h"
-#include "relievo/core/parallel.h"
 #include "solver/bisection.h"
 #include "support/planar_systems.h"
+#include "support/same_bits.h"
 
 namespace relievo::solver {
 namespace {
@@ -91,11 +91,7 @@ TEST(Dissection, NeedsNoPositionsForAModestFill) {
 TEST(Dissection, IsTheSameForAnyNumberOfThreads) {
   const PlanarSystem system = jittered_grid(120, 110);
   const Graph graph = test::graph_of(system.A);
-  set_thread_count(1);
-  const auto one = ordered(graph, system.positions);
-  set_thread_count(3);
-  EXPECT_EQ(ordered(graph, system.positions), one);
-  set_thread_count(0);
+  test::expect_same_for_any_threads([&] { return ordered(graph, system.positions); });
 }
 
 TEST(Bisection, PartsAGridAcrossItsShortSide) {
