@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "geometry/plane.h"
-#include "relievo/core/parallel.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -196,15 +196,12 @@ TEST(Lattice, SpreadsAmountsAroundTheirPlace) {
 TEST(Lattice, HasTheSameBitsForAnyNumberOfThreads) {
   const Scattered s;
   const std::vector<double> values = some_values(s.points.size());
-  const auto nodes = [&](int threads) {
-    set_thread_count(threads);
+  test::expect_same_for_any_threads([&] {
     std::vector<float> out(s.lattice.nodes());
     std::vector<Lattice::Corners> sums(out.size());
     s.lattice.gather(std::span(values), sums, out);
     return out;
-  };
-  EXPECT_EQ(nodes(1), nodes(3));
-  set_thread_count(0);
+  });
 }
 
 TEST(Lattice, OfNothingHasNothing) {

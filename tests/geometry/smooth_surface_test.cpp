@@ -6,9 +6,16 @@
 
 #include "relievo/geometry/triangulation.h"
 #include "support/planar_points.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
+
+std::vector<Vec2> places_of(const std::vector<Vec3>& points) {
+  std::vector<Vec2> places;
+  for (const Vec3& p : points) places.push_back(p.head<2>());
+  return places;
+}
 
 // Random points in the unit square with the heights of a function, triangulated.
 struct Field {
@@ -61,8 +68,7 @@ TEST(SmoothSurface, BendsBetweenRowsAsIfThereWereNoTriangles) {
       const double x = row * .1, y = (i + .5 * (row % 2)) * .09;
       points.emplace_back(x, y, x < .55 ? bend * x : bend * .5 + .05 * (x - .5));
     }
-  std::vector<Vec2> plane;
-  for (const Vec3& p : points) plane.emplace_back(p.head<2>());
+  const std::vector<Vec2> plane = places_of(points);
   const std::vector<Triangle> triangles = delaunay(plane).triangles;
   const std::vector<std::uint8_t> smooth(triangles.size(), 1);
   const SmoothSurface surface(points, triangles, smooth);
@@ -74,8 +80,7 @@ TEST(SmoothSurface, BendsBetweenRowsAsIfThereWereNoTriangles) {
         const Vec2 place(x, 1 + .0197 * k);
         const auto& [a, b, c] = triangles[t];
         const auto is_left = [&](Index i, Index j) {
-          const Vec2 u = plane[j] - plane[i], v = place - plane[i];
-          return u.x() * v.y() - u.y() * v.x() >= 0;
+          return test::twice_area(plane[i], plane[j], place) >= 0;
         };
         if (!is_left(a, b) || !is_left(b, c) || !is_left(c, a)) continue;
         const Vec2 slope = surface.at(t, place).slope;
@@ -99,11 +104,7 @@ TEST(SmoothSurface, HasTheSameHeightAndSlopeOnBothSidesOfAnEdge) {
   const Field field(300, [](const Vec2& p) { return std::sin(20 * p.x()) * std::cos(13 * p.y()); });
   const std::vector<std::uint8_t> smooth = field.all_smooth();
   const SmoothSurface surface(field.points, field.triangles, smooth);
-  const Triangulation mesh = [&] {
-    std::vector<Vec2> plane;
-    for (const Vec3& p : field.points) plane.emplace_back(p.head<2>());
-    return delaunay(plane);
-  }();
+  const Triangulation mesh = delaunay(places_of(field.points));
   for (Index t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t i = 0; i < 3; ++i) {
       const Index other = mesh.neighbours[t][i];

@@ -10,7 +10,7 @@
 #include "picture/plate_mesh.h"
 #include "relievo/picture/preview.h"
 #include "relievo/picture/solid_renderer.h"
-#include "support/shapes.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
@@ -19,8 +19,8 @@ constexpr double mm_per_unit = 32;
 
 // A model, heights on it, and the plate that files are made of, with the same points.
 struct Bodies {
-  std::shared_ptr<const ReliefModel> model = std::make_shared<const ReliefModel>(
-      *ReliefModel::prepare(*find_surface(test::sphere(20000, 1), View{})));
+  std::shared_ptr<const ReliefModel> model =
+      std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
   std::vector<float> heights;
   std::vector<Vec3f> normals;
   Solid solid;

@@ -7,20 +7,16 @@
 #include <algorithm>
 #include <functional>
 
-#include "relievo/core/parallel.h"
 #include "relievo/make_relief.h"
 #include "relievo/picture/solid_renderer.h"
 #include "support/plate_fronts.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
 namespace {
 
-using test::flat_front, test::grid_front, test::pyramid_front;
-
-Solid plate(const HeightFieldMesh& front, const PlateOptions& options = {}) {
-  return make_plate(front, options).value();
-}
+using test::flat_front, test::grid_front, test::plate_of, test::pyramid_front;
 
 std::uint16_t grey_at(const HeightMap& map, int column, int row) {
   return map.image.pixels[static_cast<std::size_t>(row * map.image.width + column)];
@@ -30,7 +26,7 @@ std::uint16_t grey_at(const HeightMap& map, int column, int row) {
 
 TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
   // Base 40 x 20 around (25, 15) on a plate of 50 x 30.
-  const Solid solid = plate(pyramid_front({{0, 0}, {40, 0}, {40, 20}, {0, 20}}, 7), {5, 3});
+  const Solid solid = plate_of(pyramid_front({{0, 0}, {40, 0}, {40, 20}, {0, 20}}, 7), {5, 3});
   const auto height = [](double x, double y) {
     return std::max(0.0, 7 * (1 - std::max(std::abs(x - 25) / 20, std::abs(y - 15) / 10)));
   };
@@ -53,7 +49,7 @@ TEST(HeightMap, FollowsAPyramidToHalfAGreyStep) {
 TEST(HeightMap, SpansAllGreysFromTheLowestToTheHighestPoint) {
   // A groove and a ridge, each on a plateau wide enough to hold pixel centres.
   const auto step = [](double x, double) { return x < 8 ? -1.0 : x > 12 ? 4.0 : 0.0; };
-  const HeightMap map = make_height_map(plate(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
+  const HeightMap map = make_height_map(plate_of(grid_front({20, 20, 40, 40}, step), {5, 3}), 300);
   const auto [low, high] = std::ranges::minmax(map.image.pixels);
   EXPECT_EQ(low, 0);
   EXPECT_EQ(high, 65535);
@@ -61,7 +57,7 @@ TEST(HeightMap, SpansAllGreysFromTheLowestToTheHighestPoint) {
 }
 
 TEST(HeightMap, AFlatFrontGivesZeros) {
-  const HeightMap map = make_height_map(plate(flat_front({30, 60, 3, 6})), 140);
+  const HeightMap map = make_height_map(plate_of(flat_front({30, 60, 3, 6})), 140);
   EXPECT_EQ(map.image.width, 80);
   EXPECT_EQ(map.image.height, 140);
   EXPECT_EQ(map.mm_per_grey, 0);
@@ -70,14 +66,14 @@ TEST(HeightMap, AFlatFrontGivesZeros) {
 
 TEST(HeightMap, AVeryThinFrontStillHasARow) {
   const HeightMap map =
-      make_height_map(plate(pyramid_front({{0, 0}, {100, 0}, {100, 0.1}, {0, 0.1}}, 1), {0.01, 1}), 50);
+      make_height_map(plate_of(pyramid_front({{0, 0}, {100, 0}, {100, 0.1}, {0, 0.1}}, 1), {0.01, 1}), 50);
   EXPECT_EQ(map.image.height, 1);
   EXPECT_GT(grey_at(map, 25, 0), 60000);
 }
 
 TEST(HeightMap, NothingToDrawGivesNoPixels) {
   EXPECT_TRUE(make_height_map({}, 100).image.pixels.empty());
-  const Solid solid = plate(flat_front({10, 10, 1, 1}));
+  const Solid solid = plate_of(flat_front({10, 10, 1, 1}));
   for (const int bad : {0, -5, 1 << 20}) EXPECT_TRUE(make_height_map(solid, bad).image.pixels.empty()) << bad;
 }
 
@@ -89,7 +85,7 @@ double hemisphere(double x, double y) {
 }
 
 Solid hemisphere_plate() {
-  return plate(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
+  return plate_of(grid_front({50, 50, 150, 150}, hemisphere), {5, 3});
 }
 
 // Mean of the channels; x and y in millimetres of a plate of the given size, in the front view.
@@ -112,7 +108,7 @@ TEST(Preview, ShowsTwoPicturesSideBySide) {
   EXPECT_EQ(square.height, 200);
   EXPECT_EQ(square.channels, 3);
   EXPECT_EQ(square.pixels.size(), 400U * 200 * 3);
-  const Image8 tall = render_preview(plate(flat_front({40, 90, 2, 2}), {5, 3}), {.longer_side_px = 200});
+  const Image8 tall = render_preview(plate_of(flat_front({40, 90, 2, 2}), {5, 3}), {.longer_side_px = 200});
   EXPECT_EQ(tall.width, 2 * std::lround(200 * (0.88 * 0.5 + 0.12)));
   EXPECT_EQ(tall.height, 200);
 }
@@ -137,7 +133,7 @@ TEST(Preview, MirroredLightAndShapeGiveAMirroredPicture) {
   };
   const auto mirrored = [&](double x, double y) { return bump(50 - x, y); };
   const auto front = [](const std::function<double(double, double)>& z) {
-    return plate(grid_front({50, 50, 100, 100}, z));
+    return plate_of(grid_front({50, 50, 100, 100}, z));
   };
   const Image8 image = render_preview(front(bump), {.longer_side_px = 300, .light = {-1, 1, .8F}});
   const Image8 other = render_preview(front(mirrored), {.longer_side_px = 300, .light = {1, 1, .8F}});
@@ -148,7 +144,7 @@ TEST(Preview, MirroredLightAndShapeGiveAMirroredPicture) {
 }
 
 TEST(Preview, AFlatGroundIsLightMidGrey) {
-  const Image8 image = render_preview(plate(flat_front({50, 50, 2, 2})), {.longer_side_px = 200});
+  const Image8 image = render_preview(plate_of(flat_front({50, 50, 2, 2})), {.longer_side_px = 200});
   const FrontView grey{image, 60, 60};
   for (const double at : {2.0, 20.0, 58.0}) {
     EXPECT_GT(grey(at, at), 150);
@@ -159,7 +155,8 @@ TEST(Preview, AFlatGroundIsLightMidGrey) {
 
 TEST(Preview, NothingIsClipped) {
   const auto waves = [](double x, double y) { return 3 * std::sin(3 * x) * std::sin(3 * y); };
-  const Image8 image = render_preview(plate(grid_front({50, 50, 300, 300}, waves)), {.longer_side_px = 300});
+  const Image8 image =
+      render_preview(plate_of(grid_front({50, 50, 300, 300}, waves)), {.longer_side_px = 300});
   const auto [darkest, brightest] = std::ranges::minmax(image.pixels);
   EXPECT_GT(darkest, 0);
   EXPECT_LT(brightest, 255);
@@ -170,7 +167,7 @@ TEST(Preview, AShadowFallsAwayFromTheLight) {
   const auto tower = [](double x, double y) {
     return std::abs(x - 25) < 5 && std::abs(y - 25) < 5 ? 12.0 : 0.0;
   };
-  const Solid solid = plate(grid_front({50, 50, 100, 100}, tower));
+  const Solid solid = plate_of(grid_front({50, 50, 100, 100}, tower));
   for (const Vec2& away : {Vec2(9, 0), Vec2(-9, 0), Vec2(0, 9), Vec2(0, -9)}) {
     const Image8 image = render_preview(
         solid, {.longer_side_px = 300, .light = Vec3(-away.x(), -away.y(), 7.2).cast<float>()});
@@ -227,9 +224,8 @@ TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
   ReliefOptions options;
   options.height_mm = 4;
   options.wrap = *parse_wrap("cylinder:turn=180");
-  const auto made = make_relief(test::sphere(20000, 1), options);
-  ASSERT_TRUE(made) << made.error().message();
-  SolidRenderer renderer(std::make_shared<const Solid>(made->solid));
+  const auto made = value_of(make_relief(test::sphere(20000, 1), options));
+  SolidRenderer renderer(std::make_shared<const Solid>(made.solid));
   RenderOptions looks;
   looks.width = 500;
   Picture shaded, plain;
@@ -243,7 +239,7 @@ TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
         return true;
     return false;
   };
-  const double half = made->report.wrap->diameter_mm / 2 * shaded.pixels_per_mm;
+  const double half = made.report.wrap->diameter_mm / 2 * shaded.pixels_per_mm;
   for (const int side : {-1, 1})
     for (const double share : {.97, .98, .99})
       EXPECT_FALSE(column_differs(static_cast<int>(looks.width / 2. + side * share * half))) << side * share;
@@ -252,16 +248,11 @@ TEST(Preview, ABentPlateHasShadowsOnItsFrontAlone) {
 
 TEST(Pictures, AreTheSameBitsForAnyNumberOfThreads) {
   const auto waves = [](double x, double y) { return 2 + std::sin(x) * std::sin(y * 1.3); };
-  const Solid solid = plate(grid_front({50, 40, 200, 160}, waves));
-  set_thread_count(1);
-  const HeightMap map = make_height_map(solid, 777);
-  const Image8 image = render_preview(solid, {.longer_side_px = 250});
-  for (const int threads : {2, 3}) {
-    set_thread_count(threads);
-    EXPECT_EQ(make_height_map(solid, 777).image.pixels, map.image.pixels);
-    EXPECT_EQ(render_preview(solid, {.longer_side_px = 250}).pixels, image.pixels);
-  }
-  set_thread_count(0);
+  const Solid solid = plate_of(grid_front({50, 40, 200, 160}, waves));
+  test::expect_same_for_any_threads([&] {
+    return std::pair(make_height_map(solid, 777).image.pixels,
+                     render_preview(solid, {.longer_side_px = 250}).pixels);
+  });
 }
 
 }  // namespace

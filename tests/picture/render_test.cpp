@@ -6,17 +6,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "relievo/core/parallel.h"
-#include "relievo/scan/surface.h"
-#include "support/shapes.h"
+#include "support/same_bits.h"
+#include "support/surfaces.h"
 
 namespace relievo {
 namespace {
 
 // A half ball: 2 wide and high in the plane.
 std::shared_ptr<const ReliefModel> ball() {
-  static const auto model = std::make_shared<const ReliefModel>(
-      *ReliefModel::prepare(*find_surface(test::sphere(20000, 1), View{})));
+  static const auto model = std::make_shared<const ReliefModel>(test::prepared(test::sphere(20000, 1)));
   return model;
 }
 
@@ -229,18 +227,13 @@ TEST(Render, HasTheSameBitsForAnyNumberOfThreads) {
   RenderOptions options = small();
   options.camera.yaw_deg = 20;
   options.is_fine = true;
-  set_thread_count(1);
-  const Picture one = picture(bumps(), options);
-  set_thread_count(3);
-  EXPECT_EQ(one.image.pixels, picture(bumps(), options).image.pixels);
-  set_thread_count(0);
+  test::expect_same_for_any_threads([&] { return picture(bumps(), options).image.pixels; });
 }
 
 TEST(Render, LeavesACancelledPictureUnfinishedAndDrawsTheNext) {
   RenderOptions options = small();
   options.is_fine = true;
-  Progress progress;
-  progress.cancel();
+  Cancelled progress;
   FrameRenderer renderer(ball());
   Picture made;
   const Field shown = bumps();
@@ -294,10 +287,8 @@ TEST(CloudRenderer, ShowsABallAsADisc) {
 }
 
 TEST(CloudRenderer, DoesWithoutNormals) {
-  Cloud bare = test::sphere(20000, 3);
-  const CloudRenderer signed_normals(bare);
-  bare.normals.clear();
-  const CloudRenderer renderer(bare);
+  const Cloud ball = test::sphere(20000, 3);
+  const CloudRenderer signed_normals(ball), renderer(test::without_normals(ball));
   Picture with, without;
   signed_normals.render(View{}, 100, 100, with);
   renderer.render(View{}, 100, 100, without);

@@ -14,6 +14,7 @@
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
 #include "relievo/scene.h"
+#include "support/results.h"
 #include "support/shared_scans.h"
 
 namespace relievo {
@@ -51,23 +52,21 @@ INSTANTIATE_TEST_SUITE_P(Data, RealScan, testing::ValuesIn(scan_names()), test_n
 TEST_P(RealScan, BecomesASolidOfTheHeightAsked) {
   const fs::path path = GetParam();
   if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");
-  const Result<CloudFile> file = read_cloud(shared_bytes(path), path.filename().string());
-  ASSERT_TRUE(file) << file.error().message();
+  const CloudFile file = value_of(read_cloud(shared_bytes(path), path.filename().string()));
   ReliefOptions options;
   options.height_mm = 2.5;
   options.view.is_best = true;
-  const Result<MadeRelief> made = make_relief(*file, options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_EQ(check_solid(made->solid), "");
-  EXPECT_NEAR(made->report.height_mm, 2.5, 2.5e-3);
-  EXPECT_GT(made->report.visible_points, .2 * static_cast<double>(file->cloud.size()));
+  const auto made = value_of(make_relief(file, options));
+  EXPECT_EQ(check_solid(made.solid), "");
+  EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
+  EXPECT_GT(made.report.visible_points, .2 * static_cast<double>(file.cloud.size()));
   // Two of these scans show a table. Statues on plinths, busts and range images of a figure alone show none.
   const bool has_table =
       path.filename() == "kinect_milk_table.pcd" || path.filename() == "figurines_scene.pcd";
-  EXPECT_EQ(made->report.plane.has_value(), has_table);
-  if (!file->mesh.empty()) {
-    const double usual = std::clamp(15.0 * static_cast<double>(file->mesh.triangles.size()), 1e5, 3e5);
-    EXPECT_NEAR(static_cast<double>(made->report.visible_points), usual, .1 * usual);
+  EXPECT_EQ(made.report.plane.has_value(), has_table);
+  if (!file.mesh.empty()) {
+    const double usual = std::clamp(15.0 * static_cast<double>(file.mesh.triangles.size()), 1e5, 3e5);
+    EXPECT_NEAR(static_cast<double>(made.report.visible_points), usual, .1 * usual);
   }
 }
 
@@ -77,12 +76,11 @@ TEST(Data, TablesAreLeftOut) {
        {std::pair("original/kinect_milk_table.pcd", .77), std::pair("original/figurines_scene.pcd", .25)}) {
     SCOPED_TRACE(name);
     if (!has_shared(name)) GTEST_SKIP() << missing_scan(name);
-    const Result<CloudFile> file = read_cloud(shared_bytes(name), name);
-    ASSERT_TRUE(file) << file.error().message();
+    const auto file = value_of(read_cloud(shared_bytes(name), name));
     View view;
-    const Surface with = find_surface(file->cloud, view).value();
+    const Surface with = find_surface(file.cloud, view).value();
     view.has_plane = false;
-    const Surface without = find_surface(file->cloud, view).value();
+    const Surface without = find_surface(file.cloud, view).value();
     ASSERT_TRUE(with.plane && without.plane);
     EXPECT_EQ(with.plane->kind, PlaneKind::table);
     EXPECT_NEAR(with.plane->share, share, .03);
@@ -97,10 +95,9 @@ TEST(Data, TablesAreLeftOut) {
 TEST_P(RealScan, IsShownFromItsToldFront) {
   const fs::path path = GetParam();
   if (!has_shared(path)) GTEST_SKIP() << missing_scan("*.ply");
-  const Result<CloudFile> file = read_cloud(shared_bytes(path), path.filename().string());
-  ASSERT_TRUE(file) << file.error().message();
+  const auto file = value_of(read_cloud(shared_bytes(path), path.filename().string()));
   const bool has_z_up = path.filename() == "lion_takanawa_raw.ply" || path.filename() == "lionscan1.xyz";
-  const ViewGuess best = best_side({{{{}, std::make_shared<const CloudFile>(*file)}}});
+  const ViewGuess best = best_side({{{{}, std::make_shared<const CloudFile>(file)}}});
   EXPECT_EQ(best.name, has_z_up ? "bottom" : "front");
   EXPECT_EQ(best.up, "");
 }
@@ -111,19 +108,16 @@ TEST(Data, DepthFramesBecomeSolids) {
         std::pair("original/icl_livingroom_depth.png", DepthCamera{481.2, 480, 319.5, 239.5})}) {
     SCOPED_TRACE(name);
     if (!has_shared(name)) GTEST_SKIP() << missing_scan(name);
-    const auto image = read_depth_image(shared_bytes(name), name);
-    ASSERT_TRUE(image) << image.error().message();
+    const auto image = value_of(read_depth_image(shared_bytes(name), name));
     DepthOptions depth;
     depth.camera = camera;
-    const auto cloud = depth_cloud(*image, depth);
-    ASSERT_TRUE(cloud) << cloud.error().message();
+    const auto cloud = value_of(depth_cloud(image, depth));
     ReliefOptions options;
     options.height_mm = 5;
-    const Result<MadeRelief> made = make_relief(cloud->cloud, options);
-    ASSERT_TRUE(made) << made.error().message();
-    EXPECT_EQ(check_solid(made->solid), "");
-    EXPECT_NEAR(made->report.height_mm, 5, 5e-3);
-    EXPECT_GT(made->report.visible_points, .9 * static_cast<double>(cloud->cloud.size()));
+    const auto made = value_of(make_relief(cloud.cloud, options));
+    EXPECT_EQ(check_solid(made.solid), "");
+    EXPECT_NEAR(made.report.height_mm, 5, 5e-3);
+    EXPECT_GT(made.report.visible_points, .9 * static_cast<double>(cloud.cloud.size()));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
+#include "support/results.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -13,11 +14,9 @@ namespace {
 
 MadeRelief made(const ReliefOptions& options) {
   const Cloud figure = test::joined(test::torus(10000, 1.5, .4), test::sphere(7000, .8));
-  auto relief = make_relief(figure, options);
-  EXPECT_TRUE(relief) << (relief ? "" : relief.error().message());
-  MadeRelief good = relief.value_or(MadeRelief{});
-  EXPECT_EQ(check_solid(good.solid), "");
-  return good;
+  MadeRelief relief = value_of(make_relief(figure, options));
+  EXPECT_EQ(check_solid(relief.solid), "");
+  return relief;
 }
 
 Box box_of(const Solid& solid) {

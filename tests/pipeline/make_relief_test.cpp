@@ -7,11 +7,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/simd.h"
 #include "relievo/relief/relief.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
 #include "support/plate_fronts.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -31,29 +31,25 @@ TEST(MakeRelief, IsAsLargeAndHighAsAsked) {
   options.height_mm = 2.5;
   options.margin_mm = 4;
   options.thickness_mm = 1.5;
-  const auto made = make_relief(figure(), options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_EQ(check_solid(made->solid), "");
-  const Box box = box_of(made->solid);
+  const auto made = value_of(make_relief(figure(), options));
+  EXPECT_EQ(check_solid(made.solid), "");
+  const Box box = box_of(made.solid);
   EXPECT_NEAR(std::max(box.size().x(), box.size().y()), 60 + 2 * 4, 1e-9);
   EXPECT_NEAR(box.size().z(), 1.5 + 2.5, 2.5e-3);
-  EXPECT_NEAR(made->report.height_mm, 2.5, 2.5e-3);
-  EXPECT_NEAR(box.size().z(), 1.5 + made->report.height_mm, 1e-9);
+  EXPECT_NEAR(made.report.height_mm, 2.5, 2.5e-3);
+  EXPECT_NEAR(box.size().z(), 1.5 + made.report.height_mm, 1e-9);
 }
 
 // A relief in the plate of that size: as large as the margin allows, so that a point touches it and none lies beyond.
 void expect_fitted(const ReliefModel& model, const ReliefOptions& options, const Vec2& size) {
-  const auto made = make_relief(model, options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_EQ(check_solid(made->solid), "");
+  const auto made = value_of(make_relief(model, options));
+  EXPECT_EQ(check_solid(made.solid), "");
   const std::string_view name = name_in(outline_choices, options.outline);
-  EXPECT_LT((box_of(made->solid).size().head<2>() - size).cwiseAbs().maxCoeff(), 1e-9) << name;
+  EXPECT_LT((box_of(made.solid).size().head<2>() - size).cwiseAbs().maxCoeff(), 1e-9) << name;
   const double width = with_width(model.surface(), options)->effective_width_mm();
   ReliefOptions larger = options;
   larger.width_mm = width * 1.001;
-  const auto refused = make_relief(model, larger);
-  ASSERT_FALSE(refused) << name;
-  EXPECT_EQ(refused.error().input, "width");
+  expect_error(make_relief(model, larger), "width: expected ");
   // Without a size, the plate of this width is no larger, and in one direction as large.
   ReliefOptions free = options;
   free.width_mm = width;
@@ -118,9 +114,8 @@ TEST(MakeRelief, ShowsTheBestSideWhereThatIsAskedFor) {
   options.height_mm = told.height_mm = 2;
   options.view.is_best = true;
   told.view = *parse_view("bottom");
-  const Result<MadeRelief> found = make_relief(standing, options), wanted = make_relief(standing, told);
-  ASSERT_TRUE(found && wanted);
-  EXPECT_EQ(found->solid.points, wanted->solid.points);
+  const auto found = value_of(make_relief(standing, options)), wanted = value_of(make_relief(standing, told));
+  EXPECT_EQ(found.solid.points, wanted.solid.points);
 }
 
 TEST(MakeRelief, IsNowhereThinnerThanAsked) {
@@ -134,12 +129,11 @@ TEST(MakeRelief, IsNowhereThinnerThanAsked) {
       options.thickness_mm = 1.25;
       options.form = form;
       options.outline = outline;
-      const auto made = make_relief(*model, options);
-      ASSERT_TRUE(made) << made.error().message();
-      const Vec3 size = box_of(made->solid).size();
+      const auto made = value_of(make_relief(*model, options));
+      const Vec3 size = box_of(made.solid).size();
       int lines = 0;
       for (int trial = 0; trial < 100; ++trial) {
-        const auto at = crossings(made->solid, {random.uniform(0, size.x()), random.uniform(0, size.y())});
+        const auto at = crossings(made.solid, {random.uniform(0, size.x()), random.uniform(0, size.y())});
         ASSERT_EQ(at.size() % 2, 0U);
         for (std::size_t i = 0; i < at.size(); i += 2, ++lines)
           EXPECT_GE(at[i + 1] - at[i], 1.25 - 1e-9) << form_name << " " << name_in(outline_choices, outline);
@@ -151,12 +145,11 @@ TEST(MakeRelief, IsNowhereThinnerThanAsked) {
 TEST(MakeRelief, HasTheUsualHeightWhereNoneIsAskedFor) {
   ReliefOptions options;
   options.width_mm = 60;
-  const auto made = make_relief(figure(), options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_EQ(made->report.method, Method::layered);
-  EXPECT_NEAR(made->report.height_mm, 3, 1e-9);
-  EXPECT_FALSE(made->report.height_requested_mm);
-  EXPECT_EQ(made->report.height_usual_mm, 3);
+  const auto made = value_of(make_relief(figure(), options));
+  EXPECT_EQ(made.report.method, Method::layered);
+  EXPECT_NEAR(made.report.height_mm, 3, 1e-9);
+  EXPECT_FALSE(made.report.height_requested_mm);
+  EXPECT_EQ(made.report.height_usual_mm, 3);
   options.method = Method::linear;
   EXPECT_NEAR(make_relief(figure(), options)->report.height_mm, 3, 1e-9);
   options.method.reset();
@@ -174,11 +167,10 @@ TEST(MakeRelief, IsAsHighAsTheViewReachesWhereTheUsualHeightIsTooHigh) {
   ReliefOptions options;
   for (const bool has_draft : {false, true}) {
     if (has_draft) options.draft_deg = 10;
-    const auto made = make_relief(shallow, options);
-    ASSERT_TRUE(made) << made.error().message();
-    EXPECT_GT(made->report.height_mm, .1);
-    EXPECT_LT(made->report.height_mm, 5);
-    EXPECT_EQ(made->report.height_usual_mm, 5);
+    const auto made = value_of(make_relief(shallow, options));
+    EXPECT_GT(made.report.height_mm, .1);
+    EXPECT_LT(made.report.height_mm, 5);
+    EXPECT_EQ(made.report.height_usual_mm, 5);
     ReliefOptions asked = options;
     asked.height_mm = 5;
     EXPECT_FALSE(make_relief(shallow, asked));
@@ -195,14 +187,10 @@ TEST(MakeRelief, ReachesTheHighestWithADraftAngleAndNoMore) {
   EXPECT_GT(highest, 1);
   EXPECT_LT(highest, .9 * free);
   options.height_mm = .999 * highest;
-  const auto made = make_relief(*model, options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_NEAR(made->report.height_mm, .999 * highest, 1e-3);
+  EXPECT_NEAR(value_of(make_relief(*model, options)).report.height_mm, .999 * highest, 1e-3);
   EXPECT_EQ(*highest_with_draft(*model, options), highest);  // whatever height is asked for
   options.height_mm = 1.001 * highest;
-  const auto refused = make_relief(*model, options);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().input, "draft");
+  expect_error(make_relief(*model, options), "draft: expected ");
 }
 
 TEST(MakeRelief, RefusesARimThatDoesNotLeanAsCheckRimSays) {
@@ -228,10 +216,9 @@ TEST(MakeRelief, TellsWhereThereIsNoPlaneToLeaveOut) {
     View view;
     view.has_plane = has_plane;
     const auto model = prepare(ring, view);
-    const auto made = make_relief(*model, {});
-    ASSERT_TRUE(made) << made.error().message();
-    EXPECT_FALSE(made->report.plane);
-    EXPECT_EQ(made->report.lacks_plane, !has_plane);
+    const auto made = value_of(make_relief(*model, {}));
+    EXPECT_FALSE(made.report.plane);
+    EXPECT_EQ(made.report.lacks_plane, !has_plane);
   }
 }
 
@@ -264,17 +251,15 @@ TEST(MakeRelief, MovesOnAPlateOfAGivenSize) {
 TEST(MakeRelief, ReportsThePapersParametersAndU) {
   ReliefOptions options;
   options.method = Method::paper;
-  const auto paper = make_relief(figure(), options);
-  ASSERT_TRUE(paper);
-  EXPECT_EQ(paper->report.alpha, 4);
-  EXPECT_EQ(paper->report.beta, .01);
-  EXPECT_EQ(paper->report.gamma, .02);
-  EXPECT_NEAR(paper->report.u, std::pow(4, -.01), 1e-12);
+  const auto paper = value_of(make_relief(figure(), options));
+  EXPECT_EQ(paper.report.alpha, 4);
+  EXPECT_EQ(paper.report.beta, .01);
+  EXPECT_EQ(paper.report.gamma, .02);
+  EXPECT_NEAR(paper.report.u, std::pow(4, -.01), 1e-12);
   options.height_mm = 3;
   options.saturation = .5;
-  const auto to_order = make_relief(figure(), options);
-  ASSERT_TRUE(to_order);
-  EXPECT_NEAR(to_order->report.u, std::pow(to_order->report.alpha, -.5), 1e-9);
+  const auto to_order = value_of(make_relief(figure(), options));
+  EXPECT_NEAR(to_order.report.u, std::pow(to_order.report.alpha, -.5), 1e-9);
   options = {};
   options.method = Method::paper;
   options.saturation = 0;
@@ -288,31 +273,28 @@ TEST(MakeRelief, TellsWhereTheScanLies) {
   for (Vec3& p : cloud.points) p = 3 * p + Vec3(4e6, -1e6, 250);
   ReliefOptions options;
   options.view = *parse_view("1,.2,2");
-  const auto made = make_relief(cloud, options);
-  ASSERT_TRUE(made) << made.error().message();
-  const ReliefReport& r = made->report;
+  const auto made = value_of(make_relief(cloud, options));
+  const ReliefReport& r = made.report;
   const auto surface = find_surface(cloud, options.view);
   double lowest = 1e9;
   for (std::size_t i = 0; i < surface->points.size(); ++i) {
     const Vec3 p = surface->view.R_view_model.transpose() * surface->points[i] + surface->centre;
     const Vec3 mm = r.scale * r.rotation * p + r.offset;
     if (surface->boundary.is_boundary[i]) {
-      EXPECT_TRUE(test::has_corner_at(made->solid, mm.head<2>(), 1e-6));
+      EXPECT_TRUE(test::has_corner_at(made.solid, mm.head<2>(), 1e-6));
     }
     lowest = std::min(lowest, mm.z());
   }
-  const auto ground = std::ranges::find_if(made->solid.points,
+  const auto ground = std::ranges::find_if(made.solid.points,
                                            [](const Vec3& p) { return p.head<2>().isZero() && p.z() > 0; });
-  ASSERT_NE(ground, made->solid.points.end());
+  ASSERT_NE(ground, made.solid.points.end());
   EXPECT_NEAR(lowest, ground->z(), 1e-6);
 }
 
 TEST(MakeRelief, RefusesAHeightOutOfReach) {
   ReliefOptions options;
   options.height_mm = 5000;
-  const auto made = make_relief(figure(), options);
-  ASSERT_FALSE(made);
-  EXPECT_NE(made.error().message().find("at most"), std::string::npos);
+  expect_error(make_relief(figure(), options), "at most");
 }
 
 // Two sheets, one before the other: a form without slopes.
@@ -320,15 +302,12 @@ TEST(MakeRelief, GivesStepsTheHeightThatSlopesDoNotReach) {
   const Cloud sheets = test::joined(test::sheet(20000, 1, 0), test::sheet(10000, .4, .3, 9));
   ReliefOptions options;
   options.method = Method::paper;
-  const auto free = make_relief(sheets, options);
-  ASSERT_FALSE(free);
-  EXPECT_NE(free.error().message().find("0 mm"), std::string::npos);
+  expect_error(make_relief(sheets, options), "0 mm");
   options.height_mm = 2;
-  const auto made = make_relief(sheets, options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_TRUE(made->report.has_needed_steps);
-  EXPECT_NEAR(made->report.steps, 1, .01);
-  EXPECT_NEAR(made->report.height_mm, 2, 1e-9);
+  const auto made = value_of(make_relief(sheets, options));
+  EXPECT_TRUE(made.report.has_needed_steps);
+  EXPECT_NEAR(made.report.steps, 1, .01);
+  EXPECT_NEAR(made.report.height_mm, 2, 1e-9);
 }
 
 TEST(MakeRelief, RefusesBadOptionsBeforeTheWork) {
@@ -344,12 +323,9 @@ TEST(MakeRelief, FromAPreparedModelIsTheSame) {
   options.tone = *parse_tone_curve("0,0.1;0.5,0.6;1,0.3");
   options.steepest_deg = 60;
   options.boundary_width = 5;
-  const auto whole = make_relief(figure(), options);
-  ASSERT_TRUE(whole) << whole.error().message();
+  const auto whole = value_of(make_relief(figure(), options));
   const auto model = prepare(figure(), options.view);
-  const auto half = make_relief(*model, options);
-  ASSERT_TRUE(half);
-  EXPECT_EQ(write_stl(half->solid), write_stl(whole->solid));
+  EXPECT_EQ(write_stl(value_of(make_relief(*model, options)).solid), write_stl(whole.solid));
 }
 
 TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
@@ -366,24 +342,14 @@ TEST(MakeRelief, ASofterRimAndGentlerWallsLowerIt) {
 // Other instructions give the very same relief; the bound for other compilers and targets is 1e-5 of the height, which
 // scripts/compare-builds measures.
 TEST(MakeRelief, HasTheSameBitsWithAndWithoutWideVectors) {
-  const auto reliefs_of = [](bool is_allowed) {
-    const bool could = uses_avx2();
-    allow_avx2(is_allowed);
-    std::vector<std::vector<Vec3>> points;
-    for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
-      ReliefOptions options;
-      options.method = method;
-      options.height_mm = 2;
-      options.resolution_mm = 1;
-      const auto made = make_relief(test::torus(6000, 1.5, .4), options);
-      points.push_back(made ? made->solid.points : std::vector<Vec3>{});
-    }
-    allow_avx2(could);
-    return points;
-  };
-  const auto narrow = reliefs_of(false), wide = reliefs_of(true);
-  EXPECT_FALSE(narrow.front().empty());
-  EXPECT_EQ(narrow, wide);
+  for (const Method method : {Method::layered, Method::paper, Method::gradient}) {
+    ReliefOptions options;
+    options.method = method;
+    options.height_mm = 2;
+    options.resolution_mm = 1;
+    test::expect_same_without_avx2(
+        [&] { return value_of(make_relief(test::torus(6000, 1.5, .4), options)).solid.points; });
+  }
 }
 
 TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
@@ -391,9 +357,7 @@ TEST(MakeRelief, AToneCurveReplacesTheSaturation) {
   options.saturation = 1;
   options.tone = *parse_tone_curve("0.5,0");
   // All slopes are flat, which is refused.
-  const auto made = make_relief(figure(), options);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().kind, ErrorKind::geometry) << made.error().message();
+  expect_error(make_relief(figure(), options), ErrorKind::geometry);
 }
 
 }  // namespace

@@ -11,11 +11,13 @@
 #include <algorithm>
 #include <numbers>
 
-#include "relievo/core/parallel.h"
 #include "relievo/scan/spacing.h"
 #include "relievo/scan/surface.h"
+#include "support/plate_fronts.h"
+#include "support/same_bits.h"
 #include "support/scene_parts.h"
 #include "support/shapes.h"
+#include "support/triangles.h"
 
 namespace relievo {
 namespace {
@@ -23,22 +25,11 @@ namespace {
 using namespace test;
 
 Surface surface_of(const Scene& scene, double points = 30000) {
-  auto surface = find_surface(*seen(scene, points).cloud, front);
-  EXPECT_TRUE(surface) << surface.error().message();
-  return surface.value_or(Surface{});
+  return value_of(find_surface(*seen(scene, points).cloud, front));
 }
 
-// Area of the surface in the view plane.
 double inner_area(const Surface& surface) {
-  double area = 0;
-  for (std::size_t t = 0; t < surface.triangulation.triangles.size(); ++t) {
-    if (!surface.boundary.is_inside[t]) continue;
-    const auto [a, b, c] = surface.triangulation.triangles[t];
-    const Vec2 u = (surface.points[b] - surface.points[a]).head<2>();
-    const Vec2 v = (surface.points[c] - surface.points[a]).head<2>();
-    area += .5 * (u.x() * v.y() - u.y() * v.x());
-  }
-  return area;
+  return inside_area(surface.points, surface.triangulation, surface.boundary);
 }
 
 TEST(SeenScene, OfOneModelUnplacedIsThatModel) {
@@ -46,40 +37,28 @@ TEST(SeenScene, OfOneModelUnplacedIsThatModel) {
   ReliefOptions options;
   options.points = 5000;
   for (const SceneModel& model : {cloud, mesh}) {
-    const auto alone = make_relief(*model.file, options);
-    const auto scene = make_relief(Scene{{model}}, options);
-    ASSERT_TRUE(alone && scene);
-    EXPECT_EQ(write_stl(alone->solid), write_stl(scene->solid));
-    EXPECT_EQ(alone->report.sample, scene->report.sample);
+    const auto alone = value_of(make_relief(*model.file, options)),
+               scene = value_of(make_relief(Scene{{model}}, options));
+    EXPECT_EQ(write_stl(alone.solid), write_stl(scene.solid));
+    EXPECT_EQ(alone.report.sample, scene.report.sample);
   }
 }
 
 // Returns a level square of 2 x side x side triangles.
-Mesh sheet(std::size_t side) {
-  Mesh mesh;
-  const auto at = [&](std::size_t x, std::size_t y) { return static_cast<Index>(y * (side + 1) + x); };
-  for (std::size_t y = 0; y <= side; ++y)
-    for (std::size_t x = 0; x <= side; ++x)
-      mesh.points.emplace_back(static_cast<double>(x), static_cast<double>(y), 0);
-  for (std::size_t y = 0; y < side; ++y)
-    for (std::size_t x = 0; x < side; ++x) {
-      mesh.triangles.push_back({at(x, y), at(x + 1, y), at(x + 1, y + 1)});
-      mesh.triangles.push_back({at(x, y), at(x + 1, y + 1), at(x, y + 1)});
-    }
-  return mesh;
+Mesh sheet(int side) {
+  const HeightFieldMesh front = flat_front({1. * side, 1. * side, side, side});
+  return {front.points, front.triangles};
 }
 
 TEST(SeenScene, TakesFewerPointsOfMeshesOfFewTriangles) {
   const View front;
   for (const auto& [side, usual] : {std::pair{1, 1e5}, {80, 15.0 * 2 * 80 * 80}, {110, 3e5}}) {
-    const Scene scene{{model_of(sheet(static_cast<std::size_t>(side)))}};
+    const Scene scene{{model_of(sheet(side))}};
     EXPECT_EQ(usual_points(scene), usual) << side;
-    const auto sample = sample_for_view(scene, front, {});
-    ASSERT_TRUE(sample) << sample.error().message();
-    EXPECT_NEAR(static_cast<double>(sample->cloud->size()), usual, .02 * usual) << side;
-    const auto asked = sample_for_view(scene, front, 2e4);
-    ASSERT_TRUE(asked) << asked.error().message();
-    EXPECT_NEAR(static_cast<double>(asked->cloud->size()), 2e4, .05 * 2e4) << side;
+    const auto sample = value_of(sample_for_view(scene, front, {}));
+    EXPECT_NEAR(static_cast<double>(sample.cloud->size()), usual, .02 * usual) << side;
+    const auto asked = value_of(sample_for_view(scene, front, 2e4));
+    EXPECT_NEAR(static_cast<double>(asked.cloud->size()), 2e4, .05 * 2e4) << side;
   }
   const SceneModel mesh = model_of(sheet(1)), cloud = model_of(test::sphere(1000, 1));
   EXPECT_EQ(usual_points(Scene{{mesh, mesh}}), 1e5);
@@ -193,11 +172,9 @@ TEST(SeenScene, CloudsAreAsFineAsTheFinestUnlessThatIsTooMany) {
 }
 
 TEST(SeenScene, NormalsAreSettledModelByModel) {
-  Cloud inward = test::sphere(20000, 1), without = inward;
-  for (Vec3f& n : inward.normals) n = -n;
-  without.normals.clear();
-  const Scene scene{{model_of(inward, at(0, 0, 0)), model_of(without, at(3, 0, 0)),
-                     model_of(test::sphere(20000, 1), at(6, 0, 0))}};
+  const Cloud ball = test::sphere(20000, 1);
+  const Scene scene{{model_of(inside_out(ball), at(0, 0, 0)), model_of(without_normals(ball), at(3, 0, 0)),
+                     model_of(ball, at(6, 0, 0))}};
   const ViewSample together = seen(scene);
   for (const double x : {0, 3, 6}) EXPECT_LT(look_at_ball(*together.cloud, {x, 0, 0}, 1).angle_deg, 1);
   ASSERT_EQ(together.notes.size(), 2U);
@@ -238,29 +215,20 @@ TEST(SeenScene, SaysWhichModelIsNoSurface) {
   for (int i = 0; i < 20; ++i) test::add(dot, {1, 1, 1}, Vec3::UnitZ());
   SceneModel model = model_of(dot);
   model.name = "dot.ply";
-  const auto result =
-      sample_for_view(Scene{{model_of(test::sphere(5000, 1), at(0, 0, 0)), model}}, front, 1000);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().input, "dot.ply");
+  expect_error(sample_for_view(Scene{{model_of(test::sphere(5000, 1), at(0, 0, 0)), model}}, front, 1000),
+               "dot.ply: expected ");
 }
 
 TEST(SeenScene, RefusesTooFewPoints) {
   const Scene scene{{model_of(test::sphere(5000, 1)), model_of(test::sphere(3, 1))}};
-  const auto of_three = sample_for_view(scene, front, 1000);
-  ASSERT_FALSE(of_three);
-  EXPECT_EQ(of_three.error().message(), "cloud: expected at least 4 points, found 3");
-  const auto none_wanted = sample_for_view(scene, front, 0);
-  ASSERT_FALSE(none_wanted);
-  EXPECT_EQ(none_wanted.error().kind, ErrorKind::option);
+  EXPECT_EQ(message_of(sample_for_view(scene, front, 1000)), "cloud: expected at least 4 points, found 3");
+  expect_error(sample_for_view(scene, front, 0), ErrorKind::option);
 }
 
 TEST(SeenScene, CanBeCancelled) {
-  Progress progress;
-  progress.cancel();
+  Cancelled progress;
   const Scene scene{{model_of(wedge()), model_of(wedge())}};
-  const auto result = sample_for_view(scene, front, 1000, &progress);
-  ASSERT_FALSE(result);
-  EXPECT_EQ(result.error().kind, ErrorKind::cancelled);
+  expect_error(sample_for_view(scene, front, 1000, &progress), ErrorKind::cancelled);
 }
 
 TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
@@ -268,15 +236,7 @@ TEST(SceneRelief, IsTheSameForAnyNumberOfThreads) {
                      model_of(wedge(), at(0, 0, 0)), model_of(test::sphere(2000, 1), at(1, 1, 0))}};
   ReliefOptions options;
   options.points = 10000;
-  std::vector<std::vector<std::byte>> files;
-  for (const int threads : {1, 3}) {
-    set_thread_count(threads);
-    const auto made = make_relief(scene, options);
-    ASSERT_TRUE(made) << made.error().message();
-    files.push_back(write_stl(made->solid));
-  }
-  set_thread_count(0);
-  EXPECT_EQ(files[0], files[1]);
+  expect_same_for_any_threads([&] { return write_stl(value_of(make_relief(scene, options)).solid); });
 }
 
 // A ball before another: the jump between them is no wall, and each keeps its own shape.
@@ -286,14 +246,13 @@ TEST(SceneRelief, NoWallStandsBetweenModels) {
   ReliefOptions options;
   options.width_mm = 100;
   options.height_mm = 4;
-  const auto made = make_relief(scene, options);
-  ASSERT_TRUE(made) << made.error().message();
-  EXPECT_EQ(check_solid(made->solid), "");
+  const auto made = value_of(make_relief(scene, options));
+  EXPECT_EQ(check_solid(made.solid), "");
   double steepest = 0;
-  for (std::size_t t = 0; t < made->solid.front_triangles; ++t) {
-    const auto& [a, b, c] = made->solid.triangles[t];
-    const Vec3 p = made->solid.points[b] - made->solid.points[a],
-               q = made->solid.points[c] - made->solid.points[a];
+  for (std::size_t t = 0; t < made.solid.front_triangles; ++t) {
+    const auto& [a, b, c] = made.solid.triangles[t];
+    const Vec3 p = made.solid.points[b] - made.solid.points[a],
+               q = made.solid.points[c] - made.solid.points[a];
     for (const Vec3& edge : {p, q}) steepest = std::max(steepest, std::abs(edge.z()));
   }
   // The depths differ by 8 of 100 mm; an edge is about a third of a millimetre long.

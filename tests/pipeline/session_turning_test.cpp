@@ -9,6 +9,7 @@
 #include "relievo/scan/surface.h"
 #include "relievo/session.h"
 #include "support/preparations.h"
+#include "support/results.h"
 
 namespace relievo {
 namespace {
@@ -25,10 +26,9 @@ TEST(Session, TurnsWhatWasPrepared) {
   session.open(preparation_of(20'000));
   ASSERT_TRUE(session.wait_until_idle(60s));
   const auto model = session.model();
-  const auto turned = session.turn(view_to("1,1,1"));
-  ASSERT_TRUE(turned) << turned.error().message();
-  EXPECT_EQ(turned->model->surface().view, view_to("1,1,1"));
-  EXPECT_EQ(turned->model->membrane_at(1), model->membrane_at(1));
+  const auto turned = value_of(session.turn(view_to("1,1,1")));
+  EXPECT_EQ(turned.model->surface().view, view_to("1,1,1"));
+  EXPECT_EQ(turned.model->membrane_at(1), model->membrane_at(1));
   EXPECT_EQ(session.model(), model);
 }
 
@@ -53,9 +53,7 @@ TEST(Session, TurnsWhatIsMeasuredBeforeTheFirstModel) {
 }
 
 std::shared_ptr<const ReliefModel> turned_model(Session& session, const View& view = {}) {
-  const auto turned = session.turn(view);
-  EXPECT_TRUE(turned);
-  return turned ? turned->model : nullptr;
+  return value_of(session.turn(view)).model;
 }
 
 // Returns whether both calls of turn() before the first model gave the same relief.

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/plane.h"
 #include "relievo/make_relief.h"
 #include "relievo/relief/relief.h"
+#include "support/results.h"
 #include "support/shapes.h"
 
 namespace relievo {
@@ -33,53 +35,45 @@ TEST(TriangleLimit, IsNearlyReachedByAllBodies) {
       ReliefOptions options = options_with(most);
       options.outline = outline;
       options.base.kind = base;
-      const auto made = make_relief(model(), options);
-      ASSERT_TRUE(made) << made.error().message();
-      EXPECT_EQ(check_solid(made->solid), "");
-      const auto count = static_cast<double>(made->solid.triangles.size());
+      const auto made = value_of(make_relief(model(), options));
+      EXPECT_EQ(check_solid(made.solid), "");
+      const auto count = static_cast<double>(made.solid.triangles.size());
       EXPECT_LE(count, most);
       EXPECT_GT(count, .9 * most);
-      ASSERT_TRUE(made->report.simplification_error_mm);
-      EXPECT_NEAR(made->report.height_mm, 3, 1e-9);
+      ASSERT_TRUE(made.report.simplification_error_mm);
+      EXPECT_NEAR(made.report.height_mm, 3, 1e-9);
     }
 }
 
 TEST(TriangleLimit, CostsLessTheMoreItAllows) {
   double before = 1;
   for (const double most : {15000, 30000, 60000}) {
-    const auto made = make_relief(model(), options_with(most));
-    ASSERT_TRUE(made) << made.error().message();
-    EXPECT_LT(*made->report.simplification_error_mm, .7 * before);
-    before = *made->report.simplification_error_mm;
+    const auto made = value_of(make_relief(model(), options_with(most)));
+    EXPECT_LT(*made.report.simplification_error_mm, .7 * before);
+    before = *made.report.simplification_error_mm;
   }
 }
 
 TEST(TriangleLimit, ChangesNothingWhereFewerAreMade) {
   ReliefOptions options = options_with(1e6);
-  const auto limited = make_relief(model(), options);
+  const auto limited = value_of(make_relief(model(), options));
   options.triangles.reset();
-  const auto whole = make_relief(model(), options);
-  ASSERT_TRUE(limited && whole);
-  EXPECT_EQ(limited->solid.triangles, whole->solid.triangles);
+  EXPECT_EQ(limited.solid.triangles, value_of(make_relief(model(), options)).solid.triangles);
 }
 
 TEST(TriangleLimit, ActsTogetherWithATolerance) {
   ReliefOptions options = options_with(1e6);
   options.tolerance_mm = .02;
-  const auto within = make_relief(model(), options);
-  ASSERT_TRUE(within);
-  EXPECT_LE(*within->report.simplification_error_mm, .02);
-  options.triangles = std::floor(.7 * static_cast<double>(within->solid.triangles.size()));
-  const auto fewer = make_relief(model(), options);
-  ASSERT_TRUE(fewer) << fewer.error().message();
-  EXPECT_LE(static_cast<double>(fewer->solid.triangles.size()), *options.triangles);
-  EXPECT_GT(*fewer->report.simplification_error_mm, .02);
+  const auto within = value_of(make_relief(model(), options));
+  EXPECT_LE(*within.report.simplification_error_mm, .02);
+  options.triangles = std::floor(.7 * static_cast<double>(within.solid.triangles.size()));
+  const auto fewer = value_of(make_relief(model(), options));
+  EXPECT_LE(static_cast<double>(fewer.solid.triangles.size()), *options.triangles);
+  EXPECT_GT(*fewer.report.simplification_error_mm, .02);
 }
 
 TEST(TriangleLimit, GivesFewNeedles) {
-  const auto made = make_relief(model(), options_with(20000));
-  ASSERT_TRUE(made) << made.error().message();
-  const Solid& solid = made->solid;
+  const Solid& solid = value_of(make_relief(model(), options_with(20000))).solid;
   std::vector<double> angles;
   for (std::size_t t = 0; t < solid.front_triangles; ++t) {
     std::array<Vec3, 3> p;
@@ -88,8 +82,7 @@ TEST(TriangleLimit, GivesFewNeedles) {
     if (is_ground) continue;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec2 u = (p[(i + 1) % 3] - p[i]).head<2>(), v = (p[(i + 2) % 3] - p[i]).head<2>();
-      const double angle = std::atan2(u.x() * v.y() - u.y() * v.x(), u.dot(v)) * 180 / std::numbers::pi;
-      angles.push_back(angle);
+      angles.push_back(std::atan2(cross(u, v), u.dot(v)) * 180 / std::numbers::pi);
     }
   }
   std::ranges::sort(angles);
@@ -97,18 +90,13 @@ TEST(TriangleLimit, GivesFewNeedles) {
 }
 
 TEST(TriangleLimit, RefusesFewerThanTheOutlineNeeds) {
-  const auto made = make_relief(model(), options_with(500));
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().input, "triangles");
-  EXPECT_NE(made.error().message().find("expected at least"), std::string::npos);
+  expect_error(make_relief(model(), options_with(500)), "triangles: expected at least");
 }
 
 TEST(Resolution, RefusesMoreThanTenThousandSamplesAcross) {
   ReliefOptions options = options_with(1e6);
   options.resolution_mm = .0049;
-  const auto made = make_relief(model(), options);
-  ASSERT_FALSE(made);
-  EXPECT_EQ(made.error().input, "resolution");
+  expect_error(make_relief(model(), options), "resolution: expected ");
 }
 
 }  // namespace

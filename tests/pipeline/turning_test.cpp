@@ -4,13 +4,14 @@
 
 #include <cmath>
 
-#include "relievo/core/parallel.h"
 #include "relievo/io/read.h"
 #include "relievo/make_relief.h"
 #include "relievo/scan/scan_file.h"
 #include "relievo/scan/surface.h"
 #include "scan/measured_cloud.h"
 #include "support/picture_similarity.h"
+#include "support/results.h"
+#include "support/same_bits.h"
 #include "support/shapes.h"
 #include "support/shared_scans.h"
 
@@ -95,12 +96,10 @@ TEST(Turntable, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto measured = MeasuredCloud::measure(test::torus(30'000, 1, .4), {}).value();
   const Turntable table(*measured);
   const View view = parse_view("1,1,1").value();
-  const TurnedRelief all = table.turn(view, nullptr).value();
-  set_thread_count(1);
-  const TurnedRelief one = table.turn(view, nullptr).value();
-  set_thread_count(0);
-  EXPECT_EQ(all.model->surface().points, one.model->surface().points);
-  EXPECT_EQ(picture_of(all).pixels, picture_of(one).pixels);
+  test::expect_same_for_any_threads([&] {
+    const TurnedRelief turned = table.turn(view, nullptr).value();
+    return std::pair(turned.model->surface().points, picture_of(turned).pixels);
+  });
 }
 
 TEST(Turntable, HasAboutAsManyPointsAsItSays) {
@@ -134,9 +133,7 @@ TEST(Turntable, LeavesOutThePlaneOfTheModelBefore) {
 TEST(Turntable, ShowsNothingOfWhatFacesAway) {
   Cloud sheet = test::sheet(20'000, 1, 0, 3);
   const auto measured = MeasuredCloud::measure(sheet, {}).value();
-  const auto turned = Turntable(*measured).turn(parse_view("back").value(), nullptr);
-  ASSERT_FALSE(turned);
-  EXPECT_EQ(turned.error().kind, ErrorKind::geometry);
+  expect_error(Turntable(*measured).turn(parse_view("back").value(), nullptr), ErrorKind::geometry);
 }
 
 }  // namespace

@@ -13,6 +13,9 @@
 
 #include "relievo/core/parallel.h"
 #include "samples/sample_shapes.h"
+#include "support/results.h"
+#include "support/same_bits.h"
+#include "support/shapes.h"
 
 namespace relievo {
 namespace {
@@ -31,26 +34,7 @@ const Cloud& exact(std::string_view name) {
   return it->second;
 }
 
-// A small random stream, the same everywhere.
-class Dice {
- public:
-  double uniform() {
-    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
-    return static_cast<double>(state_ >> 11) * 0x1p-53;
-  }
-  Vec3 in(const Box& box) {
-    const Vec3 t(uniform(), uniform(), uniform());
-    return box.min + t.cwiseProduct(box.size());
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
-
-class Sample : public testing::TestWithParam<std::string_view> {
- protected:
-  void TearDown() override { set_thread_count(0); }
-};
+class Sample : public testing::TestWithParam<std::string_view> {};
 
 TEST_P(Sample, HasThePointsAskedForAllFiniteWithUnitNormals) {
   for (const std::size_t n : {1000, 4097}) {
@@ -63,14 +47,10 @@ TEST_P(Sample, HasThePointsAskedForAllFiniteWithUnitNormals) {
 }
 
 TEST_P(Sample, HasTheSameBitsForAnyNumberOfThreads) {
-  set_thread_count(1);
-  const Cloud alone = *make_sample(GetParam(), {9000, 0.15});
-  for (const int threads : {2, 4}) {
-    set_thread_count(threads);
+  test::expect_same_for_any_threads([] {
     const Cloud cloud = *make_sample(GetParam(), {9000, 0.15});
-    EXPECT_EQ(cloud.points, alone.points);
-    EXPECT_EQ(cloud.normals, alone.normals);
-  }
+    return std::pair(cloud.points, cloud.normals);
+  });
 }
 
 TEST_P(Sample, LiesOnItsSurfaceWithOutwardNormals) {
@@ -99,10 +79,11 @@ TEST_P(Sample, StaysClearOfItsBox) {
 TEST_P(Sample, HasAFieldThatIsAtMostTheDistance) {
   const field::Solid solid = solid_of(GetParam());
   const Cloud& cloud = exact(GetParam());
-  Dice dice;
+  test::Random random(1);
+  const auto unit = [&] { return Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)); };
   int too_high = 0;
   for (const Vec3& p : cloud.points) {
-    const Vec3 q = p + std::pow(10, -3 * dice.uniform()) * (dice.in({-Vec3::Ones(), Vec3::Ones()}));
+    const Vec3 q = p + std::pow(10, -3 * random.uniform()) * unit();
     if (std::abs(solid.value(q)) > 1.02 * (q - p).norm()) ++too_high;
   }
   EXPECT_LT(too_high, 500);
@@ -226,11 +207,10 @@ TEST(Shell, ShowsItsCoilToTheViewer) {
 
 TEST(MakeSample, NamesTheSamplesItKnows) {
   const Result<Cloud> cloud = make_sample("teapot");
-  ASSERT_FALSE(cloud);
-  EXPECT_EQ(cloud.error().kind, ErrorKind::option);
-  EXPECT_NE(cloud.error().message().find("'teapot'"), std::string::npos);
+  expect_error(cloud, ErrorKind::option);
+  EXPECT_TRUE(cloud.error().message().contains("'teapot'"));
   for (const SampleInfo& info : samples()) {
-    EXPECT_NE(cloud.error().expected.find(info.name), std::string::npos);
+    EXPECT_TRUE(cloud.error().expected.contains(info.name));
     EXPECT_FALSE(info.description.empty());
   }
 }
