@@ -237,7 +237,7 @@ TEST_F(Cli, ComparesMethods) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_NE(outcome.out.find("\"shading\""), std::string::npos);
   const std::string page = read_all(folder_ / "page.html");
-  EXPECT_NE(page.find("<title>Reliefs of a&amp;b &lt;torus>.ply</title>"), std::string::npos);
+  EXPECT_NE(page.find("<title>Reliefs of a&amp;b &lt;torus&gt;.ply</title>"), std::string::npos);
   EXPECT_EQ(count(page, "<tr>"), 1 + 2);                                   // the heights below the heading
   EXPECT_EQ(count(page, "src=\"data:image/png;base64,iVBORw0KG"), 1 + 4);  // the model and the reliefs
   EXPECT_EQ(count(page, "alt=\"Relief by linear, 5 % high\""), 1);
