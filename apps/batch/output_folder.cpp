@@ -2,7 +2,7 @@
 
 #include <cerrno>
 
-#include "common/files.h"
+#include "common/descriptor.h"
 #include "common/owned_folder.h"
 #include "relievo/core/text.h"
 
