@@ -103,7 +103,7 @@ Result<LiveFrame> LiveModel::frame(const ReliefOptions& options) {
     if (!has_shape(method))
       return option_error("method", cat("expected layered or paper for frames, found ", name_of(method)));
     RELIEVO_TRY(ReliefOptions sized, with_width(options));
-    sized.height_mm = options.effective_height_mm();
+    sized.height_mm = sized.effective_height_mm();
     return make_frame(sized);
   });
 }

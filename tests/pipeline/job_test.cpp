@@ -70,6 +70,16 @@ TEST(LiveModel, KnowsTheWidthThatAPlateLeaves) {
             with_width(live.model().surface(), options).error().message());
 }
 
+TEST(LiveModel, FramesOnAPlateAreAsHighAsTheSolidWhereNoHeightIsGiven) {
+  LiveModel live = *prepare(job());
+  ReliefOptions options;
+  options.outline = Outline::circle;
+  options.diameter_mm = 40;
+  const LiveFrame made = *live.frame(options);
+  EXPECT_NEAR(made.frame->height * made.stretch * made.mm_per_unit, live.relief(options)->report.height_mm,
+              1e-4);
+}
+
 TEST(LiveModel, DrawsAndRefuses) {
   LiveModel live = *prepare(job());
   RenderOptions render;
