@@ -6,9 +6,10 @@ import {closeSync, copyFileSync, existsSync, mkdirSync, openSync, readFileSync, 
 import http from "node:http";
 import path from "node:path";
 import {test} from "node:test";
-import {Keeper} from "../page/keeper.js";
 import {engine, folder, scan, studioIn, withEngine} from "./engine_suite.mjs";
-import {EngineProcess, PROGRAM, eventually, sleep} from "./support.mjs";
+import {EngineProcess, PROGRAM, eventually, pageModule, sleep} from "./support.mjs";
+
+const {Keeper} = await pageModule("keeper.js");
 
 withEngine("shell", 5000, () => {});
 
@@ -42,6 +43,19 @@ test("keeps a document for each scan, and the newer state of each", async () => 
   assert.equal(recent[2].picture, picture);
   for (const document of ["../x", "", "0123", 3])
     assert.ok((await keep(engine, document, {changed: 1})).status >= 400, `${document}`);
+});
+
+test("neither replaces a document that it cannot read, nor removes a scan then", async () => {
+  let other = await studioIn("unread");
+  const input = await dropped(other, "b.xyz", "0 0 0\n"), {document} = await other.json("document", {input});
+  mkdirSync(path.join(folder, "unread", "documents", `${document}.json`), {recursive: true}); // no file
+  const told = await other.post("document", {input}), kept = await keep(other, document, stateOf(input, 1, 1));
+  assert.match(String(told.body), /expected a folder of the studio that can be read: /);
+  assert.deepEqual([told.status, kept.status], [500, 500]);
+  await other.stop();
+  other = await studioIn("unread"); // which looks for scans that no document needs
+  await other.stop();
+  assert.ok(existsSync(input.path));
 });
 
 test("is found at the same address after it was killed", async () => {
@@ -147,7 +161,7 @@ async function paceOfDrag(durationMs, answerMs) {
   });
   const keeper = new Keeper({send, storage, prefix: "", onOlder: () => {}, onFailed: assert.fail, onKept: () => {}});
   globalThis.setTimeout = later;
-  performance.now = () => clock;
+  Object.defineProperty(performance, "now", {value: () => clock, configurable: true});
   try {
     for (; clock < durationMs; ++clock) {
       keeper.keep("a", {changed: clock}, true);

@@ -2,10 +2,10 @@
 import assert from "node:assert/strict";
 import {readFileSync} from "node:fs";
 import {test} from "node:test";
+import {pageModule} from "./support.mjs";
 
-const read = (name) => readFileSync(new URL(name, import.meta.url), "utf8");
-const {parseLength} = await import(`data:text/javascript,${encodeURIComponent(read("../page/lengths.js"))}`);
-const cases = JSON.parse(read("../../../tests/core/lengths.json"));
+const {parseLength} = await pageModule("lengths.js");
+const cases = JSON.parse(readFileSync(new URL("../../../tests/core/lengths.json", import.meta.url), "utf8"));
 
 test("reads lengths as the command line does", () => {
   assert.ok(cases.length > 50);

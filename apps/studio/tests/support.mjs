@@ -25,6 +25,12 @@ export function temporaryFolder() {
   return folders.at(-1);
 }
 
+// Imports a module of the page that imports no other. By its file, Node 18 takes it for a module of another kind.
+export const pageModule = (name) => {
+  const text = readFileSync(new URL(`../page/${name}`, import.meta.url), "utf8");
+  return import(`data:text/javascript,${encodeURIComponent(text)}`);
+};
+
 export const sleep = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
 
 // `relievo studio` with its own state folder.
