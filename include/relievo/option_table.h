@@ -43,12 +43,12 @@ using OptionValue = std::variant<std::string, double>;
 // Values by the names of their options. An option that is missing has its default.
 using OptionValues = std::map<std::string, OptionValue, std::less<>>;
 
-// How a value is read, and the number that rules.
+// Reads a value of an option, and tells which number applies.
 struct OptionTargets;
 struct OptionAccess {
   // Takes a value of the right type. The input of an error may be empty, for the caller to fill in.
   Result<void> (*read)(const OptionValue& value, OptionTargets& to) = nullptr;
-  // Of a number: returns the one that rules, given or not; nothing if none does.
+  // Returns the number that applies, be it given or a default; nothing if there is none. Null for texts.
   std::optional<double> (*number)(const ReliefOptions& options) = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// Where the values of the table of options go when they are read.
+// Holds the options while they are read from values, and has the functions with which the rows of the table read them.
 #pragma once
 
 #include <optional>

@@ -18,7 +18,7 @@ namespace {
 // The distance over which the field falls by e, as a share of the longer side, and how many of these distances it extends.
 // docs/decisions/jump-lift.md has the reasons of all constants.
 constexpr double fading_distance = .015, extent = 3;
-// As a share of the longer side. Smaller inversions are not seen.
+// Inversions below this share of the longer side are not seen.
 constexpr double least_inversion = 1e-5;
 constexpr int rounds = 3, sweeps_per_round = 20;
 constexpr float over_relaxation = 1.75F;

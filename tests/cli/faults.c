@@ -39,8 +39,8 @@ static int open_with(const char* path, int flags, mode_t mode) {
 int open(const char* path, int flags, mode_t mode) { return open_with(path, flags, mode); }
 int open64(const char* path, int flags, mode_t mode) { return open_with(path, flags, mode); }
 
-// Of each kind of call: its number so far, the first that fails, 0 for none, and how many do so one after the other. Allocations
-// of fewer than `least_bytes` are not counted and do not fail.
+// Each kind of call has three numbers: how many calls there were, which is the first to fail (0 for none), and how many
+// fail one after the other. Allocations of fewer than `least_bytes` are not counted and do not fail.
 enum { allocations = 0, writes = 3, reads = 6, write_error = 9, clock_shift_s = 10, least_bytes = 11, numbers = 16 };
 static atomic_long none[numbers];
 static atomic_long* shared = none;

@@ -8,7 +8,7 @@
 namespace relievo {
 namespace {
 
-// By Euler's formula, n points that a triangulation uses all have one edge less than points and triangles together.
+// Euler's formula gives the number of edges: that of points and triangles together, less one.
 TEST(Edges, HaveTheSidesOfOneOrTwoTriangles) {
   const std::vector<Vec2> points = random_points(500, 3);
   const Triangulation mesh = delaunay(points);

@@ -163,7 +163,7 @@ class StudioMemory : public testing::TestWithParam<int> {
       for (const long n : chosen(all, usual)) try_once(request, whole, {n, count, few_bytes});
   }
 
-  // What the request itself is made of may fail, too.
+  // Returns the answer to a request while an allocation fails. Making the request may fail as well.
   template <typename Request>
   static Told with_fault(const test::AllocationFault& fault, const Request& request) {
     const FailingAllocation failing(fault);

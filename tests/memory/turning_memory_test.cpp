@@ -1,4 +1,4 @@
-// How much memory the turning of a scan takes, whose points may be many.
+// Turning copies no points of a scan, which may have many.
 #include <gtest/gtest.h>
 
 #include "memory/failing_allocation.h"

@@ -96,8 +96,8 @@ TEST(Simplify, TheErrorToldIsTheLargestDifference) {
   EXPECT_NEAR(simpler.error_mm, largest, 1e-9);
 }
 
-// Where all points are needed and edges cross, too, the front itself has fewer triangles. Four corners of a cell lie on a
-// circle, so that Delaunay may cut it the other way.
+// All points of this front are needed. The four corners of a cell lie on a circle, so that Delaunay may cut it the other
+// way, which would take more triangles than the front has.
 TEST(Simplify, NeverAddsTriangles) {
   const HeightFieldMesh saddle =
       grid_front({40, 40, 20, 20}, [](double x, double y) { return std::fmod(x * 7 + y * 3, 5); });

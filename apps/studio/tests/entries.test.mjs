@@ -1,4 +1,4 @@
-// What is typed and chosen is taken in order, and files and projects wait for it.
+// Entries are taken in the order in which they are typed and chosen; files and projects wait for them.
 import assert from "node:assert/strict";
 import path from "node:path";
 import {test} from "node:test";

@@ -1,4 +1,4 @@
-// What the tests of the page share besides what those of the studio have: a static server, and files.
+// A static server and files, which the tests of the page need besides the studio's support.mjs.
 import {execFileSync} from "node:child_process";
 import fs from "node:fs";
 import http from "node:http";
