@@ -62,6 +62,12 @@ class Faults:
         return has_hit
 
 
+def failing_allocations(faults, chance):
+    """Returns which allocations fail: one of any size, for which there is a reserve, or large ones to the end of the work."""
+    count, faults[Faults.LEAST_BYTES], most = chance.choice([(1, 0, 4.7), (1, 4096, 3), (10**9, 4096, 3)])
+    return int(10 ** chance.uniform(0, most)), count
+
+
 class Workshop:
     """The program, its inputs, and what it makes when nothing fails."""
 
